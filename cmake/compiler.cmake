@@ -1,0 +1,19 @@
+# How every target of this project is compiled.
+find_program(CCACHE ccache)
+if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+find_package(Threads REQUIRED)
+
+add_library(abut_compile INTERFACE)
+target_compile_features(abut_compile INTERFACE cxx_std_20)
+# Exactness: no fused operations but the explicit ones (docs/architecture.md, numerics).
+target_compile_options(abut_compile INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wno-psabi)
+if(ABUT_WERROR)
+    target_compile_options(abut_compile INTERFACE -Werror)
+endif()
+if(ABUT_SANITIZE)
+    target_compile_options(abut_compile INTERFACE -O1 -fsanitize=${ABUT_SANITIZE}
+                           -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(abut_compile INTERFACE -fsanitize=${ABUT_SANITIZE})
+endif()

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace abut {
+
+/// A point or a vector; units are the model's.
+struct Vec3 {
+    double x = 0, y = 0, z = 0;
+    friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+/// Closed axis-aligned box. The default box is empty: `lower > upper`.
+struct Box3 {
+    Vec3 lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+               std::numeric_limits<double>::infinity()};
+    Vec3 upper{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+               -std::numeric_limits<double>::infinity()};
+    friend bool operator==(const Box3&, const Box3&) = default;
+};
+
+/// Rigid pose: x_world = R(rotation) x_model + translation.
+///
+/// The quaternion (w, x, y, z) need not be of unit length; a length of zero is an Error when it is used.
+struct Pose {
+    Vec3 translation;
+    std::array<double, 4> rotation{1, 0, 0, 0};
+};
+
+/// Affine map, the upper three rows of a 4x4 matrix in column-major order (as glTF writes it):
+///
+///     x' = m[0] x + m[3] y + m[6] z + m[9]
+///     y' = m[1] x + m[4] y + m[7] z + m[10]
+///     z' = m[2] x + m[5] y + m[8] z + m[11]
+///
+/// Every query takes positions as this formula gives them, evaluated left to right in double precision
+/// without fused operations; "exact" means exact for those positions.
+struct Transform {
+    std::array<double, 12> m{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+
+    Transform() = default;
+    explicit Transform(const std::array<double, 12>& values) : m(values) {}
+    /// Errors      Error{bad_argument} if the quaternion has zero length or a value is not finite.
+    Transform(const Pose& pose); // NOLINT: a pose is a transform; the conversion is meant to be silent.
+
+    friend bool operator==(const Transform&, const Transform&) = default;
+};
+
+/// What a result claims of its numbers.
+enum class Status : std::uint8_t {
+    exact,      ///< the answer for the given positions, numbers to double rounding
+    bound_only, ///< the numbers are a proven bound of the answer
+};
+
+} // namespace abut

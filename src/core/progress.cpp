@@ -1,0 +1,50 @@
+#include "core/progress.h"
+
+#include <abut/error.h>
+
+#include <tbb/global_control.h>
+
+#include <memory>
+
+namespace abut {
+
+namespace {
+std::mutex g_threads_mutex;
+std::unique_ptr<tbb::global_control> g_threads;
+} // namespace
+
+void set_threads(int count) {
+    if (count < 0)
+        throw Error(ErrorCode::bad_argument, "threads must not be negative");
+    const std::scoped_lock lock(g_threads_mutex);
+    g_threads.reset();
+    if (count > 0)
+        g_threads = std::make_unique<tbb::global_control>(
+            tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+}
+
+ProgressMeter::ProgressMeter(const Progress& progress, std::string_view stage, std::size_t total)
+    : progress_(progress), stage_(stage), total_(total) {
+    advance(0);
+}
+
+void ProgressMeter::advance(std::size_t steps) {
+    check_stop(progress_);
+    if (!progress_.report)
+        return;
+    const std::size_t done = done_.fetch_add(steps) + steps;
+    const std::size_t percent = total_ == 0 ? 100 : 100 * done / total_;
+    // A thread that finds another one reporting goes on with its work.
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock.owns_lock() && percent + 1 > next_percent_) {
+        next_percent_ = percent + 1;
+        progress_.report(stage_, static_cast<double>(percent) / 100);
+    }
+}
+
+void check_stop(const Progress& progress) {
+    if (progress.stop != nullptr && progress.stop->load(std::memory_order_relaxed))
+        throw Error(ErrorCode::interrupted, "interrupted");
+}
+
+} // namespace abut

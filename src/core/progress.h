@@ -1,0 +1,32 @@
+#pragma once
+
+#include <abut/progress.h>
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+#include <string_view>
+
+namespace abut {
+
+/// Reports one stage of a long job, at most once a percent, and ends it when the caller asks for that.
+class ProgressMeter {
+  public:
+    ProgressMeter(const Progress& progress, std::string_view stage, std::size_t total);
+
+    /// From any thread. Errors: Error{interrupted}.
+    void advance(std::size_t steps = 1);
+
+  private:
+    const Progress& progress_;
+    std::string_view stage_;
+    std::size_t total_;
+    std::atomic<std::size_t> done_{0};
+    std::mutex mutex_;
+    std::size_t next_percent_ = 0;
+};
+
+/// Errors: Error{interrupted} if the caller asked to stop.
+void check_stop(const Progress& progress);
+
+} // namespace abut
