@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/mesh.h>
+#include <abut/progress.h>
 #include <abut/types.h>
 
 #include <cstdint>
@@ -32,6 +33,8 @@ struct ReadOptions {
     double time_limit = 600;
     /// Bytes of memory that a reader may use. 0: no limit.
     std::uint64_t memory_limit = 0;
+    /// Reports the share of the bytes that is read; stops the readers on request.
+    Progress progress;
 };
 
 /// Reads a model: glTF/GLB, OBJ, PLY, STL, OFF, FBX, COLLADA; IFC 2x3 and 4 where Node.js is installed.
@@ -40,7 +43,7 @@ struct ReadOptions {
 ///
 /// Errors      Error, naming the file: file_not_found, unreadable, malformed, unsupported, bad_mesh (an index
 ///             out of range, a coordinate that is not finite, no triangle or only degenerate ones),
-///             reader_failed.
+///             reader_failed; Error{interrupted}.
 Scene read_scene(const std::string& path, const ReadOptions& options = {});
 
 /// Several files at once, in parallel. Errors as read_scene; of several, the first file's.
