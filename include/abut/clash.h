@@ -19,7 +19,8 @@ inline constexpr std::array kClashKinds{ClashKind::hard, ClashKind::touch, Clash
 /// "hard", "touch", "contained", "duplicate", "clearance".
 const char* to_string(ClashKind kind);
 
-/// Which parts a rule means: all globs that are given must match (`*`, `?`; an empty list matches all).
+/// Which parts a rule means: all globs that are given must match (`*`, `?`; an empty list matches
+/// all).
 struct PartSelector {
     std::vector<std::string> file, name, type; ///< alternatives: one of a list is enough
 };
@@ -31,8 +32,8 @@ struct IgnoreRule {
     std::size_t same_name_prefix = 0; ///< names that agree in this many first characters; 0: off
 };
 
-/// A rule selects pairs (one side each, in either order) and gives them its tolerances. The first rule that
-/// selects a pair decides.
+/// A rule selects pairs (one side each, in either order) and gives them its tolerances. The first
+/// rule that selects a pair decides.
 struct ClashRule {
     std::string name;
     PartSelector a, b;
@@ -41,28 +42,30 @@ struct ClashRule {
 };
 
 /// Reads rules from JSON; docs/clash.md gives the keys.
-/// Errors      Error, naming the file: file_not_found, malformed (syntax, an unknown key, a value of the wrong
+/// Errors      Error, naming the file: file_not_found, malformed (syntax, an unknown key, a value
+/// of the wrong
 ///             type or out of its domain).
 std::vector<ClashRule> read_rules(const std::string& path);
 
 struct ClashOptions {
-    double clearance = 0; ///< metres; pairs without contact that are nearer are reported
-    double touch = 0;     ///< metres; surfaces that meet no deeper than this `touch`
-    bool self = false;    ///< with several models: also the pairs within each
+    double clearance = 0;         ///< metres; pairs without contact that are nearer are reported
+    double touch = 0;             ///< metres; surfaces that meet no deeper than this `touch`
+    bool self = false;            ///< with several models: also the pairs within each
     std::vector<ClashRule> rules; ///< none: all pairs
     Progress progress;
 };
 
 struct Clash {
-    std::uint64_t id = 0;        ///< hash of both parts' files and ids and the kind: the same in every run
+    std::uint64_t id = 0; ///< hash of both parts' files and ids and the kind: the same in every run
     ClashKind kind = ClashKind::hard;
     std::array<std::uint32_t, 2> model{}; ///< index in the models given
     std::array<std::uint32_t, 2> part{};  ///< index in that model's parts
-    double distance = 0;         ///< metres; negative: penetration (contained: minus the gap to the enclosing surface)
-    Vec3 point_a, point_b;       ///< witness on each surface, world frame
-    Vec3 direction;              ///< unit vector in which b moves to get away from a; zero if there is none
+    double distance =
+        0; ///< metres; negative: penetration (contained: minus the gap to the enclosing surface)
+    Vec3 point_a, point_b; ///< witness on each surface, world frame
+    Vec3 direction; ///< unit vector in which b moves to get away from a; zero if there is none
     std::uint64_t triangle_pairs = 0; ///< intersecting triangle pairs
-    std::string rule;            ///< name of the rule that decided; empty if none
+    std::string rule;                 ///< name of the rule that decided; empty if none
 };
 
 struct ClashReport {
@@ -76,7 +79,7 @@ struct ClashReport {
     };
     std::vector<ModelSummary> models;
     double clearance = 0, touch = 0;
-    std::uint64_t candidates = 0;          ///< part pairs whose boxes are within the clearance on every axis
+    std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
     std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
     std::vector<Clash> clashes;            ///< sorted by model, part of a, then of b
     Seconds seconds;
@@ -87,15 +90,20 @@ struct ClashReport {
 ///
 /// In/out      models in one world frame, metres. `seconds.import` is left 0.
 /// Errors      Error{bad_argument} for a negative or NaN tolerance, Error{interrupted}.
-/// Cost        the broad phase O(n log n + candidates); hierarchies are built once a mesh, and only for meshes
+/// Cost        the broad phase O(n log n + candidates); hierarchies are built once a mesh, and only
+/// for meshes
 ///             that a candidate needs.
 ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options);
 
-/// Writers, each atomic: the file appears whole or not at all. Errors: Error{cannot_write}, naming the file.
+/// Writers, each atomic: the file appears whole or not at all. Errors: Error{cannot_write}, naming
+/// the file.
 std::string to_json(const ClashReport& report, const std::vector<Scene>& models);
-void write_clash_json(const ClashReport& report, const std::vector<Scene>& models, const std::string& path);
-void write_clash_csv(const ClashReport& report, const std::vector<Scene>& models, const std::string& path);
+void write_clash_json(const ClashReport& report, const std::vector<Scene>& models,
+                      const std::string& path);
+void write_clash_csv(const ClashReport& report, const std::vector<Scene>& models,
+                     const std::string& path);
 /// One self-contained page: summary, filters, sorting.
-void write_clash_html(const ClashReport& report, const std::vector<Scene>& models, const std::string& path);
+void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
+                      const std::string& path);
 
 } // namespace abut

@@ -8,22 +8,24 @@ namespace abut {
 
 /// What kind of fault an Error reports. Each value names its cause, not its remedy.
 enum class ErrorCode : std::uint8_t {
-    bad_argument,   ///< a parameter is outside its domain (negative clearance, zero-length quaternion)
+    bad_argument,   ///< a parameter is outside its domain (negative clearance, zero-length
+                    ///< quaternion)
     file_not_found, ///< the path does not exist
     unreadable,     ///< the file exists but cannot be opened or read
     malformed,      ///< the content breaks its format, or ends too early
     unsupported,    ///< no reader for this format, or the reader's program is missing
-    bad_mesh,       ///< an index out of range, a coordinate that is not finite, nothing but degenerate triangles
-    reader_failed,  ///< a third-party reader crashed, ran out of time or out of memory
-    cannot_write,   ///< an output file or folder cannot be written
-    interrupted,    ///< the caller asked to stop
+    bad_mesh, ///< an index out of range, a coordinate that is not finite, nothing but degenerate
+              ///< triangles
+    reader_failed, ///< a third-party reader crashed, ran out of time or out of memory
+    cannot_write,  ///< an output file or folder cannot be written
+    interrupted,   ///< the caller asked to stop
 };
 
 /// Bad data, failed input or output, and limits. Numerical outcomes are statuses, never errors.
 ///
 /// `what()` is one line; where a file is at fault it begins with the file's name.
 class Error : public std::runtime_error {
-  public:
+public:
     Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
 
     /// `what()` becomes "file: message".
@@ -34,7 +36,7 @@ class Error : public std::runtime_error {
     /// The file at fault; empty if none is.
     [[nodiscard]] const std::string& file() const noexcept { return file_; }
 
-  private:
+private:
     ErrorCode code_;
     std::string file_;
 };

@@ -9,16 +9,17 @@ namespace abut {
 
 class ModelData;
 
-/// A mesh with the bounding-volume hierarchy that queries need. Immutable once built: copies share the
-/// data, and any number of threads may query it.
+/// A mesh with the bounding-volume hierarchy that queries need. Immutable once built: copies share
+/// the data, and any number of threads may query it.
 class Model {
-  public:
+public:
     /// Takes the mesh and builds its hierarchy.
     ///
-    /// Degenerate  zero-area triangles are kept: they count as the segments or points that they are.
+    /// Degenerate  zero-area triangles are kept: they count as the segments or points that they
+    /// are.
     ///             A mesh without triangles is a valid model that meets nothing.
-    /// Errors      Error{bad_mesh} if an index is out of range or a coordinate is not finite.
-    /// Cost        O(n log n); parallel over subtrees.
+    /// Errors      Error{bad_mesh} if an index is out of range or a coordinate is not finite or
+    /// beyond 1e18. Cost        O(n log n); parallel over subtrees.
     explicit Model(Mesh mesh);
 
     [[nodiscard]] const Mesh& mesh() const noexcept;
@@ -26,7 +27,7 @@ class Model {
     [[nodiscard]] std::size_t bytes() const noexcept;
     [[nodiscard]] const ModelData& data() const noexcept { return *data_; }
 
-  private:
+private:
     std::shared_ptr<const ModelData> data_;
 };
 

@@ -15,7 +15,7 @@ namespace abut {
 struct Counters {
     std::uint64_t volume_tests = 0;    ///< pairs of bounding volumes
     std::uint64_t primitive_tests = 0; ///< pairs of triangles
-    std::uint64_t exact_tests = 0;     ///< orientation signs that only exact arithmetic could decide
+    std::uint64_t exact_tests = 0; ///< orientation signs that only exact arithmetic could decide
 };
 
 /// Two triangles that share a point, by their indices in the two meshes.
@@ -41,13 +41,15 @@ struct Contacts {
     [[nodiscard]] bool any() const noexcept { return !pairs.empty(); }
 };
 
-/// The triangle pairs that share a point: surfaces only, a part inside a closed one does not collide.
+/// The triangle pairs that share a point: surfaces only, a part inside a closed one does not
+/// collide.
 ///
 /// Degenerate  zero-area triangles count as the segments or points that they are.
 /// Accuracy    exact: decided by certified filters, then by exact arithmetic.
 /// Errors      Error{bad_argument} if a transform is not finite.
 /// Cost        output-sensitive; a few hundred volume tests for a first contact.
-/// Source      traversal as [Gottschalk, Lin, Manocha 1996], differs: eight boxes at a time in SIMD.
+/// Source      traversal as [Gottschalk, Lin, Manocha 1996], differs: eight boxes at a time in
+/// SIMD.
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options = {});
 
@@ -56,13 +58,14 @@ struct Gap {
     double distance = std::numeric_limits<double>::infinity(); ///< 0 if the surfaces meet
     Vec3 point_a, point_b;                                     ///< on the surfaces, world frame
     std::uint32_t triangle_a = 0, triangle_b = 0;
-    Status status = Status::exact; ///< bound_only: `distance` is the `upper_bound` given, and no pair is closer
+    Status status =
+        Status::exact; ///< bound_only: `distance` is the `upper_bound` given, and no pair is closer
     Counters counters;
 };
 
 struct DistanceOptions {
-    /// Stop caring beyond this: if no two points are closer, the result is `bound_only` with this distance.
-    /// A known bound makes the query faster.
+    /// Stop caring beyond this: if no two points are closer, the result is `bound_only` with this
+    /// distance. A known bound makes the query faster.
     double upper_bound = std::numeric_limits<double>::infinity();
 };
 
@@ -77,7 +80,8 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
 
 /// Whether some two points of the surfaces are at most `tolerance` apart. Stops at the first proof.
 ///
-/// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or NaN.
+/// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or
+/// NaN.
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
             const Transform& world_from_b, double tolerance);
 

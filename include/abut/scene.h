@@ -12,9 +12,10 @@ namespace abut {
 
 /// One node with geometry.
 struct Part {
-    std::string id;    ///< the node's name (glTF from a building: the GlobalId); unique within its scene
-    std::string name;  ///< `extras.name`, else the same as `id`
-    std::string type;  ///< `extras.type`, else empty
+    std::string
+        id; ///< the node's name (glTF from a building: the GlobalId); unique within its scene
+    std::string name;       ///< `extras.name`, else the same as `id`
+    std::string type;       ///< `extras.type`, else empty
     std::uint32_t mesh = 0; ///< index in Scene::meshes
     Transform world_from_mesh;
 };
@@ -37,23 +38,26 @@ struct ReadOptions {
     Progress progress;
 };
 
-/// Reads a model: glTF/GLB, OBJ, PLY, STL, OFF, FBX, COLLADA; IFC 2x3 and 4 where Node.js is installed.
+/// Reads a model: glTF/GLB, OBJ, PLY, STL, OFF, FBX, COLLADA; IFC 2x3 and 4 where Node.js is
+/// installed.
 ///
 /// Third-party readers run in a process of their own, so that a crash in one is an Error here.
 ///
-/// Errors      Error, naming the file: file_not_found, unreadable, malformed, unsupported, bad_mesh (an index
+/// Errors      Error, naming the file: file_not_found, unreadable, malformed, unsupported, bad_mesh
+/// (an index
 ///             out of range, a coordinate that is not finite, no triangle or only degenerate ones),
 ///             reader_failed; Error{interrupted}.
 Scene read_scene(const std::string& path, const ReadOptions& options = {});
 
 /// Several files at once, in parallel. Errors as read_scene; of several, the first file's.
-std::vector<Scene> read_scenes(const std::vector<std::string>& paths, const ReadOptions& options = {});
+std::vector<Scene> read_scenes(const std::vector<std::string>& paths,
+                               const ReadOptions& options = {});
 
 /// All parts of a file as one mesh in world coordinates. Errors as read_scene.
 Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
-/// Writes a scene as binary glTF, atomically: positions as floats, `id` as node name, `name` and `type` as
-/// extras, instances shared.
+/// Writes a scene as binary glTF, atomically: positions as floats, `id` as node name, `name` and
+/// `type` as extras, instances shared.
 ///
 /// Errors      Error{cannot_write}, naming the file.
 void write_glb(const Scene& scene, const std::string& path);

@@ -23,7 +23,8 @@ struct Box3 {
 
 /// Rigid pose: x_world = R(rotation) x_model + translation.
 ///
-/// The quaternion (w, x, y, z) need not be of unit length; a length of zero is an Error when it is used.
+/// The quaternion (w, x, y, z) need not be of unit length; a length of zero is an Error when it is
+/// used.
 struct Pose {
     Vec3 translation;
     std::array<double, 4> rotation{1, 0, 0, 0};
@@ -35,15 +36,16 @@ struct Pose {
 ///     y' = m[1] x + m[4] y + m[7] z + m[10]
 ///     z' = m[2] x + m[5] y + m[8] z + m[11]
 ///
-/// Every query takes positions as this formula gives them, evaluated left to right in double precision
-/// without fused operations; "exact" means exact for those positions.
+/// Every query takes positions as this formula gives them, evaluated left to right in double
+/// precision without fused operations; "exact" means exact for those positions.
 struct Transform {
     std::array<double, 12> m{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
     Transform() = default;
     explicit Transform(const std::array<double, 12>& values) : m(values) {}
     /// Errors      Error{bad_argument} if the quaternion has zero length or a value is not finite.
-    Transform(const Pose& pose); // NOLINT: a pose is a transform; the conversion is meant to be silent.
+    Transform(
+        const Pose& pose); // NOLINT: a pose is a transform; the conversion is meant to be silent.
 
     friend bool operator==(const Transform&, const Transform&) = default;
 };

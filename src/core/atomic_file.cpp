@@ -2,12 +2,11 @@
 
 #include <abut/error.h>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace abut {
 
@@ -15,7 +14,8 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const std::string& temporary, int fault) {
     unlink(temporary.c_str());
-    throw Error(ErrorCode::cannot_write, path, std::string("cannot be written: ") + std::strerror(fault));
+    throw Error(ErrorCode::cannot_write, path,
+                std::string("cannot be written: ") + std::strerror(fault));
 }
 
 } // namespace

@@ -5,7 +5,8 @@
 
 namespace abut {
 
-/// Writes a file so that it appears whole or not at all: to a temporary name beside it, then renamed.
+/// Writes a file so that it appears whole or not at all: to a temporary name beside it, then
+/// renamed.
 ///
 /// The temporary is removed on failure.
 ///

@@ -2,9 +2,8 @@
 
 #include <abut/error.h>
 
-#include <tbb/global_control.h>
-
 #include <memory>
+#include <tbb/global_control.h>
 
 namespace abut {
 

@@ -9,15 +9,16 @@
 
 namespace abut {
 
-/// Reports one stage of a long job, at most once a percent, and ends it when the caller asks for that.
+/// Reports one stage of a long job, at most once a percent, and ends it when the caller asks for
+/// that.
 class ProgressMeter {
-  public:
+public:
     ProgressMeter(const Progress& progress, std::string_view stage, std::size_t total);
 
     /// From any thread. Errors: Error{interrupted}.
     void advance(std::size_t steps = 1);
 
-  private:
+private:
     const Progress& progress_;
     std::string_view stage_;
     std::size_t total_;

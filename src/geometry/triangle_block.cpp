@@ -1,0 +1,223 @@
+#include "geometry/triangle_block.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "geometry/triangle_block.cpp"
+#include "simd/foreach_target.h"
+#include "simd/simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Three lanes-wide coordinates.
+template <class D>
+struct Vec {
+    using V = hn::Vec<D>;
+    V x, y, z;
+};
+
+template <class D>
+HWY_INLINE Vec<D> sub(const Vec<D>& a, const Vec<D>& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+template <class D>
+HWY_INLINE hn::Vec<D> dot(const Vec<D>& a, const Vec<D>& b) {
+    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+template <class D>
+HWY_INLINE Vec<D> cross(const Vec<D>& a, const Vec<D>& b) {
+    return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+            hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+/// a - s b
+template <class D>
+HWY_INLINE Vec<D> minus_scaled(const Vec<D>& a, hn::Vec<D> s, const Vec<D>& b) {
+    return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
+}
+template <class D>
+HWY_INLINE Vec<D> broadcast(D d, const Vec3& p) {
+    return {hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z)};
+}
+template <class D>
+HWY_INLINE Vec<D> load(D d, const TriangleBlock& b, std::size_t vertex, std::size_t lane) {
+    return {hn::LoadU(d, &b.v[vertex][0][lane]), hn::LoadU(d, &b.v[vertex][1][lane]),
+            hn::LoadU(d, &b.v[vertex][2][lane])};
+}
+template <class D>
+HWY_INLINE hn::Vec<D> max_abs(const Vec<D>& a) {
+    return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
+}
+template <class V>
+HWY_INLINE V min3(V a, V b, V c) {
+    return hn::Min(a, hn::Min(b, c));
+}
+template <class V>
+HWY_INLINE V max3(V a, V b, V c) {
+    return hn::Max(a, hn::Max(b, c));
+}
+
+/// Lanes where the plane through p with edges u, v has all of q0, q1, q2 certainly on one side.
+///
+/// |computed - true| of n . (q - p) is below 32 eps e^2 d for edges below e and differences below
+/// d: 3 products of 3 factors each, at most 9 roundings on any path. The smallest normal number
+/// covers underflow.
+template <class D>
+HWY_INLINE hn::Mask<D> certainly_one_side(D d, const Vec<D>& p, const Vec<D>& u, const Vec<D>& v,
+                                          const Vec<D>& q0, const Vec<D>& q1, const Vec<D>& q2) {
+    const Vec<D> n = cross(u, v);
+    const Vec<D> w0 = sub(q0, p), w1 = sub(q1, p), w2 = sub(q2, p);
+    const auto s0 = dot(n, w0), s1 = dot(n, w1), s2 = dot(n, w2);
+    const auto e = hn::Max(max_abs(u), max_abs(v));
+    const auto far = max3(max_abs(w0), max_abs(w1), max_abs(w2));
+    const auto bound = hn::MulAdd(hn::Mul(hn::Set(d, 32 * 0x1p-53), hn::Mul(e, e)), far,
+                                  hn::Mul(hn::Set(d, 0x1p-1000), hn::Add(far, hn::Set(d, 1.0))));
+    return hn::Or(hn::Gt(min3(s0, s1, s2), bound), hn::Lt(max3(s0, s1, s2), hn::Neg(bound)));
+}
+
+template <class D>
+HWY_INLINE std::uint32_t may_intersect_lanes(D d, const Triangle& a, const TriangleBlock& b,
+                                             std::size_t lane) {
+    const Vec<D> a0 = broadcast(d, a[0]), a1 = broadcast(d, a[1]), a2 = broadcast(d, a[2]);
+    const Vec<D> b0 = load(d, b, 0, lane), b1 = load(d, b, 1, lane), b2 = load(d, b, 2, lane);
+    const auto apart = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
+        return hn::Or(hn::Gt(min3(p0, p1, p2), max3(q0, q1, q2)),
+                      hn::Gt(min3(q0, q1, q2), max3(p0, p1, p2)));
+    };
+    auto none = hn::Or(apart(a0.x, a1.x, a2.x, b0.x, b1.x, b2.x),
+                       hn::Or(apart(a0.y, a1.y, a2.y, b0.y, b1.y, b2.y),
+                              apart(a0.z, a1.z, a2.z, b0.z, b1.z, b2.z)));
+    if (!hn::AllTrue(d, none)) {
+        none = hn::Or(none, certainly_one_side(d, b0, sub(b1, b0), sub(b2, b0), a0, a1, a2));
+        none = hn::Or(none, certainly_one_side(d, a0, sub(a1, a0), sub(a2, a0), b0, b1, b2));
+    }
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Not(none), bits);
+    return static_cast<std::uint32_t>(bits[0]) & ((1U << hn::MaxLanes(d)) - 1);
+}
+
+/// Squared distance of the segments p + s u and q + t v, s and t in [0, 1]; uu = u.u, vv = v.v.
+template <class D>
+HWY_INLINE hn::Vec<D> segment_segment_sq(D d, const Vec<D>& p, const Vec<D>& u, hn::Vec<D> uu,
+                                         const Vec<D>& q, const Vec<D>& v, hn::Vec<D> vv) {
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0);
+    const auto clamp = [&](auto x) HWY_ATTR { return hn::Min(hn::Max(x, zero), one); };
+    // A zero-length segment has parameter 0: 0 / 1.
+    const auto safe_uu = hn::IfThenElse(hn::Gt(uu, zero), uu, one);
+    const auto safe_vv = hn::IfThenElse(hn::Gt(vv, zero), vv, one);
+    const Vec<D> r = sub(q, p);
+    const Vec<D> n = cross(u, v);
+    const auto nn = dot(n, n);
+    // Lines: s = (r x v) . n / n.n; parallel ones take s = 0.
+    const auto safe_nn = hn::IfThenElse(hn::Gt(nn, zero), nn, one);
+    const auto s0 =
+        hn::IfThenElseZero(hn::Gt(nn, zero), clamp(hn::Div(dot(cross(r, v), n), safe_nn)));
+    // Then the best t for that s, and the best s for that t.
+    const auto uv = dot(u, v);
+    const auto t = clamp(hn::Div(hn::MulSub(s0, uv, dot(r, v)), safe_vv));
+    const auto s = clamp(hn::Div(hn::MulAdd(t, uv, dot(r, u)), safe_uu));
+    const Vec<D> gap = minus_scaled(minus_scaled(r, s, u), hn::Neg(t), v);
+    return dot(gap, gap);
+}
+
+/// Squared distance of w (relative to the face's first vertex) to the face with edges u, v and
+/// normal n if the foot lies within; else `other`, the edges being nearer.
+template <class D>
+HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Vec<D>& w, const Vec<D>& u, const Vec<D>& v,
+                                     const Vec<D>& n, hn::Vec<D> nn, hn::Vec<D> other) {
+    const auto zero = hn::Zero(d);
+    const auto safe_nn = hn::IfThenElse(hn::Gt(nn, zero), nn, hn::Set(d, 1.0));
+    // Barycentric coordinates of the foot: w x v . n / n.n and u x w . n / n.n.
+    const auto g = hn::Div(dot(cross(w, v), n), safe_nn);
+    const auto h = hn::Div(dot(cross(u, w), n), safe_nn);
+    const auto inside = hn::And(hn::And(hn::Ge(g, zero), hn::Ge(h, zero)),
+                                hn::And(hn::Le(hn::Add(g, h), hn::Set(d, 1.0)), hn::Gt(nn, zero)));
+    const Vec<D> gap = minus_scaled(minus_scaled(w, g, u), h, v);
+    return hn::IfThenElse(inside, hn::Min(other, dot(gap, gap)), other);
+}
+
+template <class D>
+HWY_INLINE void distance_sq_lanes(D d, const Triangle& a, const TriangleBlock& block,
+                                  std::size_t lane, double* result) {
+    const Vec<D> a_v[3] = {broadcast(d, a[0]), broadcast(d, a[1]), broadcast(d, a[2])};
+    const Vec<D> b_v[3] = {load(d, block, 0, lane), load(d, block, 1, lane),
+                           load(d, block, 2, lane)};
+    Vec<D> a_e[3], b_e[3];
+    hn::Vec<D> a_ee[3], b_ee[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        a_e[i] = sub(a_v[(i + 1) % 3], a_v[i]);
+        b_e[i] = sub(b_v[(i + 1) % 3], b_v[i]);
+        a_ee[i] = dot(a_e[i], a_e[i]);
+        b_ee[i] = dot(b_e[i], b_e[i]);
+    }
+    auto best = segment_segment_sq(d, a_v[0], a_e[0], a_ee[0], b_v[0], b_e[0], b_ee[0]);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i == 0 ? 1 : 0; j < 3; ++j)
+            best = hn::Min(best,
+                           segment_segment_sq(d, a_v[i], a_e[i], a_ee[i], b_v[j], b_e[j], b_ee[j]));
+
+    const Vec<D> a_ac = sub(a_v[2], a_v[0]), b_ac = sub(b_v[2], b_v[0]);
+    const Vec<D> a_n = cross(a_e[0], a_ac), b_n = cross(b_e[0], b_ac);
+    const auto a_nn = dot(a_n, a_n), b_nn = dot(b_n, b_n);
+    for (std::size_t i = 0; i < 3; ++i) {
+        best = vertex_face_sq(d, sub(b_v[i], a_v[0]), a_e[0], a_ac, a_n, a_nn, best);
+        best = vertex_face_sq(d, sub(a_v[i], b_v[0]), b_e[0], b_ac, b_n, b_nn, best);
+    }
+    hn::StoreU(best, d, result + lane);
+}
+
+template <class D>
+HWY_INLINE std::uint32_t may_intersect_with(D d, const Triangle& a, const TriangleBlock& b) {
+    std::uint32_t mask = 0;
+    for (std::size_t lane = 0; lane < TriangleBlock::kLanes; lane += hn::Lanes(d))
+        mask |= may_intersect_lanes(d, a, b, lane) << lane;
+    return mask;
+}
+template <class D>
+HWY_INLINE void distance_sq_with(D d, const Triangle& a, const TriangleBlock& b, double* result) {
+    for (std::size_t lane = 0; lane < TriangleBlock::kLanes; lane += hn::Lanes(d))
+        distance_sq_lanes(d, a, b, lane, result);
+}
+
+using Lanes = hn::CappedTag<double, TriangleBlock::kLanes>;
+using OneLane = hn::CappedTag<double, 1>;
+
+std::uint32_t may_intersect_simd(const Triangle& a, const TriangleBlock& b) {
+    return may_intersect_with(Lanes(), a, b);
+}
+std::uint32_t may_intersect_one(const Triangle& a, const TriangleBlock& b) {
+    return may_intersect_with(OneLane(), a, b);
+}
+void distance_sq_simd(const Triangle& a, const TriangleBlock& b, double* result) {
+    distance_sq_with(Lanes(), a, b, result);
+}
+void distance_sq_one(const Triangle& a, const TriangleBlock& b, double* result) {
+    distance_sq_with(OneLane(), a, b, result);
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(may_intersect_simd);
+HWY_EXPORT(distance_sq_simd);
+
+std::uint32_t may_intersect(const Triangle& a, const TriangleBlock& b) {
+    return HWY_DYNAMIC_DISPATCH(may_intersect_simd)(a, b);
+}
+std::uint32_t may_intersect_reference(const Triangle& a, const TriangleBlock& b) {
+    return HWY_STATIC_DISPATCH(may_intersect_one)(a, b);
+}
+void distance_sq(const Triangle& a, const TriangleBlock& b,
+                 double (&result)[TriangleBlock::kLanes]) {
+    HWY_DYNAMIC_DISPATCH(distance_sq_simd)(a, b, result);
+}
+void distance_sq_reference(const Triangle& a, const TriangleBlock& b,
+                           double (&result)[TriangleBlock::kLanes]) {
+    HWY_STATIC_DISPATCH(distance_sq_one)(a, b, result);
+}
+
+} // namespace abut
+#endif

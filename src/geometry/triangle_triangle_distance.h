@@ -1,0 +1,32 @@
+#pragma once
+
+#include "math/vector.h"
+
+namespace abut {
+
+/// Two points and their squared distance.
+struct ClosestPoints {
+    double distance_sq;
+    Vec3 a, b;
+};
+
+/// Closest points of the segments p + s u and q + t v, s and t in [0, 1].
+///
+/// Degenerate  zero-length segments act as points; parallel segments return one minimiser.
+/// Source      [Ericson 2005, 5.1.9]. Differs: the lines' parameters come from cross products,
+/// which keeps
+///             almost parallel segments exact to rounding.
+ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
+                                       const Vec3& q1);
+
+/// Closest point of a triangle to a point: `a` is the point, `b` lies on the triangle.
+ClosestPoints point_triangle_distance(const Vec3& p, const Triangle& t);
+
+/// Closest points of two triangles. Where an edge of one pierces the other, the piercing point,
+/// distance 0.
+///
+/// Degenerate  zero-area triangles act as segments or points.
+/// Accuracy    a few roundings of the coordinates' differences.
+ClosestPoints triangle_triangle_distance(const Triangle& a, const Triangle& b);
+
+} // namespace abut

@@ -1,0 +1,167 @@
+#include "math/predicates.h"
+
+#include "math/vector.h"
+
+#include <array>
+#include <bit>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace abut {
+
+namespace {
+
+thread_local std::uint64_t t_exact_signs = 0;
+
+constexpr double kEpsilon = 0x1p-53;
+// Each product of two differences may lose this much to underflow before it is scaled by the third.
+constexpr double kUnderflow = 16 * std::numeric_limits<double>::denorm_min();
+
+using Int512 = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
+    512, 512, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
+using IntAny = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+                                             boost::multiprecision::et_off>;
+
+int sign(double v) {
+    return (v > 0) - (v < 0);
+}
+
+/// A finite double as mantissa * 2^exponent, the mantissa odd (or both zero).
+struct Binary {
+    std::int64_t mantissa = 0;
+    int exponent = 0;
+};
+
+Binary decompose(double v) {
+    if (v == 0)
+        return {};
+    int exponent = 0;
+    const double fraction = std::frexp(v, &exponent);
+    auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
+    return {mantissa >> zeros, exponent - 53 + zeros};
+}
+
+/// Doubles as integers over one power of two, which no sign depends on.
+template <std::size_t n>
+struct Scaled {
+    std::array<Binary, n> values;
+    int least = 0; ///< exponent of the common unit
+    int bits = 0;  ///< all integers are below 2^bits in magnitude
+
+    explicit Scaled(const std::array<double, n>& v) {
+        int largest = std::numeric_limits<int>::min();
+        least = std::numeric_limits<int>::max();
+        for (std::size_t i = 0; i < n; ++i) {
+            values[i] = decompose(v[i]);
+            if (values[i].mantissa == 0)
+                continue;
+            const auto magnitude = static_cast<std::uint64_t>(std::abs(values[i].mantissa));
+            least = std::min(least, values[i].exponent);
+            largest =
+                std::max(largest, values[i].exponent + static_cast<int>(std::bit_width(magnitude)));
+        }
+        bits = largest > least ? largest - least : 0;
+    }
+
+    template <typename Int>
+    [[nodiscard]] Int get(std::size_t i) const {
+        const Binary& v = values[i];
+        if (v.mantissa == 0)
+            return Int(0);
+        Int r = v.mantissa < 0 ? Int(-v.mantissa) : Int(v.mantissa);
+        r <<= v.exponent - least;
+        return v.mantissa < 0 ? Int(-r) : r;
+    }
+};
+
+template <typename Int>
+int sign_of(const Int& v) {
+    return (v > 0) - (v < 0);
+}
+
+template <typename Int>
+int orient3d_integer(const Scaled<12>& s) {
+    std::array<Int, 9> d; // rows b - a, c - a, d - a
+    for (std::size_t i = 0; i < 9; ++i)
+        d[i] = s.get<Int>(3 + i) - s.get<Int>(i % 3);
+    const Int det = d[0] * (d[4] * d[8] - d[5] * d[7]) + d[1] * (d[5] * d[6] - d[3] * d[8]) +
+                    d[2] * (d[3] * d[7] - d[4] * d[6]);
+    return sign_of(det);
+}
+
+template <typename Int>
+int orient2d_integer(const Scaled<6>& s) {
+    const Int ux = s.get<Int>(2) - s.get<Int>(0), uy = s.get<Int>(3) - s.get<Int>(1);
+    const Int vx = s.get<Int>(4) - s.get<Int>(0), vy = s.get<Int>(5) - s.get<Int>(1);
+    return sign_of(Int(ux * vy - uy * vx));
+}
+
+int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    ++t_exact_signs;
+    const Scaled<12> s({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
+    // |det| < 6 * 2^(3 (bits + 1))
+    if (s.bits <= 40)
+        return orient3d_integer<__int128>(s);
+    return s.bits <= 168 ? orient3d_integer<Int512>(s) : orient3d_integer<IntAny>(s);
+}
+
+int orient2d_exact(double ax, double ay, double bx, double by, double cx, double cy) {
+    ++t_exact_signs;
+    const Scaled<6> s({ax, ay, bx, by, cx, cy});
+    if (s.bits <= 61)
+        return orient2d_integer<__int128>(s);
+    return s.bits <= 252 ? orient2d_integer<Int512>(s) : orient2d_integer<IntAny>(s);
+}
+
+int orient2d(double ax, double ay, double bx, double by, double cx, double cy) {
+    const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax);
+    const double det = left - right;
+    const double bound =
+        (3 + 16 * kEpsilon) * kEpsilon * (std::abs(left) + std::abs(right)) + kUnderflow;
+    if (det > bound || -det > bound)
+        return sign(det);
+    return orient2d_exact(ax, ay, bx, by, cx, cy);
+}
+
+} // namespace
+
+std::uint64_t exact_signs() {
+    return t_exact_signs;
+}
+
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 u = b - a, v = c - a, w = d - a;
+    const double vywz = v.y * w.z, vzwy = v.z * w.y;
+    const double vzwx = v.z * w.x, vxwz = v.x * w.z;
+    const double vxwy = v.x * w.y, vywx = v.y * w.x;
+    const double det = u.x * (vywz - vzwy) + u.y * (vzwx - vxwz) + u.z * (vxwy - vywx);
+    const double permanent = std::abs(u.x) * (std::abs(vywz) + std::abs(vzwy)) +
+                             std::abs(u.y) * (std::abs(vzwx) + std::abs(vxwz)) +
+                             std::abs(u.z) * (std::abs(vxwy) + std::abs(vywx));
+    const double bound = (8 + 64 * kEpsilon) * kEpsilon * permanent +
+                         kUnderflow * (1 + std::abs(u.x) + std::abs(u.y) + std::abs(u.z));
+    // Overflow makes the bound infinite or not a number: then neither comparison holds.
+    if (det > bound || -det > bound)
+        return sign(det);
+    return orient3d_exact(a, b, c, d);
+}
+
+int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {
+    switch (axis) {
+    case 0:
+        return orient2d(a.y, a.z, b.y, b.z, c.y, c.z);
+    case 1:
+        return orient2d(a.z, a.x, b.z, b.x, c.z, c.x);
+    default:
+        return orient2d(a.x, a.y, b.x, b.y, c.x, c.y);
+    }
+}
+
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return orient2d(a, b, c, 2) == 0 && orient2d(a, b, c, 0) == 0 && orient2d(a, b, c, 1) == 0;
+}
+
+} // namespace abut

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <abut/rigid.h>
+
+#include "geometry/triangle_triangle_intersect.h"
+#include "rigid/placed_pair.h"
+
+#include <vector>
+
+namespace abut {
+
+/// Two triangles that share a point, and how.
+struct Contact {
+    TrianglePair pair;
+    TriangleContact kind;
+};
+
+/// The contacts of two placed models, in the order of the traversal; the first one only, if so
+/// asked.
+std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters);
+
+} // namespace abut

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <abut/mesh.h>
+#include <abut/types.h>
+
+#include "math/transform.h"
+#include "tree/tree.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+/// A mesh and its tree. The tree's boxes are aligned to a frame of its own, chosen so that they fit
+/// tightly.
+class ModelData {
+public:
+    /// Errors      Error{bad_mesh}.
+    explicit ModelData(Mesh mesh);
+
+    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+    [[nodiscard]] const Tree& tree() const { return tree_; }
+    /// Rigid to rounding.
+    [[nodiscard]] const Transform& model_from_tree() const { return model_from_tree_; }
+    /// Mesh index of the triangle in a slot of the tree.
+    [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const { return tree_.order[slot]; }
+    /// World position of the triangle in a slot, by the formula of abut/types.h.
+    [[nodiscard]] Triangle world_triangle(std::uint32_t slot, const Transform& world) const {
+        const auto& t = slots_[slot];
+        return {apply(world, mesh_.positions[t[0]]), apply(world, mesh_.positions[t[1]]),
+                apply(world, mesh_.positions[t[2]])};
+    }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    Mesh mesh_;
+    Transform model_from_tree_;
+    Tree tree_;
+    std::vector<std::array<std::uint32_t, 3>> slots_; ///< triangles in the order of the leaves
+};
+
+} // namespace abut

@@ -1,0 +1,122 @@
+#include "rigid/tree_frame.h"
+
+#include "math/vector.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+constexpr std::size_t kSamples = 256;
+
+using Axes = std::array<Vec3, 3>;
+constexpr Axes kModelAxes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+
+/// Third axis from two that are at right angles to rounding; the model's axes if they are no
+/// directions at all.
+Axes complete(const Vec3& first, const Vec3& second) {
+    const Vec3 x = normalized_or_zero(first);
+    const Vec3 y = normalized_or_zero(second - dot(second, x) * x);
+    const Vec3 z = cross(x, y);
+    return std::abs(length_sq(z) - 1) < 0x1p-40 ? Axes{x, y, z} : kModelAxes;
+}
+
+/// Eigenvectors of the covariance of the surface, every triangle weighted by its area.
+Axes principal_axes(const std::vector<Triangle>& triangles) {
+    Vec3 mean;
+    double area = 0;
+    for (const Triangle& t : triangles) {
+        const double w = length(cross(t[1] - t[0], t[2] - t[0]));
+        mean = mean + (w / 3) * (t[0] + t[1] + t[2]);
+        area += w;
+    }
+    if (!(area > 0))
+        return kModelAxes;
+    mean = (1 / area) * mean;
+    // Integral of x x^T over a triangle: (9 c c^T + p p^T + q q^T + r r^T) area / 12, c the
+    // centroid.
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (const Triangle& t : triangles) {
+        const double w = length(cross(t[1] - t[0], t[2] - t[0])) / area;
+        const Vec3 c = (1.0 / 3) * (t[0] + t[1] + t[2]) - mean;
+        const auto add = [&](const Vec3& p, double s) {
+            const Eigen::Vector3d v(p.x, p.y, p.z);
+            covariance += s * w * v * v.transpose();
+        };
+        add(c, 9);
+        for (const Vec3& p : t)
+            add(p - mean, 1);
+    }
+    if (!covariance.allFinite())
+        return kModelAxes;
+    const Eigen::Matrix3d v =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+    return complete({v(0, 2), v(1, 2), v(2, 2)}, {v(0, 1), v(1, 1), v(2, 1)});
+}
+
+/// Along the longest edge of the triangle of largest area, and along its normal.
+Axes largest_face(const std::vector<Triangle>& triangles) {
+    const auto doubled_area_sq = [](const Triangle& t) {
+        return length_sq(cross(t[1] - t[0], t[2] - t[0]));
+    };
+    const Triangle& t = *std::max_element(triangles.begin(), triangles.end(),
+                                          [&](const Triangle& s, const Triangle& u) {
+                                              return doubled_area_sq(s) < doubled_area_sq(u);
+                                          });
+    std::array edges{t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+    // The diagonal of a rectangle is its longest edge and no axis of it: take the longest of the
+    // other two.
+    std::sort(edges.begin(), edges.end(),
+              [](const Vec3& p, const Vec3& q) { return length_sq(p) < length_sq(q); });
+    return complete(edges[1], cross(edges[0], edges[1]));
+}
+
+double summed_box_area(const std::vector<Triangle>& triangles, const Axes& axes) {
+    double sum = 0;
+    for (const Triangle& t : triangles) {
+        Vec3 size;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto [low, high] =
+                std::minmax({dot(axes[i], t[0]), dot(axes[i], t[1]), dot(axes[i], t[2])});
+            (i == 0 ? size.x : i == 1 ? size.y : size.z) = high - low;
+        }
+        sum += size.x * size.y + size.y * size.z + size.z * size.x;
+    }
+    return sum;
+}
+
+} // namespace
+
+Transform choose_tree_frame(const Mesh& mesh) {
+    Box3 bounds;
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t)
+            extend(bounds, mesh.positions[v]);
+    if (is_empty(bounds))
+        return {};
+    const Vec3 origin = 0.5 * bounds.lower + 0.5 * bounds.upper;
+
+    std::vector<Triangle> sample;
+    const std::size_t count = std::min(kSamples, mesh.triangles.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto& t = mesh.triangles[i * mesh.triangles.size() / count];
+        sample.push_back({mesh.positions[t[0]] - origin, mesh.positions[t[1]] - origin,
+                          mesh.positions[t[2]] - origin});
+    }
+    Axes best = kModelAxes;
+    double least = summed_box_area(sample, best);
+    for (const Axes& axes : {principal_axes(sample), largest_face(sample)}) {
+        const double sum = summed_box_area(sample, axes);
+        if (sum < least)
+            best = axes, least = sum;
+    }
+    return Transform({best[0].x, best[0].y, best[0].z, best[1].x, best[1].y, best[1].z, best[2].x,
+                      best[2].y, best[2].z, origin.x, origin.y, origin.z});
+}
+
+} // namespace abut
