@@ -1,0 +1,178 @@
+#include "rigid/penetration.h"
+
+#include "geometry/triangle_triangle_distance.h"
+#include "geometry/triangle_triangle_penetration.h"
+#include "tree/traverse_one.h"
+
+#include <boost/container/static_vector.hpp>
+
+#include <algorithm>
+#include <queue>
+
+namespace abut {
+
+namespace {
+
+/// A part of a surface triangle, with what its middle is known to be.
+struct Piece {
+    Triangle corners;
+    double at_most; ///< no point of the piece is deeper
+    Vec3 middle;
+    double middle_distance; ///< of the middle to the solid's surface
+    bool middle_inside;
+    bool operator<(const Piece& other) const { return at_most < other.at_most; }
+};
+
+/// Searches the point of one surface that lies deepest in a solid.
+class DeepestPoint {
+  public:
+    DeepestPoint(const PlacedSolid& surface, const PlacedSolid& solid) : surface_(surface), solid_(solid) {}
+
+    void search(const PenetrationOptions& options) {
+        seed();
+        int budget = options.accuracy_budget;
+        while (!pieces_.empty()) {
+            const Piece piece = pieces_.top();
+            if (piece.at_most <= depth * (1 + options.relative_accuracy))
+                break;
+            const bool undecided = depth <= options.threshold && piece.at_most > options.threshold;
+            if (--budget < 0 && !(undecided && budget > -options.threshold_budget))
+                break;
+            pieces_.pop();
+            bisect(piece);
+        }
+        at_most = std::max(depth, pieces_.empty() ? 0 : pieces_.top().at_most);
+    }
+
+    double depth = 0, at_most = 0;
+    Vec3 on_surface, on_solid;
+
+  private:
+    using Polygon = boost::container::static_vector<Vec3, 9>;
+
+    /// The triangles that may reach into the solid's box, cut to it.
+    void seed() {
+        const Aabb& box = solid_.model().tree().bounds;
+        const Transform world_from_tree = solid_.world_from_tree();
+        for (const std::uint32_t slot : surface_.slots_near(solid_)) {
+            const Triangle t = surface_.world_slot(slot);
+            Polygon polygon;
+            for (const Vec3& p : t)
+                polygon.push_back(apply(solid_.tree_from_world(), p));
+            clip(polygon, box);
+            for (std::size_t i = 2; i < polygon.size(); ++i)
+                evaluate({apply(world_from_tree, polygon[0]), apply(world_from_tree, polygon[i - 1]),
+                          apply(world_from_tree, polygon[i])},
+                         nullptr);
+        }
+    }
+
+    /// Source: [Sutherland, Hodgman 1974].
+    static void clip(Polygon& polygon, const Aabb& box) {
+        for (int plane = 0; plane < 6 && !polygon.empty(); ++plane) {
+            const int axis = plane / 2;
+            const double sign = plane % 2 == 0 ? 1 : -1;
+            const double limit =
+                sign * (plane % 2 == 0 ? box.upper : box.lower)[static_cast<std::size_t>(axis)];
+            const auto over = [&](const Vec3& p) { return sign * component(p, axis) - limit; };
+            Polygon kept;
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+                const double op = over(p), oq = over(q);
+                if (op <= 0)
+                    kept.push_back(p);
+                if ((op < 0 && oq > 0) || (op > 0 && oq < 0))
+                    kept.push_back(p + (op / (op - oq)) * (q - p));
+            }
+            polygon = kept;
+        }
+    }
+
+    void bisect(const Piece& piece) {
+        const Triangle& t = piece.corners;
+        std::size_t longest = 0;
+        for (std::size_t i = 1; i < 3; ++i)
+            if (length_sq(t[(i + 1) % 3] - t[i]) > length_sq(t[(longest + 1) % 3] - t[longest]))
+                longest = i;
+        const Vec3 &p = t[longest], &q = t[(longest + 1) % 3], &r = t[(longest + 2) % 3];
+        const Vec3 m = 0.5 * (p + q);
+        evaluate({p, m, r}, &piece);
+        evaluate({m, q, r}, &piece);
+    }
+
+    void evaluate(const Triangle& t, const Piece* parent) {
+        const Vec3 middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
+        const double radius = std::sqrt(std::max(
+            {length_sq(t[0] - middle), length_sq(t[1] - middle), length_sq(t[2] - middle)}));
+        const double moved = parent != nullptr ? length(middle - parent->middle) : 0;
+        const double bound = parent != nullptr ? (parent->middle_distance + moved) * (1 + 0x1p-20)
+                                               : std::numeric_limits<double>::infinity();
+        const PlacedSolid::Nearest nearest = solid_.nearest(middle, bound);
+        if (nearest.distance + radius <= depth)
+            return;
+        // Between two points nearer to each other than to the surface, nothing changes from inside to outside.
+        const bool inside = parent != nullptr && moved < parent->middle_distance
+                                ? parent->middle_inside
+                                : solid_.contains(middle);
+        if (inside && nearest.distance > depth) {
+            depth = nearest.distance;
+            on_surface = middle, on_solid = nearest.point;
+        }
+        if (!inside && nearest.distance >= radius)
+            return;
+        const Triangle face = solid_.world_slot(nearest.slot);
+        double corner_sq = 0;
+        for (const Vec3& corner : t)
+            corner_sq = std::max(corner_sq, point_triangle_distance(corner, face).distance_sq);
+        const double at_most = std::min(std::sqrt(corner_sq), inside ? nearest.distance + radius
+                                                                     : radius - nearest.distance);
+        if (at_most > depth)
+            pieces_.push({t, at_most, middle, nearest.distance, inside});
+    }
+
+    const PlacedSolid& surface_;
+    const PlacedSolid& solid_;
+    std::priority_queue<Piece> pieces_;
+};
+
+LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts) {
+    LocalPenetration best;
+    for (const Contact& c : contacts) {
+        if (c.kind != TriangleContact::cross)
+            continue;
+        const Triangle ta = a.world_triangle(c.pair.a), tb = b.world_triangle(c.pair.b);
+        const TriangleSeparation s = triangle_triangle_penetration(ta, tb);
+        if (s.depth > best.depth) {
+            const ClosestPoints common = triangle_triangle_distance(ta, tb);
+            best = {s.depth, s.depth, common.a, common.b, s.direction};
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts,
+                                   const PenetrationOptions& options) {
+    if (!a.solid().solid && !b.solid().solid)
+        return deepest_crossing(a, b, contacts);
+    LocalPenetration best;
+    if (b.solid().solid) {
+        DeepestPoint a_in_b(a, b);
+        a_in_b.search(options);
+        best = {a_in_b.depth, a_in_b.at_most, a_in_b.on_surface, a_in_b.on_solid,
+                normalized_or_zero(a_in_b.on_surface - a_in_b.on_solid)};
+    }
+    if (a.solid().solid) {
+        DeepestPoint b_in_a(b, a);
+        b_in_a.search(options);
+        const double at_most = std::max(best.at_most, b_in_a.at_most);
+        if (b_in_a.depth > best.depth)
+            best = {b_in_a.depth, 0, b_in_a.on_solid, b_in_a.on_surface,
+                    normalized_or_zero(b_in_a.on_solid - b_in_a.on_surface)};
+        best.at_most = at_most;
+    }
+    return best;
+}
+
+} // namespace abut

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "geometry/triangle_triangle_distance.h"
+#include "math/transform.h"
+#include "rigid/model_data.h"
+#include "rigid/solid.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace abut {
+
+/// Questions about single points and one model under its transform. Cheap to make, one a thread.
+class PlacedSolid {
+  public:
+    PlacedSolid(const ModelData& model, const Solid& solid, const Transform& world_from_model);
+
+    [[nodiscard]] const ModelData& model() const { return model_; }
+    [[nodiscard]] const Solid& solid() const { return solid_; }
+    [[nodiscard]] Vec3 world_vertex(std::uint32_t vertex) const {
+        return apply(world_, model_.mesh().positions[vertex]);
+    }
+    [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const {
+        const auto& t = model_.mesh().triangles[triangle];
+        return {world_vertex(t[0]), world_vertex(t[1]), world_vertex(t[2])};
+    }
+    [[nodiscard]] Triangle world_slot(std::uint32_t slot) const { return model_.world_triangle(slot, world_); }
+    [[nodiscard]] const Transform& world_from_tree() const { return world_from_tree_; }
+    [[nodiscard]] const Transform& tree_from_world() const { return tree_from_world_; }
+    /// Slots whose triangles may reach into the other model's box.
+    [[nodiscard]] std::vector<std::uint32_t> slots_near(const PlacedSolid& other) const;
+    /// solid().outward as seen in the world: a mirroring transform turns it round.
+    [[nodiscard]] int outward() const { return mirrored_ ? -solid_.outward : solid_.outward; }
+
+    /// Whether the point lies on the surface. Exact.
+    [[nodiscard]] bool on_surface(const Vec3& point) const;
+
+    /// Whether the point lies strictly inside, by the parity of crossings of a ray.
+    ///
+    /// Accuracy    exact for a closed mesh; with T-junctions, the majority of three rays. False on the surface.
+    [[nodiscard]] bool contains(const Vec3& point) const;
+
+    /// A part inside the other: for a mesh that is not closed the winding number decides (1 to rounding).
+    [[nodiscard]] bool winds_around(const Vec3& point) const;
+
+    struct Nearest {
+        double distance = std::numeric_limits<double>::infinity();
+        Vec3 point;
+        std::uint32_t slot = 0;
+    };
+    /// The surface's nearest point, if it is nearer than the bound.
+    [[nodiscard]] Nearest nearest(const Vec3& point, double bound) const;
+
+  private:
+    /// Parity of the crossings; false in `clear` if the ray meets an edge or a vertex and the count says nothing.
+    [[nodiscard]] bool odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const;
+
+    const ModelData& model_;
+    const Solid& solid_;
+    Transform world_;
+    Transform world_from_tree_, tree_from_world_;
+    double least_stretch_;
+    double margin_;
+    double reach_; ///< no point of the model is farther from the tree's origin, world units
+    bool mirrored_;
+};
+
+} // namespace abut

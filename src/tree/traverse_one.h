@@ -1,0 +1,141 @@
+#pragma once
+
+#include "tree/tree.h"
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+/// Traversals of one tree: for a box, for a segment, for the nearest primitive to a point. Bodies below.
+namespace abut {
+
+/// Calls visit(slot) for every primitive in a leaf whose box meets `query`.
+template <typename Visit> void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit);
+
+/// A segment in a tree's frame, as midpoint and half vector, with a margin for what both may be off by.
+struct TreeSegment {
+    std::array<float, 3> middle, half;
+    float margin; ///< at least the error of each coordinate, in the tree's units
+};
+
+/// Calls visit(slot) for every primitive whose leaf's box may meet the segment.
+/// Source      separating axes of segment and box [Ericson 2005, 5.3.3].
+template <typename Visit>
+void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
+
+/// Calls visit(slot) for primitives nearest box first; visit returns the squared distance in the tree's frame
+/// beyond which nothing matters any more.
+template <typename Visit>
+void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin, float bound_sq,
+                   const Visit& visit);
+
+namespace traverse_one {
+
+using Hits = std::array<bool, Node::kWidth>;
+
+/// Descends wherever `test(node)` marks a child.
+template <typename Test, typename Visit>
+void descend(const Tree& tree, const Test& test, const Visit& visit) {
+    if (tree.empty())
+        return;
+    boost::container::small_vector<std::uint32_t, 128> pending{0};
+    while (!pending.empty()) {
+        const Node& node = tree.nodes[pending.back()];
+        pending.pop_back();
+        const Hits hits = test(node);
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i) {
+            if (!hits[i])
+                continue;
+            const NodeRef child = node.child[i];
+            if (!child.is_leaf())
+                pending.push_back(child.index());
+            else
+                for (std::uint32_t slot = child.first(); slot < child.first() + child.count(); ++slot)
+                    visit(slot);
+        }
+    }
+}
+
+} // namespace traverse_one
+
+template <typename Visit> void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
+    const auto test = [&](const Node& node) {
+        traverse_one::Hits hits;
+        for (std::size_t i = 0; i < Node::kWidth; ++i)
+            hits[i] = bool((node.lower[0][i] <= query.upper[0]) & (query.lower[0] <= node.upper[0][i]) &
+                           (node.lower[1][i] <= query.upper[1]) & (query.lower[1] <= node.upper[1][i]) &
+                           (node.lower[2][i] <= query.upper[2]) & (query.lower[2] <= node.upper[2][i]));
+        return hits;
+    };
+    traverse_one::descend(tree, test, visit);
+}
+
+template <typename Visit>
+void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit) {
+    const auto& m = segment.middle;
+    const auto& e = segment.half;
+    const std::array<float, 3> reach{std::abs(e[0]), std::abs(e[1]), std::abs(e[2])};
+    const auto test = [&](const Node& node) {
+        traverse_one::Hits hits;
+        for (std::size_t i = 0; i < Node::kWidth; ++i) {
+            std::array<float, 3> c, h;
+            for (std::size_t k = 0; k < 3; ++k) {
+                c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
+                h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
+            }
+            // Box axes, then the cross products of the segment with the box axes. The latter's products are
+            // rounded relative to themselves and to the box: the margin in h outweighs that.
+            bool hit = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+                hit = bool(hit & (std::abs(c[k]) <= h[k] + reach[k]) &
+                           (std::abs(c[u] * e[v] - c[v] * e[u]) <= h[u] * reach[v] + h[v] * reach[u]));
+            }
+            hits[i] = hit;
+        }
+        return hits;
+    };
+    traverse_one::descend(tree, test, visit);
+}
+
+template <typename Visit>
+void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin, float bound_sq,
+                   const Visit& visit) {
+    struct Entry {
+        float distance_sq;
+        NodeRef ref;
+        bool operator<(const Entry& other) const { return distance_sq > other.distance_sq; }
+    };
+    if (tree.empty())
+        return;
+    boost::container::small_vector<Entry, 128> heap{{0, NodeRef::node(0)}};
+    while (!heap.empty() && heap.front().distance_sq <= bound_sq) {
+        std::pop_heap(heap.begin(), heap.end());
+        const NodeRef ref = heap.back().ref;
+        heap.pop_back();
+        if (ref.is_leaf()) {
+            for (std::uint32_t slot = ref.first(); slot < ref.first() + ref.count(); ++slot)
+                bound_sq = visit(slot);
+            continue;
+        }
+        const Node& node = tree.nodes[ref.index()];
+        std::array<float, Node::kWidth> distance_sq{};
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < Node::kWidth; ++i) {
+                const float gap = std::max(0.0F, std::max(node.lower[k][i] - point[k],
+                                                          point[k] - node.upper[k][i]) -
+                                                     margin);
+                distance_sq[i] += gap * gap;
+            }
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
+            if (distance_sq[i] <= bound_sq) {
+                heap.push_back({distance_sq[i], node.child[i]});
+                std::push_heap(heap.begin(), heap.end());
+            }
+    }
+}
+
+} // namespace abut
