@@ -15,9 +15,8 @@ namespace abut {
 
 namespace {
 
-constexpr std::uint32_t kVertexBytes = 12;
 constexpr std::uint32_t kTriangleBytes = 12;
-constexpr std::uint32_t kMeshHeaderBytes = 8;
+constexpr std::uint32_t kMeshHeaderBytes = 12;
 constexpr std::uint32_t kPartHeaderBytes = 112;
 
 [[noreturn]] void not_sound(const std::string& file) {
@@ -45,6 +44,7 @@ public:
         const auto bytes = take(size);
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
+    [[noreturn]] void fail() const { not_sound(file_); }
     [[nodiscard]] std::size_t left() const noexcept { return rest_.size(); }
 
 private:
@@ -55,25 +55,38 @@ private:
 /// What is wrong with a mesh, by its number; reported with the name of the first part that uses it.
 using MeshFaults = std::unordered_map<std::uint64_t, std::string>;
 
+/// Positions of a mesh, and the first one that is not finite (or would not be a finite float).
+template <typename Real>
+std::uint64_t decode_positions(std::span<const std::byte> bytes, std::vector<Vec3>& positions) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    const auto in_range = [](double value) { return std::fabs(value) <= kLargest; };
+    std::uint64_t first_bad = positions.size();
+    for (std::size_t i = positions.size(); i-- > 0;) {
+        Real xyz[3];
+        std::memcpy(xyz, bytes.data() + i * sizeof xyz, sizeof xyz);
+        positions[i] = {xyz[0], xyz[1], xyz[2]};
+        if (!(in_range(xyz[0]) && in_range(xyz[1]) && in_range(xyz[2])))
+            first_bad = i;
+    }
+    return first_bad;
+}
+
 Mesh decode_mesh(Cursor& cursor, std::uint64_t number, MeshFaults& faults) {
     const auto vertices = cursor.value<std::uint32_t>();
     const auto triangles = cursor.value<std::uint32_t>();
-    const auto positions = cursor.take(std::uint64_t{vertices} * kVertexBytes);
+    const auto real_bytes = cursor.value<std::uint32_t>();
+    if (real_bytes != sizeof(float) && real_bytes != sizeof(double))
+        cursor.fail();
+    const auto positions = cursor.take(std::uint64_t{vertices} * 3 * real_bytes);
     const auto indices = cursor.take(std::uint64_t{triangles} * kTriangleBytes);
 
     Mesh mesh;
     mesh.positions.resize(vertices);
-    std::uint64_t not_finite = vertices;
-    for (std::uint32_t i = 0; i < vertices; ++i) {
-        float xyz[3];
-        std::memcpy(xyz, positions.data() + std::size_t{i} * kVertexBytes, kVertexBytes);
-        mesh.positions[i] = {xyz[0], xyz[1], xyz[2]};
-        if (!(std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2])) &&
-            not_finite == vertices)
-            not_finite = i;
-    }
-    if (not_finite != vertices)
-        faults.emplace(number, "vertex " + std::to_string(not_finite) +
+    const std::uint64_t bad = real_bytes == sizeof(float)
+                                  ? decode_positions<float>(positions, mesh.positions)
+                                  : decode_positions<double>(positions, mesh.positions);
+    if (bad != vertices)
+        faults.emplace(number, "vertex " + std::to_string(bad) +
                                    " has a coordinate that is not a finite number");
 
     mesh.triangles.resize(triangles);
@@ -105,7 +118,8 @@ Part decode_part(Cursor& cursor, std::size_t meshes, const std::string& file) {
     return part;
 }
 
-/// False if a coordinate of a part could leave the range of doubles. Positions are floats.
+/// False if a coordinate of a part could leave the range of doubles. Positions are in the range of
+/// floats.
 bool stays_finite(const Transform& transform) {
     constexpr double kLargest = std::numeric_limits<float>::max();
     for (int row = 0; row < 3; ++row) {

@@ -12,7 +12,8 @@
 ///              u64     meshes
 ///              u64     parts
 ///     error    the text: one line without the file's name
-///     mesh     u32 vertices | u32 triangles | f32[3 vertices] x y z … | u32[3 triangles] a b c …
+///     mesh     u32 vertices | u32 triangles | u32 bytes of a coordinate, 4 or 8
+///              f32 or f64 [3 vertices] x y z … | u32[3 triangles] a b c …
 ///     part     f64[12] world_from_mesh (see Transform) | u32 mesh | u32 id, u32 name, u32 type:
 ///     bytes | the three texts end      char[8] "abut-end", and nothing after it
 ///

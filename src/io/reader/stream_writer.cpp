@@ -34,6 +34,8 @@ void StreamWriter::begin(std::uint64_t meshes, std::uint64_t parts) {
 void StreamWriter::begin_mesh(std::uint32_t vertices, std::uint32_t triangles) {
     put(&vertices, sizeof vertices);
     put(&triangles, sizeof triangles);
+    const std::uint32_t real_bytes = sizeof(float);
+    put(&real_bytes, sizeof real_bytes);
 }
 
 void StreamWriter::positions(const float* xyz, std::size_t vertices) {
