@@ -3,6 +3,8 @@ include(CMakePackageConfigHelpers)
 install(TARGETS abut abut_compile EXPORT AbutTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS abut_command DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS abut_reader DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut)
+install(FILES src/io/ifc/convert.mjs src/io/ifc/package.json src/io/ifc/package-lock.json
+        DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc)
 install(DIRECTORY include/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT AbutTargets NAMESPACE Abut:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Abut)
 configure_package_config_file(cmake/AbutConfig.cmake.in ${PROJECT_BINARY_DIR}/AbutConfig.cmake

@@ -1,0 +1,252 @@
+// node convert.mjs FILE.ifc: writes FILE's products to descriptor 3 as the scene stream of ../scene_stream.h.
+//
+// One part a product with triangles: id = GlobalId, name = Name, type = its IFC class. Metres, Y up, as web-ifc gives
+// them; openings and spaces are left out, as web-ifc does. Products that are placed copies of the same geometry share
+// a mesh. Geometry is what web-ifc computes: floats around the geometry's own centre, placed by a double matrix.
+
+import fs from 'node:fs';
+
+const RESULT = 3;
+const MAGIC = Buffer.from('abutscn1');
+const END = Buffer.from('abut-end');
+const HEADER_BYTES = 32;
+// ErrorCode of include/abut/error.h; 1 + code is the stream's status.
+const MALFORMED = 3;
+const UNSUPPORTED = 4;
+// Two products share a mesh of several geometries if these lie alike to within this: what is left of a placement in
+// survey coordinates after double arithmetic is some 1e-9 m.
+const SAME_PLACE_METRES = 1e-7;
+const SAME_DIRECTION = 1e-9;
+
+class Fault extends Error {
+    constructor(code, text) {
+        super(text);
+        this.code = code;
+    }
+}
+
+class Output {
+    #parts = []; // buffers, several a part
+    #partCount = 0;
+    #meshes = 0;
+    #position = HEADER_BYTES;
+
+    #write(bytes, position) {
+        for (let done = 0; done < bytes.length;)
+            done += fs.writeSync(RESULT, bytes, done, bytes.length - done, position + done);
+    }
+
+    #append(bytes) {
+        this.#write(bytes, this.#position);
+        this.#position += bytes.length;
+    }
+
+    /** positions: Float32Array or Float64Array; triangles: Uint32Array. Returns the mesh's number. */
+    mesh(positions, triangles) {
+        const counts = Uint32Array.of(positions.length / 3, triangles.length / 3,
+                                      positions.BYTES_PER_ELEMENT);
+        for (const array of [counts, positions, triangles])
+            this.#append(Buffer.from(array.buffer, array.byteOffset, array.byteLength));
+        return this.#meshes++;
+    }
+
+    /** world: the twelve numbers of Transform. */
+    part(world, mesh, id, name, type) {
+        const texts = [id, name, type].map(text => Buffer.from(text));
+        const numbers = Uint32Array.of(mesh, ...texts.map(text => text.length));
+        this.#parts.push(Buffer.from(Float64Array.from(world).buffer), Buffer.from(numbers.buffer),
+                         ...texts);
+        ++this.#partCount;
+    }
+
+    #header(status, textSize, meshes, parts) {
+        const header = Buffer.alloc(HEADER_BYTES);
+        MAGIC.copy(header);
+        header.writeUInt32LE(status, 8);
+        header.writeUInt32LE(textSize, 12);
+        header.writeBigUInt64LE(BigInt(meshes), 16);
+        header.writeBigUInt64LE(BigInt(parts), 24);
+        this.#write(header, 0);
+    }
+
+    end() {
+        this.#append(Buffer.concat([...this.#parts, END]));
+        this.#header(0, 0, this.#meshes, this.#partCount);
+    }
+
+    error(code, text) {
+        fs.ftruncateSync(RESULT, 0);
+        const bytes = Buffer.from(text.split('\n')[0].slice(0, 500));
+        this.#write(bytes, HEADER_BYTES);
+        this.#header(1 + code, bytes.length, 0, 0);
+    }
+}
+
+/** a times b of two column-major 4x4 affine matrices. */
+function multiply(a, b) {
+    const result = new Array(16).fill(0);
+    for (let column = 0; column < 4; ++column)
+        for (let row = 0; row < 4; ++row)
+            for (let k = 0; k < 4; ++k)
+                result[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+    return result;
+}
+
+/** The inverse of an affine matrix, by cofactors; null if it is singular. */
+function inverse(m) {
+    const [a, b, c, , d, e, f, , g, h, i, , x, y, z] = m;
+    const determinant = a * (e * i - f * h) - d * (b * i - c * h) + g * (b * f - c * e);
+    if (!(Math.abs(determinant) > 0))
+        return null;
+    const n = [e * i - f * h, c * h - b * i, b * f - c * e, f * g - d * i, a * i - c * g,
+               c * d - a * f, d * h - e * g, b * g - a * h, a * e - b * d].map(v => v / determinant);
+    return [n[0], n[1], n[2], 0, n[3], n[4], n[5], 0, n[6], n[7], n[8], 0,
+            -(n[0] * x + n[3] * y + n[6] * z), -(n[1] * x + n[4] * y + n[7] * z),
+            -(n[2] * x + n[5] * y + n[8] * z), 1];
+}
+
+const transformOf = m => [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10], m[12], m[13], m[14]];
+
+/** One geometry of web-ifc: six floats a vertex (position, normal) and three indices a triangle. */
+function geometryOf(api, model, id) {
+    const geometry = api.GetGeometry(model, id);
+    const vertices = api.GetVertexArray(geometry.GetVertexData(), geometry.GetVertexDataSize());
+    const triangles =
+        Uint32Array.from(api.GetIndexArray(geometry.GetIndexData(), geometry.GetIndexDataSize()));
+    const positions = new Float32Array(vertices.length / 2);
+    for (let from = 0, to = 0; from < vertices.length; from += 6, to += 3)
+        positions.set(vertices.subarray(from, from + 3), to);
+    geometry.delete();
+    return {positions, triangles};
+}
+
+/** Several geometries as one mesh in the frame of the first; doubles, so that no position is rounded again. */
+function joined(pieces) {
+    const vertices = pieces.reduce((sum, piece) => sum + piece.geometry.positions.length, 0);
+    const corners = pieces.reduce((sum, piece) => sum + piece.geometry.triangles.length, 0);
+    const positions = new Float64Array(vertices);
+    const triangles = new Uint32Array(corners);
+    let vertex = 0;
+    let corner = 0;
+    for (const {geometry, place: m} of pieces) {
+        const base = vertex / 3;
+        const p = geometry.positions;
+        for (let i = 0; i < p.length; i += 3)
+            for (let row = 0; row < 3; ++row)
+                positions[vertex++] =
+                    m[row] * p[i] + m[4 + row] * p[i + 1] + m[8 + row] * p[i + 2] + m[12 + row];
+        for (const index of geometry.triangles)
+            triangles[corner++] = base + index;
+    }
+    return {positions, triangles};
+}
+
+/** What two products have in common if their meshes are the same: geometries and where they lie, rounded. */
+function keyOf(pieces, metresPerUnit) {
+    const step = SAME_PLACE_METRES / metresPerUnit;
+    return pieces
+        .map(({id, place}) =>
+                 [id, ...place.map((v, i) => Math.round(v / (i >= 12 ? step : SAME_DIRECTION)) + 0)])
+        .join(';');
+}
+
+class Converter {
+    #meshOf = new Map();
+
+    constructor(api, model, output) {
+        this.api = api;
+        this.model = model;
+        this.output = output;
+    }
+
+    add(product) {
+        const placed = [];
+        for (let i = 0; i < product.geometries.size(); ++i) {
+            const {geometryExpressID, flatTransformation} = product.geometries.get(i);
+            const geometry = geometryOf(this.api, this.model, geometryExpressID);
+            if (geometry.triangles.length > 0)
+                placed.push({id: geometryExpressID, world: [...flatTransformation], geometry});
+        }
+        if (placed.length === 0)
+            return;
+        const [mesh, world] = placed.length === 1 ? this.#single(placed[0]) : this.#several(placed);
+        const line = this.api.GetLine(this.model, product.expressID);
+        const type = this.api.GetNameFromTypeCode(this.api.GetLineType(this.model, product.expressID));
+        this.output.part(transformOf(world), mesh, line.GlobalId?.value ?? `#${product.expressID}`,
+                         line.Name?.value ?? '', type ?? '');
+    }
+
+    #mesh(key, make) {
+        let number = this.#meshOf.get(key);
+        if (number === undefined) {
+            const {positions, triangles} = make();
+            number = this.output.mesh(positions, triangles);
+            this.#meshOf.set(key, number);
+        }
+        return number;
+    }
+
+    #single({id, world, geometry}) { return [this.#mesh(`${id}`, () => geometry), world]; }
+
+    #several(placed) {
+        const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+        const back = inverse(placed[0].world);
+        const world = back === null ? identity : placed[0].world;
+        const pieces = placed.map(
+            ({id, world: own, geometry}, i) =>
+                ({id, geometry, place: back === null ? own : i === 0 ? identity : multiply(back, own)}));
+        const metresPerUnit = Math.hypot(world[0], world[1], world[2]);
+        return [this.#mesh(keyOf(pieces, metresPerUnit), () => joined(pieces)), world];
+    }
+}
+
+/** web-ifc reads what it finds of a truncated file: it has to end as it should. */
+function checkEnds(file, size) {
+    const read = (length, position) => {
+        const bytes = Buffer.alloc(Math.max(0, Math.min(length, size - position)));
+        fs.readSync(file, bytes, 0, bytes.length, position);
+        return bytes.toString('latin1');
+    };
+    if (!read(1024, 0).includes('ISO-10303-21;'))
+        throw new Fault(MALFORMED, 'is no IFC file (STEP text)');
+    if (!/END-ISO-10303-21\s*;\s*$/.test(read(1024, Math.max(0, size - 1024))))
+        throw new Fault(MALFORMED, 'is truncated: it does not end with END-ISO-10303-21;');
+}
+
+async function convert(path, output) {
+    const file = fs.openSync(path, 'r');
+    checkEnds(file, fs.fstatSync(file).size);
+    const {IfcAPI} = await import('web-ifc');
+    const api = new IfcAPI();
+    await api.Init(undefined, true);
+    const model = api.OpenModelFromCallback((offset, size) => {
+        const bytes = new Uint8Array(size);
+        return bytes.subarray(0, fs.readSync(file, bytes, 0, size, offset));
+    }, {COORDINATE_TO_ORIGIN: false});
+    if (model < 0)
+        throw new Fault(MALFORMED, 'cannot be parsed as IFC');
+    const schema = api.GetModelSchema(model);
+    if (!/^IFC(2X3|4)/.test(schema ?? ''))
+        throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
+    const converter = new Converter(api, model, output);
+    let fault = null;
+    api.StreamAllMeshes(model, product => {
+        try {
+            fault ?? converter.add(product);
+        } catch (error) {
+            fault = error; // not through the frames of WebAssembly
+        }
+    });
+    if (fault !== null)
+        throw fault;
+    output.end();
+}
+
+const output = new Output();
+try {
+    await convert(process.argv[2], output);
+} catch (error) {
+    output.error(error instanceof Fault ? error.code : MALFORMED, error.message ?? String(error));
+}
+// web-ifc would otherwise take the model apart.
+process.exit(0);

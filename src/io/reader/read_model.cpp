@@ -1,0 +1,161 @@
+#include "io/reader/read_model.h"
+
+#include "io/reader/fault.h"
+#include "io/reader/gltf_tree.h"
+#include "io/reader/node_parts.h"
+#include "io/reader/promise.h"
+#include "io/reader/triangulate.h"
+#include "io/scene_stream.h"
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/scene.h>
+#include <cctype>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <new>
+
+namespace abut {
+
+namespace {
+
+constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
+
+std::string lower_extension(const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+const aiScene& import(Assimp::Importer& importer, const std::string& file) {
+    // No step of Assimp's: they join, drop and move vertices. Polygons are cut here.
+    const aiScene* const scene = importer.ReadFile(file, 0);
+    if (scene == nullptr) {
+        if (const std::exception_ptr fault = importer.GetException()) {
+            try {
+                std::rethrow_exception(fault);
+            } catch (const std::bad_alloc&) {
+                throw;
+            } catch (...) { // NOLINT: its text is reported below
+            }
+        }
+        malformed(importer.GetErrorString());
+    }
+    if (scene->mRootNode == nullptr || (scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
+        malformed("is incomplete");
+    return *scene;
+}
+
+std::uint64_t triangle_count(const aiMesh& mesh) {
+    if (mesh.mPrimitiveTypes == aiPrimitiveType_TRIANGLE)
+        return mesh.mNumFaces;
+    std::uint64_t count = 0;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i)
+        if (mesh.mFaces[i].mNumIndices >= 3)
+            count += mesh.mFaces[i].mNumIndices - 2;
+    return count;
+}
+
+/// Meshes of Assimp's that are one mesh of the scene: a node's primitives, in order.
+using MeshList = std::vector<unsigned>;
+
+struct Sizes {
+    std::uint64_t vertices = 0;
+    std::uint64_t triangles = 0;
+};
+
+Sizes sizes_of(const aiScene& scene, const MeshList& list) {
+    Sizes sizes;
+    for (const unsigned mesh : list) {
+        sizes.vertices += scene.mMeshes[mesh]->mNumVertices;
+        sizes.triangles += triangle_count(*scene.mMeshes[mesh]);
+    }
+    if (std::max(sizes.vertices, sizes.triangles) > kLargestMesh)
+        throw Fault(ErrorCode::unsupported, "has a part with more than 4 billion vertices");
+    return sizes;
+}
+
+void write_faces(const aiMesh& mesh, std::uint32_t base, StreamWriter& writer) {
+    const auto in_mesh = [&](std::uint32_t index) {
+        return index < mesh.mNumVertices ? base + index : scene_stream::kBadIndex;
+    };
+    std::vector<std::array<std::uint32_t, 3>> cut;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        const std::span<const std::uint32_t> corners(face.mIndices, face.mNumIndices);
+        if (corners.size() < 3)
+            continue; // a point or a line
+        cut.clear();
+        if (std::all_of(corners.begin(), corners.end(),
+                        [&](std::uint32_t index) { return index < mesh.mNumVertices; }))
+            triangulate(corners, mesh.mVertices, cut);
+        else
+            cut.resize(corners.size() - 2,
+                       {scene_stream::kBadIndex, scene_stream::kBadIndex, scene_stream::kBadIndex});
+        for (const auto& [a, b, c] : cut)
+            writer.triangle({in_mesh(a), in_mesh(b), in_mesh(c)});
+    }
+}
+
+void write_mesh(const aiScene& scene, const MeshList& list, const Sizes& sizes,
+                StreamWriter& writer) {
+    static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "Assimp in single precision");
+    writer.begin_mesh(static_cast<std::uint32_t>(sizes.vertices),
+                      static_cast<std::uint32_t>(sizes.triangles));
+    for (const unsigned mesh : list)
+        writer.positions(&scene.mMeshes[mesh]->mVertices->x, scene.mMeshes[mesh]->mNumVertices);
+    std::uint32_t base = 0;
+    for (const unsigned mesh : list) {
+        write_faces(*scene.mMeshes[mesh], base, writer);
+        base += scene.mMeshes[mesh]->mNumVertices;
+    }
+}
+
+} // namespace
+
+void read_model(const std::string& file, StreamWriter& writer) {
+    const std::string extension = lower_extension(file);
+    const bool is_gltf = extension == ".glb" || extension == ".gltf";
+    GltfTree tree;
+    if (is_gltf)
+        tree = read_gltf_tree(file, extension == ".glb");
+    const std::optional<std::uint64_t> promised = promised_triangles(file, extension);
+
+    // Never destroyed: the process ends without taking the scene apart.
+    auto* const importer = new Assimp::Importer; // NOLINT(cppcoreguidelines-owning-memory)
+    importer->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    const aiScene& scene = import(*importer, file);
+
+    std::vector<NodePart> parts = is_gltf ? gltf_parts(scene, tree) : std::vector<NodePart>();
+    if (parts.empty())
+        parts = assimp_parts(scene);
+
+    std::map<MeshList, std::uint32_t> number_of;
+    std::vector<const MeshList*> lists;
+    std::vector<Sizes> sizes;
+    std::uint64_t triangles = 0;
+    for (const NodePart& part : parts) {
+        const auto [entry, is_new] =
+            number_of.emplace(part.meshes, static_cast<std::uint32_t>(lists.size()));
+        if (is_new) {
+            lists.push_back(&entry->first);
+            sizes.push_back(sizes_of(scene, entry->first));
+        }
+        triangles += sizes[entry->second].triangles;
+    }
+    if (promised && triangles != *promised)
+        malformed("only " + std::to_string(triangles) + " of " + std::to_string(*promised) +
+                  " triangles could be read");
+
+    writer.begin(lists.size(), parts.size());
+    for (std::size_t i = 0; i < lists.size(); ++i)
+        write_mesh(scene, *lists[i], sizes[i], writer);
+    for (const NodePart& part : parts)
+        writer.part(part.world_from_node, number_of.at(part.meshes), part.id, part.name, part.type);
+    writer.end();
+}
+
+} // namespace abut

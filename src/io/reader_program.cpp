@@ -1,0 +1,136 @@
+#include "io/reader_program.h"
+
+#include <abut/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <unistd.h>
+
+namespace abut {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 8> kAssimpExtensions{".glb", ".gltf", ".obj", ".ply",
+                                                            ".stl", ".off",  ".fbx", ".dae"};
+
+std::string environment(const char* name) {
+    const char* const value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+bool is_program(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+}
+
+bool is_there(const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+fs::path running_program_folder() {
+    std::error_code ignored;
+    return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+std::string find_reader(const std::string& file) {
+    const std::string chosen = environment("ABUT_READER");
+    if (!chosen.empty()) {
+        if (is_program(chosen))
+            return chosen;
+        throw Error(ErrorCode::unsupported, file,
+                    "cannot be read: ABUT_READER names no program: " + chosen);
+    }
+    const fs::path here = running_program_folder();
+    for (const fs::path& candidate :
+         {here / "abut-reader", here.parent_path() / "libexec/abut/abut-reader",
+          fs::path(ABUT_INSTALLED_READER), fs::path(ABUT_BUILD_READER)})
+        if (is_program(candidate))
+            return candidate;
+    throw Error(ErrorCode::unsupported, file,
+                "cannot be read: the program abut-reader is missing (set ABUT_READER to its path)");
+}
+
+std::string find_node(const std::string& file, const fs::path& converter) {
+    const std::string chosen = environment("ABUT_NODE");
+    if (!chosen.empty()) {
+        if (is_program(chosen))
+            return chosen;
+        throw Error(ErrorCode::unsupported, file,
+                    "cannot be read: ABUT_NODE names no program: " + chosen);
+    }
+    const std::string path = environment("PATH");
+    for (const char* const name : {"node", "nodejs"}) {
+        for (std::size_t start = 0; start <= path.size();) {
+            const std::size_t end = std::min(path.find(':', start), path.size());
+            const fs::path candidate = fs::path(path.substr(start, end - start)) / name;
+            if (end > start && is_program(candidate))
+                return candidate;
+            start = end + 1;
+        }
+    }
+    throw Error(
+        ErrorCode::unsupported, file,
+        "IFC needs Node.js: install it with `apt-get install nodejs npm`, then `npm ci` in " +
+            converter.string());
+}
+
+fs::path find_converter(const std::string& file) {
+    const std::string chosen = environment("ABUT_IFC_CONVERTER");
+    if (!chosen.empty()) {
+        if (is_there(fs::path(chosen) / "convert.mjs"))
+            return chosen;
+        throw Error(ErrorCode::unsupported, file,
+                    "cannot be read: ABUT_IFC_CONVERTER names no folder with convert.mjs: " +
+                        chosen);
+    }
+    const std::array candidates{running_program_folder().parent_path() / "libexec/abut/ifc",
+                                fs::path(ABUT_INSTALLED_IFC), fs::path(ABUT_SOURCE_IFC)};
+    for (const fs::path& candidate : candidates)
+        if (is_there(candidate / "convert.mjs") && is_there(candidate / "node_modules/web-ifc"))
+            return candidate;
+    for (const fs::path& candidate : candidates)
+        if (is_there(candidate / "convert.mjs"))
+            return candidate;
+    throw Error(
+        ErrorCode::unsupported, file,
+        "cannot be read: the IFC converter is missing (set ABUT_IFC_CONVERTER to its folder)");
+}
+
+std::string lower_extension(const std::string& file) {
+    std::string extension = fs::path(file).extension();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+} // namespace
+
+std::vector<std::string> reader_command(const std::string& file, std::uint64_t memory_limit) {
+    const std::string extension = lower_extension(file);
+    const std::string parent = std::to_string(getpid());
+    if (extension == ".ifc") {
+        const fs::path converter = find_converter(file);
+        const std::string node = find_node(file, converter);
+        if (!is_there(converter / "node_modules/web-ifc"))
+            throw Error(ErrorCode::unsupported, file,
+                        "IFC needs web-ifc: run `npm ci` in " + converter.string());
+        // No limit of address space: Node.js reserves far more than it uses. run_child watches what
+        // it uses.
+        return {find_reader(file), parent, "0", "--exec", node, converter / "convert.mjs", file};
+    }
+    if (std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) ==
+        kAssimpExtensions.end())
+        throw Error(ErrorCode::unsupported, file,
+                    "no reader for " + (extension.empty() ? "files without extension" : extension) +
+                        " (known: .glb .gltf .obj .ply .stl .off .fbx .dae .ifc)");
+    return {find_reader(file), parent, std::to_string(memory_limit), "--read", file};
+}
+
+} // namespace abut

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+
+/// What a reader in a process of its own hands back. Written by `abut-reader` and by
+/// ifc/convert.mjs, decoded by decode_scene, which trusts none of it. Byte order is the machine's;
+/// nothing is aligned or padded.
+///
+///     header   char[8] magic "abutscn1"
+///              u32     status: 0 a scene follows; 1 + ErrorCode: an error follows
+///              u32     bytes of the error's text (0 for a scene)
+///              u64     meshes
+///              u64     parts
+///     error    the text: one line without the file's name
+///     mesh     u32 vertices | u32 triangles | u32 bytes of a coordinate, 4 or 8
+///              f32 or f64 [3 vertices] x y z … | u32[3 triangles] a b c …
+///     part     f64[12] world_from_mesh (see Transform) | u32 mesh | u32 id, u32 name, u32 type:
+///     bytes | the three texts end      char[8] "abut-end", and nothing after it
+///
+/// All meshes come before all parts. Positions are floats because that is what both readers
+/// deliver.
+namespace abut::scene_stream {
+
+inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '1'};
+inline constexpr char kEnd[8] = {'a', 'b', 'u', 't', '-', 'e', 'n', 'd'};
+
+struct Header {
+    char magic[8];
+    std::uint32_t status;
+    std::uint32_t text_size;
+    std::uint64_t meshes;
+    std::uint64_t parts;
+};
+static_assert(sizeof(Header) == 32);
+
+/// Written for an index that its primitive does not hold, so that it is out of range in the whole
+/// mesh too.
+inline constexpr std::uint32_t kBadIndex = 0xffffffff;
+
+/// The result is written to this descriptor.
+inline constexpr int kResultFile = 3;
+
+/// Exit status of a reader that ran out of memory. 0: the stream is complete, be it a scene or an
+/// error.
+inline constexpr int kOutOfMemory = 12;
+
+} // namespace abut::scene_stream
