@@ -1,0 +1,86 @@
+#include <abut/clash.h>
+
+#include "core/atomic_file.h"
+#include "massive/clash_text.h"
+
+#include <cmath>
+
+/// CSV as RFC 4180 has it: a header, CRLF, quotes where a cell needs them; UTF-8 without a
+/// byte-order mark.
+///
+/// A spreadsheet takes a cell that begins with = + - @ (or a tab or carriage return before them)
+/// for a formula, quoted or not, and the texts here come from files of others. Such a text gets an
+/// apostrophe in front, which spreadsheets take as "this is text". Numbers are ours and stay as
+/// they are. Programs that want the texts unaltered read the JSON report.
+namespace abut {
+
+namespace {
+
+constexpr std::string_view kHeader =
+    "id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,"
+    "point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,"
+    "direction_x,direction_y,direction_z,triangle_pairs,rule\r\n";
+
+/// Appends a comma and the text.
+void append_cell(TextBuffer& out, std::string_view raw) {
+    const std::string text = valid_utf8(raw);
+    const bool formula = text.find_first_of("=+-@\t\r\n") == 0;
+    const bool quoted = text.find_first_of("\",\r\n") != std::string::npos;
+    append(out, quoted ? ",\"" : ",");
+    if (formula)
+        out.push_back('\'');
+    for (const char c : text) {
+        if (c == '"')
+            out.push_back('"');
+        out.push_back(c);
+    }
+    if (quoted)
+        out.push_back('"');
+}
+
+/// Appends a comma and the number; a number that is not finite leaves its cell empty.
+void append_cell(TextBuffer& out, double value) {
+    out.push_back(',');
+    if (std::isfinite(value))
+        fmt::format_to(fmt::appender(out), "{}", value);
+}
+
+void append_cells(TextBuffer& out, const Vec3& point) {
+    append_cell(out, point.x);
+    append_cell(out, point.y);
+    append_cell(out, point.z);
+}
+
+void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& models) {
+    const Part& a = part_of(clash, 0, models);
+    const Part& b = part_of(clash, 1, models);
+    fmt::format_to(fmt::appender(out), "{:016x},{}", clash.id, to_string(clash.kind));
+    append_cell(out, a.id);
+    append_cell(out, b.id);
+    append_cell(out, a.name);
+    append_cell(out, b.name);
+    append_cell(out, a.type);
+    append_cell(out, b.type);
+    append_cell(out, models[clash.model[0]].file);
+    append_cell(out, models[clash.model[1]].file);
+    append_cell(out, clash.distance);
+    append_cells(out, clash.point_a);
+    append_cells(out, clash.point_b);
+    append_cells(out, clash.direction);
+    fmt::format_to(fmt::appender(out), ",{}", clash.triangle_pairs);
+    append_cell(out, clash.rule);
+    append(out, "\r\n");
+}
+
+} // namespace
+
+void write_clash_csv(const ClashReport& report, const std::vector<Scene>& models,
+                     const std::string& path) {
+    TextBuffer out;
+    append(out, kHeader);
+    for (const Clash& clash : report.clashes)
+        append_row(out, clash, models);
+    write_file_atomically(path, {out.data(), out.size()});
+}
+
+} // namespace abut

@@ -1,0 +1,155 @@
+// The report's columns, and what can be asked of them: an order, a filter, CSV. No DOM here but the data.
+
+const KINDS = ['hard', 'touch', 'contained', 'duplicate', 'clearance'];
+const ANY = -1;
+
+const dataElement = document.getElementById('data');
+const report = JSON.parse(dataElement.textContent);
+dataElement.remove(); // tens of megabytes of text that nothing needs any more
+const count = report.id.length;
+
+const typeOf = (part) => report.part_type[part];
+const fileOf = (part) => report.part_file[part];
+
+// ── order ───────────────────────────────────────────────────────────────────────────────────────────────
+
+const byCode = (a, b) => (a < b ? -1 : a > b ? 1 : 0);
+const byAlphabet = new Intl.Collator('en', { numeric: true }).compare; // "Beam 9" before "Beam 10"
+
+/** The place of each text among all in order; equal texts share a place. */
+function ranks(texts, compare) {
+  const order = Array.from(texts.keys()).sort((i, j) => compare(texts[i], texts[j]));
+  const rank = new Int32Array(texts.length);
+  for (let k = 1; k < order.length; ++k) {
+    const same = compare(texts[order[k - 1]], texts[order[k]]) === 0;
+    rank[order[k]] = same ? rank[order[k - 1]] : k;
+  }
+  return rank;
+}
+
+const once = (make) => {
+  let made;
+  return () => (made ??= make());
+};
+const nameRanks = once(() => ranks(report.part_name, byAlphabet));
+const typeRanks = once(() => ranks(report.types, byAlphabet));
+
+/** For each column, its sort keys as an array of numbers. */
+const SORT_KEYS = {
+  kind: once(() => Int32Array.from(report.kind)),
+  a_name: once(() => Int32Array.from(report.a, (part) => nameRanks()[part])),
+  a_type: once(() => Int32Array.from(report.a, (part) => typeRanks()[typeOf(part)])),
+  b_name: once(() => Int32Array.from(report.b, (part) => nameRanks()[part])),
+  b_type: once(() => Int32Array.from(report.b, (part) => typeRanks()[typeOf(part)])),
+  distance: once(() => Float64Array.from(report.distance, (value) => value ?? Infinity)),
+  triangle_pairs: once(() => Float64Array.from(report.triangle_pairs)),
+  id: once(() => ranks(report.id, byCode)),
+};
+
+/** All clashes in the order of a column; of those that tie the deepest first, then in the report's order. */
+function sortedBy(column, descending) {
+  const keys = SORT_KEYS[column]();
+  const depths = SORT_KEYS.distance();
+  const sign = descending ? -1 : 1;
+  const compare = (i, j) => {
+    if (keys[i] !== keys[j])
+      return keys[i] < keys[j] ? -sign : sign;
+    if (depths[i] !== depths[j])
+      return depths[i] < depths[j] ? -1 : 1;
+    return i - j;
+  };
+  return Uint32Array.from({ length: count }, (_, i) => i).sort(compare);
+}
+
+// ── filter ──────────────────────────────────────────────────────────────────────────────────────────────
+
+const partTexts = once(() =>
+  report.part_id.map((id, part) => `${id}\n${report.part_name[part]}`.toLowerCase()));
+
+/** A test whether every word occurs in a part of the clash or in its id; null if there is no word. */
+function textTest(query) {
+  const words = query.toLowerCase().split(/\s+/).filter(Boolean);
+  if (words.length === 0)
+    return null;
+  const hits = words.map((word) => Uint8Array.from(partTexts(), (text) => text.includes(word)));
+  return (i) => words.every((word, w) =>
+    hits[w][report.a[i]] || hits[w][report.b[i]] || report.id[i].includes(word));
+}
+
+/** A test whether a clash has both properties, one at each side in either order; null if both are ANY. */
+function sidesTest(first, second, property) {
+  if (first === ANY && second === ANY)
+    return null;
+  const is = (wanted, value) => wanted === ANY || wanted === value;
+  return (i) => {
+    const a = property(report.a[i]);
+    const b = property(report.b[i]);
+    return (is(first, a) && is(second, b)) || (is(first, b) && is(second, a));
+  };
+}
+
+/** A test whether the distance in metres lies within the bounds; null if there are none. */
+function distanceTest(min, max) {
+  if (min === null && max === null)
+    return null;
+  // 0.1 mm typed must match 0.0001 m computed: the bounds allow for the rounding of the unit.
+  const slack = (bound) => Math.abs(bound) * 1e-12;
+  const lower = min === null ? -Infinity : min - slack(min);
+  const upper = max === null ? Infinity : max + slack(max);
+  return (i) => report.distance[i] !== null && report.distance[i] >= lower && report.distance[i] <= upper;
+}
+
+/**
+ * The clashes of `order` that pass the filter, and by kind how many pass all of it but the kind.
+ * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, min, max}
+ */
+function filtered(order, filter) {
+  const tests = [
+    distanceTest(filter.min, filter.max),
+    sidesTest(filter.type, filter.type2, typeOf),
+    sidesTest(filter.file, filter.file2, fileOf),
+    filter.rule === ANY ? null : (i) => report.rule[i] === filter.rule,
+    textTest(filter.query),
+  ].filter(Boolean);
+  const byKind = new Array(KINDS.length).fill(0);
+  const rows = new Uint32Array(order.length);
+  let passed = 0;
+  for (const i of order) {
+    if (!tests.every((test) => test(i)))
+      continue;
+    ++byKind[report.kind[i]];
+    if (filter.kinds.has(report.kind[i]))
+      rows[passed++] = i;
+  }
+  return { rows: rows.subarray(0, passed), byKind };
+}
+
+// ── CSV ─────────────────────────────────────────────────────────────────────────────────────────────────
+
+/** A text cell. What a spreadsheet would take for a formula gets an apostrophe in front. */
+function csvText(text) {
+  const safe = /^[=+\-@\t\r\n]/.test(text) ? `'${text}` : text;
+  return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+}
+
+/** The same columns as the CSV that the command writes. */
+function toCsv(rows) {
+  const number = (value) => value ?? '';
+  const lines = ['id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,' +
+    'point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,' +
+    'direction_x,direction_y,direction_z,triangle_pairs,rule'];
+  for (const i of rows) {
+    const sides = [report.a[i], report.b[i]];
+    lines.push([
+      report.id[i], KINDS[report.kind[i]],
+      ...sides.map((part) => csvText(report.part_id[part])),
+      ...sides.map((part) => csvText(report.part_name[part])),
+      ...sides.map((part) => csvText(report.types[typeOf(part)])),
+      ...sides.map((part) => csvText(report.files[fileOf(part)])),
+      number(report.distance[i]),
+      ...report.point_a[i].map(number), ...report.point_b[i].map(number), ...report.direction[i].map(number),
+      report.triangle_pairs[i], csvText(report.rules[report.rule[i]]),
+    ].join(','));
+  }
+  return lines.join('\r\n') + '\r\n';
+}

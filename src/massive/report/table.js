@@ -1,0 +1,249 @@
+// The table. Only the rows in view exist: two spacers stand for those above and below, so that a report of
+// 100,000 clashes scrolls like one of ten.
+
+const wholeNumber = new Intl.NumberFormat('en');
+const MINUS = '\u2212';
+const signed = (value, digits) => value.toFixed(digits).replace('-', MINUS);
+const millimetres = (metres) => (metres === null ? '' : metres === 0 ? '0' : signed(metres * 1000, 2));
+const orNoName = (text) => text || '(no name)';
+
+const COLUMNS = [
+  { key: 'kind', title: 'Kind', width: '104px', text: (i) => KINDS[report.kind[i]] },
+  { key: 'a_name', title: 'A', width: '', cut: true, text: (i) => orNoName(report.part_name[report.a[i]]) },
+  { key: 'a_type', title: 'A type', width: '16%', text: (i) => report.types[typeOf(report.a[i])] },
+  { key: 'b_name', title: 'B', width: '', cut: true, text: (i) => orNoName(report.part_name[report.b[i]]) },
+  { key: 'b_type', title: 'B type', width: '16%', text: (i) => report.types[typeOf(report.b[i])] },
+  { key: 'distance', title: 'Distance, mm', width: '118px', num: true, text: (i) => millimetres(report.distance[i]) },
+  { key: 'triangle_pairs', title: 'Tri. pairs', hint: 'Intersecting triangle pairs', width: '98px', num: true,
+    text: (i) => wholeNumber.format(report.triangle_pairs[i]) },
+  { key: 'id', title: 'Clash id', width: '152px', mono: true, wideOnly: true, text: (i) => report.id[i] },
+];
+
+// Browsers cap the height of an element (Firefox at 17.8 million pixels): rows beyond are not shown, and the
+// count says so.
+const MOST_ROWS = 500_000;
+const MOST_PRINTED = 2_000;
+const OVERSCAN = 12;
+const CUT_TAIL = 7;
+
+/** make('p', {className: 'soft'}, 'text', child): an element. Text never becomes markup. */
+function make(tag, properties = {}, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children.filter((child) => child !== null));
+  return element;
+}
+
+class ClashTable {
+  /** onSort(column key), onOpen(clash or null) */
+  constructor({ onSort, onOpen }) {
+    this.viewport = document.getElementById('viewport');
+    this.table = document.getElementById('clashes');
+    this.body = document.getElementById('rows');
+    this.above = document.querySelector('#above td');
+    this.below = document.querySelector('#below td');
+    this.rows = new Uint32Array(0);
+    this.active = 0; // place in rows that the keyboard is at
+    this.opened = null; // clash shown in the detail
+    this.pool = [];
+    this.printing = false;
+    this.onOpen = onOpen;
+    this.makeHead(onSort);
+    this.rowHeight = parseInt(getComputedStyle(document.documentElement).getPropertyValue('--row'), 10);
+
+    this.viewport.addEventListener('scroll', () => this.render(), { passive: true });
+    new ResizeObserver(() => this.render()).observe(this.viewport);
+    this.body.addEventListener('click', (event) => {
+      const row = event.target.closest('tr');
+      if (row && getSelection().isCollapsed) // a click that ends a text selection opens nothing
+        this.open(Number(row.dataset.place));
+    });
+    this.table.addEventListener('keydown', (event) => this.key(event));
+    addEventListener('beforeprint', () => this.print(true));
+    addEventListener('afterprint', () => this.print(false));
+  }
+
+  makeHead(onSort) {
+    const columns = document.getElementById('columns');
+    const heads = document.getElementById('heads');
+    for (const column of COLUMNS) {
+      const col = columns.appendChild(document.createElement('col'));
+      col.style.width = column.width;
+      col.dataset.key = column.key;
+      const head = heads.appendChild(document.createElement('th'));
+      head.scope = 'col';
+      head.dataset.key = column.key;
+      const button = head.appendChild(document.createElement('button'));
+      button.type = 'button';
+      button.textContent = column.title;
+      button.title = column.hint ?? '';
+      button.addEventListener('click', () => onSort(column.key));
+      for (const element of [col, head])
+        element.className = this.classOf(column);
+    }
+    this.table.setAttribute('aria-colcount', COLUMNS.length);
+  }
+
+  classOf(column) {
+    return [column.num && 'num', column.mono && 'mono soft', column.wideOnly && 'narrow-hidden'].filter(Boolean).join(' ');
+  }
+
+  /** Shows these clashes. The scroll position stays only if the caller says that the rows are the same. */
+  show(rows, sort, keepScroll) {
+    this.rows = rows.subarray(0, MOST_ROWS);
+    for (const head of document.querySelectorAll('#heads th')) {
+      const is = head.dataset.key === sort.key;
+      head.setAttribute('aria-sort', is ? (sort.descending ? 'descending' : 'ascending') : 'none');
+    }
+    this.table.setAttribute('aria-rowcount', this.rows.length + 1);
+    const at = this.opened === null ? -1 : this.rows.indexOf(this.opened);
+    this.active = Math.max(at, 0);
+    if (!keepScroll)
+      this.viewport.scrollTop = 0;
+    this.render();
+  }
+
+  render() {
+    const height = this.rowHeight;
+    let first = 0;
+    let end = Math.min(this.rows.length, MOST_PRINTED);
+    if (!this.printing) {
+      const top = this.viewport.scrollTop;
+      first = Math.max(0, Math.min(Math.floor(top / height) - OVERSCAN, this.rows.length));
+      // An even place above keeps a row's element when the window moves by one or two rows.
+      first -= first % 2;
+      end = Math.min(this.rows.length, Math.ceil((top + this.viewport.clientHeight) / height) + OVERSCAN);
+    }
+    this.above.style.height = `${first * height}px`;
+    this.below.style.height = this.printing ? '0' : `${(this.rows.length - end) * height}px`;
+    for (let place = first; place < end; ++place)
+      this.fill(this.rowElement(place - first), place);
+    while (this.body.children.length > end - first)
+      this.body.lastChild.remove();
+    this.markActive();
+  }
+
+  rowElement(k) {
+    if (k >= this.pool.length) {
+      const row = document.createElement('tr');
+      for (const column of COLUMNS) {
+        const cell = row.appendChild(document.createElement('td'));
+        cell.className = this.classOf(column);
+        if (column.key === 'kind')
+          cell.append(make('span', { className: 'mark' }));
+        if (column.cut)
+          cell.append(make('div', { className: 'cut' }, make('span'), make('span')));
+      }
+      this.pool.push(row);
+    }
+    const row = this.pool[k];
+    if (row.parentNode !== this.body)
+      this.body.appendChild(row);
+    return row;
+  }
+
+  fill(row, place) {
+    const clash = this.rows[place];
+    row.dataset.place = place;
+    row.id = `row-${place}`;
+    row.classList.toggle('open', clash === this.opened);
+    row.classList.toggle('active', place === this.active);
+    row.setAttribute('aria-rowindex', place + 2); // the head is row 1
+    row.setAttribute('aria-selected', clash === this.opened);
+    if (Number(row.dataset.clash ?? -1) === clash)
+      return;
+    row.dataset.clash = clash;
+    COLUMNS.forEach((column, c) => {
+      const cell = row.cells[c];
+      const text = column.text(clash);
+      if (column.key === 'kind') {
+        cell.firstChild.textContent = text;
+        cell.firstChild.className = `mark ${text}`;
+      } else {
+        if (column.cut)
+          this.fillCut(cell.firstChild, text);
+        else
+          cell.textContent = text;
+        if (!column.num)
+          cell.title = text;
+      }
+    });
+  }
+
+  /** A name that does not fit is cut before its last characters: they are what tells instances apart. */
+  fillCut(box, name) {
+    const text = name.replace(/\s+/g, ' ');
+    let at = text.length > 2 * CUT_TAIL ? text.length - CUT_TAIL : text.length;
+    if (/[\uDC00-\uDFFF]/.test(text[at] ?? '')) // not between the halves of a character
+      --at;
+    box.firstChild.textContent = text.slice(0, at);
+    box.lastChild.textContent = text.slice(at);
+  }
+
+  markActive() {
+    if (document.getElementById(`row-${this.active}`))
+      this.table.setAttribute('aria-activedescendant', `row-${this.active}`);
+    else
+      this.table.removeAttribute('aria-activedescendant');
+  }
+
+  scrollToActive() {
+    const head = document.querySelector('.clashes thead').offsetHeight;
+    const top = this.active * this.rowHeight;
+    const visible = this.viewport.clientHeight - head;
+    if (top < this.viewport.scrollTop)
+      this.viewport.scrollTop = top;
+    else if (top + this.rowHeight > this.viewport.scrollTop + visible)
+      this.viewport.scrollTop = top + this.rowHeight - visible;
+    this.render();
+  }
+
+  moveTo(place) {
+    if (this.rows.length === 0)
+      return;
+    this.active = Math.max(0, Math.min(place, this.rows.length - 1));
+    this.scrollToActive();
+    if (this.opened !== null) // the detail follows the keyboard
+      this.open(this.active);
+  }
+
+  open(place) {
+    this.active = place;
+    this.setOpened(this.rows[place]);
+    this.onOpen(this.opened);
+  }
+
+  /** Marks a clash as the one in the detail, and scrolls to it; null: none. */
+  setOpened(clash) {
+    this.opened = clash;
+    const place = clash === null ? -1 : this.rows.indexOf(clash);
+    if (place >= 0) {
+      this.active = place;
+      this.scrollToActive();
+    } else {
+      this.render();
+    }
+  }
+
+  key(event) {
+    if (event.target !== this.table || event.ctrlKey || event.altKey || event.metaKey)
+      return;
+    const page = Math.max(1, Math.floor(this.viewport.clientHeight / this.rowHeight) - 2);
+    const moves = {
+      ArrowDown: this.active + 1, ArrowUp: this.active - 1, PageDown: this.active + page,
+      PageUp: this.active - page, Home: 0, End: this.rows.length - 1,
+    };
+    if (event.key in moves)
+      this.moveTo(moves[event.key]);
+    else if ((event.key === 'Enter' || event.key === ' ') && this.rows.length > 0)
+      this.open(this.active);
+    else
+      return;
+    event.preventDefault();
+  }
+
+  print(on) {
+    this.printing = on;
+    document.getElementById('cut').hidden = !on || this.rows.length <= MOST_PRINTED;
+    this.render();
+  }
+}
