@@ -129,11 +129,14 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
         ->check(not_negative());
     app->add_flag("--self", arguments->options.self,
                   "With several models: also the pairs within each");
-    app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)");
-    app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv");
+    app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")
+        ->check(not_empty("FILE"));
+    app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv")
+        ->check(not_empty("FOLDER"));
     app->add_option("--fail-on", arguments->fail_on,
                     "Exit with status 1 if there is one of these kinds: hard, touch, contained, "
-                    "duplicate, clearance (comma-separated), or any");
+                    "duplicate, clearance (comma-separated), or any")
+        ->check(not_empty("KINDS"));
     add_unit_option(*app, arguments->unit);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

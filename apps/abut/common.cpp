@@ -67,6 +67,12 @@ std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
+CLI::Validator not_empty(const std::string& type_name) {
+    return CLI::Validator(
+        [](std::string& text) { return text.empty() ? std::string("must not be empty") : ""; },
+        type_name);
+}
+
 CLI::Validator not_negative() {
     return number_check([](double value) { return value >= 0; }, "a finite number of at least 0");
 }
@@ -99,9 +105,12 @@ std::vector<std::string> parse_words(const std::string& option, const std::strin
         begin = comma + 1;
     }
     for (const std::string& word : words)
-        if (std::find(known.begin(), known.end(), word) == known.end())
-            throw Error(ErrorCode::bad_argument, fmt::format("{}: unknown word '{}'; known: {}",
-                                                             option, word, fmt::join(known, ", ")));
+        if (std::find(known.begin(), known.end(), word) == known.end()) {
+            std::string message = fmt::format("{}: unknown word '{}'; known:", option, word);
+            for (const std::string& each : known)
+                message += " " + each;
+            throw Error(ErrorCode::bad_argument, message);
+        }
     return words;
 }
 

@@ -45,8 +45,8 @@ void add_unit_option(CLI::App& app, double& unit);
 /// The whole text as one finite number.
 std::optional<double> parse_number(std::string_view text);
 
-/// Checks for options: a finite number of at least 0, a finite number above 0, a whole number in a
-/// range.
+/// Checks for options: text; a finite number of at least 0; one above 0; a whole number in a range.
+CLI::Validator not_empty(const std::string& type_name);
 CLI::Validator not_negative();
 CLI::Validator positive();
 CLI::Validator whole_number(std::uint64_t lowest, std::uint64_t highest);

@@ -48,6 +48,12 @@ int main(int argc, char** argv) {
     const std::array commands{add_info(root, common),     add_collide(root, common),
                               add_distance(root, common), add_within(root, common),
                               add_clash(root, common),    add_scene(root, common)};
+    const bool known = std::any_of(commands.begin(), commands.end(), [&](const Subcommand& c) {
+        return argc > 1 && c.app->get_name() == argv[1];
+    });
+    if (argc > 1 && argv[1][0] != '-' && !known)
+        return fail(kExitBadInput,
+                    fmt::format("unknown subcommand '{}' (see abut --help)", argv[1]));
     try {
         root.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -32,6 +32,10 @@ void ProgressBar::show(std::string_view stage, double fraction) {
         stage_ = stage;
         stage_start_ = now;
         last_shown_ = {};
+        if (style_ == Style::lines) {
+            fmt::print(stderr, "{:<8}", stage_); // the line is ended with the stage
+            std::fflush(stderr);
+        }
     }
     if (style_ != Style::bar || (fraction < 1 && now - last_shown_ < kRedraw))
         return;
@@ -54,7 +58,7 @@ void ProgressBar::end_stage() {
     if (style_ == Style::bar)
         fmt::print(stderr, "\r\x1b[K");
     else
-        fmt::print(stderr, "{:<8} {:8.2f} s\n", stage_,
+        fmt::print(stderr, " {:8.2f} s\n",
                    std::chrono::duration<double>(Clock::now() - stage_start_).count());
     std::fflush(stderr);
 }

@@ -15,8 +15,10 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
     app.add_option("A", options.files[0], "First model")->required();
     app.add_option("B", options.files[1], "Second model")->required();
     constexpr const char* kForm = "translation and quaternion x,y,z,qw,qx,qy,qz (default: none)";
-    app.add_option("--pose-a", options.poses[0], fmt::format("Pose of A: {}", kForm));
-    app.add_option("--pose-b", options.poses[1], fmt::format("Pose of B: {}", kForm));
+    app.add_option("--pose-a", options.poses[0], fmt::format("Pose of A: {}", kForm))
+        ->check(not_empty("POSE"));
+    app.add_option("--pose-b", options.poses[1], fmt::format("Pose of B: {}", kForm))
+        ->check(not_empty("POSE"));
     add_unit_option(app, options.unit);
 }
 
