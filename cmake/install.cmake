@@ -1,6 +1,6 @@
 # find_package(Abut) after `cmake --install`.
 include(CMakePackageConfigHelpers)
-install(TARGETS abut abut_compile EXPORT AbutTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS abut EXPORT AbutTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS abut_command DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS abut_reader DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut)
 install(FILES src/io/ifc/convert.mjs src/io/ifc/package.json src/io/ifc/package-lock.json

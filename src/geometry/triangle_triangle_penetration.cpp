@@ -13,7 +13,8 @@ TriangleSeparation triangle_triangle_penetration(const Triangle& a, const Triang
         if (n == Vec3{})
             return;
         const auto project = [&](const Triangle& t) {
-            return std::minmax({dot(n, t[0] - origin), dot(n, t[1] - origin), dot(n, t[2] - origin)});
+            return std::minmax(
+                {dot(n, t[0] - origin), dot(n, t[1] - origin), dot(n, t[2] - origin)});
         };
         const auto [a_low, a_high] = project(a);
         const auto [b_low, b_high] = project(b);

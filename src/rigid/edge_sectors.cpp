@@ -12,7 +12,8 @@ void EdgeSectors::add(const Ray& ray) {
         rays_.push_back(ray);
 }
 
-/// 0: with the first ray; 1: less than half a turn counter-clockwise from it; 2: opposite; 3: beyond.
+/// 0: with the first ray; 1: less than half a turn counter-clockwise from it; 2: opposite; 3:
+/// beyond.
 int EdgeSectors::half_turn(const Vec3& apex) const {
     const Vec3& first = rays_.front().apex;
     const int side = orient3d(e0_, e1_, first, apex);
@@ -73,7 +74,8 @@ bool EdgeSectors::enters(bool of_a) const {
     for (std::size_t i = 0; i < rays_.size(); ++i)
         if (rays_[i].of_a != of_a)
             walls.push_back(i);
-    // Exactly one wedge of the solid, its faces turned consistently: else the sector's side is not known.
+    // Exactly one wedge of the solid, its faces turned consistently: else the sector's side is not
+    // known.
     if (walls.size() != 2 || rays_[walls[0]].outward == 0 ||
         rays_[walls[0]].outward != -rays_[walls[1]].outward || angle_[walls[0]] == angle_[walls[1]])
         return false;

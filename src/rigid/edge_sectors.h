@@ -8,19 +8,21 @@ namespace abut {
 
 /// Faces of two models around a common line, as rays in the plane across it: who lies between whom.
 ///
-///            a  b           Looking along the line from e0 to e1, faces are rays; their angular order is decided by
+///            a  b           Looking along the line from e0 to e1, faces are rays; their angular
+///            order is decided by
 ///             \ |           orientation signs of the stored vertices, so exactly.
 ///      a ------ o
-///               |           Here the faces of b alternate with those of a: the surfaces pass through each other.
+///               |           Here the faces of b alternate with those of a: the surfaces pass
+///               through each other.
 ///               b
 class EdgeSectors {
-  public:
+public:
     /// A face around the line: its third vertex.
     struct Ray {
         Vec3 apex;
         bool of_a;
-        int outward; ///< +1: the face's outer side is the one that (e0, e1, apex) turns counter-clockwise to; -1: the
-                     ///< other one; 0: not known
+        int outward; ///< +1: the face's outer side is the one that (e0, e1, apex) turns
+                     ///< counter-clockwise to; -1: the other one; 0: not known
     };
 
     EdgeSectors(const Vec3& e0, const Vec3& e1) : e0_(e0), e1_(e1) {}
@@ -28,10 +30,11 @@ class EdgeSectors {
     /// Rays along the line itself (degenerate faces) are dropped.
     void add(const Ray& ray);
 
-    /// Whether the surfaces pass through each other here, or one enters the other's interior. Exact.
+    /// Whether the surfaces pass through each other here, or one enters the other's interior.
+    /// Exact.
     [[nodiscard]] bool interpenetrate(bool a_is_solid, bool b_is_solid);
 
-  private:
+private:
     [[nodiscard]] int half_turn(const Vec3& apex) const;
     [[nodiscard]] bool before(const Ray& r, const Ray& s) const;
     void sort();

@@ -16,7 +16,7 @@ enum class Run : std::uint8_t { none, inside, along_edge };
 
 struct EdgeRun {
     Run kind = Run::none;
-    std::size_t edge = 0;       ///< of the triangle, if along_edge: from this vertex to the next
+    std::size_t edge = 0; ///< of the triangle, if along_edge: from this vertex to the next
     std::size_t left = 0, right = 0; ///< vertices on either side, if inside
 };
 
@@ -36,10 +36,12 @@ EdgeRun edge_run(const Vec3& e0, const Vec3& e1, const Triangle& t, int axis) {
         const bool overlap = std::max(e_low, t_low) < std::min(e_high, t_high);
         return {overlap ? Run::along_edge : Run::none, i, 0, 0};
     }
-    const auto left = std::find(side.begin(), side.end(), 1), right = std::find(side.begin(), side.end(), -1);
+    const auto left = std::find(side.begin(), side.end(), 1),
+               right = std::find(side.begin(), side.end(), -1);
     if (left == side.end() || right == side.end())
         return {};
-    // The line cuts the triangle. The edge misses its interior if an edge of the triangle has both ends outside.
+    // The line cuts the triangle. The edge misses its interior if an edge of the triangle has both
+    // ends outside.
     const int winding = orient2d(t[0], t[1], t[2], axis);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &p = t[i], &q = t[(i + 1) % 3];
@@ -51,13 +53,14 @@ EdgeRun edge_run(const Vec3& e0, const Vec3& e1, const Triangle& t, int axis) {
 }
 
 /// The faces of a model around one of its triangles' edges, as rays around the line e0 e1.
-void add_edge_rays(const PlacedSolid& model, std::uint32_t triangle, std::size_t edge, const Vec3& e0,
-                   const Vec3& e1, bool of_a, EdgeSectors& sectors) {
+void add_edge_rays(const PlacedSolid& model, std::uint32_t triangle, std::size_t edge,
+                   const Vec3& e0, const Vec3& e1, bool of_a, EdgeSectors& sectors) {
     const auto& t = model.model().mesh().triangles[triangle];
     const Topology& topology = model.solid().topology;
     const int k = e0.x != e1.x ? 0 : e0.y != e1.y ? 1 : 2;
     const bool up = component(e0, k) < component(e1, k);
-    for (const HalfEdge& h : topology.edge(topology.vertex_of[t[edge]], topology.vertex_of[t[(edge + 1) % 3]])) {
+    for (const HalfEdge& h :
+         topology.edge(topology.vertex_of[t[edge]], topology.vertex_of[t[(edge + 1) % 3]])) {
         const bool h_up =
             component(model.world_vertex(h.from), k) < component(model.world_vertex(h.to), k);
         sectors.add({model.world_vertex(h.apex), of_a, model.outward() * (h_up == up ? 1 : -1)});
@@ -65,8 +68,8 @@ void add_edge_rays(const PlacedSolid& model, std::uint32_t triangle, std::size_t
 }
 
 /// Edges of `first`'s triangle that run along the triangle of `second`.
-bool sectors_overlap(const PlacedSolid& first, std::uint32_t i, const PlacedSolid& second, std::uint32_t j,
-                     bool first_is_a) {
+bool sectors_overlap(const PlacedSolid& first, std::uint32_t i, const PlacedSolid& second,
+                     std::uint32_t j, bool first_is_a) {
     const Triangle s = first.world_triangle(i), t = second.world_triangle(j);
     const int axis = projection_axis(t);
     if (axis < 0)
@@ -83,7 +86,8 @@ bool sectors_overlap(const PlacedSolid& first, std::uint32_t i, const PlacedSoli
         if (run.kind == Run::along_edge) {
             add_edge_rays(second, j, run.edge, e0, e1, !first_is_a, sectors);
         } else {
-            // (e0, e1, left) turns as the projection's positive sense does, (e0, e1, right) against it.
+            // (e0, e1, left) turns as the projection's positive sense does, (e0, e1, right) against
+            // it.
             const int turn = second.outward() * orient2d(t[0], t[1], t[2], axis);
             sectors.add({t[run.left], !first_is_a, turn});
             sectors.add({t[run.right], !first_is_a, -turn});
@@ -95,7 +99,8 @@ bool sectors_overlap(const PlacedSolid& first, std::uint32_t i, const PlacedSoli
     return false;
 }
 
-/// A vertex or a middle of the triangles in contact, or another component, strictly inside the solid.
+/// A vertex or a middle of the triangles in contact, or another component, strictly inside the
+/// solid.
 bool reaches_inside(const PlacedSolid& surface, std::vector<std::uint32_t> triangles,
                     const PlacedSolid& solid) {
     if (!solid.solid().solid)
@@ -117,7 +122,8 @@ bool reaches_inside(const PlacedSolid& surface, std::vector<std::uint32_t> trian
         const Triangle t = surface.world_triangle(i);
         const Vec3 middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
         // The middle is rounded: it must be farther inside than that.
-        const double rounding = 16 * 0x1p-53 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z));
+        const double rounding =
+            16 * 0x1p-53 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z));
         if (solid.contains(middle) && !(solid.nearest(middle, 2 * rounding).distance <= rounding))
             return true;
     }

@@ -4,9 +4,8 @@
 #include "geometry/triangle_triangle_penetration.h"
 #include "tree/traverse_one.h"
 
-#include <boost/container/static_vector.hpp>
-
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <queue>
 
 namespace abut {
@@ -25,8 +24,9 @@ struct Piece {
 
 /// Searches the point of one surface that lies deepest in a solid.
 class DeepestPoint {
-  public:
-    DeepestPoint(const PlacedSolid& surface, const PlacedSolid& solid) : surface_(surface), solid_(solid) {}
+public:
+    DeepestPoint(const PlacedSolid& surface, const PlacedSolid& solid)
+        : surface_(surface), solid_(solid) {}
 
     void search(const PenetrationOptions& options) {
         seed();
@@ -47,7 +47,7 @@ class DeepestPoint {
     double depth = 0, at_most = 0;
     Vec3 on_surface, on_solid;
 
-  private:
+private:
     using Polygon = boost::container::static_vector<Vec3, 9>;
 
     /// The triangles that may reach into the solid's box, cut to it.
@@ -61,7 +61,8 @@ class DeepestPoint {
                 polygon.push_back(apply(solid_.tree_from_world(), p));
             clip(polygon, box);
             for (std::size_t i = 2; i < polygon.size(); ++i)
-                evaluate({apply(world_from_tree, polygon[0]), apply(world_from_tree, polygon[i - 1]),
+                evaluate({apply(world_from_tree, polygon[0]),
+                          apply(world_from_tree, polygon[i - 1]),
                           apply(world_from_tree, polygon[i])},
                          nullptr);
         }
@@ -110,7 +111,8 @@ class DeepestPoint {
         const PlacedSolid::Nearest nearest = solid_.nearest(middle, bound);
         if (nearest.distance + radius <= depth)
             return;
-        // Between two points nearer to each other than to the surface, nothing changes from inside to outside.
+        // Between two points nearer to each other than to the surface, nothing changes from inside
+        // to outside.
         const bool inside = parent != nullptr && moved < parent->middle_distance
                                 ? parent->middle_inside
                                 : solid_.contains(middle);
@@ -135,7 +137,8 @@ class DeepestPoint {
     std::priority_queue<Piece> pieces_;
 };
 
-LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts) {
+LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b,
+                                  std::span<const Contact> contacts) {
     LocalPenetration best;
     for (const Contact& c : contacts) {
         if (c.kind != TriangleContact::cross)
@@ -152,7 +155,8 @@ LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b, st
 
 } // namespace
 
-LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts,
+LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
+                                   std::span<const Contact> contacts,
                                    const PenetrationOptions& options) {
     if (!a.solid().solid && !b.solid().solid)
         return deepest_crossing(a, b, contacts);

@@ -16,7 +16,8 @@ struct LocalPenetration {
 };
 
 struct PenetrationOptions {
-    /// The comparison that matters: the search goes on until the depth is known to be above it or not.
+    /// The comparison that matters: the search goes on until the depth is known to be above it or
+    /// not.
     double threshold = 0;
     /// Relative width that [depth, at_most] should have.
     double relative_accuracy = 0.01;
@@ -26,15 +27,18 @@ struct PenetrationOptions {
 
 /// Local penetration depth.
 ///
-/// With a solid: the largest distance from a point of the other's surface inside the solid to the solid's surface (of
-/// two solids, the larger of both ways). Between open surfaces: the largest, over the crossing triangle pairs, of the
-/// shortest translation that separates the two triangles.
+/// With a solid: the largest distance from a point of the other's surface inside the solid to the
+/// solid's surface (of two solids, the larger of both ways). Between open surfaces: the largest,
+/// over the crossing triangle pairs, of the shortest translation that separates the two triangles.
 ///
-/// Accuracy    `depth` is reached at point_a and point_b to rounding; [depth, at_most] encloses the true value for
+/// Accuracy    `depth` is reached at point_a and point_b to rounding; [depth, at_most] encloses the
+/// true value for
 ///             solids; for open surfaces it is the definition.
-/// Source      branch and bound; the bound over a piece is the largest distance of its corners to one triangle of
+/// Source      branch and bound; the bound over a piece is the largest distance of its corners to
+/// one triangle of
 ///             the solid (distance to a convex set is convex).
-LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts,
+LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
+                                   std::span<const Contact> contacts,
                                    const PenetrationOptions& options);
 
 } // namespace abut

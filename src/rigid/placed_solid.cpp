@@ -18,7 +18,8 @@ std::array<float, 3> to_float(const Vec3& p) {
 
 /// Directions with no special relation to each other or to any axis; which one is tried k-th.
 Vec3 ray_direction(std::uint32_t k) {
-    const double u = 0.7548776662466927 * (k + 1), v = 0.5698402909980532 * (k + 1); // plastic number
+    const double u = 0.7548776662466927 * (k + 1),
+                 v = 0.5698402909980532 * (k + 1); // plastic number
     const double z = 2 * (u - std::floor(u)) - 1, angle = 6.283185307179586 * (v - std::floor(v));
     const double r = std::sqrt(1 - z * z);
     return {r * std::cos(angle), r * std::sin(angle), z};
@@ -26,7 +27,8 @@ Vec3 ray_direction(std::uint32_t k) {
 
 } // namespace
 
-PlacedSolid::PlacedSolid(const ModelData& model, const Solid& solid, const Transform& world_from_model)
+PlacedSolid::PlacedSolid(const ModelData& model, const Solid& solid,
+                         const Transform& world_from_model)
     : model_(model), solid_(solid), world_(world_from_model) {
     world_from_tree_ = compose(world_from_model, model.model_from_tree());
     tree_from_world_ = inverse(world_from_tree_);
@@ -60,10 +62,12 @@ std::vector<std::uint32_t> PlacedSolid::slots_near(const PlacedSolid& other) con
     const Aabb& b = other.model_.tree().bounds;
     Box3 box;
     for (unsigned corner = 0; corner < 8; ++corner)
-        extend(box, apply(here, {(corner & 1U ? b.upper : b.lower)[0], (corner & 2U ? b.upper : b.lower)[1],
+        extend(box, apply(here, {(corner & 1U ? b.upper : b.lower)[0],
+                                 (corner & 2U ? b.upper : b.lower)[1],
                                  (corner & 4U ? b.upper : b.lower)[2]}));
     std::vector<std::uint32_t> slots;
-    for_each_overlap(model_.tree(), Aabb(box, margin_), [&](std::uint32_t slot) { slots.push_back(slot); });
+    for_each_overlap(model_.tree(), Aabb(box, margin_),
+                     [&](std::uint32_t slot) { slots.push_back(slot); });
     return slots;
 }
 
@@ -75,7 +79,8 @@ bool PlacedSolid::odd_crossings(const Vec3& from, const Vec3& to, bool& clear) c
     clear = true;
     for_each_on_segment(model_.tree(), segment, [&](std::uint32_t slot) {
         const Triangle t = model_.world_triangle(slot, world_);
-        const int side_from = orient3d(t[0], t[1], t[2], from), side_to = orient3d(t[0], t[1], t[2], to);
+        const int side_from = orient3d(t[0], t[1], t[2], from),
+                  side_to = orient3d(t[0], t[1], t[2], to);
         if (side_from * side_to > 0)
             return;
         const int u = orient3d(from, to, t[0], t[1]), v = orient3d(from, to, t[1], t[2]),
@@ -127,8 +132,8 @@ PlacedSolid::Nearest PlacedSolid::nearest(const Vec3& point, double bound) const
         const double d = std::sqrt(best_sq) / least_stretch_;
         return round_up(d * d * (1 + 0x1p-20));
     };
-    for_each_near(model_.tree(), to_float(apply(tree_from_world_, point)), static_cast<float>(margin_),
-                  tree_bound_sq(), [&](std::uint32_t slot) {
+    for_each_near(model_.tree(), to_float(apply(tree_from_world_, point)),
+                  static_cast<float>(margin_), tree_bound_sq(), [&](std::uint32_t slot) {
                       const Triangle t = model_.world_triangle(slot, world_);
                       const ClosestPoints c = point_triangle_distance(point, t);
                       if (c.distance_sq < best_sq) {

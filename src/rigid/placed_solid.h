@@ -13,7 +13,7 @@ namespace abut {
 
 /// Questions about single points and one model under its transform. Cheap to make, one a thread.
 class PlacedSolid {
-  public:
+public:
     PlacedSolid(const ModelData& model, const Solid& solid, const Transform& world_from_model);
 
     [[nodiscard]] const ModelData& model() const { return model_; }
@@ -25,7 +25,9 @@ class PlacedSolid {
         const auto& t = model_.mesh().triangles[triangle];
         return {world_vertex(t[0]), world_vertex(t[1]), world_vertex(t[2])};
     }
-    [[nodiscard]] Triangle world_slot(std::uint32_t slot) const { return model_.world_triangle(slot, world_); }
+    [[nodiscard]] Triangle world_slot(std::uint32_t slot) const {
+        return model_.world_triangle(slot, world_);
+    }
     [[nodiscard]] const Transform& world_from_tree() const { return world_from_tree_; }
     [[nodiscard]] const Transform& tree_from_world() const { return tree_from_world_; }
     /// Slots whose triangles may reach into the other model's box.
@@ -38,10 +40,12 @@ class PlacedSolid {
 
     /// Whether the point lies strictly inside, by the parity of crossings of a ray.
     ///
-    /// Accuracy    exact for a closed mesh; with T-junctions, the majority of three rays. False on the surface.
+    /// Accuracy    exact for a closed mesh; with T-junctions, the majority of three rays. False on
+    /// the surface.
     [[nodiscard]] bool contains(const Vec3& point) const;
 
-    /// A part inside the other: for a mesh that is not closed the winding number decides (1 to rounding).
+    /// A part inside the other: for a mesh that is not closed the winding number decides (1 to
+    /// rounding).
     [[nodiscard]] bool winds_around(const Vec3& point) const;
 
     struct Nearest {
@@ -52,8 +56,9 @@ class PlacedSolid {
     /// The surface's nearest point, if it is nearer than the bound.
     [[nodiscard]] Nearest nearest(const Vec3& point, double bound) const;
 
-  private:
-    /// Parity of the crossings; false in `clear` if the ray meets an edge or a vertex and the count says nothing.
+private:
+    /// Parity of the crossings; false in `clear` if the ray meets an edge or a vertex and the count
+    /// says nothing.
     [[nodiscard]] bool odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const;
 
     const ModelData& model_;

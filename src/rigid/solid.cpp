@@ -16,22 +16,25 @@ Triangle triangle(const Mesh& mesh, std::uint32_t i) {
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-double doubled_area_sq(const Triangle& t) { return length_sq(cross(t[1] - t[0], t[2] - t[0])); }
+double doubled_area_sq(const Triangle& t) {
+    return length_sq(cross(t[1] - t[0], t[2] - t[0]));
+}
 
 std::vector<std::uint32_t> largest_triangles(const Mesh& mesh, std::size_t count) {
     std::vector<std::pair<double, std::uint32_t>> by_area;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
         by_area.emplace_back(-doubled_area_sq(triangle(mesh, i)), i);
     count = std::min(count, by_area.size());
-    std::partial_sort(by_area.begin(), by_area.begin() + static_cast<std::ptrdiff_t>(count), by_area.end());
+    std::partial_sort(by_area.begin(), by_area.begin() + static_cast<std::ptrdiff_t>(count),
+                      by_area.end());
     std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i < count; ++i)
         result.push_back(by_area[i].second);
     return result;
 }
 
-/// +1 or -1 if the mesh winds once around the points just under (over) its largest triangles and not around those
-/// on the other side; else 0.
+/// +1 or -1 if the mesh winds once around the points just under (over) its largest triangles and
+/// not around those on the other side; else 0.
 int outward_by_winding(const Mesh& mesh) {
     constexpr std::size_t kProbes = 6;
     int outward = 0;
@@ -41,8 +44,11 @@ int outward_by_winding(const Mesh& mesh) {
         const Vec3 centre = (1.0 / 3) * (t[0] + t[1] + t[2]);
         // A thousandth of the triangle's size off its middle.
         const Vec3 step = (1e-3 * std::sqrt(length(n))) * normalized_or_zero(n);
-        const double over = winding_number(mesh, centre + step), under = winding_number(mesh, centre - step);
-        const auto is = [](double w, double integer) { return std::abs(w - integer) <= kWindingRounding; };
+        const double over = winding_number(mesh, centre + step),
+                     under = winding_number(mesh, centre - step);
+        const auto is = [](double w, double integer) {
+            return std::abs(w - integer) <= kWindingRounding;
+        };
         const int here = is(over, 0) && is(under, 1) ? 1 : is(over, -1) && is(under, 0) ? -1 : 0;
         if (here == 0 || (outward != 0 && outward != here))
             return 0;

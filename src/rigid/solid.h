@@ -13,8 +13,9 @@ namespace abut {
 struct Solid {
     Topology topology;
     std::vector<std::uint32_t> components; ///< a triangle of each connected component
-    bool closed = false; ///< every edge is used by exactly two triangles
-    /// Closed, or with winding number 0 or 1 to rounding around its largest triangles in spite of T-junctions.
+    bool closed = false;                   ///< every edge is used by exactly two triangles
+    /// Closed, or with winding number 0 or 1 to rounding around its largest triangles in spite of
+    /// T-junctions.
     bool solid = false;
     /// +1: normals point out; -1: they point in; 0: neither everywhere.
     int outward = 0;
@@ -24,14 +25,16 @@ struct Solid {
 /// Cost        O(n log n), plus a few winding numbers where the mesh is not closed.
 Solid examine_solid(const Mesh& mesh);
 
-/// Signed number of times that the mesh winds around a point: the sum of the solid angles over 4 pi.
+/// Signed number of times that the mesh winds around a point: the sum of the solid angles over 4
+/// pi.
 ///
 /// Accuracy    to rounding for points off the surface.
 /// Source      [Van Oosterom, Strackee 1983].
 double winding_number(const Mesh& mesh, const Vec3& point);
 
-/// What a winding number may differ from an integer by, and still be that integer: stored coordinates are floats,
-/// so an edge that should coincide with two others (a T-junction) misses them by one part in 2^24.
+/// What a winding number may differ from an integer by, and still be that integer: stored
+/// coordinates are floats, so an edge that should coincide with two others (a T-junction) misses
+/// them by one part in 2^24.
 inline constexpr double kWindingRounding = 0x1p-20;
 
 } // namespace abut

@@ -2,20 +2,22 @@
 
 #include "tree/tree.h"
 
-#include <boost/container/small_vector.hpp>
-
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstdint>
 
-/// Traversals of one tree: for a box, for a segment, for the nearest primitive to a point. Bodies below.
+/// Traversals of one tree: for a box, for a segment, for the nearest primitive to a point. Bodies
+/// below.
 namespace abut {
 
 /// Calls visit(slot) for every primitive in a leaf whose box meets `query`.
-template <typename Visit> void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit);
+template <typename Visit>
+void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit);
 
-/// A segment in a tree's frame, as midpoint and half vector, with a margin for what both may be off by.
+/// A segment in a tree's frame, as midpoint and half vector, with a margin for what both may be off
+/// by.
 struct TreeSegment {
     std::array<float, 3> middle, half;
     float margin; ///< at least the error of each coordinate, in the tree's units
@@ -26,11 +28,11 @@ struct TreeSegment {
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 
-/// Calls visit(slot) for primitives nearest box first; visit returns the squared distance in the tree's frame
-/// beyond which nothing matters any more.
+/// Calls visit(slot) for primitives nearest box first; visit returns the squared distance in the
+/// tree's frame beyond which nothing matters any more.
 template <typename Visit>
-void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin, float bound_sq,
-                   const Visit& visit);
+void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin,
+                   float bound_sq, const Visit& visit);
 
 namespace traverse_one {
 
@@ -53,7 +55,8 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
             if (!child.is_leaf())
                 pending.push_back(child.index());
             else
-                for (std::uint32_t slot = child.first(); slot < child.first() + child.count(); ++slot)
+                for (std::uint32_t slot = child.first(); slot < child.first() + child.count();
+                     ++slot)
                     visit(slot);
         }
     }
@@ -61,13 +64,15 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
 
 } // namespace traverse_one
 
-template <typename Visit> void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
+template <typename Visit>
+void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
     const auto test = [&](const Node& node) {
         traverse_one::Hits hits;
         for (std::size_t i = 0; i < Node::kWidth; ++i)
-            hits[i] = bool((node.lower[0][i] <= query.upper[0]) & (query.lower[0] <= node.upper[0][i]) &
-                           (node.lower[1][i] <= query.upper[1]) & (query.lower[1] <= node.upper[1][i]) &
-                           (node.lower[2][i] <= query.upper[2]) & (query.lower[2] <= node.upper[2][i]));
+            hits[i] =
+                bool((node.lower[0][i] <= query.upper[0]) & (query.lower[0] <= node.upper[0][i]) &
+                     (node.lower[1][i] <= query.upper[1]) & (query.lower[1] <= node.upper[1][i]) &
+                     (node.lower[2][i] <= query.upper[2]) & (query.lower[2] <= node.upper[2][i]));
         return hits;
     };
     traverse_one::descend(tree, test, visit);
@@ -86,13 +91,15 @@ void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Vis
                 c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
                 h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
             }
-            // Box axes, then the cross products of the segment with the box axes. The latter's products are
-            // rounded relative to themselves and to the box: the margin in h outweighs that.
+            // Box axes, then the cross products of the segment with the box axes. The latter's
+            // products are rounded relative to themselves and to the box: the margin in h outweighs
+            // that.
             bool hit = true;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-                hit = bool(hit & (std::abs(c[k]) <= h[k] + reach[k]) &
-                           (std::abs(c[u] * e[v] - c[v] * e[u]) <= h[u] * reach[v] + h[v] * reach[u]));
+                hit = bool(
+                    hit & (std::abs(c[k]) <= h[k] + reach[k]) &
+                    (std::abs(c[u] * e[v] - c[v] * e[u]) <= h[u] * reach[v] + h[v] * reach[u]));
             }
             hits[i] = hit;
         }
@@ -102,8 +109,8 @@ void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Vis
 }
 
 template <typename Visit>
-void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin, float bound_sq,
-                   const Visit& visit) {
+void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin,
+                   float bound_sq, const Visit& visit) {
     struct Entry {
         float distance_sq;
         NodeRef ref;
@@ -125,9 +132,9 @@ void for_each_near(const Tree& tree, const std::array<float, 3>& point, float ma
         std::array<float, Node::kWidth> distance_sq{};
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t i = 0; i < Node::kWidth; ++i) {
-                const float gap = std::max(0.0F, std::max(node.lower[k][i] - point[k],
-                                                          point[k] - node.upper[k][i]) -
-                                                     margin);
+                const float gap = std::max(
+                    0.0F,
+                    std::max(node.lower[k][i] - point[k], point[k] - node.upper[k][i]) - margin);
                 distance_sq[i] += gap * gap;
             }
         for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)

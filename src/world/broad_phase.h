@@ -10,7 +10,8 @@
 
 namespace abut {
 
-/// The pairs (i, j), i < j, of boxes at most `gap` apart on every axis, sorted, that `wanted(i, j)` admits.
+/// The pairs (i, j), i < j, of boxes at most `gap` apart on every axis, sorted, that `wanted(i, j)`
+/// admits.
 ///
 /// In          boxes; empty ones (lower > upper) meet nothing. `wanted` is called from any thread.
 /// Accuracy    exact for the given doubles.

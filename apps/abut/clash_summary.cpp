@@ -1,0 +1,84 @@
+#include "clash_summary.h"
+
+#include "common.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace abut::command {
+
+namespace {
+
+constexpr std::size_t kRows = 5;
+
+/// "name (type)", shortened to a column's width.
+std::string label(const std::vector<Scene>& models, const Clash& clash, std::size_t side) {
+    const Part& part = models[clash.model.at(side)].parts[clash.part.at(side)];
+    constexpr std::size_t kLongest = 36;
+    std::string name = part.name;
+    if (name.size() > kLongest) {
+        std::size_t end = kLongest - 3;
+        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
+            --end; // not inside a UTF-8 character
+        name = name.substr(0, end) + "...";
+    }
+    return part.type.empty() ? name : fmt::format("{} ({})", name, part.type);
+}
+
+/// The first few clashes of the kinds by `before`.
+template <typename Before>
+std::string extremes(const char* title, const ClashReport& report, const std::vector<Scene>& models,
+                     bool (*wanted)(ClashKind), Before before) {
+    std::vector<const Clash*> rows;
+    for (const Clash& clash : report.clashes)
+        if (wanted(clash.kind))
+            rows.push_back(&clash);
+    if (rows.empty())
+        return {};
+    const std::size_t count = std::min(kRows, rows.size());
+    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count), rows.end(),
+                      [&](const Clash* a, const Clash* b) {
+                          // Equal distances stay in the report's order.
+                          return before(*a, *b) || (!before(*b, *a) && a < b);
+                      });
+    std::string text = fmt::format("\n{}\n", title);
+    for (std::size_t i = 0; i < count; ++i)
+        text +=
+            fmt::format("  {:<10} {:>9.4f} m  {}  |  {}\n", abut::to_string(rows[i]->kind),
+                        rows[i]->distance, label(models, *rows[i], 0), label(models, *rows[i], 1));
+    return text;
+}
+
+} // namespace
+
+std::string summary(const ClashReport& report, const std::vector<Scene>& models) {
+    std::size_t widest = 0;
+    for (const auto& model : report.models)
+        widest = std::max(widest, model.file.size());
+    std::string text;
+    for (const auto& model : report.models)
+        text += fmt::format("{:<{}}  {:>9} parts  {:>12} triangles\n", model.file, widest,
+                            grouped(model.parts), grouped(model.triangles));
+    text += fmt::format("\nclearance {} m, touch tolerance {} m, {} candidate pairs\n",
+                        report.clearance, report.touch, grouped(report.candidates));
+    for (const ClashKind kind : kClashKinds)
+        text += fmt::format("  {:<10} {:>9}\n", abut::to_string(kind),
+                            grouped(report.counts.at(static_cast<std::size_t>(kind))));
+
+    const auto nearer = [](const Clash& a, const Clash& b) { return a.distance < b.distance; };
+    text += extremes(
+        "deepest", report, models,
+        [](ClashKind kind) { return kind == ClashKind::hard || kind == ClashKind::contained; },
+        nearer);
+    text += extremes(
+        "nearest", report, models, [](ClashKind kind) { return kind == ClashKind::clearance; },
+        nearer);
+
+    const auto& s = report.seconds;
+    text += fmt::format("\nseconds     import {:.2f}, build {:.2f}, broad {:.2f}, narrow {:.2f}, "
+                        "total {:.2f}\npeak memory {:.0f} MiB\n",
+                        s.import, s.build, s.broad, s.narrow, s.total, report.peak_rss_mb);
+    return text;
+}
+
+} // namespace abut::command

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "common.h"
+
+/// The subcommands, one file each. Every function declares one; `common` must outlive the parser.
+namespace abut::command {
+
+Subcommand add_info(CLI::App& root, CommonOptions& common);
+Subcommand add_collide(CLI::App& root, CommonOptions& common);
+Subcommand add_distance(CLI::App& root, CommonOptions& common);
+Subcommand add_within(CLI::App& root, CommonOptions& common);
+Subcommand add_clash(CLI::App& root, CommonOptions& common);
+Subcommand add_scene(CLI::App& root, CommonOptions& common);
+
+} // namespace abut::command

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <abut/types.h>
+
+#include "progress_bar.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// What the subcommands share: the common options, exit statuses, checks of arguments, output.
+namespace abut::command {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitProblem = 1; ///< the answer is "problem found", with --fail-on only
+inline constexpr int kExitBadInput = 2;
+
+struct CommonOptions {
+    bool json = false;
+    bool quiet = false;
+    bool progress = false;
+    int threads = 0;
+
+    /// A bar on a terminal unless quiet; lines elsewhere with --progress.
+    [[nodiscard]] ProgressBar::Style progress_style() const;
+};
+
+/// A declared subcommand: run() is called if the arguments name it, and returns the exit status.
+struct Subcommand {
+    CLI::App* app = nullptr;
+    std::function<int()> run;
+};
+
+/// Declares a subcommand with the common options --json, --threads, --quiet and --progress.
+CLI::App* add_subcommand(CLI::App& root, CommonOptions& common, const std::string& name,
+                         const std::string& description);
+
+/// Declares --unit; 0 stays where it is not given.
+void add_unit_option(CLI::App& app, double& unit);
+
+/// The whole text as one finite number.
+std::optional<double> parse_number(std::string_view text);
+
+/// Checks for options: text; a finite number of at least 0; one above 0; a whole number in a range.
+CLI::Validator not_empty(const std::string& type_name);
+CLI::Validator not_negative();
+CLI::Validator positive();
+CLI::Validator whole_number(std::uint64_t lowest, std::uint64_t highest);
+
+/// Value of a set of words (comma-separated) of which each must be known.
+///
+/// Errors      Error{bad_argument} naming the option.
+std::vector<std::string> parse_words(const std::string& option, const std::string& text,
+                                     const std::vector<std::string>& known);
+
+/// Wall clock of a stage.
+class Stopwatch {
+public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t value);
+
+/// [x, y, z]
+nlohmann::ordered_json to_json(const Vec3& v);
+
+/// One line of JSON text; bytes that are no UTF-8 (in file names) are replaced.
+std::string dump(const nlohmann::ordered_json& value);
+
+/// Writes the text to standard output, all at once.
+///
+/// Errors      Error{cannot_write} naming standard output.
+void print(std::string_view text);
+
+} // namespace abut::command

@@ -1,0 +1,195 @@
+#include <abut/mesh.h>
+#include <abut/scene.h>
+
+#include "commands.h"
+#include "interrupt.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace abut::command {
+
+namespace {
+
+struct InfoArguments {
+    std::vector<std::string> files;
+    bool parts = false;
+    double unit = 0;
+};
+
+/// A file's totals. Each instance counts, but for `meshes` and `stored_triangles`.
+struct FileInfo {
+    std::size_t stored_triangles = 0;
+    std::size_t closed_parts = 0;
+    MeshReport sum; ///< of the parts; its counts and bounds only
+};
+
+Vec3 apply(const Transform& t, const Vec3& p) {
+    const auto& m = t.m;
+    return {m[0] * p.x + m[3] * p.y + m[6] * p.z + m[9],
+            m[1] * p.x + m[4] * p.y + m[7] * p.z + m[10],
+            m[2] * p.x + m[5] * p.y + m[8] * p.z + m[11]};
+}
+
+void grow(Box3& box, const Vec3& lower, const Vec3& upper) {
+    box.lower = {std::min(box.lower.x, lower.x), std::min(box.lower.y, lower.y),
+                 std::min(box.lower.z, lower.z)};
+    box.upper = {std::max(box.upper.x, upper.x), std::max(box.upper.y, upper.y),
+                 std::max(box.upper.z, upper.z)};
+}
+
+Box3 world_bounds(const Mesh& mesh, const Transform& world_from_mesh) {
+    Box3 box;
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle) {
+            const Vec3 p = apply(world_from_mesh, mesh.positions[corner]);
+            grow(box, p, p);
+        }
+    return box;
+}
+
+std::vector<MeshReport> inspect_all(const std::vector<Mesh>& meshes) {
+    std::vector<MeshReport> reports;
+    reports.reserve(meshes.size());
+    for (const Mesh& mesh : meshes)
+        reports.push_back(inspect(mesh));
+    return reports;
+}
+
+FileInfo sum_up(const Scene& scene, const std::vector<MeshReport>& reports) {
+    FileInfo info;
+    for (const Mesh& mesh : scene.meshes)
+        info.stored_triangles += mesh.triangles.size();
+    for (const Part& part : scene.parts) {
+        const MeshReport& report = reports[part.mesh];
+        info.closed_parts += report.closed ? 1 : 0;
+        info.sum.triangles += report.triangles;
+        info.sum.degenerate_triangles += report.degenerate_triangles;
+        info.sum.duplicate_triangles += report.duplicate_triangles;
+        info.sum.boundary_edges += report.boundary_edges;
+        info.sum.nonmanifold_edges += report.nonmanifold_edges;
+        info.sum.flipped_edges += report.flipped_edges;
+        const Box3 box = world_bounds(scene.meshes[part.mesh], part.world_from_mesh);
+        grow(info.sum.bounds, box.lower, box.upper);
+    }
+    return info;
+}
+
+nlohmann::ordered_json describe(const Box3& box) {
+    return {{"lower", to_json(box.lower)}, {"upper", to_json(box.upper)}};
+}
+
+void add_counts(nlohmann::ordered_json& to, const MeshReport& report) {
+    to["degenerate_triangles"] = report.degenerate_triangles;
+    to["duplicate_triangles"] = report.duplicate_triangles;
+    to["boundary_edges"] = report.boundary_edges;
+    to["nonmanifold_edges"] = report.nonmanifold_edges;
+    to["flipped_edges"] = report.flipped_edges;
+}
+
+nlohmann::ordered_json describe_parts(const Scene& scene, const std::vector<MeshReport>& reports) {
+    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+    for (const Part& part : scene.parts) {
+        const MeshReport& report = reports[part.mesh];
+        nlohmann::ordered_json row{{"id", part.id},
+                                   {"name", part.name},
+                                   {"type", part.type},
+                                   {"mesh", part.mesh},
+                                   {"triangles", report.triangles},
+                                   {"closed", report.closed},
+                                   {"components", report.components}};
+        add_counts(row, report);
+        row["bounds"] = describe(world_bounds(scene.meshes[part.mesh], part.world_from_mesh));
+        parts.push_back(std::move(row));
+    }
+    return parts;
+}
+
+nlohmann::ordered_json describe(const Scene& scene, const std::vector<MeshReport>& reports,
+                                const FileInfo& info, bool with_parts) {
+    nlohmann::ordered_json file{{"file", scene.file},
+                                {"parts", scene.parts.size()},
+                                {"meshes", scene.meshes.size()},
+                                {"triangles", info.sum.triangles},
+                                {"stored_triangles", info.stored_triangles},
+                                {"closed_parts", info.closed_parts}};
+    add_counts(file, info.sum);
+    file["bounds"] = describe(info.sum.bounds);
+    if (with_parts)
+        file["part_list"] = describe_parts(scene, reports);
+    return file;
+}
+
+std::string table(const Scene& scene, const std::vector<MeshReport>& reports, const FileInfo& info,
+                  bool with_parts) {
+    const Vec3& lower = info.sum.bounds.lower;
+    const Vec3& upper = info.sum.bounds.upper;
+    std::string text = fmt::format(
+        "{}\n"
+        "  parts       {:>12}  ({} closed), {} meshes\n"
+        "  triangles   {:>12}  ({} stored)\n"
+        "  degenerate  {:>12}  triangles of no area\n"
+        "  duplicate   {:>12}  triangles\n"
+        "  edges       {:>12}  boundary, {} non-manifold, {} flipped\n"
+        "  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n",
+        scene.file, grouped(scene.parts.size()), grouped(info.closed_parts),
+        grouped(scene.meshes.size()), grouped(info.sum.triangles), grouped(info.stored_triangles),
+        grouped(info.sum.degenerate_triangles), grouped(info.sum.duplicate_triangles),
+        grouped(info.sum.boundary_edges), grouped(info.sum.nonmanifold_edges),
+        grouped(info.sum.flipped_edges), lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
+    if (!with_parts)
+        return text;
+    text += fmt::format("\n  {:>9} {:>6} {:>10} {:>9} {:>8} {:>12} {:>7}  part\n", "triangles",
+                        "closed", "degenerate", "duplicate", "boundary", "non-manifold", "flipped");
+    for (const Part& part : scene.parts) {
+        const MeshReport& report = reports[part.mesh];
+        text +=
+            fmt::format("  {:>9} {:>6} {:>10} {:>9} {:>8} {:>12} {:>7}  {}{}{}\n", report.triangles,
+                        report.closed ? "yes" : "no", report.degenerate_triangles,
+                        report.duplicate_triangles, report.boundary_edges, report.nonmanifold_edges,
+                        report.flipped_edges, part.name, part.type.empty() ? "" : "  ", part.type);
+    }
+    return text;
+}
+
+int run(const InfoArguments& arguments, const CommonOptions& common) {
+    ProgressBar bar(common.progress_style());
+    std::vector<Scene> scenes;
+    {
+        const InterruptScope scope(OnInterrupt::ask);
+        scenes = read_scenes(arguments.files, {.unit = arguments.unit, .progress = bar.progress()});
+    }
+    throw_if_interrupted();
+    bar.finish();
+
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    std::string text;
+    for (const Scene& scene : scenes) {
+        const std::vector<MeshReport> reports = inspect_all(scene.meshes);
+        const FileInfo info = sum_up(scene, reports);
+        if (common.json)
+            files.push_back(describe(scene, reports, info, arguments.parts));
+        else
+            text += (text.empty() ? "" : "\n") + table(scene, reports, info, arguments.parts);
+    }
+    if (common.json)
+        print(dump({{"files", std::move(files)}}));
+    else if (!common.quiet)
+        print(text);
+    return kExitDone;
+}
+
+} // namespace
+
+Subcommand add_info(CLI::App& root, CommonOptions& common) {
+    auto arguments = std::make_shared<InfoArguments>();
+    CLI::App* app =
+        add_subcommand(root, common, "info", "What models hold: parts, triangles, bounds, defects");
+    app->add_option("MODEL", arguments->files, "Models to look at")->required();
+    app->add_flag("--parts", arguments->parts, "A row for each part");
+    add_unit_option(*app, arguments->unit);
+    return {app, [arguments, &common] { return run(*arguments, common); }};
+}
+
+} // namespace abut::command

@@ -1,0 +1,67 @@
+#include <abut/error.h>
+#include <abut/progress.h>
+
+#include "commands.h"
+#include "interrupt.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+#include <new>
+
+namespace {
+
+using namespace abut::command;
+
+/// One line on standard error, whatever a third-party message or a file's name holds.
+int fail(int status, std::string message) {
+    std::replace_if(
+        message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    fmt::print(stderr, "abut: {}\n", message);
+    return status;
+}
+
+int run(const Subcommand& command, const CommonOptions& common) {
+    try {
+        abut::set_threads(common.threads);
+        return command.run();
+    } catch (const abut::Error& error) {
+        const bool interrupted = error.code() == abut::ErrorCode::interrupted;
+        return fail(interrupted ? kExitInterrupted : kExitBadInput, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(kExitBadInput, "out of memory");
+    } catch (const std::exception& error) {
+        return fail(kExitBadInput, error.what());
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    install_interrupt_handlers();
+    CLI::App root("Proximity queries on triangle models: clashes, contacts, distances", "abut");
+    root.set_version_flag("--version", "abut " ABUT_VERSION);
+    root.require_subcommand(1);
+    CommonOptions common;
+    const std::array commands{add_info(root, common),     add_collide(root, common),
+                              add_distance(root, common), add_within(root, common),
+                              add_clash(root, common),    add_scene(root, common)};
+    const bool known = std::any_of(commands.begin(), commands.end(), [&](const Subcommand& c) {
+        return argc > 1 && c.app->get_name() == argv[1];
+    });
+    if (argc > 1 && argv[1][0] != '-' && !known)
+        return fail(kExitBadInput,
+                    fmt::format("unknown subcommand '{}' (see abut --help)", argv[1]));
+    try {
+        root.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+            return root.exit(error); // --help, --version
+        return fail(kExitBadInput, error.what());
+    }
+    const auto* command = std::find_if(commands.begin(), commands.end(),
+                                       [](const Subcommand& c) { return c.app->parsed(); });
+    return run(*command, common);
+}

@@ -1,0 +1,118 @@
+#include "output_files.h"
+
+#include <abut/error.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdlib.h>
+#include <system_error>
+
+namespace abut::command {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& why) {
+    throw Error(ErrorCode::cannot_write, path.string(), "cannot be written: " + why);
+}
+
+/// A new hidden folder inside `folder`. Errors: Error{cannot_write} naming `blame`.
+fs::path make_staging(const fs::path& folder, const fs::path& blame) {
+    std::string name = (folder / ".abut-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+        fail(blame, std::strerror(errno));
+    return name;
+}
+
+} // namespace
+
+OutputFiles::OutputFiles(fs::path folder, std::vector<std::string> names)
+    : folder_(folder.empty() ? fs::path(".") : std::move(folder)), names_(std::move(names)) {
+    std::error_code fault;
+    fs::path existing = fs::absolute(folder_, fault).lexically_normal();
+    if (fault)
+        fail(folder_, fault.message());
+    while (!fs::exists(existing, fault) && existing.has_relative_path()) {
+        if (fault)
+            fail(folder_, fault.message());
+        existing = existing.parent_path();
+    }
+    if (!fs::is_directory(existing, fault))
+        fail(folder_, existing.string() + " is not a folder");
+    fs::remove(make_staging(existing, folder_), fault);
+    for (const std::string& name : names_)
+        if (fs::is_directory(folder_ / name, fault))
+            fail(folder_ / name, "it is a folder");
+}
+
+OutputFiles::~OutputFiles() {
+    std::error_code ignored;
+    if (!staging_.empty())
+        fs::remove_all(staging_, ignored);
+    for (auto folder = created_.rbegin(); folder != created_.rend(); ++folder)
+        fs::remove(*folder, ignored); // keeps a folder that somebody else has put a file into
+}
+
+std::string OutputFiles::path(const std::string& name) const {
+    return (folder_ / name).string();
+}
+
+void OutputFiles::stage(const std::string& name,
+                        const std::function<void(const std::string&)>& write) {
+    prepare();
+    const std::string staged = (staging_ / name).string();
+    try {
+        write(staged);
+    } catch (const Error& error) {
+        if (error.file() != staged)
+            throw;
+        const std::string message = error.what();
+        throw Error(error.code(), path(name), message.substr(staged.size() + 2));
+    }
+}
+
+void OutputFiles::stage_text(const std::string& name, const std::string& text) {
+    stage(name, [&](const std::string& staged) {
+        std::ofstream file(staged, std::ios::binary);
+        file << text;
+        file.close();
+        if (!file)
+            throw Error(ErrorCode::cannot_write, staged,
+                        std::string("cannot be written: ") + std::strerror(errno));
+    });
+}
+
+void OutputFiles::commit() {
+    std::vector<fs::path> moved;
+    for (const std::string& name : names_) {
+        std::error_code fault;
+        fs::rename(staging_ / name, folder_ / name, fault);
+        if (fault) {
+            std::error_code ignored;
+            for (const fs::path& file : moved)
+                fs::remove(file, ignored);
+            fail(folder_ / name, fault.message());
+        }
+        moved.push_back(folder_ / name);
+    }
+    created_.clear();
+}
+
+void OutputFiles::prepare() {
+    if (!staging_.empty())
+        return;
+    fs::path reached;
+    for (const fs::path& step : folder_) {
+        reached /= step;
+        std::error_code fault;
+        if (!step.empty() && fs::create_directory(reached, fault))
+            created_.push_back(reached);
+        if (fault)
+            fail(folder_, fault.message());
+    }
+    staging_ = make_staging(folder_, folder_);
+}
+
+} // namespace abut::command

@@ -1,0 +1,94 @@
+#include "two_models.h"
+
+#include <abut/error.h>
+#include <abut/scene.h>
+
+#include "interrupt.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace abut::command {
+
+void add_two_models(CLI::App& app, TwoModelsOptions& options) {
+    app.add_option("A", options.files[0], "First model")->required();
+    app.add_option("B", options.files[1], "Second model")->required();
+    constexpr const char* kForm = "translation and quaternion x,y,z,qw,qx,qy,qz (default: none)";
+    app.add_option("--pose-a", options.poses[0], fmt::format("Pose of A: {}", kForm))
+        ->check(not_empty("POSE"));
+    app.add_option("--pose-b", options.poses[1], fmt::format("Pose of B: {}", kForm))
+        ->check(not_empty("POSE"));
+    add_unit_option(app, options.unit);
+}
+
+Pose parse_pose(const std::string& option, const std::string& text) {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        const auto number = parse_number(std::string_view(text).substr(begin, comma - begin));
+        if (!number)
+            throw Error(ErrorCode::bad_argument, fmt::format("{}: '{}' is no finite number", option,
+                                                             text.substr(begin, comma - begin)));
+        numbers.push_back(*number);
+        begin = comma + 1;
+    }
+    if (numbers.size() != 7)
+        throw Error(
+            ErrorCode::bad_argument,
+            fmt::format("{}: takes 7 numbers x,y,z,qw,qx,qy,qz, not {}", option, numbers.size()));
+    const Pose pose{{numbers[0], numbers[1], numbers[2]},
+                    {numbers[3], numbers[4], numbers[5], numbers[6]}};
+    if (std::all_of(pose.rotation.begin(), pose.rotation.end(), [](double q) { return q == 0; }))
+        throw Error(ErrorCode::bad_argument,
+                    fmt::format("{}: the quaternion has zero length", option));
+    return pose;
+}
+
+TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
+    const auto transform = [&](std::size_t side, const char* option) {
+        const std::string& text = options.poses.at(side);
+        return text.empty() ? Transform() : Transform(parse_pose(option, text));
+    };
+    const Transform world_from_a = transform(0, "--pose-a");
+    const Transform world_from_b = transform(1, "--pose-b");
+
+    ProgressBar bar(common.progress_style());
+    const Stopwatch import_watch;
+    std::array<Mesh, 2> meshes;
+    {
+        const InterruptScope scope(OnInterrupt::ask);
+        const ReadOptions read{.unit = options.unit, .progress = bar.progress()};
+        for (std::size_t side = 0; side < 2; ++side)
+            meshes.at(side) = read_mesh(options.files.at(side), read);
+    }
+    throw_if_interrupted();
+    bar.finish();
+    const double seconds_import = import_watch.seconds();
+
+    const Stopwatch build_watch;
+    Model a(std::move(meshes[0]));
+    Model b(std::move(meshes[1]));
+    return {std::move(a), std::move(b),   world_from_a,
+            world_from_b, seconds_import, build_watch.seconds()};
+}
+
+nlohmann::ordered_json describe(const TwoModelsOptions& options) {
+    return {{"a", options.files[0]}, {"b", options.files[1]}};
+}
+
+nlohmann::ordered_json describe(const Counters& counters) {
+    return {{"volume_tests", counters.volume_tests},
+            {"primitive_tests", counters.primitive_tests},
+            {"exact_tests", counters.exact_tests}};
+}
+
+nlohmann::ordered_json describe_seconds(const TwoModels& models, double query) {
+    return {{"import", models.seconds_import}, {"build", models.seconds_build}, {"query", query}};
+}
+
+const char* to_string(Status status) {
+    return status == Status::exact ? "exact" : "bound_only";
+}
+
+} // namespace abut::command

@@ -1,0 +1,222 @@
+#include <abut/clash.h>
+#include <abut/error.h>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "core/resources.h"
+#include "massive/classify_pair.h"
+#include "massive/part_instances.h"
+#include "massive/rule_match.h"
+#include "world/broad_phase.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace abut {
+
+namespace {
+
+/// Seconds since it was last asked.
+class StopWatch {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// The same text gives the same number everywhere. Source: [Fowler, Noll, Vo], FNV-1a, 64 bits.
+class StableHash {
+public:
+    void add(std::string_view text) {
+        for (const char c : text)
+            step(static_cast<unsigned char>(c));
+        step(0xff); // in no UTF-8 text: "ab", "c" differs from "a", "bc"
+    }
+    [[nodiscard]] std::uint64_t value() const { return value_; }
+
+private:
+    void step(unsigned char byte) { value_ = (value_ ^ byte) * 0x100000001b3U; }
+    std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+/// What a mesh needs in the narrow phase. Its solidity is found when a pair first asks for it.
+class NarrowMesh {
+public:
+    explicit NarrowMesh(const Mesh& mesh) : model_(mesh) {}
+    [[nodiscard]] const Model& model() const { return model_; }
+    [[nodiscard]] const Solid& solid() const {
+        std::call_once(once_, [&] { solid_ = examine_solid(model_.mesh()); });
+        return solid_;
+    }
+
+private:
+    Model model_;
+    mutable std::once_flag once_;
+    mutable Solid solid_;
+};
+
+void require_length(double value, const char* what) {
+    if (!(value >= 0) || value == std::numeric_limits<double>::infinity())
+        throw Error(ErrorCode::bad_argument, std::string(what) + " must be a length, not negative");
+}
+
+struct Candidate {
+    std::uint32_t a, b; ///< in PartInstances::parts
+    PairTerms terms;
+};
+
+class ClashJob {
+public:
+    ClashJob(const std::vector<Scene>& models, const ClashOptions& options)
+        : models_(models), options_(options) {}
+
+    ClashReport run() {
+        StopWatch total, watch;
+        summarise();
+        find_candidates();
+        report_.seconds.broad = watch.lap();
+        build();
+        report_.seconds.build = watch.lap();
+        classify();
+        report_.seconds.narrow = watch.lap();
+        report_.seconds.total = total.lap();
+        report_.peak_rss_mb = peak_resident_mib();
+        return std::move(report_);
+    }
+
+private:
+    void summarise() {
+        report_.clearance = options_.clearance;
+        report_.touch = options_.touch;
+        for (const Scene& model : models_) {
+            ClashReport::ModelSummary summary{model.file, model.parts.size(), 0};
+            for (const Part& part : model.parts)
+                summary.triangles +=
+                    part.mesh < model.meshes.size() ? model.meshes[part.mesh].triangles.size() : 0;
+            report_.models.push_back(summary);
+        }
+    }
+
+    [[nodiscard]] const Part& part(std::uint32_t i) const {
+        return models_[parts_.parts[i].model].parts[parts_.parts[i].part];
+    }
+
+    void find_candidates() {
+        ProgressMeter progress(options_.progress, "broad phase", 2);
+        parts_ = gather_parts(models_);
+        progress.advance();
+        double largest = options_.clearance;
+        for (const ClashRule& rule : options_.rules)
+            largest = std::max(largest, rule.clearance.value_or(0));
+        std::vector<Box3> boxes;
+        boxes.reserve(parts_.parts.size());
+        for (const PartInstance& p : parts_.parts)
+            boxes.push_back(p.box);
+        const bool across = models_.size() > 1 && !options_.self;
+        const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
+            return !across || parts_.parts[i].model != parts_.parts[j].model;
+        };
+        for (const auto& [i, j] : overlapping_boxes(boxes, largest, wanted)) {
+            const Scene &model_i = models_[parts_.parts[i].model],
+                        &model_j = models_[parts_.parts[j].model];
+            const auto terms = terms_of(options_, model_i, part(i), model_j, part(j));
+            if (terms && overlap(boxes[i], boxes[j], terms->clearance))
+                candidates_.push_back({i, j, *terms});
+        }
+        report_.candidates = candidates_.size();
+        progress.advance();
+    }
+
+    void build() {
+        std::vector<bool> needed(parts_.meshes.size());
+        for (const Candidate& c : candidates_)
+            needed[parts_.parts[c.a].mesh] = needed[parts_.parts[c.b].mesh] = true;
+        std::vector<std::uint32_t> list;
+        for (std::uint32_t i = 0; i < needed.size(); ++i)
+            if (needed[i])
+                list.push_back(i);
+        ProgressMeter progress(options_.progress, "hierarchies", list.size());
+        meshes_.resize(parts_.meshes.size());
+        parallel_for(list.size(), 1, [&](std::size_t k) {
+            meshes_[list[k]] = std::make_unique<NarrowMesh>(*parts_.meshes[list[k]]);
+            progress.advance();
+        });
+    }
+
+    void classify() {
+        ProgressMeter progress(options_.progress, "narrow phase", candidates_.size());
+        std::vector<std::optional<Clash>> found(candidates_.size());
+        parallel_for(candidates_.size(), 1, [&](std::size_t k) {
+            const Candidate& c = candidates_[k];
+            found[k] =
+                classify_pair(narrow_part(c.a), narrow_part(c.b), c.terms.clearance, c.terms.touch);
+            if (found[k])
+                identify(*found[k], c);
+            progress.advance();
+        });
+        // Candidates are sorted by part, so the clashes are.
+        for (std::optional<Clash>& clash : found)
+            if (clash) {
+                ++report_.counts[static_cast<std::size_t>(clash->kind)];
+                report_.clashes.push_back(std::move(*clash));
+            }
+    }
+
+    [[nodiscard]] ClashPart narrow_part(std::uint32_t i) const {
+        const PartInstance& p = parts_.parts[i];
+        const NarrowMesh& mesh = *meshes_[p.mesh];
+        return {mesh.model(), [&mesh]() -> const Solid& { return mesh.solid(); }, p.world_from_mesh,
+                p.box};
+    }
+
+    void identify(Clash& clash, const Candidate& c) const {
+        const PartInstance &a = parts_.parts[c.a], &b = parts_.parts[c.b];
+        clash.model = {a.model, b.model};
+        clash.part = {a.part, b.part};
+        if (c.terms.rule != nullptr)
+            clash.rule = c.terms.rule->name;
+        StableHash hash;
+        hash.add(file_name(models_[a.model].file));
+        hash.add(part(c.a).id);
+        hash.add(file_name(models_[b.model].file));
+        hash.add(part(c.b).id);
+        hash.add(to_string(clash.kind));
+        clash.id = hash.value();
+    }
+
+    /// Without folders: an id survives that a model moves.
+    static std::string_view file_name(std::string_view path) {
+        return path.substr(path.find_last_of('/') + 1);
+    }
+
+    const std::vector<Scene>& models_;
+    const ClashOptions& options_;
+    ClashReport report_;
+    PartInstances parts_;
+    std::vector<Candidate> candidates_;
+    std::vector<std::unique_ptr<NarrowMesh>> meshes_;
+};
+
+} // namespace
+
+ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options) {
+    require_length(options.clearance, "clearance");
+    require_length(options.touch, "touch tolerance");
+    for (const ClashRule& rule : options.rules) {
+        require_length(rule.clearance.value_or(0), "a rule's clearance");
+        require_length(rule.touch.value_or(0), "a rule's touch tolerance");
+    }
+    return ClashJob(models, options).run();
+}
+
+} // namespace abut

@@ -1,0 +1,78 @@
+#include "massive/part_instances.h"
+
+#include <abut/error.h>
+
+#include "core/parallel.h"
+#include "math/transform.h"
+#include "mesh/topology.h"
+
+namespace abut {
+
+namespace {
+
+/// Positions that a triangle uses. Shares the mesh's own where it uses all of them.
+class UsedPositions {
+public:
+    explicit UsedPositions(const Mesh& mesh) : all_(&mesh.positions) {
+        std::vector<bool> used(mesh.positions.size());
+        std::size_t count = 0;
+        for (const auto& t : mesh.triangles)
+            for (const std::uint32_t v : t) {
+                count += used[v] ? 0 : 1;
+                used[v] = true;
+            }
+        if (count == used.size())
+            return;
+        all_ = nullptr;
+        for (std::size_t v = 0; v < used.size(); ++v)
+            if (used[v])
+                some_.push_back(mesh.positions[v]);
+    }
+    [[nodiscard]] const std::vector<Vec3>& get() const { return all_ != nullptr ? *all_ : some_; }
+
+private:
+    const std::vector<Vec3>* all_;
+    std::vector<Vec3> some_;
+};
+
+} // namespace
+
+PartInstances gather_parts(const std::vector<Scene>& models) {
+    PartInstances result;
+    std::vector<std::uint32_t> model_of_mesh;
+    for (std::uint32_t m = 0; m < models.size(); ++m) {
+        const auto first = static_cast<std::uint32_t>(result.meshes.size());
+        for (const Mesh& mesh : models[m].meshes) {
+            result.meshes.push_back(&mesh);
+            model_of_mesh.push_back(m);
+        }
+        for (std::uint32_t p = 0; p < models[m].parts.size(); ++p) {
+            const Part& part = models[m].parts[p];
+            if (part.mesh >= models[m].meshes.size())
+                throw Error(ErrorCode::bad_mesh, models[m].file,
+                            "part " + part.id + " has no mesh");
+            result.parts.push_back({m, p, first + part.mesh, part.world_from_mesh, {}});
+        }
+    }
+    std::vector<std::vector<std::uint32_t>> parts_of_mesh(result.meshes.size());
+    for (std::uint32_t i = 0; i < result.parts.size(); ++i)
+        parts_of_mesh[result.parts[i].mesh].push_back(i);
+    parallel_for(result.meshes.size(), 16, [&](std::size_t k) {
+        const std::string& file = models[model_of_mesh[k]].file;
+        try {
+            require_valid(*result.meshes[k]);
+            const UsedPositions used(*result.meshes[k]);
+            for (const std::uint32_t i : parts_of_mesh[k]) {
+                PartInstance& part = result.parts[i];
+                require_finite(part.world_from_mesh, "a part's transform");
+                for (const Vec3& p : used.get())
+                    extend(part.box, apply(part.world_from_mesh, p));
+            }
+        } catch (const Error& error) {
+            throw Error(ErrorCode::bad_mesh, file, error.what());
+        }
+    });
+    return result;
+}
+
+} // namespace abut

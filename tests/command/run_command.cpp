@@ -1,0 +1,166 @@
+#include "tests/command/run_command.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <fcntl.h>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <sstream>
+#include <stdexcept>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace abut::test {
+
+namespace {
+
+/// A running `abut` and the reading ends of its two outputs.
+struct Running {
+    pid_t process = -1;
+    std::array<pollfd, 2> outputs{};
+};
+
+Running start(const std::vector<std::string>& arguments) {
+    std::array<std::array<int, 2>, 2> pipes{};
+    for (auto& ends : pipes)
+        if (pipe2(ends.data(), O_CLOEXEC) != 0)
+            throw std::runtime_error("pipe2");
+    std::vector<char*> argv;
+    std::string program = ABUT_COMMAND;
+    argv.push_back(program.data());
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str())); // NOLINT: execv does not write
+    argv.push_back(nullptr);
+    Running running;
+    running.process = fork();
+    if (running.process == 0) {
+        dup2(pipes[0][1], STDOUT_FILENO);
+        dup2(pipes[1][1], STDERR_FILENO);
+        execv(ABUT_COMMAND, argv.data());
+        _exit(127);
+    }
+    if (running.process < 0)
+        throw std::runtime_error("fork");
+    for (std::size_t i = 0; i < 2; ++i) {
+        close(pipes.at(i)[1]);
+        running.outputs.at(i) = {pipes.at(i)[0], POLLIN, 0};
+    }
+    return running;
+}
+
+/// Reads both outputs until they are closed, or the deadline; calls on_text() after each piece.
+template <typename OnText>
+bool drain(Running& running, Outcome& outcome, std::chrono::steady_clock::time_point deadline,
+           const OnText& on_text) {
+    while (running.outputs[0].fd >= 0 || running.outputs[1].fd >= 0) {
+        if (std::chrono::steady_clock::now() > deadline)
+            return false;
+        poll(running.outputs.data(), running.outputs.size(), 100);
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (running.outputs.at(i).revents == 0)
+                continue;
+            std::array<char, 65536> buffer{};
+            const ssize_t count = read(running.outputs.at(i).fd, buffer.data(), buffer.size());
+            if (count > 0) {
+                (i == 0 ? outcome.out : outcome.err)
+                    .append(buffer.data(), static_cast<std::size_t>(count));
+                on_text();
+            } else {
+                close(running.outputs.at(i).fd);
+                running.outputs.at(i).fd = -1; // poll() passes over it
+                running.outputs.at(i).revents = 0;
+            }
+        }
+    }
+    return true;
+}
+
+template <typename OnText>
+Outcome finish(Running running, std::chrono::seconds limit, const OnText& on_text) {
+    Outcome outcome;
+    if (!drain(running, outcome, std::chrono::steady_clock::now() + limit,
+               [&] { on_text(outcome); })) {
+        ADD_FAILURE() << "abut did not end within " << limit.count() << " s";
+        kill(running.process, SIGKILL);
+    }
+    int status = 0;
+    waitpid(running.process, &status, 0);
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return outcome;
+}
+
+} // namespace
+
+Outcome run_abut(const std::vector<std::string>& arguments) {
+    return finish(start(arguments), std::chrono::seconds(300), [](const Outcome&) {});
+}
+
+Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,
+                            int signal) {
+    const Running running = start(arguments);
+    bool sent = false;
+    Outcome outcome = finish(running, std::chrono::seconds(60), [&](const Outcome& so_far) {
+        if (!sent && so_far.err.find(sign) != std::string::npos) {
+            sent = true;
+            kill(running.process, signal);
+        }
+    });
+    EXPECT_TRUE(sent) << "standard error never held '" << sign << "': " << outcome.err;
+    return outcome;
+}
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "abut-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+        throw std::runtime_error("mkdtemp");
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::operator/(const std::string& name) const {
+    return (path_ / name).string();
+}
+
+std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
+    std::ofstream file(path_ / name, std::ios::binary);
+    file << content;
+    file.close();
+    if (!file)
+        throw std::runtime_error("cannot write " + name);
+    return *this / name;
+}
+
+std::vector<std::string> TemporaryFolder::list() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))
+        names.push_back(std::filesystem::relative(entry.path(), path_).string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string read_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    return content.str();
+}
+
+void expect_refused(const Outcome& outcome, const std::vector<std::string>& words) {
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("abut: ", 0), 0U) << outcome.err;
+    for (const std::string& word : words)
+        EXPECT_NE(outcome.err.find(word), std::string::npos)
+            << "'" << word << "' is missing in: " << outcome.err;
+}
+
+} // namespace abut::test

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace abut::test {
+
+/// What a finished program left.
+struct Outcome {
+    int status = -1; ///< exit status; 128 + N if signal N ended it, as a shell says it
+    std::string out, err;
+
+    [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out); }
+};
+
+/// Runs `abut ARGUMENTS` to its end.
+Outcome run_abut(const std::vector<std::string>& arguments);
+
+/// Runs `abut ARGUMENTS`, sends the signal as soon as its standard error holds `sign`, and waits
+/// for its end.
+///
+/// A run that ends before, or needs more than a minute, fails the test.
+Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,
+                            int signal);
+
+/// A folder of its own, removed with everything in it.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    /// The path of a file in it.
+    [[nodiscard]] std::string operator/(const std::string& name) const;
+    /// Writes a file and returns its path.
+    [[nodiscard]] std::string write(const std::string& name, const std::string& content) const;
+    /// Sorted paths of all that it holds, relative to it.
+    [[nodiscard]] std::vector<std::string> list() const;
+
+private:
+    std::filesystem::path path_;
+};
+
+std::string read_file(const std::string& path);
+
+/// Refused input: status 2, nothing on standard output, one line on standard error that holds every
+/// word.
+void expect_refused(const Outcome& outcome, const std::vector<std::string>& words);
+
+} // namespace abut::test
