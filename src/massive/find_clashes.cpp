@@ -7,6 +7,7 @@
 #include "massive/classify_pair.h"
 #include "massive/part_instances.h"
 #include "massive/rule_match.h"
+#include "math/vector.h"
 #include "world/broad_phase.h"
 
 #include <algorithm>

@@ -40,24 +40,6 @@ void EdgeSectors::sort() {
         angle_[i] = angle_[i - 1] + (before(rays_[i - 1], rays_[i]) ? 1 : 0);
 }
 
-/// Faces of a and b alternate strictly: a, b, a, b around the line, no two of these together.
-bool EdgeSectors::pass_through() const {
-    std::vector<bool> owners; // of the angles that one model has alone
-    for (std::size_t i = 0; i < rays_.size();) {
-        bool of_a = false, of_b = false;
-        std::size_t j = i;
-        for (; j < rays_.size() && angle_[j] == angle_[i]; ++j)
-            (rays_[j].of_a ? of_a : of_b) = true;
-        if (of_a != of_b)
-            owners.push_back(of_a);
-        i = j;
-    }
-    std::size_t changes = 0;
-    for (std::size_t i = 0; i < owners.size(); ++i)
-        changes += owners[i] != owners[(i + 1) % owners.size()] ? 1 : 0;
-    return changes >= 4;
-}
-
 /// Coplanar faces on one ray whose inner sides agree: both interiors lie there.
 bool EdgeSectors::interiors_share_a_face() const {
     for (std::size_t i = 0; i < rays_.size(); ++i)
@@ -91,12 +73,11 @@ bool EdgeSectors::enters(bool of_a) const {
     return false;
 }
 
-bool EdgeSectors::interpenetrate(bool a_is_solid, bool b_is_solid) {
+bool EdgeSectors::interiors_overlap() {
     if (rays_.empty())
         return false;
     sort();
-    return pass_through() || (a_is_solid && b_is_solid && interiors_share_a_face()) ||
-           (b_is_solid && enters(true)) || (a_is_solid && enters(false));
+    return interiors_share_a_face() || enters(true) || enters(false);
 }
 
 } // namespace abut

@@ -6,14 +6,13 @@
 
 namespace abut {
 
-/// Faces of two models around a common line, as rays in the plane across it: who lies between whom.
+/// Faces of two solids around a common line, as rays in the plane across it: whose inside lies
+/// where.
 ///
-///            a  b           Looking along the line from e0 to e1, faces are rays; their angular
-///            order is decided by
-///             \ |           orientation signs of the stored vertices, so exactly.
-///      a ------ o
-///               |           Here the faces of b alternate with those of a: the surfaces pass
-///               through each other.
+///       inside  a  b           Looking along the line from e0 to e1, faces are rays; their angular
+///         of a  |/             order is decided by orientation signs of the stored vertices, so
+///      a ------ o              exactly. Here a face of b enters the wedge of a if that wedge lies
+///               |              to the right, and stays outside if it lies to the left.
 ///               b
 class EdgeSectors {
 public:
@@ -30,15 +29,14 @@ public:
     /// Rays along the line itself (degenerate faces) are dropped.
     void add(const Ray& ray);
 
-    /// Whether the surfaces pass through each other here, or one enters the other's interior.
-    /// Exact.
-    [[nodiscard]] bool interpenetrate(bool a_is_solid, bool b_is_solid);
+    /// Whether the interiors share points next to the line. Exact where each solid has one wedge
+    /// there.
+    [[nodiscard]] bool interiors_overlap();
 
 private:
     [[nodiscard]] int half_turn(const Vec3& apex) const;
     [[nodiscard]] bool before(const Ray& r, const Ray& s) const;
     void sort();
-    [[nodiscard]] bool pass_through() const;
     [[nodiscard]] bool interiors_share_a_face() const;
     [[nodiscard]] bool enters(bool of_a) const;
 

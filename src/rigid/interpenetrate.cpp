@@ -2,6 +2,7 @@
 
 #include "math/predicates.h"
 #include "rigid/edge_sectors.h"
+#include "rigid/escape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,8 +93,7 @@ bool sectors_overlap(const PlacedSolid& first, std::uint32_t i, const PlacedSoli
             sectors.add({t[run.left], !first_is_a, turn});
             sectors.add({t[run.right], !first_is_a, -turn});
         }
-        if (sectors.interpenetrate(first_is_a ? first.solid().solid : second.solid().solid,
-                                   first_is_a ? second.solid().solid : first.solid().solid))
+        if (sectors.interiors_overlap())
             return true;
     }
     return false;
@@ -136,16 +136,21 @@ bool interpenetrate(const PlacedSolid& a, const PlacedSolid& b, std::span<const 
     if (std::any_of(contacts.begin(), contacts.end(),
                     [](const Contact& c) { return c.kind == TriangleContact::cross; }))
         return true;
-    for (const Contact& c : contacts)
-        if (sectors_overlap(a, c.pair.a, b, c.pair.b, true) ||
-            sectors_overlap(b, c.pair.b, a, c.pair.a, false))
-            return true;
     std::vector<std::uint32_t> of_a, of_b;
     for (const Contact& c : contacts) {
         of_a.push_back(c.pair.a);
         of_b.push_back(c.pair.b);
     }
-    return reaches_inside(a, std::move(of_a), b) || reaches_inside(b, std::move(of_b), a);
+    if (reaches_inside(a, std::move(of_a), b) || reaches_inside(b, std::move(of_b), a))
+        return true;
+    if (parted_by_a_nudge(a, b, contacts))
+        return false;
+    if (a.outward() == 0 || b.outward() == 0)
+        return true;
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+        return sectors_overlap(a, c.pair.a, b, c.pair.b, true) ||
+               sectors_overlap(b, c.pair.b, a, c.pair.a, false);
+    });
 }
 
 } // namespace abut

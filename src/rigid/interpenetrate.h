@@ -9,15 +9,16 @@ namespace abut {
 
 /// Whether two models that meet go into each other, or only touch.
 ///
-/// Solids go into each other if a point of one's surface lies inside the other, or their interiors
-/// share points along coplanar faces. Open surfaces do if one passes through the other.
+/// They do if triangles cross, or a part of one's surface lies inside the other, a solid. Else, two
+/// solids do if their interiors share points (coplanar faces that turn the same way, faces that
+/// enter along an edge); where one of the two is open, if no small translation parts them: which
+/// side of an open surface is meant is not known, so being locked counts as going through.
 ///
 /// In          all contacts of the pair.
-/// Accuracy    exact where triangles cross and along edges, by orientation signs of stored points:
-/// crossing triangles;
-///             faces that pass through each other along an edge, however they are triangulated;
-///             coplanar faces that turn the same way. Triangles that lie inside a solid and touch
-///             its surface at vertices only are found by their vertices and middles.
+/// Accuracy    crossing, inside at stored vertices, overlap along edges: exact, by orientation
+/// signs of stored points.
+///             Triangles that lie inside a solid and touch its surface at vertices only are found
+///             by their middles.
 bool interpenetrate(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts);
 
 } // namespace abut

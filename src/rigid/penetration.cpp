@@ -2,6 +2,7 @@
 
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
+#include "rigid/escape.h"
 #include "tree/traverse_one.h"
 
 #include <algorithm>
@@ -126,10 +127,10 @@ private:
         double corner_sq = 0;
         for (const Vec3& corner : t)
             corner_sq = std::max(corner_sq, point_triangle_distance(corner, face).distance_sq);
-        const double at_most = std::min(std::sqrt(corner_sq), inside ? nearest.distance + radius
-                                                                     : radius - nearest.distance);
-        if (at_most > depth)
-            pieces_.push({t, at_most, middle, nearest.distance, inside});
+        const double limit = std::min(std::sqrt(corner_sq), inside ? nearest.distance + radius
+                                                                   : radius - nearest.distance);
+        if (limit > depth)
+            pieces_.push({t, limit, middle, nearest.distance, inside});
     }
 
     const PlacedSolid& surface_;
@@ -153,13 +154,8 @@ LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b,
     return best;
 }
 
-} // namespace
-
-LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
-                                   std::span<const Contact> contacts,
-                                   const PenetrationOptions& options) {
-    if (!a.solid().solid && !b.solid().solid)
-        return deepest_crossing(a, b, contacts);
+LocalPenetration deepest_inside(const PlacedSolid& a, const PlacedSolid& b,
+                                const PenetrationOptions& options) {
     LocalPenetration best;
     if (b.solid().solid) {
         DeepestPoint a_in_b(a, b);
@@ -175,6 +171,23 @@ LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
             best = {b_in_a.depth, 0, b_in_a.on_solid, b_in_a.on_surface,
                     normalized_or_zero(b_in_a.on_solid - b_in_a.on_surface)};
         best.at_most = at_most;
+    }
+    return best;
+}
+
+} // namespace
+
+LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
+                                   std::span<const Contact> contacts,
+                                   const PenetrationOptions& options) {
+    const bool solid = a.solid().solid || b.solid().solid;
+    LocalPenetration best =
+        solid ? deepest_inside(a, b, options) : deepest_crossing(a, b, contacts);
+    if (best.depth == 0) {
+        const Escape escape = find_escape(a, b, contacts);
+        const ClosestPoints common = triangle_triangle_distance(
+            a.world_triangle(contacts[0].pair.a), b.world_triangle(contacts[0].pair.b));
+        best = {escape.length, escape.length, common.a, common.b, escape.direction};
     }
     return best;
 }

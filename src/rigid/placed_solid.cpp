@@ -27,13 +27,12 @@ Vec3 ray_direction(std::uint32_t k) {
 
 } // namespace
 
-PlacedSolid::PlacedSolid(const ModelData& model, const Solid& solid,
-                         const Transform& world_from_model)
-    : model_(model), solid_(solid), world_(world_from_model) {
-    world_from_tree_ = compose(world_from_model, model.model_from_tree());
+PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model)
+    : public_model_(model), model_(model.data()), solid_(solid), world_(world_from_model) {
+    world_from_tree_ = compose(world_from_model, model_.model_from_tree());
     tree_from_world_ = inverse(world_from_tree_);
     least_stretch_ = least_stretch(world_from_tree_);
-    const Aabb& box = model.tree().bounds;
+    const Aabb& box = model_.tree().bounds;
     double half = 0;
     for (std::size_t k = 0; k < 3; ++k)
         half = std::max({half, std::abs(double{box.lower[k]}), std::abs(double{box.upper[k]})});

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <abut/model.h>
+
 #include "geometry/triangle_triangle_distance.h"
 #include "math/transform.h"
 #include "rigid/model_data.h"
@@ -14,9 +16,13 @@ namespace abut {
 /// Questions about single points and one model under its transform. Cheap to make, one a thread.
 class PlacedSolid {
 public:
-    PlacedSolid(const ModelData& model, const Solid& solid, const Transform& world_from_model);
+    PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model);
 
+    [[nodiscard]] const Model& public_model() const { return public_model_; }
     [[nodiscard]] const ModelData& model() const { return model_; }
+    [[nodiscard]] const Transform& world() const { return world_; }
+    /// No two points of the model are farther apart.
+    [[nodiscard]] double world_size() const { return 2 * reach_; }
     [[nodiscard]] const Solid& solid() const { return solid_; }
     [[nodiscard]] Vec3 world_vertex(std::uint32_t vertex) const {
         return apply(world_, model_.mesh().positions[vertex]);
@@ -61,6 +67,7 @@ private:
     /// says nothing.
     [[nodiscard]] bool odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const;
 
+    const Model& public_model_;
     const ModelData& model_;
     const Solid& solid_;
     Transform world_;

@@ -1,0 +1,80 @@
+#include "rigid/escape.h"
+
+#include "geometry/triangle_triangle_penetration.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+constexpr double kNudge = 0x1p-30; // far above the rounding of positions, far below anything built
+
+std::vector<Vec3> directions(const PlacedSolid& a, const PlacedSolid& b,
+                             std::span<const Contact> contacts) {
+    constexpr std::size_t kContacts = 16;
+    std::vector<Vec3> separating;
+    Vec3 mean;
+    const std::size_t count = std::min(kContacts, contacts.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const Contact& c = contacts[i * contacts.size() / count];
+        const Vec3 d =
+            triangle_triangle_penetration(a.world_triangle(c.pair.a), b.world_triangle(c.pair.b))
+                .direction;
+        mean = mean + d;
+        if (std::none_of(separating.begin(), separating.end(),
+                         [&](const Vec3& e) { return dot(d, e) > 1 - 1e-6; }))
+            separating.push_back(d);
+    }
+    std::vector<Vec3> result{normalized_or_zero(mean)};
+    result.insert(result.end(), separating.begin(), separating.end());
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z)
+                result.push_back(normalized_or_zero({double(x), double(y), double(z)}));
+    std::erase(result, Vec3{});
+    return result;
+}
+
+bool parted(const PlacedSolid& a, const PlacedSolid& b, const Vec3& shift) {
+    Transform moved = b.world();
+    moved.m[9] += shift.x, moved.m[10] += shift.y, moved.m[11] += shift.z;
+    Counters unused;
+    const PlacedPair pair(a.public_model(), a.world(), b.public_model(), moved);
+    return find_contacts(pair, ContactMode::first, unused).empty();
+}
+
+} // namespace
+
+bool parted_by_a_nudge(const PlacedSolid& a, const PlacedSolid& b,
+                       std::span<const Contact> contacts) {
+    const double nudge = kNudge * std::max(a.world_size(), b.world_size());
+    const std::vector<Vec3> all = directions(a, b, contacts);
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Vec3& d) { return parted(a, b, nudge * d); });
+}
+
+Escape find_escape(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts) {
+    const double size = a.world_size() + b.world_size();
+    Escape best;
+    for (const Vec3& d : directions(a, b, contacts)) {
+        if (best.length > 0 && !parted(a, b, best.length * d))
+            continue;
+        double short_of = 0, enough = best.length > 0 ? best.length : kNudge * size;
+        while (best.length == 0 && enough <= size && !parted(a, b, enough * d)) {
+            short_of = enough;
+            enough *= 2;
+        }
+        if (enough > size)
+            continue;
+        while (enough - short_of > enough / 256) {
+            const double middle = 0.5 * (short_of + enough);
+            (parted(a, b, middle * d) ? enough : short_of) = middle;
+        }
+        best = {enough, d};
+    }
+    return best;
+}
+
+} // namespace abut
