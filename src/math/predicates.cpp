@@ -123,6 +123,8 @@ int orient2d(double ax, double ay, double bx, double by, double cx, double cy) {
         (3 + 16 * kEpsilon) * kEpsilon * (std::abs(left) + std::abs(right)) + kUnderflow;
     if (det > bound || -det > bound)
         return sign(det);
+    if ((ax == bx && ay == by) || (ax == cx && ay == cy) || (bx == cx && by == cy))
+        return 0;
     return orient2d_exact(ax, ay, bx, by, cx, cy);
 }
 
@@ -146,6 +148,9 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     // Overflow makes the bound infinite or not a number: then neither comparison holds.
     if (det > bound || -det > bound)
         return sign(det);
+    // Common enough to be worth a look: a shared vertex, a collapsed triangle.
+    if (b == a || c == a || d == a || c == b || d == b || d == c)
+        return 0;
     return orient3d_exact(a, b, c, d);
 }
 

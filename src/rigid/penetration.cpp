@@ -116,7 +116,7 @@ private:
         // to outside.
         const bool inside = parent != nullptr && moved < parent->middle_distance
                                 ? parent->middle_inside
-                                : solid_.contains(middle);
+                                : nearest.distance > 0 && solid_.contains_off_surface(middle);
         if (inside && nearest.distance > depth) {
             depth = nearest.distance;
             on_surface = middle, on_solid = nearest.point;

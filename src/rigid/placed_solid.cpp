@@ -95,9 +95,7 @@ bool PlacedSolid::odd_crossings(const Vec3& from, const Vec3& to, bool& clear) c
     return odd;
 }
 
-bool PlacedSolid::contains(const Vec3& point) const {
-    if (on_surface(point))
-        return false;
+bool PlacedSolid::contains_off_surface(const Vec3& point) const {
     const Transform& f = world_;
     const Vec3 o = apply(f, {model_.model_from_tree().m[9], model_.model_from_tree().m[10],
                              model_.model_from_tree().m[11]});

@@ -47,8 +47,12 @@ public:
     /// Whether the point lies strictly inside, by the parity of crossings of a ray.
     ///
     /// Accuracy    exact for a closed mesh; with T-junctions, the majority of three rays. False on
-    /// the surface.
-    [[nodiscard]] bool contains(const Vec3& point) const;
+    ///             the surface.
+    [[nodiscard]] bool contains(const Vec3& point) const {
+        return !on_surface(point) && contains_off_surface(point);
+    }
+    /// The same for a point that is known not to lie on the surface.
+    [[nodiscard]] bool contains_off_surface(const Vec3& point) const;
 
     /// A part inside the other: for a mesh that is not closed the winding number decides (1 to
     /// rounding).
