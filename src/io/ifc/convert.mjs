@@ -200,22 +200,26 @@ class Converter {
     }
 }
 
-/** web-ifc reads what it finds of a truncated file: it has to end as it should. */
-function checkEnds(file, size) {
+/** web-ifc reads what it finds of a truncated file: it has to end as it should. Its schema is in the header. */
+function checkFile(file, size) {
     const read = (length, position) => {
         const bytes = Buffer.alloc(Math.max(0, Math.min(length, size - position)));
         fs.readSync(file, bytes, 0, bytes.length, position);
         return bytes.toString('latin1');
     };
-    if (!read(1024, 0).includes('ISO-10303-21;'))
+    const header = read(1 << 16, 0);
+    if (!header.includes('ISO-10303-21;'))
         throw new Fault(MALFORMED, 'is no IFC file (STEP text)');
     if (!/END-ISO-10303-21\s*;\s*$/.test(read(1024, Math.max(0, size - 1024))))
         throw new Fault(MALFORMED, 'is truncated: it does not end with END-ISO-10303-21;');
+    const schema = /FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'/i.exec(header)?.[1];
+    if (schema !== undefined && !/^IFC(2X3|4)/i.test(schema))
+        throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
 }
 
 async function convert(path, output) {
     const file = fs.openSync(path, 'r');
-    checkEnds(file, fs.fstatSync(file).size);
+    checkFile(file, fs.fstatSync(file).size);
     const {IfcAPI} = await import('web-ifc');
     const api = new IfcAPI();
     await api.Init(undefined, true);
@@ -225,9 +229,6 @@ async function convert(path, output) {
     }, {COORDINATE_TO_ORIGIN: false});
     if (model < 0)
         throw new Fault(MALFORMED, 'cannot be parsed as IFC');
-    const schema = api.GetModelSchema(model);
-    if (!/^IFC(2X3|4)/.test(schema ?? ''))
-        throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
     const converter = new Converter(api, model, output);
     let fault = null;
     api.StreamAllMeshes(model, product => {

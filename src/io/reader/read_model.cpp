@@ -123,6 +123,8 @@ void read_model(const std::string& file, StreamWriter& writer) {
     if (is_gltf)
         tree = read_gltf_tree(file, extension == ".glb");
     const std::optional<std::uint64_t> promised = promised_triangles(file, extension);
+    if (promised == 0)
+        throw Fault(ErrorCode::bad_mesh, "holds no triangles");
 
     // Never destroyed: the process ends without taking the scene apart.
     auto* const importer = new Assimp::Importer; // NOLINT(cppcoreguidelines-owning-memory)
