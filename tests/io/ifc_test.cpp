@@ -15,13 +15,26 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// The box around one part.
-Box3 bounds_of(const Scene& scene, const Part& part) {
+std::vector<std::array<Vec3, 3>> triangles_of(const Scene& scene, const Part& part) {
     Scene alone;
     alone.meshes = scene.meshes;
     alone.parts = {part};
+    return world_triangles(alone);
+}
+
+/// The volume that closed triangles enclose: a sixth of the sum of their triple products.
+double volume_of(const Scene& scene, const Part& part) {
+    double sum = 0;
+    for (const auto& [a, b, c] : triangles_of(scene, part))
+        sum += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+               a.z * (b.x * c.y - b.y * c.x);
+    return sum / 6;
+}
+
+/// The box around one part.
+Box3 bounds_of(const Scene& scene, const Part& part) {
     Box3 box;
-    for (const auto& triangle : world_triangles(alone))
+    for (const auto& triangle : triangles_of(scene, part))
         for (const Vec3& p : triangle) {
             box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y),
                          std::min(box.lower.z, p.z)};
@@ -63,8 +76,8 @@ protected:
 
 TEST_F(Ifc, House2x3) {
     const Scene scene = read_scene(kFolder + "house_2x3.ifc");
-    ASSERT_EQ(scene.parts.size(), 3U);
-    EXPECT_EQ(scene.meshes.size(), 2U);
+    ASSERT_EQ(scene.parts.size(), 5U);
+    EXPECT_EQ(scene.meshes.size(), 3U);
     const auto parts = by_id(scene);
     const Part& wall = parts.at("1WallOfTheTests0000001");
     EXPECT_EQ(wall.name, "South wall");
@@ -72,6 +85,17 @@ TEST_F(Ifc, House2x3) {
     EXPECT_EQ(scene.meshes[wall.mesh].triangles.size(), 12U);
     // Y is up: IFC's (x, y, z) is (x, z, -y).
     expect_box(bounds_of(scene, wall), {0, 0, -0.2}, {4, 3, 0});
+    // The same shape again, and with a hole: that one must not share the mesh.
+    const Part& plain = parts.at("1WallOfTheTests0000002");
+    EXPECT_EQ(plain.mesh, wall.mesh);
+    expect_box(bounds_of(scene, plain), {0, 0, -5.2}, {4, 3, -5});
+    const Part& holed = parts.at("1WallOfTheTests0000003");
+    EXPECT_NE(holed.mesh, wall.mesh);
+    EXPECT_GE(scene.meshes[holed.mesh].triangles.size(), 28U);
+    expect_box(bounds_of(scene, holed), {0, 0, -10.2}, {4, 3, -10});
+    EXPECT_NEAR(volume_of(scene, wall), 4 * 0.2 * 3, 1e-6);
+    EXPECT_NEAR(volume_of(scene, holed), 4 * 0.2 * 3 - 0.2, 1e-6);
+
     const Part& one = parts.at("1BlockOfTheTests000001");
     const Part& two = parts.at("1BlockOfTheTests000002");
     EXPECT_EQ(one.name, "Block one");
