@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <sys/stat.h>
 
 namespace abut::test {
@@ -216,6 +217,35 @@ TEST_F(Hostile, DeepTreesAreReadOrRefusedButDoNotCrashTheCaller) {
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::reader_failed) << error.what();
     }
+}
+
+TEST_F(Hostile, DamagedFilesAreReadOrRefused) {
+    const unsigned seed = 20240607;
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    std::size_t read = 0;
+    std::size_t refused = 0;
+    for (const auto& [name, content] : samples_) {
+        for (int round = 0; round < 40; ++round) {
+            std::string damaged = content;
+            for (unsigned i = 0; i < 1 + random() % 4; ++i)
+                damaged[random() % damaged.size()] = static_cast<char>(random());
+            const std::string path = folder_.file(name, damaged);
+            try {
+                const Scene scene = read_scene(path);
+                for (const auto& triangle : world_triangles(scene)) // at() finds a bad index
+                    for (const Vec3& p : triangle)
+                        ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << name;
+                ++read;
+            } catch (const Error& error) {
+                EXPECT_EQ(error.file(), path);
+                EXPECT_NE(error.code(), ErrorCode::file_not_found) << error.what();
+                ++refused;
+            }
+        }
+    }
+    EXPECT_GT(read, (read + refused) / 10);
+    EXPECT_GT(refused, (read + refused) / 10);
 }
 
 TEST_F(Hostile, OfSeveralFilesTheFirstFaultCounts) {

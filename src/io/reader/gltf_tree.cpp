@@ -35,7 +35,7 @@ std::string read_bytes(std::ifstream& stream, std::uint64_t size) {
 
 template <std::size_t count>
 std::array<std::uint32_t, count> read_words(std::ifstream& stream) {
-    std::array<std::uint32_t, count> words;
+    std::array<std::uint32_t, count> words{};
     std::memcpy(words.data(), read_bytes(stream, sizeof words).data(), sizeof words);
     return words;
 }

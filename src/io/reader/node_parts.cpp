@@ -47,7 +47,7 @@ std::string metadata(const aiNode& node, const char* key) {
 template <typename Node>
 struct Visit {
     Node node;
-    const aiNode* from_assimp;
+    const aiNode* from_assimp = nullptr;
     Transform world_from_parent;
 };
 

@@ -34,7 +34,7 @@ const aiScene& import(Assimp::Importer& importer, const std::string& file) {
     // No step of Assimp's: they join, drop and move vertices. Polygons are cut here.
     const aiScene* const scene = importer.ReadFile(file, 0);
     if (scene == nullptr) {
-        if (const std::exception_ptr fault = importer.GetException()) {
+        if (const std::exception_ptr& fault = importer.GetException()) {
             try {
                 std::rethrow_exception(fault);
             } catch (const std::bad_alloc&) {
