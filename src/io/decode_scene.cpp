@@ -36,7 +36,7 @@ public:
     }
     template <typename Value>
     Value value() {
-        Value result;
+        Value result{};
         std::memcpy(&result, take(sizeof(Value)).data(), sizeof(Value));
         return result;
     }
@@ -122,10 +122,10 @@ Part decode_part(Cursor& cursor, std::size_t meshes, const std::string& file) {
 /// floats.
 bool stays_finite(const Transform& transform) {
     constexpr double kLargest = std::numeric_limits<float>::max();
-    for (int row = 0; row < 3; ++row) {
-        double reach = std::fabs(transform.m[static_cast<std::size_t>(row) + 9]);
-        for (int column = 0; column < 3; ++column)
-            reach += std::fabs(transform.m[static_cast<std::size_t>(3 * column + row)]) * kLargest;
+    for (std::size_t row = 0; row < 3; ++row) {
+        double reach = std::fabs(transform.m[row + 9]);
+        for (std::size_t column = 0; column < 3; ++column)
+            reach += std::fabs(transform.m[3 * column + row]) * kLargest;
         if (!std::isfinite(reach))
             return false;
     }

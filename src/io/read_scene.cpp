@@ -143,9 +143,9 @@ private:
             if (turn >= order_.size())
                 return;
             const std::size_t i = order_[turn];
-            // What comes after a file that failed is not wanted any more.
+            // Neither a file at fault nor what comes after it is wanted any more.
             const auto should_stop = [&] {
-                return first_fault_.load() < i ||
+                return first_fault_.load() <= i ||
                        (options_.progress.stop != nullptr && options_.progress.stop->load());
             };
             if (should_stop())

@@ -40,7 +40,7 @@ fs::path running_program_folder() {
 }
 
 std::string find_reader(const std::string& file) {
-    const std::string chosen = environment("ABUT_READER");
+    std::string chosen = environment("ABUT_READER");
     if (!chosen.empty()) {
         if (is_program(chosen))
             return chosen;
@@ -58,7 +58,7 @@ std::string find_reader(const std::string& file) {
 }
 
 std::string find_node(const std::string& file, const fs::path& converter) {
-    const std::string chosen = environment("ABUT_NODE");
+    std::string chosen = environment("ABUT_NODE");
     if (!chosen.empty()) {
         if (is_program(chosen))
             return chosen;

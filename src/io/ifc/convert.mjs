@@ -4,6 +4,7 @@
 // them; openings and spaces are left out, as web-ifc does. Products that are placed copies of the same geometry share
 // a mesh. Geometry is what web-ifc computes: floats around the geometry's own centre, placed by a double matrix.
 
+import crypto from 'node:crypto';
 import fs from 'node:fs';
 
 const RESULT = 3;
@@ -107,7 +108,7 @@ function inverse(m) {
 
 const transformOf = m => [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10], m[12], m[13], m[14]];
 
-/** One geometry of web-ifc: six floats a vertex (position, normal) and three indices a triangle. */
+/** One geometry of web-ifc, which keeps six floats a vertex (position, normal) and three indices a triangle. */
 function geometryOf(api, model, id) {
     const geometry = api.GetGeometry(model, id);
     const vertices = api.GetVertexArray(geometry.GetVertexData(), geometry.GetVertexDataSize());
@@ -117,7 +118,9 @@ function geometryOf(api, model, id) {
     for (let from = 0, to = 0; from < vertices.length; from += 6, to += 3)
         positions.set(vertices.subarray(from, from + 3), to);
     geometry.delete();
-    return {positions, triangles};
+    // Not the express id tells geometries apart: a wall with an opening has that of the same wall without one.
+    const hash = crypto.createHash('sha256').update(positions).update(triangles).digest('base64');
+    return {hash, positions, triangles};
 }
 
 /** Several geometries as one mesh in the frame of the first; doubles, so that no position is rounded again. */
@@ -145,8 +148,8 @@ function joined(pieces) {
 function keyOf(pieces, metresPerUnit) {
     const step = SAME_PLACE_METRES / metresPerUnit;
     return pieces
-        .map(({id, place}) =>
-                 [id, ...place.map((v, i) => Math.round(v / (i >= 12 ? step : SAME_DIRECTION)) + 0)])
+        .map(({geometry, place}) =>
+                 [geometry.hash, ...place.map((v, i) => Math.round(v / (i >= 12 ? step : SAME_DIRECTION)) + 0)])
         .join(';');
 }
 
@@ -165,7 +168,7 @@ class Converter {
             const {geometryExpressID, flatTransformation} = product.geometries.get(i);
             const geometry = geometryOf(this.api, this.model, geometryExpressID);
             if (geometry.triangles.length > 0)
-                placed.push({id: geometryExpressID, world: [...flatTransformation], geometry});
+                placed.push({world: [...flatTransformation], geometry});
         }
         if (placed.length === 0)
             return;
@@ -186,36 +189,40 @@ class Converter {
         return number;
     }
 
-    #single({id, world, geometry}) { return [this.#mesh(`${id}`, () => geometry), world]; }
+    #single({world, geometry}) { return [this.#mesh(geometry.hash, () => geometry), world]; }
 
     #several(placed) {
         const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
         const back = inverse(placed[0].world);
         const world = back === null ? identity : placed[0].world;
         const pieces = placed.map(
-            ({id, world: own, geometry}, i) =>
-                ({id, geometry, place: back === null ? own : i === 0 ? identity : multiply(back, own)}));
+            ({world: own, geometry}, i) =>
+                ({geometry, place: back === null ? own : i === 0 ? identity : multiply(back, own)}));
         const metresPerUnit = Math.hypot(world[0], world[1], world[2]);
         return [this.#mesh(keyOf(pieces, metresPerUnit), () => joined(pieces)), world];
     }
 }
 
-/** web-ifc reads what it finds of a truncated file: it has to end as it should. */
-function checkEnds(file, size) {
+/** web-ifc reads what it finds of a truncated file: it has to end as it should. Its schema is in the header. */
+function checkFile(file, size) {
     const read = (length, position) => {
         const bytes = Buffer.alloc(Math.max(0, Math.min(length, size - position)));
         fs.readSync(file, bytes, 0, bytes.length, position);
         return bytes.toString('latin1');
     };
-    if (!read(1024, 0).includes('ISO-10303-21;'))
+    const header = read(1 << 16, 0);
+    if (!header.includes('ISO-10303-21;'))
         throw new Fault(MALFORMED, 'is no IFC file (STEP text)');
     if (!/END-ISO-10303-21\s*;\s*$/.test(read(1024, Math.max(0, size - 1024))))
         throw new Fault(MALFORMED, 'is truncated: it does not end with END-ISO-10303-21;');
+    const schema = /FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'/i.exec(header)?.[1];
+    if (schema !== undefined && !/^IFC(2X3|4)/i.test(schema))
+        throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
 }
 
 async function convert(path, output) {
     const file = fs.openSync(path, 'r');
-    checkEnds(file, fs.fstatSync(file).size);
+    checkFile(file, fs.fstatSync(file).size);
     const {IfcAPI} = await import('web-ifc');
     const api = new IfcAPI();
     await api.Init(undefined, true);
@@ -225,9 +232,6 @@ async function convert(path, output) {
     }, {COORDINATE_TO_ORIGIN: false});
     if (model < 0)
         throw new Fault(MALFORMED, 'cannot be parsed as IFC');
-    const schema = api.GetModelSchema(model);
-    if (!/^IFC(2X3|4)/.test(schema ?? ''))
-        throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
     const converter = new Converter(api, model, output);
     let fault = null;
     api.StreamAllMeshes(model, product => {

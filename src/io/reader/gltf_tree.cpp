@@ -20,8 +20,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint32_t kGlbMagic = 0x46546c67;  // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a; // "JSON"
+constexpr std::uint32_t kGlbMagic = 0x46546c67;    // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a;   // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004e4942; // "BIN"
 constexpr std::uint64_t kGlbHeaderBytes = 12;
 constexpr std::uint64_t kChunkHeaderBytes = 8;
 
@@ -34,16 +35,21 @@ std::string read_bytes(std::ifstream& stream, std::uint64_t size) {
 
 template <std::size_t count>
 std::array<std::uint32_t, count> read_words(std::ifstream& stream) {
-    std::array<std::uint32_t, count> words;
+    std::array<std::uint32_t, count> words{};
     std::memcpy(words.data(), read_bytes(stream, sizeof words).data(), sizeof words);
     return words;
 }
 
-/// The JSON chunk of a GLB file.
+struct GlbFile {
+    std::string json;
+    std::uint64_t binary_size = 0; ///< of the chunk that buffer 0 lies in
+};
+
+/// The JSON chunk of a GLB file, and the size of the binary one.
 ///
 ///     header  u32 magic "glTF" | u32 version | u32 length of the file
 ///     chunk   u32 length | u32 kind | bytes …    the first is JSON, the second binary
-std::string glb_json(std::ifstream& stream, std::uint64_t file_size) {
+GlbFile read_glb(std::ifstream& stream, std::uint64_t file_size) {
     if (file_size < kGlbHeaderBytes + kChunkHeaderBytes)
         malformed("is too short for a GLB file");
     const auto [magic, version, length] = read_words<3>(stream);
@@ -55,22 +61,24 @@ std::string glb_json(std::ifstream& stream, std::uint64_t file_size) {
     if (length > file_size)
         malformed("is truncated: " + std::to_string(file_size) + " of " + std::to_string(length) +
                   " bytes");
-    std::string text;
+    GlbFile glb;
     for (std::uint64_t at = kGlbHeaderBytes; at + kChunkHeaderBytes <= length;) {
         const auto [size, kind] = read_words<2>(stream);
         at += kChunkHeaderBytes;
         if (size > length - at)
             malformed("is truncated: a chunk reaches beyond its end");
-        if (text.empty()) {
+        if (glb.json.empty()) {
             if (kind != kJsonChunk)
                 malformed("its first chunk is not JSON");
-            text = read_bytes(stream, size);
+            glb.json = read_bytes(stream, size);
         } else {
+            if (kind == kBinaryChunk)
+                glb.binary_size = size;
             stream.seekg(size, std::ios::cur);
         }
         at += size;
     }
-    return text;
+    return glb;
 }
 
 json parse(const std::string& text) {
@@ -281,12 +289,17 @@ void check_extensions(const json& document) {
 GltfTree read_gltf_tree(const std::string& file, bool binary) {
     std::ifstream stream(file, std::ios::binary);
     const std::uint64_t size = std::filesystem::file_size(file);
-    const json document = parse(binary ? glb_json(stream, size) : read_bytes(stream, size));
+    const GlbFile content = binary ? read_glb(stream, size) : GlbFile{read_bytes(stream, size), 0};
+    const json document = parse(content.json);
     if (!document.is_object() || !document.contains("asset"))
         malformed("is no glTF file");
     if (text_or_empty(document["asset"], "version").rfind("2.", 0) != 0)
         throw Fault(ErrorCode::unsupported, "is not glTF 2");
     check_extensions(document);
+
+    for (const json& buffer : member_or_empty(document, "buffers"))
+        if (!buffer.contains("uri") && number_or(buffer, "byteLength", 0) > content.binary_size)
+            malformed("its buffer is longer than the file's binary part");
 
     GltfTree tree;
     const Accessors accessors(document);

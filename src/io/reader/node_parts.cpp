@@ -47,7 +47,7 @@ std::string metadata(const aiNode& node, const char* key) {
 template <typename Node>
 struct Visit {
     Node node;
-    const aiNode* from_assimp;
+    const aiNode* from_assimp = nullptr;
     Transform world_from_parent;
 };
 
@@ -56,12 +56,16 @@ void check_promise(const aiScene& scene, const aiNode& node,
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
         const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
         const GltfTree::Primitive& promised = primitives[i];
-        if (promised.is_surface &&
-            (mesh.mNumVertices != promised.vertices || mesh.mNumFaces != promised.triangles))
+        if (!promised.is_surface)
+            continue;
+        if (mesh.mNumVertices != promised.vertices)
             malformed("part " + id + ": only " + std::to_string(mesh.mNumVertices) + " of " +
-                      std::to_string(promised.vertices) + " vertices and " +
-                      std::to_string(mesh.mNumFaces) + " of " + std::to_string(promised.triangles) +
-                      " triangles could be read");
+                      std::to_string(promised.vertices) + " vertices could be read");
+        // Assimp leaves out what it cannot draw, without a word.
+        if (mesh.mNumFaces != promised.triangles)
+            throw Fault(ErrorCode::bad_mesh,
+                        "part " + id + ": " + std::to_string(promised.triangles - mesh.mNumFaces) +
+                            " of its triangles refer to vertices that do not exist");
     }
 }
 

@@ -34,7 +34,7 @@ const aiScene& import(Assimp::Importer& importer, const std::string& file) {
     // No step of Assimp's: they join, drop and move vertices. Polygons are cut here.
     const aiScene* const scene = importer.ReadFile(file, 0);
     if (scene == nullptr) {
-        if (const std::exception_ptr fault = importer.GetException()) {
+        if (const std::exception_ptr& fault = importer.GetException()) {
             try {
                 std::rethrow_exception(fault);
             } catch (const std::bad_alloc&) {
@@ -123,6 +123,8 @@ void read_model(const std::string& file, StreamWriter& writer) {
     if (is_gltf)
         tree = read_gltf_tree(file, extension == ".glb");
     const std::optional<std::uint64_t> promised = promised_triangles(file, extension);
+    if (promised == 0)
+        throw Fault(ErrorCode::bad_mesh, "holds no triangles");
 
     // Never destroyed: the process ends without taking the scene apart.
     auto* const importer = new Assimp::Importer; // NOLINT(cppcoreguidelines-owning-memory)

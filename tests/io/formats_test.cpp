@@ -1,0 +1,148 @@
+// Every format: the same tetrahedron arrives, position for position; and no file that is cut short
+// is read.
+
+#include "tests/io/sample_files.h"
+#include "tests/io/support.h"
+
+#include <algorithm>
+
+namespace abut::test {
+namespace {
+
+class Format : public testing::TestWithParam<std::string> {
+protected:
+    TemporaryFolder folder_;
+    std::string content_ = sample_files().at(GetParam());
+};
+
+TEST_P(Format, GivesTheStoredPositions) {
+    const Scene scene = read_scene(folder_.file(GetParam(), content_));
+    ASSERT_EQ(scene.parts.size(), 1U);
+    const auto triangles = world_triangles(scene);
+    ASSERT_EQ(triangles.size(), kFaces.size());
+    for (std::size_t i = 0; i < kFaces.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto& corner = kCorners.at(kFaces[i].at(k));
+            EXPECT_EQ(triangles[i].at(k), (Vec3{corner[0], corner[1], corner[2]})) << i << ' ' << k;
+        }
+    EXPECT_FALSE(scene.parts[0].id.empty());
+    EXPECT_EQ(scene.parts[0].name, scene.parts[0].id);
+}
+
+TEST_P(Format, RefusesAFileThatIsCutShort) {
+    // Without its line end a text file is whole.
+    std::size_t end = content_.find_last_not_of(" \n\r\t") + 1;
+    if (GetParam() == "text.stl")
+        end = content_.find("endsolid") + 8; // a name follows, which may be left out
+    const bool is_obj = GetParam() == "sample.obj";
+    std::size_t cuts = 0;
+    for (std::size_t size = 1; size < end; size += 1 + end / 60) {
+        // An OBJ file has no count and no end: one that lacks whole lines at its end is an OBJ
+        // file. What can be known is that its faces refer to vertices that are not there.
+        if (is_obj && size > content_.find("\nf "))
+            continue;
+        ++cuts;
+        const std::string path = folder_.file(GetParam(), content_.substr(0, size));
+        try {
+            const Scene scene = read_scene(path);
+            ADD_FAILURE() << "read " << size << " of " << content_.size()
+                          << " bytes: " << world_triangles(scene).size() << " triangles";
+        } catch (const Error& error) {
+            EXPECT_TRUE(error.code() == ErrorCode::malformed ||
+                        error.code() == ErrorCode::bad_mesh ||
+                        error.code() == ErrorCode::unsupported)
+                << error.what();
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_GT(cuts, 20U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Format,
+                         testing::Values("sample.obj", "sample.off", "text.stl", "binary.stl",
+                                         "text.ply", "little.ply", "big.ply", "sample.glb",
+                                         "sample.gltf", "sample.dae", "sample.fbx"),
+                         [](const auto& instance) {
+                             std::string name = instance.param;
+                             name[name.find('.')] = '_';
+                             return name;
+                         });
+
+TEST(Formats, PolygonsAreCutIntoAllTheirTriangles) {
+    const TemporaryFolder folder;
+    // An L of six corners; Newell's normal is -z, so that the plane is seen from below.
+    const std::string path = folder.file(
+        "l.off", "OFF\n6 1 0\n0 0 0\n0 2 0\n1 2 0\n1 1 0\n2 1 0\n2 0 0\n6 0 1 2 3 4 5\n");
+    double area = 0;
+    for (const auto& [a, b, c] : world_triangles(read_scene(path))) {
+        const double doubled = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        EXPECT_LT(doubled, 0); // all turn as the polygon does: none lies outside of it
+        area -= doubled / 2;
+    }
+    EXPECT_EQ(area, 3);
+}
+
+TEST(Formats, APolygonThatCrossesItselfLosesNothing) {
+    const TemporaryFolder folder;
+    const std::string bow_tie =
+        folder.file("bow.off", "OFF\n4 1 0\n0 0 0\n1 1 0\n1 0 0\n0 1 0\n4 0 1 2 3\n");
+    EXPECT_EQ(world_triangles(read_scene(bow_tie)).size(), 2U);
+}
+
+TEST(Formats, ZeroAreaTrianglesAreKept) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file(
+        "flat.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n3 0 1 3\n3 0 1 2\n3 1 1 1\n3 0 1 3\n");
+    EXPECT_EQ(world_triangles(read_scene(path)).size(), 4U);
+}
+
+TEST(Formats, UnitScalesTheTransformAndKeepsTheMesh) {
+    const TemporaryFolder folder;
+    ReadOptions options;
+    options.unit = 0.001;
+    const Scene scene =
+        read_scene(folder.file("sample.obj", sample_files().at("sample.obj")), options);
+    EXPECT_EQ(scene.parts[0].world_from_mesh,
+              Transform({0.001, 0, 0, 0, 0.001, 0, 0, 0, 0.001, 0, 0, 0}));
+    EXPECT_EQ(scene.meshes[0].positions[1], (Vec3{0, 2.5, 0})); // face 0 2 1
+    options.unit = -1;
+    EXPECT_THROW(read_scene("any.obj", options), Error);
+}
+
+TEST(Formats, FbxComesInItsOwnUnitAndQuadsBecomeTriangles) {
+    const TemporaryFolder folder;
+    const Scene scene = read_scene(folder.file("cube.fbx", cube_fbx()));
+    const auto triangles = world_triangles(scene);
+    ASSERT_EQ(triangles.size(), 12U);
+    double largest = 0;
+    for (const auto& triangle : triangles)
+        for (const Vec3& corner : triangle)
+            largest = std::max({largest, corner.x, corner.y, corner.z});
+    EXPECT_EQ(largest, 1); // UnitScaleFactor 100 is left to ReadOptions::unit
+}
+
+TEST(Formats, ColladaComesInMetresAndYUp) {
+    const TemporaryFolder folder;
+    std::string text = sample_files().at("sample.dae");
+    text.replace(text.find("meter=\"1\""), 9, "meter=\".5\"");
+    text.replace(text.find("Y_UP"), 4, "Z_UP");
+    const Scene scene = read_scene(folder.file("sample.dae", text));
+    // z up to y up: (x, y, z) becomes (x, z, -y).
+    EXPECT_EQ(world_triangles(scene)[0][1], (Vec3{0, 0, -1.25})); // corner 2
+}
+
+TEST(Formats, ReadMeshJoinsTheParts) {
+    const TemporaryFolder folder;
+    const nlohmann::json nodes = {{{"name", "a"}, {"mesh", 0}},
+                                  {{"name", "b"}, {"mesh", 0}, {"translation", {0.1, 0, 1e6}}}};
+    const std::string path =
+        folder.file("two.glb", glb(tetrahedron_document(nodes, {0, 1}), tetrahedron_bytes()));
+    const Mesh mesh = read_mesh(path);
+    ASSERT_EQ(mesh.positions.size(), 8U);
+    ASSERT_EQ(mesh.triangles.size(), 8U);
+    EXPECT_EQ(mesh.positions[7], (Vec3{0.1, 0, double{0.1F} + 1e6}));
+    EXPECT_EQ(mesh.triangles[4], (std::array<std::uint32_t, 3>{4, 6, 5}));
+}
+
+} // namespace
+} // namespace abut::test
