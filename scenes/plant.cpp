@@ -67,8 +67,8 @@ void build_base(PlantBuilder& b, const std::vector<Unit>& units) {
         build_rack(b, unit);
         build_yard(b, unit);
         build_cladding(b, unit);
-        build_services(b, unit);
         build_equipment(b, unit);
+        build_services(b, unit);
     }
     plant_clashes(b, units, {0, ground_level(b), -60});
     const Box3 all = b.bounds();

@@ -21,15 +21,21 @@ constexpr std::array kBores{Bore{50, 0.03125, 0.078125},    Bore{80, 0.046875, 0
 /// Lays a run leg by leg; every piece is placed at once if there is room.
 class Run {
 public:
-    Run(PlantBuilder& builder, int number, std::uint64_t limit)
+    Run(PlantBuilder& builder, const Unit& unit, int number, std::uint64_t limit)
         : b(builder), bore_(b.random.pick(kBores)), limit_(limit),
+          low_(add(unit.origin, {-2, 0.25, -3})),
+          high_(add(unit.origin, {unit.bays_x * kBay + 3, unit.floors * kStorey + 1.5,
+                                  unit.bays_z * kBay - 0.25})),
           name_(fmt::format("Pipe DN{} run {}", bore_.dn, number)) {}
 
     /// A straight leg of about `length` from `start`; false (and nothing placed) if there is no
     /// room.
     bool leg(const Vec3& start, const Vec3& direction, double length) {
+        if (!inside(start) || !inside(add(start, scaled(direction, length)))) {
+            return false;
+        }
         const PlantBuilder::Mark mark = b.mark();
-        const int bolts_before = segment_;
+        const int segment_before = segment_;
         Vec3 p = start;
         double left = length;
         bool flange_before = false;
@@ -48,7 +54,7 @@ public:
             if (!b.place(id, along(direction, p), "IfcPipeSegment",
                          fmt::format("{} segment {}", name_, ++segment_))) {
                 b.go_back(mark);
-                segment_ = bolts_before;
+                segment_ = segment_before;
                 return false;
             }
             p = add(p, scaled(direction, piece));
@@ -81,6 +87,12 @@ public:
     }
 
 private:
+    /// Runs stay in the building, or just outside it.
+    [[nodiscard]] bool inside(const Vec3& p) const {
+        return p.x >= low_.x && p.y >= low_.y && p.z >= low_.z && p.x <= high_.x &&
+               p.y <= high_.y && p.z <= high_.z;
+    }
+
     /// Studs between two flanges; returns the distance of the flanges.
     double joint(const Vec3& p, const Vec3& direction) {
         constexpr double kLength = 0.0625, kRadius = 0.01171875;
@@ -101,6 +113,7 @@ private:
     PlantBuilder& b;
     Bore bore_;
     std::uint64_t limit_;
+    Vec3 low_, high_;
     std::string name_;
     int segment_ = 0;
     Vec3 end_;
@@ -133,7 +146,7 @@ bool lay_pipe_run(PlantBuilder& b, const Unit& unit, int number, std::uint64_t l
     constexpr std::array<Vec3, 6> kDirections{Vec3{1, 0, 0}, {-1, 0, 0}, {0, 0, 1},
                                               {0, 0, -1},    {0, 1, 0},  {0, -1, 0}};
     const PlantBuilder::Mark before = b.mark();
-    Run run(b, number, limit);
+    Run run(b, unit, number, limit);
     Vec3 direction;
     const Vec3 start = start_point(b, unit, direction);
     double length = b.random.between(6, 24);
