@@ -44,7 +44,7 @@ std::string extremes(const char* title, const ClashReport& report, const std::ve
     std::string text = fmt::format("\n{}\n", title);
     for (std::size_t i = 0; i < count; ++i)
         text +=
-            fmt::format("  {:<10} {:>9.4f} m  {}  |  {}\n", abut::to_string(rows[i]->kind),
+            fmt::format("  {:<10} {:>10.4g} m  {}  |  {}\n", abut::to_string(rows[i]->kind),
                         rows[i]->distance, label(models, *rows[i], 0), label(models, *rows[i], 1));
     return text;
 }

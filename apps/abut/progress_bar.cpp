@@ -33,7 +33,7 @@ void ProgressBar::show(std::string_view stage, double fraction) {
         stage_start_ = now;
         last_shown_ = {};
         if (style_ == Style::lines) {
-            fmt::print(stderr, "{:<8}", stage_); // the line is ended with the stage
+            fmt::print(stderr, "{:<12}", stage_); // the line is ended with the stage
             std::fflush(stderr);
         }
     }
@@ -42,7 +42,7 @@ void ProgressBar::show(std::string_view stage, double fraction) {
     last_shown_ = now;
     const double share = std::clamp(fraction, 0.0, 1.0);
     const auto filled = static_cast<std::size_t>(share * kWidth);
-    fmt::print(stderr, "\r\x1b[K{:<8} [{:#<{}}{:.<{}}] {:3.0f} %", stage_, "", filled, "",
+    fmt::print(stderr, "\r\x1b[K{:<12} [{:#<{}}{:.<{}}] {:3.0f} %", stage_, "", filled, "",
                kWidth - filled, 100 * share);
     std::fflush(stderr);
 }

@@ -18,7 +18,7 @@ namespace abut::command {
 namespace {
 
 constexpr std::uint64_t kMostTriangles = 1'000'000'000;
-constexpr std::uint64_t kMostClashes = 1'000'000;
+constexpr std::uint64_t kMostClashes = 1'000'000; // PlantOptions counts them as int
 
 struct SceneArguments {
     std::string name, out;
@@ -27,13 +27,10 @@ struct SceneArguments {
 
 std::string summary(const Plant& plant, const std::string& scene_path,
                     const std::string& truth_path) {
-    std::uint64_t triangles = 0;
-    for (const Part& part : plant.scene.parts)
-        triangles += plant.scene.meshes[part.mesh].triangles.size();
     std::string text =
         fmt::format("{}  {} parts, {} meshes, {} triangles\n{}  {} planted\n", scene_path,
                     grouped(plant.scene.parts.size()), grouped(plant.scene.meshes.size()),
-                    grouped(triangles), truth_path, grouped(plant.truth.size()));
+                    grouped(plant.triangles), truth_path, grouped(plant.truth.size()));
     for (const ClashKind kind : kClashKinds)
         text += fmt::format("  {:<10} {:>9}\n", abut::to_string(kind),
                             std::count_if(plant.truth.begin(), plant.truth.end(),
@@ -84,13 +81,14 @@ Subcommand add_scene(CLI::App& root, CommonOptions& common) {
         ->required();
     app->add_option("--triangles", arguments->plant.triangles, "About how many triangles")
         ->check(whole_number(1, kMostTriangles));
-    app->add_option("--clashes", arguments->plant.clashes, "How many clashes of each kind to plant")
+    app->add_option("--clashes", arguments->plant.clashes,
+                    "How many clashes to plant, of the kinds in turn")
         ->check(whole_number(0, kMostClashes));
     app->add_option("--seed", arguments->plant.seed, "Seed of everything random")
         ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
     app->add_option("--clearance", arguments->plant.clearance,
-                    "Planted clearances are nearer than this, all else is farther, in metres")
-        ->check(positive());
+                    "Up to this clearance, in metres, nothing but the planted pairs is near")
+        ->check(not_negative());
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
+#include <tuple>
 
 namespace abut::test {
 namespace {
@@ -151,6 +152,28 @@ TEST_F(ClashTest, ATouchToleranceTurnsShallowContactsIntoTouches) {
     const Outcome outcome = clash({"--touch", "0.2", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(outcome.json()["counts"], counts(0, 2, 1, 1, 0));
+}
+
+TEST_F(ClashTest, FindsExactlyWhatAPlantWasGiven) {
+    const std::string plant = folder_ / "plant.glb";
+    const Outcome scene = run_abut({"scene", "plant", "--triangles", "30000", "--clashes", "15",
+                                    "--seed", "7", "--out", plant, "--json"});
+    ASSERT_EQ(scene.status, 0) << scene.err;
+    EXPECT_EQ(scene.out, read_file(folder_ / "plant.truth.json"));
+    using Found = std::tuple<std::string, std::string, std::string>;
+    const auto sorted = [](const json& clashes) {
+        std::set<Found> found;
+        for (const json& clash : clashes) {
+            const std::string a = clash["a"], b = clash["b"];
+            found.insert({clash["kind"], std::min(a, b), std::max(a, b)});
+        }
+        return found;
+    };
+    const std::set<Found> planted = sorted(scene.json()["clashes"]);
+    EXPECT_EQ(planted.size(), 15U);
+    const Outcome outcome = run_abut({"clash", plant, "--clearance", "0.05", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(sorted(outcome.json()["clashes"]), planted);
 }
 
 TEST_F(ClashTest, TheSummaryShowsCountsAndTheDeepest) {

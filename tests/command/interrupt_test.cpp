@@ -8,13 +8,13 @@
 namespace abut::test {
 namespace {
 
-/// Hundreds of large balls, each overlapping most others: far more work than a test can wait for.
+/// Balls by the thousand, each overlapping most others: far more work than a test can wait for.
 Scene endless_work() {
     Scene scene;
-    scene.meshes = {ball(150)};
-    for (int i = 0; i < 600; ++i)
+    scene.meshes = {ball(40)};
+    for (int i = 0; i < 3000; ++i)
         scene.parts.push_back(part("ball" + std::to_string(i), "Ball", 0,
-                                   placed(0.001 * i, 0.0007 * (i % 37), 0.0003 * (i % 11))));
+                                   placed(0.0002 * i, 0.0007 * (i % 37), 0.0003 * (i % 11))));
     return scene;
 }
 
