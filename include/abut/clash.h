@@ -51,8 +51,8 @@ struct ClashOptions {
     double clearance = 0;         ///< metres; pairs without contact that are nearer are reported
     double touch = 0;             ///< metres; surfaces that meet no deeper than this `touch`
     bool self = false;            ///< with several models: also the pairs within each
-    std::vector<ClashRule> rules; ///< none: all pairs
-    Progress progress;
+    std::vector<ClashRule> rules{}; ///< none: all pairs
+    Progress progress{};
 };
 
 struct Clash {

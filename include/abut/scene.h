@@ -35,7 +35,7 @@ struct ReadOptions {
     /// Bytes of memory that a reader may use. 0: no limit.
     std::uint64_t memory_limit = 0;
     /// Reports the share of the bytes that is read; stops the readers on request.
-    Progress progress;
+    Progress progress{};
 };
 
 /// Reads a model: glTF/GLB, OBJ, PLY, STL, OFF, FBX, COLLADA; IFC 2x3 and 4 where Node.js is
