@@ -3,7 +3,7 @@
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
 #include "rigid/contacts.h"
-#include "rigid/interpenetrate.h"
+#include "rigid/meeting.h"
 #include "rigid/penetration.h"
 
 #include <algorithm>
@@ -59,7 +59,8 @@ Clash touching(const PlacedSolid& a, const PlacedSolid& b, const Contact& contac
     return clash;
 }
 
-Clash meeting(const ClashPart& a, const ClashPart& b, std::vector<Contact> contacts, double touch) {
+Clash classify_meeting(const ClashPart& a, const ClashPart& b, std::vector<Contact> contacts,
+                       double touch) {
     // The order of the traversal depends on the hardware's lanes in nothing, but sorted is plainly
     // the same everywhere.
     std::sort(contacts.begin(), contacts.end(),
@@ -71,7 +72,12 @@ Clash meeting(const ClashPart& a, const ClashPart& b, std::vector<Contact> conta
     if (same_triangles(a, b)) {
         clash.kind = ClashKind::duplicate;
         clash.direction = {};
-    } else if (interpenetrate(solid_a, solid_b, contacts)) {
+        return clash;
+    }
+    const Meeting meeting = examine_meeting(solid_a, solid_b, contacts);
+    if (meeting.parting != Vec3{})
+        clash.direction = meeting.parting;
+    if (meeting.interpenetrate) {
         PenetrationOptions options;
         options.threshold = touch;
         const LocalPenetration p = penetration_depth(solid_a, solid_b, contacts, options);
@@ -118,7 +124,8 @@ std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, doubl
     Counters counters;
     const PlacedPair pair(a.model, a.world_from_mesh, b.model, b.world_from_mesh);
     std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
-    return contacts.empty() ? apart(a, b, clearance) : meeting(a, b, std::move(contacts), touch);
+    return contacts.empty() ? apart(a, b, clearance)
+                            : classify_meeting(a, b, std::move(contacts), touch);
 }
 
 } // namespace abut

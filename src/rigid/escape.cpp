@@ -13,8 +13,12 @@ constexpr double kNudge = 0x1p-30; // far above the rounding of positions, far b
 
 std::vector<Vec3> directions(const PlacedSolid& a, const PlacedSolid& b,
                              std::span<const Contact> contacts) {
-    constexpr std::size_t kContacts = 16;
-    std::vector<Vec3> separating;
+    constexpr std::size_t kContacts = 64;
+    struct Direction {
+        Vec3 d;
+        int count;
+    };
+    std::vector<Direction> separating;
     Vec3 mean;
     const std::size_t count = std::min(kContacts, contacts.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -23,12 +27,19 @@ std::vector<Vec3> directions(const PlacedSolid& a, const PlacedSolid& b,
             triangle_triangle_penetration(a.world_triangle(c.pair.a), b.world_triangle(c.pair.b))
                 .direction;
         mean = mean + d;
-        if (std::none_of(separating.begin(), separating.end(),
-                         [&](const Vec3& e) { return dot(d, e) > 1 - 1e-6; }))
-            separating.push_back(d);
+        const auto same = std::find_if(separating.begin(), separating.end(),
+                                       [&](const Direction& e) { return dot(d, e.d) > 1 - 1e-6; });
+        if (same != separating.end())
+            ++same->count;
+        else
+            separating.push_back({d, 1});
     }
-    std::vector<Vec3> result{normalized_or_zero(mean)};
-    result.insert(result.end(), separating.begin(), separating.end());
+    std::stable_sort(separating.begin(), separating.end(),
+                     [](const Direction& d, const Direction& e) { return d.count > e.count; });
+    std::vector<Vec3> result;
+    for (const Direction& d : separating)
+        result.push_back(d.d);
+    result.insert(result.begin() + (result.empty() ? 0 : 1), normalized_or_zero(mean));
     for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)
             for (int z = -1; z <= 1; ++z)
@@ -47,12 +58,13 @@ bool parted(const PlacedSolid& a, const PlacedSolid& b, const Vec3& shift) {
 
 } // namespace
 
-bool parted_by_a_nudge(const PlacedSolid& a, const PlacedSolid& b,
-                       std::span<const Contact> contacts) {
+Vec3 nudge_that_parts(const PlacedSolid& a, const PlacedSolid& b,
+                      std::span<const Contact> contacts) {
     const double nudge = kNudge * std::max(a.world_size(), b.world_size());
-    const std::vector<Vec3> all = directions(a, b, contacts);
-    return std::any_of(all.begin(), all.end(),
-                       [&](const Vec3& d) { return parted(a, b, nudge * d); });
+    for (const Vec3& d : directions(a, b, contacts))
+        if (parted(a, b, nudge * d))
+            return d;
+    return {};
 }
 
 Escape find_escape(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts) {

@@ -13,13 +13,14 @@ struct Escape {
     Vec3 direction;    ///< unit vector
 };
 
-/// Whether b, moved by 2^-30 of the pair's size in some direction, no longer meets a.
+/// A direction in which b, moved by 2^-30 of the pair's size, no longer meets a; zero if none was
+/// found.
 ///
-/// Accuracy    a yes is exact for the moved positions; the directions tried are the separating ones
-/// of the contacts,
-///             their mean, and 26 evenly spread.
-bool parted_by_a_nudge(const PlacedSolid& a, const PlacedSolid& b,
-                       std::span<const Contact> contacts);
+/// Accuracy    exact for the moved positions; the directions tried are the separating ones of the
+/// contacts, the
+///             commonest first, their mean, and 26 evenly spread.
+Vec3 nudge_that_parts(const PlacedSolid& a, const PlacedSolid& b,
+                      std::span<const Contact> contacts);
 
 /// The shortest translation along the same directions that parts the surfaces, within one part in
 /// 256.

@@ -23,11 +23,12 @@ struct Piece {
     bool operator<(const Piece& other) const { return at_most < other.at_most; }
 };
 
-/// Searches the point of one surface that lies deepest in a solid.
+/// Searches the point of one surface that lies deepest in a solid, deeper than `depth` to begin
+/// with.
 class DeepestPoint {
 public:
-    DeepestPoint(const PlacedSolid& surface, const PlacedSolid& solid)
-        : surface_(surface), solid_(solid) {}
+    DeepestPoint(const PlacedSolid& surface, const PlacedSolid& solid, double deeper_than)
+        : depth(deeper_than), surface_(surface), solid_(solid) {}
 
     void search(const PenetrationOptions& options) {
         seed();
@@ -36,7 +37,8 @@ public:
             const Piece piece = pieces_.top();
             if (piece.at_most <= depth * (1 + options.relative_accuracy))
                 break;
-            const bool undecided = depth <= options.threshold && piece.at_most > options.threshold;
+            const bool undecided = options.threshold > 0 && depth <= options.threshold &&
+                                   piece.at_most > options.threshold;
             if (--budget < 0 && !(undecided && budget > -options.threshold_budget))
                 break;
             pieces_.pop();
@@ -45,8 +47,8 @@ public:
         at_most = std::max(depth, pieces_.empty() ? 0 : pieces_.top().at_most);
     }
 
-    double depth = 0, at_most = 0;
-    Vec3 on_surface, on_solid;
+    double depth, at_most = 0;
+    Vec3 on_surface, on_solid; ///< where the depth is reached; not set if nothing is deeper
 
 private:
     using Polygon = boost::container::static_vector<Vec3, 9>;
@@ -117,10 +119,9 @@ private:
         const bool inside = parent != nullptr && moved < parent->middle_distance
                                 ? parent->middle_inside
                                 : nearest.distance > 0 && solid_.contains_off_surface(middle);
-        if (inside && nearest.distance > depth) {
-            depth = nearest.distance;
-            on_surface = middle, on_solid = nearest.point;
-        }
+        if (inside && keep_deeper(middle, nearest))
+            for (const Vec3& corner : t) // depth is often greatest at a corner
+                try_point(corner);
         if (!inside && nearest.distance >= radius)
             return;
         const Triangle face = solid_.world_slot(nearest.slot);
@@ -131,6 +132,23 @@ private:
                                                                    : radius - nearest.distance);
         if (limit > depth)
             pieces_.push({t, limit, middle, nearest.distance, inside});
+    }
+
+    bool keep_deeper(const Vec3& point, const PlacedSolid::Nearest& nearest) {
+        // A point of a face that lies in the surface is inside or outside by rounding alone.
+        const double rounding =
+            16 * 0x1p-53 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z));
+        if (nearest.distance <= std::max(depth, rounding))
+            return false;
+        depth = nearest.distance;
+        on_surface = point, on_solid = nearest.point;
+        return true;
+    }
+
+    void try_point(const Vec3& point) {
+        const auto nearest = solid_.nearest(point, std::numeric_limits<double>::infinity());
+        if (nearest.distance > depth && solid_.contains_off_surface(point))
+            keep_deeper(point, nearest);
     }
 
     const PlacedSolid& surface_;
@@ -158,19 +176,18 @@ LocalPenetration deepest_inside(const PlacedSolid& a, const PlacedSolid& b,
                                 const PenetrationOptions& options) {
     LocalPenetration best;
     if (b.solid().solid) {
-        DeepestPoint a_in_b(a, b);
+        DeepestPoint a_in_b(a, b, 0);
         a_in_b.search(options);
         best = {a_in_b.depth, a_in_b.at_most, a_in_b.on_surface, a_in_b.on_solid,
                 normalized_or_zero(a_in_b.on_surface - a_in_b.on_solid)};
     }
     if (a.solid().solid) {
-        DeepestPoint b_in_a(b, a);
+        DeepestPoint b_in_a(b, a, best.depth);
         b_in_a.search(options);
-        const double at_most = std::max(best.at_most, b_in_a.at_most);
         if (b_in_a.depth > best.depth)
-            best = {b_in_a.depth, 0, b_in_a.on_solid, b_in_a.on_surface,
+            best = {b_in_a.depth, best.at_most, b_in_a.on_solid, b_in_a.on_surface,
                     normalized_or_zero(b_in_a.on_solid - b_in_a.on_surface)};
-        best.at_most = at_most;
+        best.at_most = std::max(best.at_most, b_in_a.at_most);
     }
     return best;
 }

@@ -7,6 +7,13 @@
 
 namespace abut {
 
+/// How two models that meet do so.
+struct Meeting {
+    bool interpenetrate = false;
+    Vec3 parting; ///< a unit vector along which a small step of b parts them, if one was found;
+                  ///< else zero
+};
+
 /// Whether two models that meet go into each other, or only touch.
 ///
 /// They do if triangles cross, or a part of one's surface lies inside the other, a solid. Else, two
@@ -19,6 +26,7 @@ namespace abut {
 /// signs of stored points.
 ///             Triangles that lie inside a solid and touch its surface at vertices only are found
 ///             by their middles.
-bool interpenetrate(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts);
+Meeting examine_meeting(const PlacedSolid& a, const PlacedSolid& b,
+                        std::span<const Contact> contacts);
 
 } // namespace abut

@@ -1,4 +1,4 @@
-#include "rigid/interpenetrate.h"
+#include "rigid/meeting.h"
 
 #include "math/predicates.h"
 #include "rigid/edge_sectors.h"
@@ -132,25 +132,28 @@ bool reaches_inside(const PlacedSolid& surface, std::vector<std::uint32_t> trian
 
 } // namespace
 
-bool interpenetrate(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts) {
+Meeting examine_meeting(const PlacedSolid& a, const PlacedSolid& b,
+                        std::span<const Contact> contacts) {
     if (std::any_of(contacts.begin(), contacts.end(),
                     [](const Contact& c) { return c.kind == TriangleContact::cross; }))
-        return true;
+        return {true, {}};
     std::vector<std::uint32_t> of_a, of_b;
     for (const Contact& c : contacts) {
         of_a.push_back(c.pair.a);
         of_b.push_back(c.pair.b);
     }
     if (reaches_inside(a, std::move(of_a), b) || reaches_inside(b, std::move(of_b), a))
-        return true;
-    if (parted_by_a_nudge(a, b, contacts))
-        return false;
+        return {true, {}};
+    if (const Vec3 parting = nudge_that_parts(a, b, contacts); parting != Vec3{})
+        return {false, parting};
     if (a.outward() == 0 || b.outward() == 0)
-        return true;
-    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
-        return sectors_overlap(a, c.pair.a, b, c.pair.b, true) ||
-               sectors_overlap(b, c.pair.b, a, c.pair.a, false);
-    });
+        return {true, {}};
+    return {std::any_of(contacts.begin(), contacts.end(),
+                        [&](const Contact& c) {
+                            return sectors_overlap(a, c.pair.a, b, c.pair.b, true) ||
+                                   sectors_overlap(b, c.pair.b, a, c.pair.a, false);
+                        }),
+            {}};
 }
 
 } // namespace abut
