@@ -3,7 +3,8 @@
 #include <abut/error.h>
 
 #include "io/scene_stream.h"
-#include "io/triangle_area.h"
+#include "math/predicates.h"
+#include "math/transform.h"
 
 #include <cmath>
 #include <cstring>
@@ -130,6 +131,21 @@ bool stays_finite(const Transform& transform) {
             return false;
     }
     return true;
+}
+
+/// Whether one triangle at least, in world coordinates, is not exactly degenerate. In any usual
+/// file the first one is.
+bool any_triangle_has_area(const Scene& scene) {
+    for (const Part& part : scene.parts) {
+        const Mesh& mesh = scene.meshes[part.mesh];
+        const auto world = [&](std::uint32_t vertex) {
+            return apply(part.world_from_mesh, mesh.positions[vertex]);
+        };
+        for (const auto& [a, b, c] : mesh.triangles)
+            if (!collinear(world(a), world(b), world(c)))
+                return true;
+    }
+    return false;
 }
 
 void make_ids_unique(std::vector<Part>& parts) {

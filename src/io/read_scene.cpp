@@ -6,7 +6,7 @@
 #include "io/decode_scene.h"
 #include "io/reader_program.h"
 #include "io/scene_stream.h"
-#include "io/triangle_area.h"
+#include "math/transform.h"
 
 #include <algorithm>
 #include <atomic>
@@ -205,7 +205,7 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
     for (const Part& part : scene.parts) {
         const auto base = static_cast<std::uint32_t>(mesh.positions.size());
         for (const Vec3& position : scene.meshes[part.mesh].positions)
-            mesh.positions.push_back(world_position(part.world_from_mesh, position));
+            mesh.positions.push_back(apply(part.world_from_mesh, position));
         for (const auto& [a, b, c] : scene.meshes[part.mesh].triangles)
             mesh.triangles.push_back({base + a, base + b, base + c});
     }

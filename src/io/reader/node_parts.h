@@ -31,7 +31,8 @@ std::vector<NodePart> assimp_parts(const aiScene& scene);
 /// Parts of a glTF file from its JSON, in full precision, with geometry as Assimp read it. Empty if
 /// Assimp's tree of nodes is not that of the JSON: then assimp_parts has to do.
 ///
-/// Errors      Fault malformed or bad_mesh if Assimp's meshes have not the sizes that the JSON promises.
+/// Errors      Fault malformed or bad_mesh if Assimp's meshes have not the sizes that the JSON
+/// promises.
 std::vector<NodePart> gltf_parts(const aiScene& scene, const GltfTree& tree);
 
 } // namespace abut
