@@ -56,13 +56,16 @@ Shape bolt(double length, double radius, bool plain) {
 Shape railing(double length, double height) {
     constexpr double kThick = 0.046875;
     Shape whole;
-    const Shape post = block(kThick, height - kThick, kThick);
+    // Thinner than the rail that it carries: a common edge would be used by four triangles.
+    constexpr double kPost = 0.75 * kThick;
+    const Shape post = block(kPost, height - kThick, kPost);
     const int spans = std::max(1, static_cast<int>(length / 1.5));
     for (int k = 0; k <= spans; ++k) {
         append(whole, post, at({kThick / 2 + (length - kThick) * k / spans, 0, 0}));
     }
     append(whole, bar(length, kThick, kThick), at({0, height - kThick / 2, 0}));
-    append(whole, bar(length, kThick / 2, kThick / 2), at({0, height / 2, kThick * 0.75}));
+    append(whole, bar(length, kThick / 2, kThick / 2),
+           at({0, height / 2, (kPost + kThick / 2) / 2}));
     whole.cover = {{{0, 0, -kThick / 2}, {length, height, kThick}}};
     return whole;
 }

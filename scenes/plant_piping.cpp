@@ -128,16 +128,17 @@ Vec3 start_point(PlantBuilder& b, const Unit& unit, Vec3& direction) {
         const Opening& hole =
             holes[static_cast<std::size_t>(b.random.below(static_cast<int>(holes.size())))];
         direction = kY;
-        return unit.in_bay(i, k, f, b.random.uniform(hole.x0 + 0.25, hole.x1 - 0.25),
-                           b.random.uniform(0.5, 3),
-                           b.random.uniform(hole.z0 + 0.25, hole.z1 - 0.25));
+        const Vec3 p{b.random.uniform(hole.x0 + 0.25, hole.x1 - 0.25), b.random.uniform(0.5, 3),
+                     b.random.uniform(hole.z0 + 0.25, hole.z1 - 0.25)};
+        return unit.in_bay(i, k, f, p);
     }
     direction = b.random.chance(0.5) ? (b.random.chance(0.5) ? kX : scaled(kX, -1))
                                      : (b.random.chance(0.5) ? kZ : scaled(kZ, -1));
     // Most pipes hang in the upper third of a storey; coarse steps make them lie in tiers.
     const double y =
         b.random.chance(0.8) ? 2.5 + 0.25 * b.random.below(8) : 0.5 + 0.25 * b.random.below(6);
-    return unit.in_bay(i, k, f, b.random.uniform(0.5, 7.5), y, b.random.uniform(0.5, 7.5));
+    const Vec3 p{b.random.uniform(0.5, 7.5), y, b.random.uniform(0.5, 7.5)};
+    return unit.in_bay(i, k, f, p);
 }
 
 } // namespace

@@ -41,6 +41,9 @@ struct Unit {
     [[nodiscard]] Vec3 in_bay(int i, int k, int f, double x, double y, double z) const {
         return add(origin, {i * kBay + x, f * kStorey + y, k * kBay + z});
     }
+    [[nodiscard]] Vec3 in_bay(int i, int k, int f, const Vec3& p) const {
+        return in_bay(i, k, f, p.x, p.y, p.z);
+    }
     [[nodiscard]] double boiler_x() const { return bays_x * kBay + 4; }
     [[nodiscard]] double boiler_height() const { return floors * kStorey + 5; }
 };

@@ -16,6 +16,8 @@ constexpr std::uint64_t mix(std::uint64_t x) {
 }
 
 /// Random numbers that are the same on every machine: the distributions of the C++ library are not.
+/// Nor is the order in which a call's arguments are evaluated: draw one number a statement, or in
+/// braces.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -13,7 +13,8 @@ namespace {
 using Index = std::uint32_t;
 
 Index vertex(Shape& shape, double x, double y, double z) {
-    const auto exact = [](double v) { return static_cast<double>(static_cast<float>(v)); };
+    // Multiples of 2^-16 m are exact as floats up to 256 m, and so are their sums in double.
+    const auto exact = [](double v) { return std::floor(v * 0x1p16 + 0.5) * 0x1p-16; };
     shape.mesh.positions.push_back({exact(x), exact(y), exact(z)});
     return static_cast<Index>(shape.mesh.positions.size() - 1);
 }
@@ -22,9 +23,10 @@ void triangle(Shape& shape, Index a, Index b, Index c) {
     shape.mesh.triangles.push_back({a, b, c});
 }
 
-void quad(Shape& shape, Index a, Index b, Index c, Index d) {
-    triangle(shape, a, b, c);
-    triangle(shape, a, c, d);
+/// Its corners come in braces: corners that are made on the way are then made in their order.
+void quad(Shape& shape, const std::array<Index, 4>& corner) {
+    triangle(shape, corner[0], corner[1], corner[2]);
+    triangle(shape, corner[0], corner[2], corner[3]);
 }
 
 /// Covers the shape with one box.
@@ -84,7 +86,7 @@ void join_rings(Shape& shape, Index from, Index to, int sides) {
     const auto n = static_cast<Index>(sides);
     for (Index k = 0; k < n; ++k) {
         const Index next = (k + 1) % n;
-        quad(shape, from + k, from + next, to + next, to + k);
+        quad(shape, {from + k, from + next, to + next, to + k});
     }
 }
 
@@ -115,7 +117,7 @@ Shape sheet(double length, const std::vector<Point2>& profile, bool round) {
     const auto n = static_cast<Index>(profile.size());
     for (Index k = 0; k + (round ? 0 : 1) < n; ++k) {
         const Index next = (k + 1) % n;
-        quad(shape, 2 * k, 2 * next, 2 * next + 1, 2 * k + 1);
+        quad(shape, {2 * k, 2 * next, 2 * next + 1, 2 * k + 1});
     }
     return boxed(shape);
 }
@@ -170,12 +172,12 @@ Shape box(const Box3& b) {
                (corner & 2) != 0 ? b.upper.y : b.lower.y,
                (corner & 4) != 0 ? b.upper.z : b.lower.z);
     }
-    quad(shape, 0, 4, 6, 2); // -x
-    quad(shape, 1, 3, 7, 5); // +x
-    quad(shape, 0, 1, 5, 4); // -y
-    quad(shape, 2, 6, 7, 3); // +y
-    quad(shape, 0, 2, 3, 1); // -z
-    quad(shape, 4, 5, 7, 6); // +z
+    quad(shape, {0, 4, 6, 2}); // -x
+    quad(shape, {1, 3, 7, 5}); // +x
+    quad(shape, {0, 1, 5, 4}); // -y
+    quad(shape, {2, 6, 7, 3}); // +y
+    quad(shape, {0, 2, 3, 1}); // -z
+    quad(shape, {4, 5, 7, 6}); // +z
     return boxed(shape);
 }
 
@@ -197,7 +199,7 @@ Shape prism(double length, const std::vector<Point2>& section) {
     }
     for (Index k = 0; k < n; ++k) {
         const Index next = (k + 1) % n;
-        quad(shape, k, next, n + next, n + k);
+        quad(shape, {k, next, n + next, n + k});
     }
     for (const auto& t : triangulate(section)) {
         triangle(shape, t[0], t[2], t[1]);
@@ -265,18 +267,18 @@ Shape plate(const std::vector<double>& x_cuts, const std::vector<double>& z_cuts
         return index;
     };
     const auto wall = [&](std::size_t i0, std::size_t k0, std::size_t i1, std::size_t k1) {
-        quad(shape, corner(i0, k0, false), corner(i0, k0, true), corner(i1, k1, true),
-             corner(i1, k1, false));
+        quad(shape, {corner(i0, k0, false), corner(i0, k0, true), corner(i1, k1, true),
+                     corner(i1, k1, false)});
     };
     for (std::size_t i = 0; i < nx; ++i) {
         for (std::size_t k = 0; k < nz; ++k) {
             if (!filled(i, k)) {
                 continue;
             }
-            quad(shape, corner(i, k, true), corner(i, k + 1, true), corner(i + 1, k + 1, true),
-                 corner(i + 1, k, true));
-            quad(shape, corner(i, k, false), corner(i + 1, k, false), corner(i + 1, k + 1, false),
-                 corner(i, k + 1, false));
+            quad(shape, {corner(i, k, true), corner(i, k + 1, true), corner(i + 1, k + 1, true),
+                         corner(i + 1, k, true)});
+            quad(shape, {corner(i, k, false), corner(i + 1, k, false), corner(i + 1, k + 1, false),
+                         corner(i, k + 1, false)});
             if (i == 0 || !filled(i - 1, k)) {
                 wall(i, k + 1, i, k);
             }

@@ -186,7 +186,7 @@ TEST(Plant, SeedDecides) {
     EXPECT_EQ(first, hash_of(plant_of(20'000, 20, 1)));
     EXPECT_NE(first, hash_of(plant_of(20'000, 20, 2)));
     // The same on every machine: renew this number when the generator changes, and only then.
-    EXPECT_EQ(first, 0U);
+    EXPECT_EQ(first, 0x24f3d90dd68a45adU);
 }
 
 TEST(Plant, PlantsTheKindsInTurn) {
@@ -237,7 +237,7 @@ void expect_only_planted(const Plant& plant) {
     const auto near =
         reference::near_pairs(plant.scene, plant.mesh_closed, plant.separation, examined);
     const auto truth = truth_by_part(plant);
-    EXPECT_GT(examined, plant.scene.parts.size() / 4) << "too few pairs to prove anything";
+    EXPECT_GT(examined, truth.size() + 30) << "too few pairs to prove anything";
     for (const auto& [pair, nearness] : near) {
         EXPECT_TRUE(truth.contains(pair))
             << plant.scene.parts[pair.first].name << " and " << plant.scene.parts[pair.second].name
@@ -285,7 +285,9 @@ TEST(Plant, NothingElseIsNearAtOtherClearances) {
 
 /// The clash job reports the planted set: pairs, kinds, and distances where they are known.
 void expect_found(const Plant& plant) {
-    const ClashReport report = find_clashes({plant.scene}, {.clearance = plant.options.clearance});
+    ClashOptions options;
+    options.clearance = plant.options.clearance;
+    const ClashReport report = find_clashes({plant.scene}, options);
     auto truth = truth_by_part(plant);
     for (const Clash& clash : report.clashes) {
         const PartPair pair = std::minmax(clash.part[0], clash.part[1]);
