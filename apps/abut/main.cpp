@@ -39,6 +39,7 @@ int run(const Subcommand& command, const CommonOptions& common) {
 
 } // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): declaring options throws for mistakes of ours only.
 int main(int argc, char** argv) {
     install_interrupt_handlers();
     CLI::App root("Proximity queries on triangle models: clashes, contacts, distances", "abut");
