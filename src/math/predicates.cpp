@@ -19,6 +19,8 @@ constexpr double kEpsilon = 0x1p-53;
 // Each product of two differences may lose this much to underflow before it is scaled by the third.
 constexpr double kUnderflow = 16 * std::numeric_limits<double>::denorm_min();
 
+using Int256 = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
+    256, 256, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
 using Int512 = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
     512, 512, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
 using IntAny = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
@@ -34,14 +36,22 @@ struct Binary {
     int exponent = 0;
 };
 
+///      63    62..52    51..0
+///     sign  exponent  fraction, below an implicit 1 unless the exponent is 0
 Binary decompose(double v) {
-    if (v == 0)
+    const auto bits = std::bit_cast<std::uint64_t>(v);
+    constexpr std::uint64_t kImplicit = std::uint64_t{1} << 52;
+    std::uint64_t mantissa = bits & (kImplicit - 1);
+    int exponent = static_cast<int>(bits >> 52 & 0x7ff);
+    if (exponent != 0)
+        mantissa |= kImplicit;
+    else
+        exponent = 1;
+    if (mantissa == 0)
         return {};
-    int exponent = 0;
-    const double fraction = std::frexp(v, &exponent);
-    auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-    const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
-    return {mantissa >> zeros, exponent - 53 + zeros};
+    const int zeros = std::countr_zero(mantissa);
+    const auto magnitude = static_cast<std::int64_t>(mantissa >> zeros);
+    return {v < 0 ? -magnitude : magnitude, exponent - 1075 + zeros};
 }
 
 /// Doubles as integers over one power of two, which no sign depends on.
@@ -82,14 +92,15 @@ int sign_of(const Int& v) {
     return (v > 0) - (v < 0);
 }
 
-template <typename Int>
+/// Int holds products of two differences, Wide of three.
+template <typename Int, typename Wide>
 int orient3d_integer(const Scaled<12>& s) {
     std::array<Int, 9> d; // rows b - a, c - a, d - a
     for (std::size_t i = 0; i < 9; ++i)
         d[i] = s.get<Int>(3 + i) - s.get<Int>(i % 3);
-    const Int det = d[0] * (d[4] * d[8] - d[5] * d[7]) + d[1] * (d[5] * d[6] - d[3] * d[8]) +
-                    d[2] * (d[3] * d[7] - d[4] * d[6]);
-    return sign_of(det);
+    const Int x = d[4] * d[8] - d[5] * d[7], y = d[5] * d[6] - d[3] * d[8],
+              z = d[3] * d[7] - d[4] * d[6];
+    return sign_of(Wide(Wide(d[0]) * Wide(x) + Wide(d[1]) * Wide(y) + Wide(d[2]) * Wide(z)));
 }
 
 template <typename Int>
@@ -102,10 +113,13 @@ int orient2d_integer(const Scaled<6>& s) {
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     ++t_exact_signs;
     const Scaled<12> s({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
-    // |det| < 6 * 2^(3 (bits + 1))
+    // |difference| < 2^(bits + 1), |x| < 2^(2 bits + 3), |det| < 6 * 2^(3 (bits + 1))
     if (s.bits <= 40)
-        return orient3d_integer<__int128>(s);
-    return s.bits <= 168 ? orient3d_integer<Int512>(s) : orient3d_integer<IntAny>(s);
+        return orient3d_integer<__int128, __int128>(s);
+    if (s.bits <= 61)
+        return orient3d_integer<__int128, Int256>(s);
+    return s.bits <= 168 ? orient3d_integer<Int512, Int512>(s)
+                         : orient3d_integer<IntAny, IntAny>(s);
 }
 
 int orient2d_exact(double ax, double ay, double bx, double by, double cx, double cy) {
