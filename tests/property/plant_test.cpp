@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <unistd.h>
 #include <unordered_map>
 
 namespace abut {
@@ -319,6 +322,21 @@ TEST(Plant, ClashJobFindsExactlyThePlanted) {
     expect_found(plant_of(2'000'000, 500, 5));
     expect_found(plant_of(50'000, 40, 6, 0));
     expect_found(plant_of(50'000, 40, 6, 0.2));
+}
+
+TEST(Plant, SurvivesAFile) {
+    Plant plant = plant_of(40'000, 50, 12);
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("abut-plant-" + std::to_string(::getpid()) + ".glb");
+    write_glb(plant.scene, path.string());
+    Scene read = read_scene(path.string());
+    std::filesystem::remove(path);
+    ASSERT_EQ(read.parts.size(), plant.scene.parts.size());
+    for (const Part& part : read.parts) {
+        EXPECT_TRUE(part.type.starts_with("Ifc")) << part.type;
+    }
+    plant.scene = std::move(read);
+    expect_found(plant);
 }
 
 } // namespace
