@@ -36,7 +36,8 @@ std::vector<Unit> lay_out(int step, Random& random) {
         Unit unit;
         unit.number = n + 1;
         // Rows of four along x, as far apart as the largest unit is.
-        unit.origin = {170.0 * (n % 4), 0, 110.0 * (n / 4)};
+        const int column = n % 4, row = n / 4;
+        unit.origin = {170.0 * column, 0, 110.0 * row};
         unit.bays_x = size.bays_x;
         unit.bays_z = size.bays_z;
         unit.floors = size.floors;
@@ -44,13 +45,14 @@ std::vector<Unit> lay_out(int step, Random& random) {
         unit.storage_tanks = size.storage_tanks;
         unit.rack_length = size.rack_length;
         unit.stack_height = size.stack_height;
-        for (int bay = 0; bay < size.bays_x * size.bays_z; ++bay) {
+        const int bays = size.bays_x * size.bays_z;
+        for (int bay = 0; bay < bays; ++bay) {
             const int draw = random.below(10);
             unit.use.push_back(draw < 5 ? BayUse::open : draw < 8 ? BayUse::shaft : BayUse::vessel);
         }
         unit.use[0] = BayUse::stairs; // front left: seen from the road
         if (unit.bays_x >= 5) {
-            unit.use[static_cast<std::size_t>((unit.bays_x - 1) * unit.bays_z)] = BayUse::stairs;
+            unit.use[static_cast<std::size_t>(bays - unit.bays_z)] = BayUse::stairs;
         }
         units.push_back(std::move(unit));
     }
@@ -116,32 +118,30 @@ Plant make_plant(const PlantOptions& options) {
                       : options.triangles < 1'500'000 ? 12
                       : options.triangles < 8'000'000 ? 16
                                                       : 20;
-    // The largest plant whose base leaves room for pipes in the given number of triangles.
     const auto build = [&](int step) {
         auto b = std::make_unique<PlantBuilder>(options, sides);
         std::vector<Unit> units = lay_out(step, b->random);
         build_base(*b, units);
         return std::pair(std::move(b), std::move(units));
     };
-    const auto share = static_cast<std::uint64_t>(0.6 * static_cast<double>(options.triangles));
+    // The largest plant whose base leaves room for pipes in the given number of triangles.
+    const double share = 0.6 * static_cast<double>(options.triangles);
     int step = 0;
-    auto plant = build(0);
-    while (true) {
-        // Beyond the largest unit, plants grow by whole units: go there at once.
-        const int next =
-            step < kLargest
-                ? step + 1
-                : kLargest - 1 +
-                      std::max(
-                          static_cast<int>(share * static_cast<std::uint64_t>(step - kLargest + 1) /
-                                           plant.first->triangles()),
-                          step - kLargest + 2);
+    auto plant = build(step);
+    for (int next = 1; next > step;) {
         auto larger = build(next);
-        if (larger.first->triangles() > share) {
-            break;
+        if (static_cast<double>(larger.first->triangles()) > share) {
+            next = step + (next - step) / 2;
+            continue;
         }
         plant = std::move(larger);
         step = next;
+        next = step + 1;
+        if (step >= kLargest) { // from here on plants grow by whole units: go there at once
+            const double units = step - kLargest + 1;
+            const double fit = share * units / static_cast<double>(plant.first->triangles());
+            next = std::max(next, kLargest - 1 + static_cast<int>(fit));
+        }
     }
     if (!fill_with_pipes(*plant.first, plant.second)) {
         const Box3 all = plant.first->bounds();

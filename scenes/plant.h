@@ -13,8 +13,10 @@
 namespace abut {
 
 struct PlantOptions {
-    std::uint64_t triangles = 200'000; ///< each instance counted; hit within 5 % from 10,000 on
-    int clashes = 50;                  ///< planted pairs, the kinds in turn
+    /// Each instance counted; hit within 5 % from 10,000 on, where the planted parts (some 60
+    /// triangles a pair) leave that much.
+    std::uint64_t triangles = 200'000;
+    int clashes = 50; ///< planted pairs, the kinds in turn
     std::uint64_t seed = 1;
     /// Metres, in [0, 0.25]: up to this clearance the planted pairs are all that there is. Below
     /// 1/64 no pair of kind `clearance` is planted: it would have no room.

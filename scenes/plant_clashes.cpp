@@ -88,7 +88,8 @@ void plant_clashes(PlantBuilder& b, const std::vector<Unit>& units, const Vec3& 
         // A full building, many clashes: the rest lies in rows beside the plant, where there is
         // always room.
         if (!planted) {
-            const Vec3 spot = add(laydown, {3.0 * (outside % 32), b.gap, -3.0 * (outside / 32)});
+            const int column = outside % 32, row = outside / 32;
+            const Vec3 spot = add(laydown, {3.0 * column, b.gap, -3.0 * row});
             plant_at(b, draft, at(spot), recipe.kind, n + 1);
             ++outside;
         }

@@ -22,7 +22,7 @@ constexpr std::array kBores{Bore{50, 0.03125, 0.078125},    Bore{80, 0.046875, 0
 class Run {
 public:
     Run(PlantBuilder& builder, const Unit& unit, int number, std::uint64_t limit)
-        : b(builder), bore_(b.random.pick(kBores)), limit_(limit),
+        : b_(builder), bore_(b_.random.pick(kBores)), limit_(limit),
           low_(add(unit.origin, {-2, 0.25, -3})),
           high_(add(unit.origin, {unit.bays_x * kBay + 3, unit.floors * kStorey + 1.5,
                                   unit.bays_z * kBay - 0.25})),
@@ -34,7 +34,7 @@ public:
         if (!inside(start) || !inside(add(start, scaled(direction, length)))) {
             return false;
         }
-        const PlantBuilder::Mark mark = b.mark();
+        const PlantBuilder::Mark mark = b_.mark();
         const int segment_before = segment_;
         Vec3 p = start;
         double left = length;
@@ -42,18 +42,18 @@ public:
         while (left >= 0.5) {
             const double piece = left >= 4 ? 4 : std::floor(left * 2) / 2;
             left -= piece;
-            const bool flange_after = left >= 0.5 && b.random.chance(0.4);
-            if (b.triangles() >= limit_) {
+            const bool flange_after = left >= 0.5 && b_.random.chance(0.4);
+            if (b_.triangles() >= limit_) {
                 break;
             }
             const double r = bore_.flange;
             const PipeEnds ends{flange_before ? r : 0, flange_after ? r : 0};
-            const ShapeId id = b.shape(
+            const ShapeId id = b_.shape(
                 fmt::format("pipe {} {} {} {}", bore_.dn, piece, flange_before, flange_after),
-                [&] { return pipe(piece, bore_.radius, b.sides, ends); });
-            if (!b.place(id, along(direction, p), "IfcPipeSegment",
-                         fmt::format("{} segment {}", name_, ++segment_))) {
-                b.go_back(mark);
+                [&] { return pipe(piece, bore_.radius, b_.sides, ends); });
+            if (!b_.place(id, along(direction, p), "IfcPipeSegment",
+                          fmt::format("{} segment {}", name_, ++segment_))) {
+                b_.go_back(mark);
                 segment_ = segment_before;
                 return false;
             }
@@ -61,7 +61,7 @@ public:
             if (flange_after) {
                 p = add(p, scaled(direction, joint(p, direction)));
             } else if (left >= 0.5) {
-                p = add(p, scaled(direction, b.gap));
+                p = add(p, scaled(direction, b_.gap));
             }
             flange_before = flange_after;
         }
@@ -71,17 +71,17 @@ public:
 
     /// A bend from the end of the last leg, and the leg after it.
     bool turn_and_leg(const Vec3& from, const Vec3& to, double length) {
-        const PlantBuilder::Mark mark = b.mark();
+        const PlantBuilder::Mark mark = b_.mark();
         const double bend = on_grid(3 * bore_.radius);
-        const Vec3 end = end_, start = add(end, scaled(from, b.gap));
-        const ShapeId id = b.shape(fmt::format("elbow {}", bore_.dn), [&] {
-            return elbow(bore_.radius, bend, b.sides, std::max(3, b.sides / 4));
+        const Vec3 end = end_, start = add(end, scaled(from, b_.gap));
+        const ShapeId id = b_.shape(fmt::format("elbow {}", bore_.dn), [&] {
+            return elbow(bore_.radius, bend, b_.sides, std::max(3, b_.sides / 4));
         });
-        if (b.place(id, turned(from, to, start), "IfcPipeFitting", name_ + " elbow") &&
-            leg(add(start, add(scaled(from, bend), scaled(to, bend + b.gap))), to, length)) {
+        if (b_.place(id, turned(from, to, start), "IfcPipeFitting", name_ + " elbow") &&
+            leg(add(start, add(scaled(from, bend), scaled(to, bend + b_.gap))), to, length)) {
             return true;
         }
-        b.go_back(mark);
+        b_.go_back(mark);
         end_ = end;
         return false;
     }
@@ -97,20 +97,21 @@ private:
     double joint(const Vec3& p, const Vec3& direction) {
         constexpr double kLength = 0.0625, kRadius = 0.01171875;
         const double circle = bore_.flange - 0.015625;
-        const ShapeId stud = b.shape("stud", [&] { return bolt(kLength, kRadius, b.sides < 12); });
+        const ShapeId stud =
+            b_.shape("stud", [&] { return bolt(kLength, kRadius, b_.sides < 12); });
         const Vec3 side = direction.y != 0 ? kX : kY, up = cross(direction, side);
         const int count = bore_.dn < 80 ? 4 : bore_.dn < 200 ? 8 : 12;
-        for (int k = 0; k < count && b.triangles() < limit_; ++k) {
+        for (int k = 0; k < count && b_.triangles() < limit_; ++k) {
             const Point2 c = on_circle(2 * k + 1, 2 * count);
             const Vec3 out =
                 add(scaled(side, on_grid(circle * c.u)), scaled(up, on_grid(circle * c.v)));
-            b.place(stud, along(direction, add(p, add(out, scaled(direction, b.gap)))),
-                    "IfcMechanicalFastener", name_ + " stud M20");
+            b_.place(stud, along(direction, add(p, add(out, scaled(direction, b_.gap)))),
+                     "IfcMechanicalFastener", name_ + " stud M20");
         }
-        return 2 * b.gap + kLength;
+        return 2 * b_.gap + kLength;
     }
 
-    PlantBuilder& b;
+    PlantBuilder& b_;
     Bore bore_;
     std::uint64_t limit_;
     Vec3 low_, high_;
@@ -186,14 +187,15 @@ void fill_laydown_yard(PlantBuilder& b, double x, double z, std::uint64_t limit)
     const double pitch = on_grid_above(0.34375 + b.gap);
     int row = 0;
     for (; b.triangles() + b.shape(spare).mesh.triangles.size() <= limit; ++row) {
-        const int layer = row / 20 % 3, lot = row / 60;
+        const int layer = row / 20 % 3, lot = row / 60, lot_row = lot / 10;
         const Vec3 p{x + 8.0 * (lot % 10), ground + 0.5 + pitch * layer,
-                     z - pitch * (row % 20) - (20 * pitch + 2) * (lot / 10)};
+                     z - pitch * (row % 20) - (20 * pitch + 2) * lot_row};
         b.place(spare, at(p), "IfcPipeSegment", fmt::format("Spare pipe DN200 {}", row + 1));
     }
     const double step = on_grid_above(0.125 + b.gap);
     for (int n = 0; b.triangles() + b.shape(stud).mesh.triangles.size() <= limit && n < 200; ++n) {
-        b.place(stud, along(kY, {x - 2 - step * (n % 10), ground + b.gap, z - step * (n / 10)}),
+        const int column = n % 10, line = n / 10;
+        b.place(stud, along(kY, {x - 2 - step * column, ground + b.gap, z - step * line}),
                 "IfcMechanicalFastener", fmt::format("Spare bolt M20 {}", n + 1));
     }
 }

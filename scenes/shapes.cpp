@@ -244,6 +244,7 @@ Shape hollow_section(double length, double depth, double width, double wall) {
     const int pieces = std::max(1, static_cast<int>(length / 0.25));
     const Box3 whole = shape.cover[0];
     shape.cover.clear();
+    shape.cover.reserve(static_cast<std::size_t>(pieces));
     for (int k = 0; k < pieces; ++k) {
         shape.cover.push_back({{length * k / pieces, whole.lower.y, whole.lower.z},
                                {length * (k + 1) / pieces, whole.upper.y, whole.upper.z}});
@@ -306,6 +307,7 @@ Shape plate(const std::vector<double>& x_cuts, const std::vector<double>& z_cuts
 Shape lathe(const std::vector<Point2>& profile, int sides, bool ring) {
     Shape shape;
     std::vector<Index> rings;
+    rings.reserve(profile.size());
     for (const Point2& p : profile) {
         rings.push_back(p.v == 0 ? vertex(shape, p.u, 0, 0) : ring_of(shape, p.u, p.v, sides));
     }
