@@ -1,0 +1,214 @@
+#include <abut/clash.h>
+#include <abut/model.h>
+#include <abut/rigid.h>
+#include <abut/scene.h>
+
+#include "measure.h"
+#include "peer_fcl.h"
+#include "suites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr std::size_t kBlock =
+    2048;                           ///< candidates that one side does before the other has its turn
+constexpr std::size_t kListed = 10; ///< disagreements that are listed
+
+/// What one pass over the candidates found.
+struct Answers {
+    std::vector<double> distance; ///< 0: they meet; only meeting or not for an intersection
+    Counters counters;
+};
+
+class ClashSuite {
+public:
+    explicit ClashSuite(const ClashSuiteOptions& options)
+        : options_(options),
+          scene_(options.part_file.empty()
+                     ? make_clash_scene(options.scene)
+                     : make_clash_scene(options.scene, read_mesh(options.part_file))),
+          model_(scene_.part), fcl_(make_fcl_instances(scene_, options.clearance)) {
+        report_.suite = "clash";
+        report_.notes.push_back(fmt::format("{} instances of {} triangles, {} candidate pairs",
+                                            scene_.placements.size(), scene_.part.triangles.size(),
+                                            scene_.candidates.size()));
+        if (fcl_)
+            for (const std::string& line : fcl_->choice())
+                report_.notes.push_back(line);
+        else
+            report_.notes.emplace_back("built without FCL (package libfcl-dev): no peer");
+    }
+
+    Report run() && {
+        intersection();
+        clearance();
+        whole_job();
+        return std::move(report_);
+    }
+
+private:
+    void collide_all(std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto& [a, b] = scene_.candidates[i];
+            const Contacts contacts = collide(model_, scene_.placements[a], model_,
+                                              scene_.placements[b], {.mode = ContactMode::first});
+            ours_[i] = contacts.any() ? 0 : 1;
+            counters_[i] = contacts.counters;
+        }
+    }
+
+    void measure_all(std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto& [a, b] = scene_.candidates[i];
+            const Gap gap = distance(model_, scene_.placements[a], model_, scene_.placements[b],
+                                     {.upper_bound = options_.clearance});
+            ours_[i] = gap.distance;
+            counters_[i] = gap.counters;
+        }
+    }
+
+    void start_case() {
+        ours_.assign(scene_.candidates.size(), 0);
+        theirs_.assign(scene_.candidates.size(), 0);
+        counters_.assign(scene_.candidates.size(), {});
+    }
+
+    [[nodiscard]] double pairs() const { return static_cast<double>(scene_.candidates.size()); }
+
+    /// Both sides on one thread; then ours on one and on several.
+    Row& compare(const std::string& name, const Work& ours, const Work& theirs,
+                 const std::string& peer) {
+        const double microseconds = 1e6 / pairs();
+        const Turns turns = take_turns(scene_.candidates.size(), kBlock, options_.rounds, ours,
+                                       fcl_ ? theirs : Work{});
+        Row row{name, turns.ours * microseconds, {}, {}, "us/pair", 1, {}};
+        if (fcl_)
+            row.peer = peer, row.theirs = turns.theirs * microseconds;
+        Counters sum;
+        for (const Counters& c : counters_) {
+            sum.volume_tests += c.volume_tests;
+            sum.primitive_tests += c.primitive_tests;
+            sum.exact_tests += c.exact_tests;
+        }
+        row.counters["candidates"] = pairs();
+        row.counters["volume tests a pair"] = static_cast<double>(sum.volume_tests) / pairs();
+        row.counters["triangle tests a pair"] = static_cast<double>(sum.primitive_tests) / pairs();
+        row.counters["exact signs"] = static_cast<double>(sum.exact_tests);
+
+        const auto on = [&](int threads) {
+            return [&, threads] { on_threads(threads, scene_.candidates.size(), 256, ours); };
+        };
+        const Turns threads = take_turns(options_.rounds, on(options_.threads), on(1));
+        const std::size_t index = report_.rows.size();
+        report_.rows.push_back(row);
+        report_.rows.push_back({name + ", threads",
+                                threads.ours * microseconds,
+                                "abut, 1 thread (wall)",
+                                threads.theirs * microseconds,
+                                "us/pair",
+                                options_.threads,
+                                {}});
+        return report_.rows[index];
+    }
+
+    /// Counts the pairs that the two sides see differently; FCL is not exact, so some may differ.
+    void count_disagreements(Row& row, double tolerance) {
+        if (!fcl_)
+            return;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < ours_.size(); ++i) {
+            if (std::abs(ours_[i] - theirs_[i]) <= tolerance)
+                continue;
+            if (++count > kListed)
+                continue;
+            const auto& [a, b] = scene_.candidates[i];
+            const Gap gap = distance(model_, scene_.placements[a], model_, scene_.placements[b]);
+            report_.notes.push_back(
+                fmt::format("{}: instances {} and {}: ours {}, theirs {}; our distance {:.17g}",
+                            row.name, a, b, ours_[i], theirs_[i], gap.distance));
+        }
+        row.counters["disagreements"] = static_cast<double>(count);
+    }
+
+    void intersection() {
+        start_case();
+        Row& row = compare(
+            "intersection", [&](auto begin, auto end) { collide_all(begin, end); },
+            [&](auto begin, auto end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const auto& [a, b] = scene_.candidates[i];
+                    theirs_[i] = fcl_->collide(a, b) ? 0 : 1;
+                }
+            },
+            fcl_ ? fcl_->collide_name() : "");
+        row.counters["intersecting"] =
+            static_cast<double>(std::count(ours_.begin(), ours_.end(), 0.0));
+        count_disagreements(row, 0);
+    }
+
+    void clearance() {
+        start_case();
+        Row& row = compare(
+            "clearance", [&](auto begin, auto end) { measure_all(begin, end); },
+            [&](auto begin, auto end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const auto& [a, b] = scene_.candidates[i];
+                    theirs_[i] = fcl_->distance(a, b, options_.clearance);
+                }
+            },
+            fcl_ ? fcl_->distance_name() : "");
+        row.counters["intersecting"] =
+            static_cast<double>(std::count(ours_.begin(), ours_.end(), 0.0));
+        row.counters["within the clearance"] = static_cast<double>(std::count_if(
+            ours_.begin(), ours_.end(), [&](double d) { return d > 0 && d < options_.clearance; }));
+        // Both compute in double; coordinates are of the size of the scene, about 10.
+        count_disagreements(row, 1e-12);
+    }
+
+    void whole_job() {
+        std::vector<Scene> models(1);
+        models[0].file = "grid";
+        models[0].meshes.push_back(scene_.part);
+        for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
+            const std::string id = fmt::format("part {}", i);
+            models[0].parts.push_back({id, id, {}, 0, scene_.placements[i]});
+        }
+        set_threads(options_.threads);
+        ClashReport found;
+        const Turns turns = take_turns(
+            std::min(3, options_.rounds),
+            [&] { found = find_clashes(models, {.clearance = options_.clearance}); }, {});
+        set_threads(0);
+        Row row{"find_clashes", turns.ours, {}, {}, "s", options_.threads, {}};
+        row.counters["candidates"] = static_cast<double>(found.candidates);
+        row.counters["seconds build"] = found.seconds.build;
+        row.counters["seconds broad"] = found.seconds.broad;
+        row.counters["seconds narrow"] = found.seconds.narrow;
+        for (const ClashKind kind : kClashKinds)
+            row.counters[to_string(kind)] =
+                static_cast<double>(found.counts[static_cast<std::size_t>(kind)]);
+        report_.rows.push_back(row);
+    }
+
+    ClashSuiteOptions options_;
+    ClashScene scene_;
+    Model model_;
+    std::unique_ptr<FclInstances> fcl_;
+    Report report_;
+    std::vector<double> ours_, theirs_;
+    std::vector<Counters> counters_;
+};
+
+} // namespace
+
+Report run_clash_suite(const ClashSuiteOptions& options) {
+    return ClashSuite(options).run();
+}
+
+} // namespace abut::bench

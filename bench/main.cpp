@@ -1,0 +1,43 @@
+#include "suites.h"
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <fmt/format.h>
+
+int main(int argc, char** argv) {
+    using namespace abut::bench;
+    CLI::App app("Measures Abut against its peers, in turn in one process", "abut-bench");
+    app.require_subcommand(1);
+    bool json = false;
+    Report report;
+
+    ClashSuiteOptions clash;
+    CLI::App* clash_suite = app.add_subcommand(
+        "clash",
+        "2,000 instances of one part of 20,000 triangles: contact and clearance, against FCL");
+    clash_suite->add_option("--instances", clash.scene.instances, "Number of instances");
+    clash_suite->add_option("--spacing", clash.scene.spacing, "Of the grid, in diameters");
+    clash_suite->add_option("--tube", clash.scene.tube, "Radius of the ring's tube, in diameters");
+    clash_suite->add_option("--seed", clash.scene.seed, "Of jitter and rotations");
+    clash_suite->add_option("--part", clash.part_file, "Model file to use instead of the ring");
+    clash_suite->add_option("--clearance", clash.clearance, "In diameters of the part")
+        ->check(CLI::PositiveNumber);
+    clash_suite->add_option("--rounds", clash.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    clash_suite->add_option("--threads", clash.threads, "Of the rows with several threads")
+        ->check(CLI::Range(1, 1024));
+    clash_suite->callback([&] { report = run_clash_suite(clash); });
+
+    for (CLI::App* suite : app.get_subcommands({}))
+        suite->add_flag("--json", json, "One JSON object instead of the table");
+    try {
+        app.parse(argc, argv);
+        json ? print_json(report) : print_table(report);
+        return 0;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "abut-bench: {}\n", error.what());
+        return 2;
+    }
+}

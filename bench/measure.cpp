@@ -1,0 +1,81 @@
+#include "measure.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <ctime>
+#include <thread>
+
+namespace abut::bench {
+
+double thread_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double wall_seconds() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration<double>(now).count();
+}
+
+double median(std::vector<double> values) {
+    if (values.empty())
+        return 0;
+    std::sort(values.begin(), values.end());
+    const std::size_t middle = values.size() / 2;
+    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Turns take_turns(std::size_t items, std::size_t block, int rounds, const Work& ours,
+                 const Work& theirs) {
+    std::vector<double> our_seconds, their_seconds;
+    for (int round = 0; round < rounds; ++round) {
+        double our_sum = 0, their_sum = 0;
+        for (std::size_t begin = 0; begin < items; begin += block) {
+            const std::size_t end = std::min(items, begin + block);
+            const double start = thread_seconds();
+            ours(begin, end);
+            const double between = thread_seconds();
+            our_sum += between - start;
+            if (!theirs)
+                continue;
+            theirs(begin, end);
+            their_sum += thread_seconds() - between;
+        }
+        our_seconds.push_back(our_sum);
+        their_seconds.push_back(their_sum);
+    }
+    return {median(our_seconds), median(their_seconds)};
+}
+
+Turns take_turns(int rounds, const std::function<void()>& ours,
+                 const std::function<void()>& theirs) {
+    std::vector<double> our_seconds, their_seconds;
+    for (int round = 0; round < rounds; ++round) {
+        const double start = wall_seconds();
+        ours();
+        const double between = wall_seconds();
+        our_seconds.push_back(between - start);
+        if (!theirs)
+            continue;
+        theirs();
+        their_seconds.push_back(wall_seconds() - between);
+    }
+    return {median(our_seconds), median(their_seconds)};
+}
+
+void on_threads(int threads, std::size_t items, std::size_t block, const Work& work) {
+    std::atomic<std::size_t> next{0};
+    const auto take = [&] {
+        for (std::size_t begin = next.fetch_add(block); begin < items;
+             begin = next.fetch_add(block))
+            work(begin, std::min(items, begin + block));
+    };
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < threads; ++i)
+        helpers.emplace_back(take);
+    take();
+}
+
+} // namespace abut::bench

@@ -1,0 +1,137 @@
+#include "peer_fcl.h"
+
+#include "measure.h"
+
+#ifdef ABUT_BENCH_FCL
+#include <algorithm>
+#include <fcl/fcl.h>
+#include <fmt/format.h>
+#endif
+
+namespace abut::bench {
+
+#ifdef ABUT_BENCH_FCL
+
+namespace {
+
+using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+
+struct Volume {
+    std::string name;
+    Geometry tree;
+};
+
+template <class BoundingVolume>
+Geometry build(const Mesh& mesh) {
+    std::vector<fcl::Vector3d> vertices;
+    std::vector<fcl::Triangle> triangles;
+    for (const Vec3& p : mesh.positions)
+        vertices.emplace_back(p.x, p.y, p.z);
+    for (const auto& t : mesh.triangles)
+        triangles.emplace_back(t[0], t[1], t[2]);
+    auto model = std::make_shared<fcl::BVHModel<BoundingVolume>>();
+    model->beginModel();
+    model->addSubModel(vertices, triangles);
+    model->endModel();
+    return model;
+}
+
+class FclInstancesImpl final : public FclInstances {
+public:
+    FclInstancesImpl(const ClashScene& scene, double clearance) {
+        for (const Transform& t : scene.placements) {
+            fcl::Transform3d placement = fcl::Transform3d::Identity();
+            for (int row = 0; row < 3; ++row)
+                for (int column = 0; column < 4; ++column)
+                    placement(row, column) = t.m[static_cast<std::size_t>(3 * column + row)];
+            placements_.push_back(placement);
+        }
+        const std::vector<Volume> volumes{{"OBBRSS", build<fcl::OBBRSSd>(scene.part)},
+                                          {"RSS", build<fcl::RSSd>(scene.part)},
+                                          {"kIOS", build<fcl::kIOSd>(scene.part)},
+                                          {"OBB", build<fcl::OBBd>(scene.part)},
+                                          {"AABB", build<fcl::AABBd>(scene.part)}};
+        choose(
+            scene, volumes, [&](auto a, auto b) { (void)collide(a, b); }, collider_, "collide");
+        // FCL has no distance between OBB hierarchies.
+        std::vector<Volume> measurable;
+        std::copy_if(volumes.begin(), volumes.end(), std::back_inserter(measurable),
+                     [](const Volume& v) { return v.name != "OBB"; });
+        choose(
+            scene, measurable, [&](auto a, auto b) { (void)distance(a, b, clearance); }, measurer_,
+            "distance");
+    }
+
+    [[nodiscard]] bool collide(std::uint32_t a, std::uint32_t b) const override {
+        const fcl::CollisionRequestd request(1, false);
+        fcl::CollisionResultd result;
+        fcl::collide(collider_.tree.get(), placements_[a], collider_.tree.get(), placements_[b],
+                     request, result);
+        return result.isCollision();
+    }
+
+    [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b,
+                                  double upper_bound) const override {
+        const fcl::DistanceRequestd request(false);
+        fcl::DistanceResultd result(upper_bound);
+        fcl::distance(measurer_.tree.get(), placements_[a], measurer_.tree.get(), placements_[b],
+                      request, result);
+        return result.min_distance;
+    }
+
+    [[nodiscard]] std::string collide_name() const override { return name(collider_); }
+    [[nodiscard]] std::string distance_name() const override { return name(measurer_); }
+    [[nodiscard]] std::vector<std::string> choice() const override { return choice_; }
+
+private:
+    static std::string name(const Volume& volume) {
+        return fmt::format("FCL {}, {}", FCL_VERSION, volume.name);
+    }
+
+    template <class Query>
+    void choose(const ClashScene& scene, const std::vector<Volume>& volumes, const Query& query,
+                Volume& chosen, const char* verb) {
+        const std::size_t sample = std::min<std::size_t>(400, scene.candidates.size());
+        std::string line = fmt::format("FCL's {} on {} candidates, us a pair:", verb, sample);
+        double best = 0;
+        Volume fastest;
+        for (const Volume& volume : volumes) {
+            chosen = volume;
+            const auto pass = [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const auto& [a, b] = scene.candidates[i * scene.candidates.size() / sample];
+                    query(a, b);
+                }
+            };
+            const double seconds = take_turns(sample, sample, 3, pass, {}).ours;
+            line +=
+                fmt::format(" {} {:.3g}", volume.name,
+                            1e6 * seconds / static_cast<double>(std::max<std::size_t>(1, sample)));
+            if (fastest.name.empty() || seconds < best)
+                best = seconds, fastest = volume;
+        }
+        chosen = fastest;
+        choice_.push_back(line);
+    }
+
+    std::vector<fcl::Transform3d> placements_;
+    Volume collider_, measurer_;
+    std::vector<std::string> choice_;
+};
+
+} // namespace
+
+std::unique_ptr<FclInstances> make_fcl_instances(const ClashScene& scene, double clearance) {
+    return std::make_unique<FclInstancesImpl>(scene, clearance);
+}
+
+#else
+
+std::unique_ptr<FclInstances> make_fcl_instances(const ClashScene& /*scene*/,
+                                                 double /*clearance*/) {
+    return nullptr;
+}
+
+#endif
+
+} // namespace abut::bench
