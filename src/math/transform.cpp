@@ -45,7 +45,7 @@ Transform::Transform(const Pose& pose) {
     double w = pose.rotation[0], x = pose.rotation[1], y = pose.rotation[2], z = pose.rotation[3];
     // Scaled by the largest first: no square of a valid quaternion over- or underflows.
     const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
-    if (!std::isfinite(w + x + y + z) || !is_finite(pose.translation))
+    if (!std::isfinite(w) || !is_finite({x, y, z}) || !is_finite(pose.translation))
         throw Error(ErrorCode::bad_argument, "pose has a value that is not finite");
     if (largest == 0)
         throw Error(ErrorCode::bad_argument, "pose has a quaternion of zero length");
