@@ -39,10 +39,9 @@ template <class D>
 HWY_INLINE Vec<D> broadcast(D d, const Vec3& p) {
     return {hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z)};
 }
-template <class D>
-HWY_INLINE Vec<D> load(D d, const TriangleBlock& b, std::size_t vertex, std::size_t lane) {
-    return {hn::LoadU(d, &b.v[vertex][0][lane]), hn::LoadU(d, &b.v[vertex][1][lane]),
-            hn::LoadU(d, &b.v[vertex][2][lane])};
+template <class D, std::size_t n>
+HWY_INLINE Vec<D> load(D d, const double (&v)[3][n], std::size_t lane) {
+    return {hn::Load(d, &v[0][lane]), hn::Load(d, &v[1][lane]), hn::Load(d, &v[2][lane])};
 }
 template <class D>
 HWY_INLINE hn::Vec<D> max_abs(const Vec<D>& a) {
@@ -57,43 +56,73 @@ HWY_INLINE V max3(V a, V b, V c) {
     return hn::Max(a, hn::Max(b, c));
 }
 
-/// Lanes where the plane through p with edges u, v has all of q0, q1, q2 certainly on one side.
+/// How far q0, q1, q2 certainly are from the plane through p with normal n = u x v, times |n|, if
+/// they are all on one side; 0 or less if that is not certain.
 ///
 /// |computed - true| of n . (q - p) is below 32 eps e^2 d for edges below e and differences below
 /// d: 3 products of 3 factors each, at most 9 roundings on any path. The smallest normal number
 /// covers underflow.
 template <class D>
-HWY_INLINE hn::Mask<D> certainly_one_side(D d, const Vec<D>& p, const Vec<D>& u, const Vec<D>& v,
-                                          const Vec<D>& q0, const Vec<D>& q1, const Vec<D>& q2) {
-    const Vec<D> n = cross(u, v);
+HWY_INLINE hn::Vec<D> certain_side(D d, const Vec<D>& n, const Vec<D>& u, const Vec<D>& v,
+                                   const Vec<D>& p, const Vec<D>& q0, const Vec<D>& q1,
+                                   const Vec<D>& q2) {
     const Vec<D> w0 = sub(q0, p), w1 = sub(q1, p), w2 = sub(q2, p);
     const auto s0 = dot(n, w0), s1 = dot(n, w1), s2 = dot(n, w2);
     const auto e = hn::Max(max_abs(u), max_abs(v));
     const auto far = max3(max_abs(w0), max_abs(w1), max_abs(w2));
     const auto bound = hn::MulAdd(hn::Mul(hn::Set(d, 32 * 0x1p-53), hn::Mul(e, e)), far,
                                   hn::Mul(hn::Set(d, 0x1p-1000), hn::Add(far, hn::Set(d, 1.0))));
-    return hn::Or(hn::Gt(min3(s0, s1, s2), bound), hn::Lt(max3(s0, s1, s2), hn::Neg(bound)));
+    const auto side = hn::Max(min3(s0, s1, s2), hn::Neg(max3(s0, s1, s2)));
+    return hn::Sub(side, bound);
+}
+
+/// What tells a triangle from four others cheaply.
+template <class D>
+struct Apart {
+    hn::Vec<D> box_sq;         ///< squared gap of the boxes; not above 0 if they overlap
+    hn::Vec<D> side_a, side_b; ///< certain_side of a's plane, of b's plane
+    hn::Vec<D> nn_a, nn_b;     ///< squared normals
+};
+
+template <class D>
+HWY_INLINE Apart<D> compare(D d, const Triangle& a, const TriangleBlock& b, std::size_t lane) {
+    const Vec<D> a0 = broadcast(d, a[0]), a1 = broadcast(d, a[1]), a2 = broadcast(d, a[2]);
+    const Vec<D> b0 = load(d, b.v[0], lane), b1 = load(d, b.v[1], lane), b2 = load(d, b.v[2], lane);
+    const auto gap = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
+        return hn::Max(hn::Zero(d), hn::Max(hn::Sub(min3(p0, p1, p2), max3(q0, q1, q2)),
+                                            hn::Sub(min3(q0, q1, q2), max3(p0, p1, p2))));
+    };
+    const Vec<D> g{gap(a0.x, a1.x, a2.x, b0.x, b1.x, b2.x), gap(a0.y, a1.y, a2.y, b0.y, b1.y, b2.y),
+                   gap(a0.z, a1.z, a2.z, b0.z, b1.z, b2.z)};
+    const Vec<D> ua = sub(a1, a0), va = sub(a2, a0), ub = sub(b1, b0), vb = sub(b2, b0);
+    const Vec<D> na = cross(ua, va), nb = cross(ub, vb);
+    return {dot(g, g), certain_side(d, na, ua, va, a0, b0, b1, b2),
+            certain_side(d, nb, ub, vb, b0, a0, a1, a2), dot(na, na), dot(nb, nb)};
 }
 
 template <class D>
-HWY_INLINE std::uint32_t may_intersect_lanes(D d, const Triangle& a, const TriangleBlock& b,
-                                             std::size_t lane) {
-    const Vec<D> a0 = broadcast(d, a[0]), a1 = broadcast(d, a[1]), a2 = broadcast(d, a[2]);
-    const Vec<D> b0 = load(d, b, 0, lane), b1 = load(d, b, 1, lane), b2 = load(d, b, 2, lane);
-    const auto apart = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
-        return hn::Or(hn::Gt(min3(p0, p1, p2), max3(q0, q1, q2)),
-                      hn::Gt(min3(q0, q1, q2), max3(p0, p1, p2)));
-    };
-    auto none = hn::Or(apart(a0.x, a1.x, a2.x, b0.x, b1.x, b2.x),
-                       hn::Or(apart(a0.y, a1.y, a2.y, b0.y, b1.y, b2.y),
-                              apart(a0.z, a1.z, a2.z, b0.z, b1.z, b2.z)));
-    if (!hn::AllTrue(d, none)) {
-        none = hn::Or(none, certainly_one_side(d, b0, sub(b1, b0), sub(b2, b0), a0, a1, a2));
-        none = hn::Or(none, certainly_one_side(d, a0, sub(a1, a0), sub(a2, a0), b0, b1, b2));
-    }
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
     std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Not(none), bits);
+    hn::StoreMaskBits(d, mask, bits);
     return static_cast<std::uint32_t>(bits[0]) & ((1U << hn::MaxLanes(d)) - 1);
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> certainly_apart(D d, const Apart<D>& x) {
+    // A gap so small that its square vanishes is left to the exact test.
+    const auto zero = hn::Zero(d);
+    return hn::Or(hn::Gt(x.box_sq, zero), hn::Or(hn::Gt(x.side_a, zero), hn::Gt(x.side_b, zero)));
+}
+
+/// Lanes farther apart than the bound: side / |n| is a distance to a plane.
+template <class D>
+HWY_INLINE hn::Mask<D> certainly_far(D d, const Apart<D>& x, hn::Vec<D> bound_sq) {
+    const auto zero = hn::Zero(d);
+    const auto a = hn::Max(zero, x.side_a), b = hn::Max(zero, x.side_b);
+    // Squares and the squared normals are rounded: by less than this together.
+    const auto bound = hn::Mul(bound_sq, hn::Set(d, 1 + 0x1p-40));
+    return hn::Or(hn::Gt(x.box_sq, bound), hn::Or(hn::Gt(hn::Mul(a, a), hn::Mul(bound, x.nn_a)),
+                                                  hn::Gt(hn::Mul(b, b), hn::Mul(bound, x.nn_b))));
 }
 
 /// Squared distance of the segments p + s u and q + t v, s and t in [0, 1]; uu = u.u, vv = v.v.
@@ -137,11 +166,12 @@ HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Vec<D>& w, const Vec<D>& u, cons
 }
 
 template <class D>
-HWY_INLINE void distance_sq_lanes(D d, const Triangle& a, const TriangleBlock& block,
-                                  std::size_t lane, double* result) {
-    const Vec<D> a_v[3] = {broadcast(d, a[0]), broadcast(d, a[1]), broadcast(d, a[2])};
-    const Vec<D> b_v[3] = {load(d, block, 0, lane), load(d, block, 1, lane),
-                           load(d, block, 2, lane)};
+HWY_INLINE void distance_sq_lanes(D d, const TrianglePairBlock& pairs, std::size_t lane,
+                                  double* result) {
+    const Vec<D> a_v[3] = {load(d, pairs.a[0], lane), load(d, pairs.a[1], lane),
+                           load(d, pairs.a[2], lane)};
+    const Vec<D> b_v[3] = {load(d, pairs.b[0], lane), load(d, pairs.b[1], lane),
+                           load(d, pairs.b[2], lane)};
     Vec<D> a_e[3], b_e[3];
     hn::Vec<D> a_ee[3], b_ee[3];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -168,31 +198,49 @@ HWY_INLINE void distance_sq_lanes(D d, const Triangle& a, const TriangleBlock& b
 
 template <class D>
 HWY_INLINE std::uint32_t may_intersect_with(D d, const Triangle& a, const TriangleBlock& b) {
-    std::uint32_t mask = 0;
+    std::uint32_t lanes = 0;
     for (std::size_t lane = 0; lane < TriangleBlock::kLanes; lane += hn::Lanes(d))
-        mask |= may_intersect_lanes(d, a, b, lane) << lane;
-    return mask;
+        lanes |= bits_of(d, hn::Not(certainly_apart(d, compare(d, a, b, lane)))) << lane;
+    return lanes;
 }
 template <class D>
-HWY_INLINE void distance_sq_with(D d, const Triangle& a, const TriangleBlock& b, double* result) {
-    for (std::size_t lane = 0; lane < TriangleBlock::kLanes; lane += hn::Lanes(d))
-        distance_sq_lanes(d, a, b, lane, result);
+HWY_INLINE NearLanes near_lanes_with(D d, const Triangle& a, const TriangleBlock& b,
+                                     double bound_sq) {
+    NearLanes lanes{0, 0};
+    for (std::size_t lane = 0; lane < TriangleBlock::kLanes; lane += hn::Lanes(d)) {
+        const Apart<D> x = compare(d, a, b, lane);
+        lanes.may_intersect |= bits_of(d, hn::Not(certainly_apart(d, x))) << lane;
+        lanes.may_be_near |= bits_of(d, hn::Not(certainly_far(d, x, hn::Set(d, bound_sq)))) << lane;
+    }
+    return lanes;
+}
+template <class D>
+HWY_INLINE void distance_sq_with(D d, const TrianglePairBlock& pairs, double* result) {
+    for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; lane += hn::Lanes(d))
+        distance_sq_lanes(d, pairs, lane, result);
 }
 
-using Lanes = hn::CappedTag<double, TriangleBlock::kLanes>;
+using BlockLanes = hn::CappedTag<double, TriangleBlock::kLanes>;
+using PairLanes = hn::CappedTag<double, TrianglePairBlock::kLanes>;
 using OneLane = hn::CappedTag<double, 1>;
 
 std::uint32_t may_intersect_simd(const Triangle& a, const TriangleBlock& b) {
-    return may_intersect_with(Lanes(), a, b);
+    return may_intersect_with(BlockLanes(), a, b);
 }
 std::uint32_t may_intersect_one(const Triangle& a, const TriangleBlock& b) {
     return may_intersect_with(OneLane(), a, b);
 }
-void distance_sq_simd(const Triangle& a, const TriangleBlock& b, double* result) {
-    distance_sq_with(Lanes(), a, b, result);
+NearLanes near_lanes_simd(const Triangle& a, const TriangleBlock& b, double bound_sq) {
+    return near_lanes_with(BlockLanes(), a, b, bound_sq);
 }
-void distance_sq_one(const Triangle& a, const TriangleBlock& b, double* result) {
-    distance_sq_with(OneLane(), a, b, result);
+NearLanes near_lanes_one(const Triangle& a, const TriangleBlock& b, double bound_sq) {
+    return near_lanes_with(OneLane(), a, b, bound_sq);
+}
+void distance_sq_simd(const TrianglePairBlock& pairs, double* result) {
+    distance_sq_with(PairLanes(), pairs, result);
+}
+void distance_sq_one(const TrianglePairBlock& pairs, double* result) {
+    distance_sq_with(OneLane(), pairs, result);
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -202,6 +250,7 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(may_intersect_simd);
+HWY_EXPORT(near_lanes_simd);
 HWY_EXPORT(distance_sq_simd);
 
 std::uint32_t may_intersect(const Triangle& a, const TriangleBlock& b) {
@@ -210,13 +259,18 @@ std::uint32_t may_intersect(const Triangle& a, const TriangleBlock& b) {
 std::uint32_t may_intersect_reference(const Triangle& a, const TriangleBlock& b) {
     return HWY_STATIC_DISPATCH(may_intersect_one)(a, b);
 }
-void distance_sq(const Triangle& a, const TriangleBlock& b,
-                 double (&result)[TriangleBlock::kLanes]) {
-    HWY_DYNAMIC_DISPATCH(distance_sq_simd)(a, b, result);
+NearLanes near_lanes(const Triangle& a, const TriangleBlock& b, double bound_sq) {
+    return HWY_DYNAMIC_DISPATCH(near_lanes_simd)(a, b, bound_sq);
 }
-void distance_sq_reference(const Triangle& a, const TriangleBlock& b,
-                           double (&result)[TriangleBlock::kLanes]) {
-    HWY_STATIC_DISPATCH(distance_sq_one)(a, b, result);
+NearLanes near_lanes_reference(const Triangle& a, const TriangleBlock& b, double bound_sq) {
+    return HWY_STATIC_DISPATCH(near_lanes_one)(a, b, bound_sq);
+}
+void distance_sq(const TrianglePairBlock& pairs, double (&result)[TrianglePairBlock::kLanes]) {
+    HWY_DYNAMIC_DISPATCH(distance_sq_simd)(pairs, result);
+}
+void distance_sq_reference(const TrianglePairBlock& pairs,
+                           double (&result)[TrianglePairBlock::kLanes]) {
+    HWY_STATIC_DISPATCH(distance_sq_one)(pairs, result);
 }
 
 } // namespace abut
