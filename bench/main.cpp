@@ -35,6 +35,14 @@ int main(int argc, char** argv) {
         ->check(CLI::NonNegativeNumber);
     clash_suite->callback([&] { report = run_clash_suite(clash); });
 
+    ImportSuiteOptions import;
+    CLI::App* import_suite =
+        app.add_subcommand("import", "Models read in isolation, against Assimp in process");
+    import_suite->add_option("files", import.files, "Model files (GLB)")->required();
+    import_suite->add_option("--rounds", import.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    import_suite->callback([&] { report = run_import_suite(import); });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

@@ -20,4 +20,13 @@ struct ClashSuiteOptions {
 /// Intersection and clearance of all candidate pairs, against FCL; then the whole clash job.
 Report run_clash_suite(const ClashSuiteOptions& options);
 
+struct ImportSuiteOptions {
+    std::vector<std::string> files;
+    int rounds = 7;
+};
+
+/// `read_scene`, which keeps the reader in a process of its own, against Assimp called in process.
+/// Errors      as read_scene.
+Report run_import_suite(const ImportSuiteOptions& options);
+
 } // namespace abut::bench
