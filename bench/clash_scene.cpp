@@ -50,6 +50,18 @@ Box3 box_of(const Mesh& mesh, const Transform& placement) {
     return box;
 }
 
+/// Cubes around the part's middle that hold it however it is turned.
+std::vector<Box3> rotation_boxes(const ClashScene& scene) {
+    double radius = 0;
+    for (const Vec3& p : scene.part.positions)
+        radius = std::max(radius, std::hypot(p.x, p.y, p.z));
+    std::vector<Box3> boxes;
+    for (const Transform& t : scene.placements)
+        boxes.push_back({{t.m[9] - radius, t.m[10] - radius, t.m[11] - radius},
+                         {t.m[9] + radius, t.m[10] + radius, t.m[11] + radius}});
+    return boxes;
+}
+
 /// Moves the middle of the box to the origin and scales its diagonal to 1.
 void normalise(Mesh& mesh) {
     const Box3 box = box_of(mesh, {});
@@ -63,29 +75,41 @@ void normalise(Mesh& mesh) {
 
 } // namespace
 
-Mesh ribbed_ring(double tube_radius) {
-    constexpr std::uint32_t kAround = 125, kAcross = 80;
+Mesh flanged_elbow(double bend, double tube_radius) {
+    constexpr std::uint32_t kRings = 125, kAcross = 80;
     Mesh mesh;
-    const double ring_radius = 0.5 - tube_radius;
-    for (std::uint32_t i = 0; i < kAround; ++i)
+    const auto on_ring = [&](double along, double radius, double v) {
+        const double u = bend * (along - 0.5), reach = 1 + radius * std::cos(v);
+        return Vec3{reach * std::cos(u), reach * std::sin(u), radius * std::sin(v)};
+    };
+    for (std::uint32_t i = 0; i < kRings; ++i)
         for (std::uint32_t j = 0; j < kAcross; ++j) {
-            const double u = kTurn * i / kAround, v = kTurn * j / kAcross;
-            // Nine ribs along the ring, and dents that wind around the tube.
-            const double r =
-                tube_radius * (1 + 0.2 * std::cos(9 * u) + 0.1 * std::sin(5 * v + 4 * u));
-            const double reach = ring_radius + r * std::cos(v);
-            mesh.positions.push_back({reach * std::cos(u), reach * std::sin(u), r * std::sin(v)});
-            const std::uint32_t next_i = (i + 1) % kAround, next_j = (j + 1) % kAcross;
-            const std::uint32_t a = i * kAcross + j, b = next_i * kAcross + j,
-                                c = next_i * kAcross + next_j, d = i * kAcross + next_j;
+            const double along = static_cast<double>(i) / (kRings - 1), v = kTurn * j / kAcross;
+            const double flange = std::min(along, 1 - along) < 0.06 ? 1.6 : 1;
+            // Seven ribs along the bend, and dents that wind around it.
+            const double bumps =
+                1 + 0.12 * std::cos(7 * kTurn * along) + 0.06 * std::sin(5 * v + 2 * kTurn * along);
+            mesh.positions.push_back(on_ring(along, tube_radius * flange * bumps, v));
+        }
+    const auto first_cap = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(on_ring(0, 0, 0));
+    mesh.positions.push_back(on_ring(1, 0, 0));
+    for (std::uint32_t j = 0; j < kAcross; ++j) {
+        const std::uint32_t next = (j + 1) % kAcross, last = (kRings - 1) * kAcross;
+        for (std::uint32_t ring = 0; ring < last; ring += kAcross) {
+            const std::uint32_t a = ring + j, b = a + kAcross, c = ring + kAcross + next,
+                                d = ring + next;
             mesh.triangles.push_back({a, b, c});
             mesh.triangles.push_back({a, c, d});
         }
+        mesh.triangles.push_back({first_cap, j, next});
+        mesh.triangles.push_back({first_cap + 1, last + next, last + j});
+    }
     return mesh;
 }
 
 ClashScene make_clash_scene(const ClashSceneOptions& options) {
-    return make_clash_scene(options, ribbed_ring(options.tube));
+    return make_clash_scene(options, flanged_elbow(options.bend, options.tube));
 }
 
 ClashScene make_clash_scene(const ClashSceneOptions& options, Mesh part) {
@@ -109,6 +133,8 @@ ClashScene make_clash_scene(const ClashSceneOptions& options, Mesh part) {
         scene.placements.emplace_back(pose);
         boxes.push_back(box_of(scene.part, scene.placements.back()));
     }
+    if (options.boxes == CandidateBoxes::any_rotation)
+        boxes = rotation_boxes(scene);
     for (std::uint32_t a = 0; a < boxes.size(); ++a)
         for (std::uint32_t b = a + 1; b < boxes.size(); ++b)
             if (overlap(boxes[a], boxes[b]))

@@ -10,10 +10,18 @@
 
 namespace abut::bench {
 
+/// Whose overlap makes two instances a candidate pair.
+enum class CandidateBoxes : std::uint8_t {
+    any_rotation, ///< cubes that hold the part however it is turned, as FCL's own broad phase has
+    tight,        ///< boxes of the placed vertices, as the clash job has
+};
+
 struct ClashSceneOptions {
     std::size_t instances = 2000;
-    double spacing = 0.4; ///< of the grid, in diameters of the part
-    double tube = 0.05;   ///< mean radius of the ring's tube, in diameters of the part
+    double spacing = 0.268; ///< of the grid, in diagonals of the part
+    double bend = 1.6;      ///< of the part, radians
+    double tube = 0.23;     ///< mean radius of the part's tube, in radii of the bend
+    CandidateBoxes boxes = CandidateBoxes::any_rotation;
     std::uint64_t seed = 1;
 };
 
@@ -21,12 +29,12 @@ struct ClashSceneOptions {
 struct ClashScene {
     Mesh part;
     std::vector<Transform> placements;
-    /// Pairs of instances whose boxes overlap (tight boxes of the placed vertices), sorted.
+    /// Pairs of instances whose boxes overlap as the options say, sorted.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates;
 };
 
-/// A closed ring of pipe with ribs and dents, of diameter about 1 and 20,000 triangles.
-Mesh ribbed_ring(double tube_radius);
+/// A closed bent pipe with flanges, ribs and dents: 20,000 triangles, bend of radius 1.
+Mesh flanged_elbow(double bend, double tube_radius);
 
 /// The same scene for the same options on every machine with IEEE arithmetic.
 ClashScene make_clash_scene(const ClashSceneOptions& options);

@@ -1,4 +1,5 @@
 #include <abut/clash.h>
+#include <abut/error.h>
 #include <abut/model.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>
@@ -8,9 +9,14 @@
 #include "suites.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <fmt/format.h>
-#include <numeric>
+#include <mutex>
+#include <optional>
+#include <thread>
 
 namespace abut::bench {
 
@@ -20,10 +26,28 @@ constexpr std::size_t kBlock =
     2048;                           ///< candidates that one side does before the other has its turn
 constexpr std::size_t kListed = 10; ///< disagreements that are listed
 
-/// What one pass over the candidates found.
+/// What one pass over the candidates found->
 struct Answers {
     std::vector<double> distance; ///< 0: they meet; only meeting or not for an intersection
     Counters counters;
+};
+
+/// Sets a flag after some seconds, unless it is destroyed before.
+class Alarm {
+public:
+    Alarm(double seconds, std::atomic<bool>& flag)
+        : thread_([this, seconds, &flag](const std::stop_token& cancelled) {
+              std::unique_lock lock(mutex_);
+              if (!wake_.wait_for(lock, cancelled, std::chrono::duration<double>(seconds),
+                                  [] { return false; }) &&
+                  !cancelled.stop_requested())
+                  flag = true;
+          }) {}
+
+private:
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    std::jthread thread_;
 };
 
 class ClashSuite {
@@ -48,7 +72,8 @@ public:
     Report run() && {
         intersection();
         clearance();
-        whole_job();
+        if (options_.job_limit > 0)
+            whole_job();
         return std::move(report_);
     }
 
@@ -180,19 +205,37 @@ private:
             models[0].parts.push_back({id, id, {}, 0, scene_.placements[i]});
         }
         set_threads(options_.threads);
-        ClashReport found;
-        const Turns turns = take_turns(
-            std::min(3, options_.rounds),
-            [&] { found = find_clashes(models, {.clearance = options_.clearance}); }, {});
+        std::atomic<double> done = 0;
+        std::optional<ClashReport> found;
+        {
+            std::atomic<bool> stop = false;
+            const Alarm alarm(options_.job_limit, stop);
+            ClashOptions clash;
+            clash.clearance = options_.clearance;
+            clash.progress.stop = &stop;
+            clash.progress.report = [&](std::string_view /*stage*/, double share) { done = share; };
+            try {
+                found = find_clashes(models, clash);
+            } catch (const Error& error) {
+                if (error.code() != ErrorCode::interrupted)
+                    throw;
+            }
+        }
         set_threads(0);
-        Row row{"find_clashes", turns.ours, {}, {}, "s", options_.threads, {}};
-        row.counters["candidates"] = static_cast<double>(found.candidates);
-        row.counters["seconds build"] = found.seconds.build;
-        row.counters["seconds broad"] = found.seconds.broad;
-        row.counters["seconds narrow"] = found.seconds.narrow;
+        if (!found) {
+            report_.notes.push_back(
+                fmt::format("find_clashes: stopped after {} s with {:.1f} % of its last stage done",
+                            options_.job_limit, 100 * done));
+            return;
+        }
+        Row row{"find_clashes", found->seconds.total, {}, {}, "s", options_.threads, {}};
+        row.counters["candidates"] = static_cast<double>(found->candidates);
+        row.counters["seconds build"] = found->seconds.build;
+        row.counters["seconds broad"] = found->seconds.broad;
+        row.counters["seconds narrow"] = found->seconds.narrow;
         for (const ClashKind kind : kClashKinds)
             row.counters[to_string(kind)] =
-                static_cast<double>(found.counts[static_cast<std::size_t>(kind)]);
+                static_cast<double>(found->counts[static_cast<std::size_t>(kind)]);
         report_.rows.push_back(row);
     }
 
@@ -201,6 +244,7 @@ private:
     Model model_;
     std::unique_ptr<FclInstances> fcl_;
     Report report_;
+    /// Per candidate. Intersection: 0 if they meet, else 1; clearance: the bounded distance.
     std::vector<double> ours_, theirs_;
     std::vector<Counters> counters_;
 };

@@ -10,13 +10,23 @@ namespace abut::bench {
 
 struct ClashSuiteOptions {
     ClashSceneOptions scene;
-    std::string part_file;   ///< empty: the ribbed ring
-    double clearance = 0.05; ///< in diameters of the part
+    std::string part_file;   ///< empty: the bent pipe
+    double clearance = 0.05; ///< in diagonals of the part
     int rounds = 5;
-    int threads = 2; ///< of the rows that use more than one
+    int threads = 2;        ///< of the rows that use more than one
+    double job_limit = 120; ///< seconds after which the whole job is given up
 };
 
 /// Intersection and clearance of all candidate pairs, against FCL; then the whole clash job.
 Report run_clash_suite(const ClashSuiteOptions& options);
+
+struct ImportSuiteOptions {
+    std::vector<std::string> files;
+    int rounds = 7;
+};
+
+/// `read_scene`, which keeps the reader in a process of its own, against Assimp called in process.
+/// Errors      as read_scene.
+Report run_import_suite(const ImportSuiteOptions& options);
 
 } // namespace abut::bench
