@@ -149,20 +149,56 @@ HWY_INLINE hn::Vec<D> segment_segment_sq(D d, const Vec<D>& p, const Vec<D>& u, 
     return dot(gap, gap);
 }
 
-/// Squared distance of w (relative to the face's first vertex) to the face with edges u, v and
-/// normal n if the foot lies within; else `other`, the edges being nearer.
+/// A face from the start of its longest edge u: there, a needle's foot is well determined whatever
+/// its width.
 template <class D>
-HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Vec<D>& w, const Vec<D>& u, const Vec<D>& v,
-                                     const Vec<D>& n, hn::Vec<D> nn, hn::Vec<D> other) {
+struct Face {
+    Vec<D> origin, u, v, n;
+    hn::Vec<D> uu, nn;
+};
+
+/// In: vertices, edges from each to the next, and the edges' squared lengths.
+template <class D>
+HWY_INLINE Face<D> face(D d, const Vec<D> (&p)[3], const Vec<D> (&e)[3],
+                        const hn::Vec<D> (&ee)[3]) {
+    const auto is_1 = hn::And(hn::Gt(ee[1], ee[0]), hn::Ge(ee[1], ee[2]));
+    const auto is_2 = hn::And(hn::Gt(ee[2], ee[0]), hn::Gt(ee[2], ee[1]));
+    const auto pick = [&](auto x_0, auto x_1, auto x_2) HWY_ATTR {
+        return hn::IfThenElse(is_1, x_1, hn::IfThenElse(is_2, x_2, x_0));
+    };
+    const auto pick_each = [&](const Vec<D>& x_0, const Vec<D>& x_1, const Vec<D>& x_2) HWY_ATTR {
+        return Vec<D>{pick(x_0.x, x_1.x, x_2.x), pick(x_0.y, x_1.y, x_2.y),
+                      pick(x_0.z, x_1.z, x_2.z)};
+    };
+    Face<D> f;
+    f.origin = pick_each(p[0], p[1], p[2]);
+    f.u = pick_each(e[0], e[1], e[2]);
+    const Vec<D> back = pick_each(e[2], e[0], e[1]);
+    f.v = {hn::Neg(back.x), hn::Neg(back.y), hn::Neg(back.z)};
+    f.n = cross<D>(f.u, f.v);
+    // A face that is a point has uu = 0 and nn = 0, which keeps its feet from counting.
+    const auto uu = pick(ee[0], ee[1], ee[2]);
+    f.uu = hn::IfThenElse(hn::Gt(uu, hn::Zero(d)), uu, hn::Set(d, 1.0));
+    f.nn = dot<D>(f.n, f.n);
+    return f;
+}
+
+/// Squared distance of a point to a face if the foot lies within; else `other`, the edges being
+/// nearer.
+template <class D>
+HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Vec<D>& p, const Face<D>& f, hn::Vec<D> other) {
     const auto zero = hn::Zero(d);
-    const auto safe_nn = hn::IfThenElse(hn::Gt(nn, zero), nn, hn::Set(d, 1.0));
-    // Barycentric coordinates of the foot: w x v . n / n.n and u x w . n / n.n.
-    const auto g = hn::Div(dot(cross(w, v), n), safe_nn);
-    const auto h = hn::Div(dot(cross(u, w), n), safe_nn);
-    const auto inside = hn::And(hn::And(hn::Ge(g, zero), hn::Ge(h, zero)),
-                                hn::And(hn::Le(hn::Add(g, h), hn::Set(d, 1.0)), hn::Gt(nn, zero)));
-    const Vec<D> gap = minus_scaled(minus_scaled(w, g, u), h, v);
-    return hn::IfThenElse(inside, hn::Min(other, dot(gap, gap)), other);
+    const Vec<D> w = sub<D>(p, f.origin);
+    const auto safe_nn = hn::IfThenElse(hn::Gt(f.nn, zero), f.nn, hn::Set(d, 1.0));
+    // h = (u x w) . n / n.n, and the best g for that h: what h is off by, g makes up for.
+    const auto h = hn::Div(dot<D>(cross<D>(f.u, w), f.n), safe_nn);
+    const Vec<D> rest = minus_scaled<D>(w, h, f.v);
+    const auto g = hn::Div(dot<D>(rest, f.u), f.uu);
+    const auto inside =
+        hn::And(hn::And(hn::Ge(g, zero), hn::Ge(h, zero)),
+                hn::And(hn::Le(hn::Add(g, h), hn::Set(d, 1.0)), hn::Gt(f.nn, zero)));
+    const Vec<D> gap = minus_scaled<D>(rest, g, f.u);
+    return hn::IfThenElse(inside, hn::Min(other, dot<D>(gap, gap)), other);
 }
 
 template <class D>
@@ -186,12 +222,10 @@ HWY_INLINE void distance_sq_lanes(D d, const TrianglePairBlock& pairs, std::size
             best = hn::Min(best,
                            segment_segment_sq(d, a_v[i], a_e[i], a_ee[i], b_v[j], b_e[j], b_ee[j]));
 
-    const Vec<D> a_ac = sub(a_v[2], a_v[0]), b_ac = sub(b_v[2], b_v[0]);
-    const Vec<D> a_n = cross(a_e[0], a_ac), b_n = cross(b_e[0], b_ac);
-    const auto a_nn = dot(a_n, a_n), b_nn = dot(b_n, b_n);
+    const Face<D> face_a = face(d, a_v, a_e, a_ee), face_b = face(d, b_v, b_e, b_ee);
     for (std::size_t i = 0; i < 3; ++i) {
-        best = vertex_face_sq(d, sub(b_v[i], a_v[0]), a_e[0], a_ac, a_n, a_nn, best);
-        best = vertex_face_sq(d, sub(a_v[i], b_v[0]), b_e[0], b_ac, b_n, b_nn, best);
+        best = vertex_face_sq(d, b_v[i], face_a, best);
+        best = vertex_face_sq(d, a_v[i], face_b, best);
     }
     hn::StoreU(best, d, result + lane);
 }
