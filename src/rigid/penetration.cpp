@@ -3,7 +3,6 @@
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
 #include "rigid/escape.h"
-#include "tree/traverse_one.h"
 
 #include <algorithm>
 #include <boost/container/static_vector.hpp>
@@ -13,11 +12,13 @@ namespace abut {
 
 namespace {
 
-/// A part of a surface triangle, with what its middle is known to be.
+/// A part of a surface that may hold its deepest point: a box of its tree, or a piece of a
+/// triangle.
 struct Piece {
-    Triangle corners;
     double at_most; ///< no point of the piece is deeper
-    Vec3 middle;
+    NodeRef box;    ///< none: the piece is a triangle
+    Triangle corners;
+    Vec3 middle;            ///< of the triangle
     double middle_distance; ///< of the middle to the solid's surface
     bool middle_inside;
     bool operator<(const Piece& other) const { return at_most < other.at_most; }
@@ -30,19 +31,23 @@ public:
     DeepestPoint(const PlacedSolid& surface, const PlacedSolid& solid, double deeper_than)
         : depth(deeper_than), surface_(surface), solid_(solid) {}
 
-    void search(const PenetrationOptions& options) {
-        seed();
-        int budget = options.accuracy_budget;
+    void search(std::span<const std::uint32_t> starts, const PenetrationOptions& options) {
+        for (const std::uint32_t vertex : starts)
+            try_point(surface_.world_vertex(vertex));
+        evaluate_box(NodeRef::node(0), surface_.model().tree().bounds);
         while (!pieces_.empty()) {
             const Piece piece = pieces_.top();
             if (piece.at_most <= depth * (1 + options.relative_accuracy))
                 break;
             const bool undecided = options.threshold > 0 && depth <= options.threshold &&
                                    piece.at_most > options.threshold;
-            if (--budget < 0 && !(undecided && budget > -options.threshold_budget))
+            if (evaluations_ > (undecided ? options.threshold_budget : options.accuracy_budget))
                 break;
             pieces_.pop();
-            bisect(piece);
+            if (!piece.box.is_none())
+                open(piece.box);
+            else
+                bisect(piece);
         }
         at_most = std::max(depth, pieces_.empty() ? 0 : pieces_.top().at_most);
     }
@@ -53,22 +58,49 @@ public:
 private:
     using Polygon = boost::container::static_vector<Vec3, 9>;
 
-    /// The triangles that may reach into the solid's box, cut to it.
-    void seed() {
-        const Aabb& box = solid_.model().tree().bounds;
-        const Transform world_from_tree = solid_.world_from_tree();
-        for (const std::uint32_t slot : surface_.slots_near(solid_)) {
-            const Triangle t = surface_.world_slot(slot);
-            Polygon polygon;
-            for (const Vec3& p : t)
-                polygon.push_back(apply(solid_.tree_from_world(), p));
-            clip(polygon, box);
-            for (std::size_t i = 2; i < polygon.size(); ++i)
-                evaluate({apply(world_from_tree, polygon[0]),
-                          apply(world_from_tree, polygon[i - 1]),
-                          apply(world_from_tree, polygon[i])},
-                         nullptr);
+    void open(NodeRef ref) {
+        const Tree& tree = surface_.model().tree();
+        if (ref.is_leaf()) {
+            for (std::uint32_t slot = ref.first(); slot < ref.first() + ref.count(); ++slot)
+                evaluate_clipped(surface_.world_slot(slot));
+            return;
         }
+        const Node& node = tree.nodes[ref.index()];
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
+            evaluate_box(node.child[i], node.box(i));
+    }
+
+    /// Depth changes no faster than the point moves: what holds in the middle bounds the whole box.
+    void evaluate_box(NodeRef ref, const Aabb& box) {
+        ++evaluations_;
+        Vec3 middle{0.5 * box.lower[0] + 0.5 * box.upper[0],
+                    0.5 * box.lower[1] + 0.5 * box.upper[1],
+                    0.5 * box.lower[2] + 0.5 * box.upper[2]};
+        const Vec3 corner = Vec3{box.upper[0], box.upper[1], box.upper[2]} - middle;
+        const double radius = surface_.most_stretch() * length(corner) * (1 + 0x1p-20);
+        middle = apply(surface_.world_from_tree(), middle);
+        PlacedSolid::Nearest nearest = solid_.nearest(middle, radius);
+        const bool inside = solid_.contains_off_surface(middle);
+        if (!inside && nearest.distance >= radius)
+            return;
+        if (nearest.distance >= radius)
+            nearest = solid_.nearest(middle, std::numeric_limits<double>::infinity());
+        const double limit = inside ? radius + nearest.distance : radius - nearest.distance;
+        if (limit > depth)
+            pieces_.push({limit, ref, {}, {}, 0, false});
+    }
+
+    /// Only what lies in the solid's box can lie inside it.
+    void evaluate_clipped(const Triangle& t) {
+        Polygon polygon;
+        for (const Vec3& p : t)
+            polygon.push_back(apply(solid_.tree_from_world(), p));
+        clip(polygon, solid_.model().tree().bounds);
+        for (std::size_t i = 2; i < polygon.size(); ++i)
+            evaluate({apply(solid_.world_from_tree(), polygon[0]),
+                      apply(solid_.world_from_tree(), polygon[i - 1]),
+                      apply(solid_.world_from_tree(), polygon[i])},
+                     nullptr);
     }
 
     /// Source: [Sutherland, Hodgman 1974].
@@ -105,6 +137,7 @@ private:
     }
 
     void evaluate(const Triangle& t, const Piece* parent) {
+        ++evaluations_;
         const Vec3 middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
         const double radius = std::sqrt(std::max(
             {length_sq(t[0] - middle), length_sq(t[1] - middle), length_sq(t[2] - middle)}));
@@ -131,7 +164,7 @@ private:
         const double limit = std::min(std::sqrt(corner_sq), inside ? nearest.distance + radius
                                                                    : radius - nearest.distance);
         if (limit > depth)
-            pieces_.push({t, limit, middle, nearest.distance, inside});
+            pieces_.push({limit, NodeRef::none(), t, middle, nearest.distance, inside});
     }
 
     bool keep_deeper(const Vec3& point, const PlacedSolid::Nearest& nearest) {
@@ -154,6 +187,7 @@ private:
     const PlacedSolid& surface_;
     const PlacedSolid& solid_;
     std::priority_queue<Piece> pieces_;
+    int evaluations_ = 0;
 };
 
 LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b,
@@ -172,18 +206,36 @@ LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b,
     return best;
 }
 
+/// A few vertices of the triangles in contact: deep points are near them.
+std::vector<std::uint32_t> contact_vertices(const PlacedSolid& model,
+                                            std::span<const Contact> contacts,
+                                            std::uint32_t TrianglePair::*side) {
+    constexpr std::size_t kContacts = 8;
+    std::vector<std::uint32_t> vertices;
+    const std::size_t count = std::min(kContacts, contacts.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const TrianglePair& pair = contacts[i * contacts.size() / count].pair;
+        for (const std::uint32_t v : model.model().mesh().triangles[pair.*side])
+            vertices.push_back(v);
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
 LocalPenetration deepest_inside(const PlacedSolid& a, const PlacedSolid& b,
+                                std::span<const Contact> contacts,
                                 const PenetrationOptions& options) {
     LocalPenetration best;
     if (b.solid().solid) {
         DeepestPoint a_in_b(a, b, 0);
-        a_in_b.search(options);
+        a_in_b.search(contact_vertices(a, contacts, &TrianglePair::a), options);
         best = {a_in_b.depth, a_in_b.at_most, a_in_b.on_surface, a_in_b.on_solid,
                 normalized_or_zero(a_in_b.on_surface - a_in_b.on_solid)};
     }
     if (a.solid().solid) {
         DeepestPoint b_in_a(b, a, best.depth);
-        b_in_a.search(options);
+        b_in_a.search(contact_vertices(b, contacts, &TrianglePair::b), options);
         if (b_in_a.depth > best.depth)
             best = {b_in_a.depth, best.at_most, b_in_a.on_solid, b_in_a.on_surface,
                     normalized_or_zero(b_in_a.on_solid - b_in_a.on_surface)};
@@ -199,7 +251,7 @@ LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
                                    const PenetrationOptions& options) {
     const bool solid = a.solid().solid || b.solid().solid;
     LocalPenetration best =
-        solid ? deepest_inside(a, b, options) : deepest_crossing(a, b, contacts);
+        solid ? deepest_inside(a, b, contacts, options) : deepest_crossing(a, b, contacts);
     if (best.depth == 0) {
         const Escape escape = find_escape(a, b, contacts);
         const ClosestPoints common = triangle_triangle_distance(

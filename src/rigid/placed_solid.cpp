@@ -31,12 +31,13 @@ PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform
     : public_model_(model), model_(model.data()), solid_(solid), world_(world_from_model) {
     world_from_tree_ = compose(world_from_model, model_.model_from_tree());
     tree_from_world_ = inverse(world_from_tree_);
-    least_stretch_ = least_stretch(world_from_tree_);
+    least_stretch_ = abut::least_stretch(world_from_tree_);
+    most_stretch_ = abut::most_stretch(world_from_tree_);
     const Aabb& box = model_.tree().bounds;
     double half = 0;
     for (std::size_t k = 0; k < 3; ++k)
         half = std::max({half, std::abs(double{box.lower[k]}), std::abs(double{box.upper[k]})});
-    reach_ = most_stretch(world_from_tree_) * 2 * half;
+    reach_ = most_stretch_ * 2 * half;
     const double world_size = std::abs(world_from_tree_.m[9]) + std::abs(world_from_tree_.m[10]) +
                               std::abs(world_from_tree_.m[11]) + reach_;
     // Rounding of a point on its way to single precision in the tree's frame, ray ends included.
@@ -54,20 +55,6 @@ bool PlacedSolid::on_surface(const Vec3& point) const {
                        TriangleContact::none;
     });
     return on;
-}
-
-std::vector<std::uint32_t> PlacedSolid::slots_near(const PlacedSolid& other) const {
-    const Transform here = compose(tree_from_world_, other.world_from_tree_);
-    const Aabb& b = other.model_.tree().bounds;
-    Box3 box;
-    for (unsigned corner = 0; corner < 8; ++corner)
-        extend(box, apply(here, {(corner & 1U ? b.upper : b.lower)[0],
-                                 (corner & 2U ? b.upper : b.lower)[1],
-                                 (corner & 4U ? b.upper : b.lower)[2]}));
-    std::vector<std::uint32_t> slots;
-    for_each_overlap(model_.tree(), Aabb(box, margin_),
-                     [&](std::uint32_t slot) { slots.push_back(slot); });
-    return slots;
 }
 
 bool PlacedSolid::odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const {

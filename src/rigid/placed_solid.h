@@ -36,8 +36,8 @@ public:
     }
     [[nodiscard]] const Transform& world_from_tree() const { return world_from_tree_; }
     [[nodiscard]] const Transform& tree_from_world() const { return tree_from_world_; }
-    /// Slots whose triangles may reach into the other model's box.
-    [[nodiscard]] std::vector<std::uint32_t> slots_near(const PlacedSolid& other) const;
+    /// No vector of the tree's frame becomes longer than this times its length.
+    [[nodiscard]] double most_stretch() const { return most_stretch_; }
     /// solid().outward as seen in the world: a mirroring transform turns it round.
     [[nodiscard]] int outward() const { return mirrored_ ? -solid_.outward : solid_.outward; }
 
@@ -76,7 +76,7 @@ private:
     const Solid& solid_;
     Transform world_;
     Transform world_from_tree_, tree_from_world_;
-    double least_stretch_;
+    double least_stretch_, most_stretch_;
     double margin_;
     double reach_; ///< no point of the model is farther from the tree's origin, world units
     bool mirrored_;
