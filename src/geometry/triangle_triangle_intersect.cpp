@@ -2,7 +2,9 @@
 
 #include "math/predicates.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 namespace abut {
@@ -11,10 +13,25 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
+/// Sides of the plane of `plane` that the vertices of t lie on. One normal serves all three filters.
 Signs plane_sides(const Triangle& plane, const Triangle& t) {
-    return {orient3d(plane[0], plane[1], plane[2], t[0]),
-            orient3d(plane[0], plane[1], plane[2], t[1]),
-            orient3d(plane[0], plane[1], plane[2], t[2])};
+    const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0];
+    const Vec3 n = cross(u, v);
+    const auto largest = [](const Vec3& p) {
+        return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    };
+    const double edge = std::max(largest(u), largest(v));
+    Signs signs{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 w = t[i] - plane[0];
+        const double side = dot(n, w), reach = largest(w);
+        // The bound of triangle_block.cpp, certainly_apart; underflow included.
+        const double bound = 32 * 0x1p-53 * edge * edge * reach + 0x1p-1000 * (reach + 1);
+        signs[i] = side > bound    ? 1
+                   : side < -bound ? -1
+                                   : orient3d(plane[0], plane[1], plane[2], t[i]);
+    }
+    return signs;
 }
 
 bool strictly_one_side(const Signs& s) {

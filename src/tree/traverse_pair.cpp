@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_pair.cpp"
@@ -156,7 +157,14 @@ HWY_INLINE bool open_pair(PairTraversal& t, const BoxPair& pair, float bound_sq,
     return false;
 }
 
-template <bool best_first, bool with_upper>
+/// Which of the pending pairs is next.
+enum class Order {
+    any,         ///< the last one found
+    near_deeper, ///< of the pairs found last, the nearest: almost as good as the nearest of all, and cheap
+    nearest,     ///< the nearest of all
+};
+
+template <Order order, bool with_upper>
 Verdict traverse(PairTraversal& t, LeafPairVisitor& visitor) {
     using traverse_pair::kRoot;
     using traverse_pair::ref_of;
@@ -164,12 +172,12 @@ Verdict traverse(PairTraversal& t, LeafPairVisitor& visitor) {
     pending.push_back({kRoot, kRoot, 0});
     float bound_sq = round_up(t.bound_sq);
     while (!pending.empty()) {
-        if constexpr (best_first)
+        if constexpr (order == Order::nearest)
             std::pop_heap(pending.begin(), pending.end());
         const BoxPair pair = pending.back();
         pending.pop_back();
         if (pair.bound_sq > bound_sq) {
-            if constexpr (best_first)
+            if constexpr (order == Order::nearest)
                 break;
             continue;
         }
@@ -184,19 +192,24 @@ Verdict traverse(PairTraversal& t, LeafPairVisitor& visitor) {
         const std::size_t before = pending.size();
         if (open_pair<with_upper>(t, pair, bound_sq, pending))
             return Verdict::accepted;
-        if constexpr (best_first)
-            for (std::size_t i = before; i < pending.size(); ++i)
-                std::push_heap(pending.begin(),
-                               pending.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        const auto found = pending.begin() + static_cast<std::ptrdiff_t>(before);
+        if constexpr (order == Order::near_deeper)
+            for (auto i = found; i != pending.end(); ++i) // insertion sort: eight at most
+                for (auto j = i; j != found && *(j - 1) < *j; --j)
+                    std::swap(*(j - 1), *j);
+        if constexpr (order == Order::nearest)
+            for (auto i = found; i != pending.end(); ++i)
+                std::push_heap(pending.begin(), i + 1);
     }
     return Verdict::done;
 }
 
 Verdict depth_first(PairTraversal& t, LeafPairVisitor& visitor) {
-    return t.accept_early ? traverse<false, true>(t, visitor) : traverse<false, false>(t, visitor);
+    return t.accept_early ? traverse<Order::any, true>(t, visitor)
+                          : traverse<Order::any, false>(t, visitor);
 }
 Verdict best_first(PairTraversal& t, LeafPairVisitor& visitor) {
-    return traverse<true, false>(t, visitor);
+    return traverse<Order::nearest, false>(t, visitor);
 }
 
 } // namespace abut::HWY_NAMESPACE
