@@ -8,10 +8,22 @@
 
 namespace abut::bench {
 
-double thread_seconds() {
+namespace {
+
+double seconds_of(clockid_t clock) {
     timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+} // namespace
+
+double thread_seconds() {
+    return seconds_of(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double process_seconds() {
+    return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 double wall_seconds() {

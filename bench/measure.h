@@ -11,6 +11,9 @@ double thread_seconds();
 /// Seconds on the wall.
 double wall_seconds();
 
+/// Seconds that all threads of this process have computed.
+double process_seconds();
+
 double median(std::vector<double> values);
 
 /// Does items [begin, end).
