@@ -32,6 +32,13 @@ Triangle any_triangle(Random& random, int kind) {
     }
 }
 
+TrianglePairBlock pairs_of(const Triangle& a, const TriangleBlock& b) {
+    TrianglePairBlock pairs{};
+    for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane)
+        pairs.set(lane, a, b, lane % TriangleBlock::kLanes);
+    return pairs;
+}
+
 TEST(TriangleBlock, MayIntersectIsConservativeAndSharp) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
@@ -111,9 +118,9 @@ TEST(TriangleBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
             TriangleBlock block{};
             for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane)
                 block.set(lane, any_triangle(random, i));
-            double simd[TriangleBlock::kLanes], one[TriangleBlock::kLanes];
-            distance_sq(a, block, simd);
-            distance_sq_reference(a, block, one);
+            double simd[TrianglePairBlock::kLanes], one[TrianglePairBlock::kLanes];
+            distance_sq(pairs_of(a, block), simd);
+            distance_sq_reference(pairs_of(a, block), one);
             for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane) {
                 const Triangle b = block.get(lane);
                 const double unit = 0x1p-53 * size_of(a, b);
@@ -150,8 +157,8 @@ TEST(TriangleBlock, DistanceAgainstAHundredDigits) {
                 }
                 block.set(lane, b);
             }
-            double simd[TriangleBlock::kLanes];
-            distance_sq(a, block, simd);
+            double simd[TrianglePairBlock::kLanes];
+            distance_sq(pairs_of(a, block), simd);
             for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane) {
                 const Triangle b = block.get(lane);
                 const double unit = 0x1p-53 * size_of(a, b);

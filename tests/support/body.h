@@ -1,7 +1,7 @@
 #pragma once
 
 #include "rigid/contacts.h"
-#include "rigid/interpenetrate.h"
+#include "rigid/meeting.h"
 #include "rigid/penetration.h"
 #include "rigid/placed_solid.h"
 #include "tests/support/shapes.h"
@@ -22,20 +22,20 @@ struct Body {
     PlacedSolid placed;
 };
 
-struct Meeting {
+struct Outcome {
     std::vector<Contact> contacts;
     bool go_in = false;       ///< interpenetrate
     LocalPenetration depth{}; ///< asked for only if so
 };
 
-inline Meeting meeting(const Body& a, const Body& b, const PenetrationOptions& options = {}) {
-    Meeting m;
+inline Outcome meeting(const Body& a, const Body& b, const PenetrationOptions& options = {}) {
+    Outcome m;
     Counters counters;
     m.contacts = find_contacts(PlacedPair(a.model, a.placed.world(), b.model, b.placed.world()),
                                ContactMode::all, counters);
     if (m.contacts.empty())
         return m;
-    m.go_in = interpenetrate(a.placed, b.placed, m.contacts);
+    m.go_in = examine_meeting(a.placed, b.placed, m.contacts).interpenetrate;
     if (m.go_in)
         m.depth = penetration_depth(a.placed, b.placed, m.contacts, options);
     return m;
