@@ -107,6 +107,44 @@ TEST(TriangleBlock, ExtremeCoordinatesStayConservative) {
     });
 }
 
+TEST(TriangleBlock, NearLanesLoseNothingWithinTheBound) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(505);
+        int near = 0, far = 0, left_out = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const Triangle a = any_triangle(random, i);
+            TriangleBlock block{};
+            for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane)
+                block.set(lane, any_triangle(random, i));
+            double one[TrianglePairBlock::kLanes];
+            distance_sq_reference(pairs_of(a, block), one);
+            // At a lane's own distance, and below it.
+            const double bound_sq = one[0] * (i % 2 == 0 ? 1 : random.uniform(0, 1));
+            const NearLanes lanes = near_lanes(a, block, bound_sq);
+            const NearLanes reference = near_lanes_reference(a, block, bound_sq);
+            for (std::uint32_t lane = 0; lane < TriangleBlock::kLanes; ++lane) {
+                const bool meet =
+                    triangle_triangle_intersect(a, block.get(lane)) != TriangleContact::none;
+                if (meet) {
+                    ASSERT_TRUE(lanes.may_intersect >> lane & 1U);
+                    ASSERT_TRUE(reference.may_intersect >> lane & 1U);
+                }
+                if (meet || one[lane] <= bound_sq) {
+                    ++near;
+                    ASSERT_TRUE(lanes.may_be_near >> lane & 1U) << "case " << i;
+                    ASSERT_TRUE(reference.may_be_near >> lane & 1U) << "case " << i;
+                } else {
+                    ++far;
+                    left_out += (lanes.may_be_near >> lane & 1U) == 0 ? 1 : 0;
+                }
+            }
+        }
+        EXPECT_GT(near, 10000);
+        EXPECT_GT(left_out, far / 5);
+    });
+}
+
 TEST(TriangleBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
