@@ -34,6 +34,8 @@ public:
         } catch (const Json::parse_error& error) {
             throw Error(ErrorCode::malformed, path_,
                         "is not JSON (near byte " + std::to_string(error.byte) + ")");
+        } catch (const Json::out_of_range&) {
+            throw Error(ErrorCode::malformed, path_, "has a number that no double holds");
         }
         require_keys(root, "the file", {"rules"});
         if (!root.contains("rules") || !root["rules"].is_array() || root["rules"].empty())

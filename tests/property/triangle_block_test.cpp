@@ -32,6 +32,13 @@ Triangle any_triangle(Random& random, int kind) {
     }
 }
 
+TrianglePairBlock pairs_of(const Triangle& a, const TriangleBlock& b) {
+    TrianglePairBlock pairs{};
+    for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane)
+        pairs.set(lane, a, b, lane % TriangleBlock::kLanes);
+    return pairs;
+}
+
 TEST(TriangleBlock, MayIntersectIsConservativeAndSharp) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
@@ -100,6 +107,44 @@ TEST(TriangleBlock, ExtremeCoordinatesStayConservative) {
     });
 }
 
+TEST(TriangleBlock, NearLanesLoseNothingWithinTheBound) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(505);
+        int near = 0, far = 0, left_out = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const Triangle a = any_triangle(random, i);
+            TriangleBlock block{};
+            for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane)
+                block.set(lane, any_triangle(random, i));
+            double one[TrianglePairBlock::kLanes];
+            distance_sq_reference(pairs_of(a, block), one);
+            // At a lane's own distance, and below it.
+            const double bound_sq = one[0] * (i % 2 == 0 ? 1 : random.uniform(0, 1));
+            const NearLanes lanes = near_lanes(a, block, bound_sq);
+            const NearLanes reference = near_lanes_reference(a, block, bound_sq);
+            for (std::uint32_t lane = 0; lane < TriangleBlock::kLanes; ++lane) {
+                const bool meet =
+                    triangle_triangle_intersect(a, block.get(lane)) != TriangleContact::none;
+                if (meet) {
+                    ASSERT_TRUE(lanes.may_intersect >> lane & 1U);
+                    ASSERT_TRUE(reference.may_intersect >> lane & 1U);
+                }
+                if (meet || one[lane] <= bound_sq) {
+                    ++near;
+                    ASSERT_TRUE(lanes.may_be_near >> lane & 1U) << "case " << i;
+                    ASSERT_TRUE(reference.may_be_near >> lane & 1U) << "case " << i;
+                } else {
+                    ++far;
+                    left_out += (lanes.may_be_near >> lane & 1U) == 0 ? 1 : 0;
+                }
+            }
+        }
+        EXPECT_GT(near, 10000);
+        EXPECT_GT(left_out, far / 5);
+    });
+}
+
 TEST(TriangleBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
@@ -111,9 +156,9 @@ TEST(TriangleBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
             TriangleBlock block{};
             for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane)
                 block.set(lane, any_triangle(random, i));
-            double simd[TriangleBlock::kLanes], one[TriangleBlock::kLanes];
-            distance_sq(a, block, simd);
-            distance_sq_reference(a, block, one);
+            double simd[TrianglePairBlock::kLanes], one[TrianglePairBlock::kLanes];
+            distance_sq(pairs_of(a, block), simd);
+            distance_sq_reference(pairs_of(a, block), one);
             for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane) {
                 const Triangle b = block.get(lane);
                 const double unit = 0x1p-53 * size_of(a, b);
@@ -150,8 +195,8 @@ TEST(TriangleBlock, DistanceAgainstAHundredDigits) {
                 }
                 block.set(lane, b);
             }
-            double simd[TriangleBlock::kLanes];
-            distance_sq(a, block, simd);
+            double simd[TrianglePairBlock::kLanes];
+            distance_sq(pairs_of(a, block), simd);
             for (std::size_t lane = 0; lane < TriangleBlock::kLanes; ++lane) {
                 const Triangle b = block.get(lane);
                 const double unit = 0x1p-53 * size_of(a, b);

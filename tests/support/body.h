@@ -1,0 +1,44 @@
+#pragma once
+
+#include "rigid/contacts.h"
+#include "rigid/meeting.h"
+#include "rigid/penetration.h"
+#include "rigid/placed_solid.h"
+#include "tests/support/shapes.h"
+
+#include <vector>
+
+namespace abut::test {
+
+/// A placed mesh with all that questions about solids need.
+struct Body {
+    explicit Body(const Mesh& mesh, const Transform& world = {})
+        : model(mesh), solid(examine_solid(mesh)), placed(model, solid, world) {}
+    Body(const Body&) = delete;
+    Body& operator=(const Body&) = delete;
+
+    Model model;
+    Solid solid;
+    PlacedSolid placed;
+};
+
+struct Outcome {
+    std::vector<Contact> contacts;
+    bool go_in = false;       ///< interpenetrate
+    LocalPenetration depth{}; ///< asked for only if so
+};
+
+inline Outcome meeting(const Body& a, const Body& b, const PenetrationOptions& options = {}) {
+    Outcome m;
+    Counters counters;
+    m.contacts = find_contacts(PlacedPair(a.model, a.placed.world(), b.model, b.placed.world()),
+                               ContactMode::all, counters);
+    if (m.contacts.empty())
+        return m;
+    m.go_in = examine_meeting(a.placed, b.placed, m.contacts).interpenetrate;
+    if (m.go_in)
+        m.depth = penetration_depth(a.placed, b.placed, m.contacts, options);
+    return m;
+}
+
+} // namespace abut::test
