@@ -1,9 +1,10 @@
 #include "tree/traverse_pair.h"
 
+#include "tree/near_first_queue.h"
+
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_pair.cpp"
@@ -21,7 +22,6 @@ constexpr std::uint32_t kRoot = 0xffffffffU;
 struct BoxPair {
     std::uint32_t a, b;
     float bound_sq; ///< lower bound of the squared distance
-    friend bool operator<(const BoxPair& x, const BoxPair& y) { return x.bound_sq > y.bound_sq; }
 };
 
 using BoxPairs = boost::container::small_vector<BoxPair, 512>;
@@ -32,6 +32,21 @@ inline NodeRef ref_of(const Tree& tree, std::uint32_t name) {
 }
 inline Aabb box_of(const Tree& tree, std::uint32_t name) {
     return name == kRoot ? tree.bounds : tree.nodes[name / Node::kWidth].box(name % Node::kWidth);
+}
+
+/// No two points of the trees are farther apart.
+inline float reach_sq(const PairTraversal& t) {
+    const FrameMap& m = t.frame.a_from_b;
+    float sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        float reach = std::abs(m.translation[i]) + m.margin +
+                      std::max(std::abs(t.a.bounds.lower[i]), std::abs(t.a.bounds.upper[i]));
+        for (std::size_t k = 0; k < 3; ++k)
+            reach += m.magnitude[i][k] *
+                     std::max(std::abs(t.b.bounds.lower[k]), std::abs(t.b.bounds.upper[k]));
+        sum += reach * reach;
+    }
+    return sum * m.most_stretch_sq;
 }
 
 } // namespace abut::traverse_pair
@@ -157,59 +172,58 @@ HWY_INLINE bool open_pair(PairTraversal& t, const BoxPair& pair, float bound_sq,
     return false;
 }
 
-/// Which of the pending pairs is next.
-enum class Order {
-    any,         ///< the last one found
-    near_deeper, ///< of the pairs found last, the nearest: almost as good as the nearest of all, and cheap
-    nearest,     ///< the nearest of all
-};
+/// What became of one pair: its leaves visited, or its children added to `found`.
+template <bool with_upper>
+HWY_INLINE bool step(PairTraversal& t, LeafPairVisitor& visitor, const BoxPair& pair,
+                     float& bound_sq, BoxPairs& found, Verdict& verdict) {
+    const NodeRef a = traverse_pair::ref_of(t.a, pair.a), b = traverse_pair::ref_of(t.b, pair.b);
+    if (!a.is_leaf() || !b.is_leaf()) {
+        verdict = Verdict::accepted;
+        return !open_pair<with_upper>(t, pair, bound_sq, found);
+    }
+    const double new_bound_sq = visitor.visit(a, b);
+    bound_sq = round_up(new_bound_sq);
+    verdict = Verdict::stopped;
+    return new_bound_sq >= 0;
+}
 
-template <Order order, bool with_upper>
-Verdict traverse(PairTraversal& t, LeafPairVisitor& visitor) {
-    using traverse_pair::kRoot;
-    using traverse_pair::ref_of;
+template <bool with_upper>
+Verdict traverse_stack(PairTraversal& t, LeafPairVisitor& visitor) {
     BoxPairs pending;
-    pending.push_back({kRoot, kRoot, 0});
+    pending.push_back({traverse_pair::kRoot, traverse_pair::kRoot, 0});
     float bound_sq = round_up(t.bound_sq);
+    Verdict verdict = Verdict::done;
     while (!pending.empty()) {
-        if constexpr (order == Order::nearest)
-            std::pop_heap(pending.begin(), pending.end());
         const BoxPair pair = pending.back();
         pending.pop_back();
-        if (pair.bound_sq > bound_sq) {
-            if constexpr (order == Order::nearest)
-                break;
+        if (!(pair.bound_sq > bound_sq) &&
+            !step<with_upper>(t, visitor, pair, bound_sq, pending, verdict))
+            return verdict;
+    }
+    return Verdict::done;
+}
+
+Verdict traverse_nearest(PairTraversal& t, LeafPairVisitor& visitor) {
+    float bound_sq = round_up(t.bound_sq);
+    NearFirstQueue<BoxPair> pending(std::min(bound_sq, traverse_pair::reach_sq(t)));
+    pending.push(0, {traverse_pair::kRoot, traverse_pair::kRoot, 0});
+    BoxPairs found;
+    Verdict verdict = Verdict::done;
+    while (!pending.empty() && !pending.all_above(bound_sq)) {
+        const BoxPair pair = pending.pop();
+        if (pair.bound_sq > bound_sq)
             continue;
-        }
-        const NodeRef a = ref_of(t.a, pair.a), b = ref_of(t.b, pair.b);
-        if (a.is_leaf() && b.is_leaf()) {
-            const double new_bound_sq = visitor.visit(a, b);
-            if (new_bound_sq < 0)
-                return Verdict::stopped;
-            bound_sq = round_up(new_bound_sq);
-            continue;
-        }
-        const std::size_t before = pending.size();
-        if (open_pair<with_upper>(t, pair, bound_sq, pending))
-            return Verdict::accepted;
-        const auto found = pending.begin() + static_cast<std::ptrdiff_t>(before);
-        if constexpr (order == Order::near_deeper)
-            for (auto i = found; i != pending.end(); ++i) // insertion sort: eight at most
-                for (auto j = i; j != found && *(j - 1) < *j; --j)
-                    std::swap(*(j - 1), *j);
-        if constexpr (order == Order::nearest)
-            for (auto i = found; i != pending.end(); ++i)
-                std::push_heap(pending.begin(), i + 1);
+        found.clear();
+        if (!step<false>(t, visitor, pair, bound_sq, found, verdict))
+            return verdict;
+        for (const BoxPair& child : found)
+            pending.push(child.bound_sq, child);
     }
     return Verdict::done;
 }
 
 Verdict depth_first(PairTraversal& t, LeafPairVisitor& visitor) {
-    return t.accept_early ? traverse<Order::any, true>(t, visitor)
-                          : traverse<Order::any, false>(t, visitor);
-}
-Verdict best_first(PairTraversal& t, LeafPairVisitor& visitor) {
-    return traverse<Order::nearest, false>(t, visitor);
+    return t.accept_early ? traverse_stack<true>(t, visitor) : traverse_stack<false>(t, visitor);
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -219,7 +233,7 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(depth_first);
-HWY_EXPORT(best_first);
+HWY_EXPORT(traverse_nearest);
 
 Verdict traverse_depth_first(PairTraversal& t, LeafPairVisitor& visitor) {
     return t.a.empty() || t.b.empty() ? Verdict::done
@@ -227,7 +241,7 @@ Verdict traverse_depth_first(PairTraversal& t, LeafPairVisitor& visitor) {
 }
 Verdict traverse_best_first(PairTraversal& t, LeafPairVisitor& visitor) {
     return t.a.empty() || t.b.empty() ? Verdict::done
-                                      : HWY_DYNAMIC_DISPATCH(best_first)(t, visitor);
+                                      : HWY_DYNAMIC_DISPATCH(traverse_nearest)(t, visitor);
 }
 
 } // namespace abut

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <boost/container/small_vector.hpp>
+#include <cstdint>
+
+namespace abut {
+
+/// A queue that gives the smallest key first, to within some 9 % (of the square root), and of those
+/// the last one added; constant time. Keys are squared distances, not negative.
+///
+/// The key's float bits grow with the key: the exponent and two bits of the fraction number a
+/// bucket. Buckets are lists in one pool; a bit each says which are not empty.
+///
+///     bucket  0 .......................... 127
+///     key     all below top / 2^32   ...   top and above
+template <typename Item>
+class NearFirstQueue {
+public:
+    /// `top` is a key that few exceed.
+    explicit NearFirstQueue(float top) : top_(code(top)) { head_.fill(kNone); }
+
+    [[nodiscard]] bool empty() const { return (filled_[0] | filled_[1]) == 0; }
+
+    void push(float key, const Item& item) {
+        const std::uint32_t bucket = bucket_of(key);
+        std::uint32_t entry = free_;
+        if (entry != kNone) {
+            free_ = pool_[entry].next;
+            pool_[entry] = {item, head_[bucket]};
+        } else {
+            entry = static_cast<std::uint32_t>(pool_.size());
+            pool_.push_back({item, head_[bucket]});
+        }
+        head_[bucket] = entry;
+        filled_[bucket / 64] |= std::uint64_t{1} << bucket % 64;
+    }
+
+    /// Takes the next item. In: not empty.
+    Item pop() {
+        const std::uint32_t bucket = first_bucket();
+        const std::uint32_t entry = head_[bucket];
+        const Item item = pool_[entry].item;
+        head_[bucket] = pool_[entry].next;
+        pool_[entry].next = free_;
+        free_ = entry;
+        if (head_[bucket] == kNone)
+            filled_[bucket / 64] &= ~(std::uint64_t{1} << bucket % 64);
+        return item;
+    }
+
+    /// Whether all items left have keys above `key`, by their buckets. In: not empty.
+    [[nodiscard]] bool all_above(float key) const { return first_bucket() > bucket_of(key); }
+
+private:
+    static constexpr std::uint32_t kBuckets = 128, kNone = ~0U;
+
+    static std::int32_t code(float key) {
+        return static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(key) >> 21);
+    }
+    [[nodiscard]] std::uint32_t bucket_of(float key) const {
+        constexpr std::int32_t kLast = kBuckets - 1;
+        return static_cast<std::uint32_t>(std::clamp(kLast - (top_ - code(key)), 0, kLast));
+    }
+    [[nodiscard]] std::uint32_t first_bucket() const {
+        return static_cast<std::uint32_t>(filled_[0] != 0 ? std::countr_zero(filled_[0])
+                                                          : 64 + std::countr_zero(filled_[1]));
+    }
+
+    struct Entry {
+        Item item;
+        std::uint32_t next;
+    };
+    std::int32_t top_;
+    std::array<std::uint64_t, 2> filled_{};
+    std::array<std::uint32_t, kBuckets> head_;
+    std::uint32_t free_ = kNone;
+    boost::container::small_vector<Entry, 256> pool_;
+};
+
+} // namespace abut
