@@ -62,10 +62,19 @@ using traverse_pair::BoxPairs;
 using D = hn::CappedTag<float, Node::kWidth>;
 using V = hn::Vec<D>;
 
-/// Squared distance bounds of one box to eight, in world units.
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, mask, bits);
+    return static_cast<std::uint32_t>(bits[0]) & ((1U << hn::MaxLanes(d)) - 1);
+}
+
+/// Squared distance bounds of one box to eight, in world units, and what they mean for a bound: a
+/// bit for each child.
 struct Bounds {
     HWY_ALIGN float lower_sq[Node::kWidth];
-    HWY_ALIGN float upper_sq[Node::kWidth];
+    std::uint32_t used = 0;     ///< there is such a child
+    std::uint32_t near = 0;     ///< it may be within the bound
+    std::uint32_t accepted = 0; ///< all of it is within the bound
 };
 
 /// The bounds of `box`, given in the other frame, to the children of `node`: the larger of what the
@@ -73,7 +82,7 @@ struct Bounds {
 /// children to the box's.
 template <bool with_upper>
 HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap& to_node,
-                               const FrameMap& to_box, Bounds& bounds) {
+                               const FrameMap& to_box, float bound_sq, Bounds& bounds) {
     const D d;
     float c[3], h[3], c_node[3], h_node[3];
     for (int i = 0; i < 3; ++i) {
@@ -126,15 +135,18 @@ HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap
             gap_sq = hn::MulAdd(gap, gap, gap_sq);
         }
         lower_sq = hn::Max(lower_sq, hn::Mul(gap_sq, hn::Set(d, to_box.stretch_sq)));
-        // Unused lanes hold an empty box: infinitely far.
+        hn::Store(lower_sq, d, bounds.lower_sq + lane);
+        // Unused lanes hold an empty box. A bound that is not a number keeps the child.
         const auto used =
             hn::Le(hn::Load(d, node.lower[0] + lane), hn::Load(d, node.upper[0] + lane));
-        const auto far = hn::Set(d, hwy::HighestValue<float>());
-        hn::Store(hn::IfThenElse(used, lower_sq, far), d, bounds.lower_sq + lane);
+        bounds.used |= bits_of(d, used) << lane;
+        bounds.near |= bits_of(d, hn::AndNot(hn::Gt(lower_sq, hn::Set(d, bound_sq)), used)) << lane;
         if constexpr (with_upper)
-            hn::Store(
-                hn::IfThenElse(used, hn::Mul(reach_sq, hn::Set(d, to_node.most_stretch_sq)), far),
-                d, bounds.upper_sq + lane);
+            bounds.accepted |=
+                bits_of(d,
+                        hn::And(used, hn::Le(hn::Mul(reach_sq, hn::Set(d, to_node.most_stretch_sq)),
+                                             hn::Set(d, bound_sq))))
+                << lane;
     }
 }
 
@@ -153,16 +165,16 @@ HWY_INLINE bool open_pair(PairTraversal& t, const BoxPair& pair, float bound_sq,
     const Node& node = (open_a ? t.a : t.b).nodes[index];
     Bounds bounds;
     if (open_a)
-        bound_children<with_upper>(node, box_b, t.frame.a_from_b, t.frame.b_from_a, bounds);
+        bound_children<with_upper>(node, box_b, t.frame.a_from_b, t.frame.b_from_a, bound_sq,
+                                   bounds);
     else
-        bound_children<with_upper>(node, box_a, t.frame.b_from_a, t.frame.a_from_b, bounds);
-    for (std::uint32_t lane = 0; lane < Node::kWidth && !node.child[lane].is_none(); ++lane) {
-        ++t.volume_tests;
-        // Written so that a bound that is not a number keeps the pair.
-        if (bounds.lower_sq[lane] > bound_sq)
-            continue;
-        if (with_upper && bounds.upper_sq[lane] <= bound_sq)
-            return true;
+        bound_children<with_upper>(node, box_a, t.frame.b_from_a, t.frame.a_from_b, bound_sq,
+                                   bounds);
+    t.volume_tests += static_cast<std::uint64_t>(std::popcount(bounds.used));
+    if (with_upper && bounds.accepted != 0)
+        return true;
+    for (std::uint32_t near = bounds.near; near != 0; near &= near - 1) {
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
         const std::uint32_t child = index * Node::kWidth + lane;
         if (open_a)
             pending.push_back({child, pair.b, bounds.lower_sq[lane]});
