@@ -56,48 +56,128 @@ HWY_INLINE V max3(V a, V b, V c) {
     return hn::Max(a, hn::Max(b, c));
 }
 
-/// How far q0, q1, q2 certainly are from the plane through p with normal n = u x v, times |n|, if
-/// they are all on one side; 0 or less if that is not certain.
+/// Three vertices against a plane: n . (q - p), and what each may be off by.
 ///
-/// |computed - true| of n . (q - p) is below 32 eps e^2 d for edges below e and differences below
-/// d: 3 products of 3 factors each, at most 9 roundings on any path. The smallest normal number
-/// covers underflow.
+/// |computed - true| is below 32 eps e^2 d for edges below e and differences below d: 3 products of
+/// 3 factors each, at most 9 roundings on any path. The smallest normal number covers underflow.
 template <class D>
-HWY_INLINE hn::Vec<D> certain_side(D d, const Vec<D>& n, const Vec<D>& u, const Vec<D>& v,
-                                   const Vec<D>& p, const Vec<D>& q0, const Vec<D>& q1,
-                                   const Vec<D>& q2) {
-    const Vec<D> w0 = sub(q0, p), w1 = sub(q1, p), w2 = sub(q2, p);
-    const auto s0 = dot(n, w0), s1 = dot(n, w1), s2 = dot(n, w2);
-    const auto e = hn::Max(max_abs(u), max_abs(v));
-    const auto far = max3(max_abs(w0), max_abs(w1), max_abs(w2));
-    const auto bound = hn::MulAdd(hn::Mul(hn::Set(d, 32 * 0x1p-53), hn::Mul(e, e)), far,
-                                  hn::Mul(hn::Set(d, 0x1p-1000), hn::Add(far, hn::Set(d, 1.0))));
-    const auto side = hn::Max(min3(s0, s1, s2), hn::Neg(max3(s0, s1, s2)));
-    return hn::Sub(side, bound);
+struct Sides {
+    hn::Vec<D> s[3], bound;
+
+    /// How far all three certainly are on one side, times |n|; 0 or less if that is not certain.
+    HWY_INLINE hn::Vec<D> certain() const {
+        return hn::Sub(hn::Max(min3(s[0], s[1], s[2]), hn::Neg(max3(s[0], s[1], s[2]))), bound);
+    }
+};
+
+template <class D>
+HWY_INLINE hn::Vec<D> rounding_bound(D d, hn::Vec<D> edge, hn::Vec<D> reach) {
+    return hn::MulAdd(hn::Mul(hn::Set(d, 32 * 0x1p-53), hn::Mul(edge, edge)), reach,
+                      hn::Mul(hn::Set(d, 0x1p-1000), hn::Add(reach, hn::Set(d, 1.0))));
+}
+
+template <class D>
+HWY_INLINE Sides<D> sides(D d, const Vec<D>& n, const Vec<D>& u, const Vec<D>& v, const Vec<D>& p,
+                          const Vec<D> (&q)[3]) {
+    const Vec<D> w0 = sub<D>(q[0], p), w1 = sub<D>(q[1], p), w2 = sub<D>(q[2], p);
+    return {{dot<D>(n, w0), dot<D>(n, w1), dot<D>(n, w2)},
+            rounding_bound(d, hn::Max(max_abs<D>(u), max_abs<D>(v)),
+                           max3(max_abs<D>(w0), max_abs<D>(w1), max_abs<D>(w2)))};
 }
 
 /// What tells a triangle from four others cheaply.
 template <class D>
 struct Apart {
-    hn::Vec<D> box_sq;         ///< squared gap of the boxes; not above 0 if they overlap
-    hn::Vec<D> side_a, side_b; ///< certain_side of a's plane, of b's plane
+    Vec<D> a[3], b[3];         ///< the triangles
+    hn::Vec<D> box_sq;         ///< squared gap of the boxes; 0 if they overlap
+    Sides<D> b_sides, a_sides; ///< of b's vertices against a's plane; of a's against b's
     hn::Vec<D> nn_a, nn_b;     ///< squared normals
 };
 
 template <class D>
-HWY_INLINE Apart<D> compare(D d, const Triangle& a, const TriangleBlock& b, std::size_t lane) {
-    const Vec<D> a0 = broadcast(d, a[0]), a1 = broadcast(d, a[1]), a2 = broadcast(d, a[2]);
-    const Vec<D> b0 = load(d, b.v[0], lane), b1 = load(d, b.v[1], lane), b2 = load(d, b.v[2], lane);
+HWY_INLINE Apart<D> compare(D d, const Triangle& ta, const TriangleBlock& tb, std::size_t lane) {
+    Apart<D> x;
+    for (std::size_t i = 0; i < 3; ++i) {
+        x.a[i] = broadcast(d, ta[i]);
+        x.b[i] = load(d, tb.v[i], lane);
+    }
     const auto gap = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
         return hn::Max(hn::Zero(d), hn::Max(hn::Sub(min3(p0, p1, p2), max3(q0, q1, q2)),
                                             hn::Sub(min3(q0, q1, q2), max3(p0, p1, p2))));
     };
-    const Vec<D> g{gap(a0.x, a1.x, a2.x, b0.x, b1.x, b2.x), gap(a0.y, a1.y, a2.y, b0.y, b1.y, b2.y),
-                   gap(a0.z, a1.z, a2.z, b0.z, b1.z, b2.z)};
-    const Vec<D> ua = sub(a1, a0), va = sub(a2, a0), ub = sub(b1, b0), vb = sub(b2, b0);
-    const Vec<D> na = cross(ua, va), nb = cross(ub, vb);
-    return {dot(g, g), certain_side(d, na, ua, va, a0, b0, b1, b2),
-            certain_side(d, nb, ub, vb, b0, a0, a1, a2), dot(na, na), dot(nb, nb)};
+    const Vec<D> g{gap(x.a[0].x, x.a[1].x, x.a[2].x, x.b[0].x, x.b[1].x, x.b[2].x),
+                   gap(x.a[0].y, x.a[1].y, x.a[2].y, x.b[0].y, x.b[1].y, x.b[2].y),
+                   gap(x.a[0].z, x.a[1].z, x.a[2].z, x.b[0].z, x.b[1].z, x.b[2].z)};
+    x.box_sq = dot<D>(g, g);
+    const Vec<D> ua = sub<D>(x.a[1], x.a[0]), va = sub<D>(x.a[2], x.a[0]);
+    const Vec<D> ub = sub<D>(x.b[1], x.b[0]), vb = sub<D>(x.b[2], x.b[0]);
+    const Vec<D> na = cross<D>(ua, va), nb = cross<D>(ub, vb);
+    x.b_sides = sides(d, na, ua, va, x.a[0], x.b);
+    x.a_sides = sides(d, nb, ub, vb, x.b[0], x.a);
+    x.nn_a = dot<D>(na, na);
+    x.nn_b = dot<D>(nb, nb);
+    return x;
+}
+
+/// A triangle whose vertices lie certainly off a plane, on both sides of it: its apex lies alone on
+/// one. In lanes where a side is not certain, no vertex is taken for anything.
+template <class D>
+struct LaneCut {
+    Vec<D> apex, first, last; ///< the edges from the apex, as the line of both planes meets them
+    hn::Mask<D> apex_over, certain;
+};
+
+/// `forward`: whether the edge to the next vertex comes last if the apex is over the plane, as for
+/// the first triangle (see triangle_triangle_intersect).
+template <class D>
+HWY_INLINE LaneCut<D> cut(D d, const Vec<D> (&t)[3], const Sides<D>& side, bool forward) {
+    const auto zero = hn::Zero(d);
+    const auto over0 = hn::Gt(side.s[0], zero), over1 = hn::Gt(side.s[1], zero),
+               over2 = hn::Gt(side.s[2], zero);
+    const auto alone1 = hn::AndNot(hn::Xor(over0, over2), hn::Xor(over0, over1));
+    const auto alone2 = hn::AndNot(hn::Xor(over0, over1), hn::Xor(over0, over2));
+    const auto pick = [&](const Vec<D>& x_0, const Vec<D>& x_1, const Vec<D>& x_2) HWY_ATTR {
+        const auto each = [&](auto x0, auto x1, auto x2) HWY_ATTR {
+            return hn::IfThenElse(alone1, x1, hn::IfThenElse(alone2, x2, x0));
+        };
+        return Vec<D>{each(x_0.x, x_1.x, x_2.x), each(x_0.y, x_1.y, x_2.y),
+                      each(x_0.z, x_1.z, x_2.z)};
+    };
+    const auto choose = [&](hn::Mask<D> m, const Vec<D>& yes, const Vec<D>& no) HWY_ATTR {
+        return Vec<D>{hn::IfThenElse(m, yes.x, no.x), hn::IfThenElse(m, yes.y, no.y),
+                      hn::IfThenElse(m, yes.z, no.z)};
+    };
+    LaneCut<D> c;
+    c.apex = pick(t[0], t[1], t[2]);
+    const Vec<D> left = pick(t[1], t[2], t[0]), right = pick(t[2], t[0], t[1]);
+    c.apex_over = hn::Or(hn::And(alone1, over1),
+                         hn::Or(hn::And(alone2, over2), hn::AndNot(hn::Or(alone1, alone2), over0)));
+    const auto left_last = forward ? c.apex_over : hn::Not(c.apex_over);
+    c.first = choose(left_last, right, left);
+    c.last = choose(left_last, left, right);
+    c.certain =
+        hn::Gt(min3(hn::Abs(side.s[0]), hn::Abs(side.s[1]), hn::Abs(side.s[2])), side.bound);
+    return c;
+}
+
+/// Lanes where each triangle straddles the other's plane, but their intervals on the common line
+/// certainly miss each other: the two signs of triangle_triangle_intersect, with a bound.
+template <class D>
+HWY_INLINE hn::Mask<D> certainly_missing(D d, const Apart<D>& x) {
+    const LaneCut<D> a = cut(d, x.a, x.a_sides, true), b = cut(d, x.b, x.b_sides, false);
+    const auto same = hn::Not(hn::Xor(a.apex_over, b.apex_over));
+    const auto order = [&](const Vec<D>& end_a, const Vec<D>& end_b, hn::Vec<D>& bound) HWY_ATTR {
+        const Vec<D> u = sub<D>(end_a, a.apex), v = sub<D>(b.apex, a.apex),
+                     w = sub<D>(end_b, a.apex);
+        bound = rounding_bound(d, hn::Max(max_abs<D>(u), max_abs<D>(v)), max_abs<D>(w));
+        const auto det = dot<D>(cross<D>(u, v), w);
+        return hn::IfThenElse(same, det, hn::Neg(det));
+    };
+    hn::Vec<D> bound_1, bound_2;
+    const auto a_before_b = order(a.last, b.first, bound_1);
+    const auto a_to_b = order(a.first, b.last, bound_2);
+    return hn::And(hn::And(a.certain, b.certain),
+                   hn::Or(hn::Gt(a_before_b, bound_1), hn::Lt(a_to_b, hn::Neg(bound_2))));
 }
 
 template <class D>
@@ -111,14 +191,16 @@ template <class D>
 HWY_INLINE hn::Mask<D> certainly_apart(D d, const Apart<D>& x) {
     // A gap so small that its square vanishes is left to the exact test.
     const auto zero = hn::Zero(d);
-    return hn::Or(hn::Gt(x.box_sq, zero), hn::Or(hn::Gt(x.side_a, zero), hn::Gt(x.side_b, zero)));
+    const auto apart = hn::Or(hn::Gt(x.box_sq, zero), hn::Or(hn::Gt(x.b_sides.certain(), zero),
+                                                             hn::Gt(x.a_sides.certain(), zero)));
+    return hn::AllTrue(d, apart) ? apart : hn::Or(apart, certainly_missing(d, x));
 }
 
 /// Lanes farther apart than the bound: side / |n| is a distance to a plane.
 template <class D>
 HWY_INLINE hn::Mask<D> certainly_far(D d, const Apart<D>& x, hn::Vec<D> bound_sq) {
     const auto zero = hn::Zero(d);
-    const auto a = hn::Max(zero, x.side_a), b = hn::Max(zero, x.side_b);
+    const auto a = hn::Max(zero, x.b_sides.certain()), b = hn::Max(zero, x.a_sides.certain());
     // Squares and the squared normals are rounded: by less than this together.
     const auto bound = hn::Mul(bound_sq, hn::Set(d, 1 + 0x1p-40));
     return hn::Or(hn::Gt(x.box_sq, bound), hn::Or(hn::Gt(hn::Mul(a, a), hn::Mul(bound, x.nn_a)),

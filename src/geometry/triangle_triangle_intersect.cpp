@@ -25,7 +25,7 @@ Signs plane_sides(const Triangle& plane, const Triangle& t) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 w = t[i] - plane[0];
         const double side = dot(n, w), reach = largest(w);
-        // The bound of triangle_block.cpp, certainly_apart; underflow included.
+        // The bound of triangle_block.cpp, Sides; underflow included.
         const double bound = 32 * 0x1p-53 * edge * edge * reach + 0x1p-1000 * (reach + 1);
         signs[i] = side > bound    ? 1
                    : side < -bound ? -1
