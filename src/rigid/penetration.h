@@ -22,7 +22,7 @@ struct PenetrationOptions {
     /// Relative width that [depth, at_most] should have.
     double relative_accuracy = 0.01;
     /// Evaluated points, at most: for the accuracy, and for the comparison.
-    int accuracy_budget = 400, threshold_budget = 20000;
+    int accuracy_budget = 200, threshold_budget = 20000;
 };
 
 /// Local penetration depth.

@@ -46,7 +46,8 @@ struct PairTraversal {
 Verdict traverse_depth_first(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 /// The same, nearest boxes first: fewest visits where the bound shrinks.
-/// Source      [Larsen, Gottschalk, Lin, Manocha 1999], the priority queue. Differs: unbounded.
+/// Source      [Larsen, Gottschalk, Lin, Manocha 1999], the priority queue. Differs: buckets, so
+///             nearest to within 9 %; unbounded.
 Verdict traverse_best_first(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 } // namespace abut
