@@ -48,9 +48,9 @@ struct ClashRule {
 std::vector<ClashRule> read_rules(const std::string& path);
 
 struct ClashOptions {
-    double clearance = 0;         ///< metres; pairs without contact that are nearer are reported
-    double touch = 0;             ///< metres; surfaces that meet no deeper than this `touch`
-    bool self = false;            ///< with several models: also the pairs within each
+    double clearance = 0;           ///< metres; pairs without contact that are nearer are reported
+    double touch = 0;               ///< metres; surfaces that meet no deeper than this `touch`
+    bool self = false;              ///< with several models: also the pairs within each
     std::vector<ClashRule> rules{}; ///< none: all pairs
     Progress progress{};
 };

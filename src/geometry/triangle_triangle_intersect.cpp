@@ -13,7 +13,8 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
-/// Sides of the plane of `plane` that the vertices of t lie on. One normal serves all three filters.
+/// Sides of the plane of `plane` that the vertices of t lie on. One normal serves all three
+/// filters.
 Signs plane_sides(const Triangle& plane, const Triangle& t) {
     const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0];
     const Vec3 n = cross(u, v);
