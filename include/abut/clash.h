@@ -83,7 +83,7 @@ struct ClashReport {
     std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
     std::vector<Clash> clashes;            ///< sorted by model, part of a, then of b
     Seconds seconds;
-    double peak_rss_mb = 0; ///< of this process and its readers, MiB
+    double peak_rss_mb = 0; ///< of this process or its largest reader, whichever is larger; MiB
 };
 
 /// Finds all clashes between the parts of different models (of one model: between its parts).
