@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <tbb/parallel_invoke.h>
 
 namespace abut {
 
