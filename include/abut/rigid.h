@@ -21,7 +21,10 @@ struct Counters {
 /// Two triangles that share a point, by their indices in the two meshes.
 struct TrianglePair {
     std::uint32_t a = 0, b = 0;
-    friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
+    friend bool operator==(const TrianglePair&, const TrianglePair&) = default;
+    friend bool operator<(const TrianglePair& p, const TrianglePair& q) {
+        return p.a != q.a ? p.a < q.a : p.b < q.b;
+    }
 };
 
 enum class ContactMode : std::uint8_t {

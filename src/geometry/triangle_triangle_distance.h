@@ -6,7 +6,7 @@ namespace abut {
 
 /// Two points and their squared distance.
 struct ClosestPoints {
-    double distance_sq;
+    double distance_sq = 0;
     Vec3 a, b;
 };
 

@@ -6,8 +6,8 @@ namespace abut {
 
 /// The shortest translation that ends the overlap of two triangles.
 struct TriangleSeparation {
-    double depth;   ///< its length; 0 or a rounding residue if the triangles only touch
-    Vec3 direction; ///< unit vector along which b moves; zero if both triangles are points
+    double depth = 0; ///< its length; 0 or a rounding residue if the triangles only touch
+    Vec3 direction;   ///< unit vector along which b moves; zero if both triangles are points
 };
 
 /// In          two triangles that share a point.

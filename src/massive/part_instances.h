@@ -9,8 +9,8 @@ namespace abut {
 
 /// One part of one of the models, in a numbering over all.
 struct PartInstance {
-    std::uint32_t model, part;
-    std::uint32_t mesh; ///< index in PartInstances::meshes
+    std::uint32_t model = 0, part = 0;
+    std::uint32_t mesh = 0; ///< index in PartInstances::meshes
     Transform world_from_mesh;
     Box3 box; ///< world box of the vertices that triangles use; empty if there is no triangle
 };

@@ -95,7 +95,7 @@ int sign_of(const Int& v) {
 /// Int holds products of two differences, Wide of three.
 template <typename Int, typename Wide>
 int orient3d_integer(const Scaled<12>& s) {
-    std::array<Int, 9> d; // rows b - a, c - a, d - a
+    std::array<Int, 9> d{}; // rows b - a, c - a, d - a
     for (std::size_t i = 0; i < 9; ++i)
         d[i] = s.get<Int>(3 + i) - s.get<Int>(i % 3);
     const Int x = d[4] * d[8] - d[5] * d[7], y = d[5] * d[6] - d[3] * d[8],

@@ -12,7 +12,7 @@ namespace abut {
 /// Two triangles that share a point, and how.
 struct Contact {
     TrianglePair pair;
-    TriangleContact kind;
+    TriangleContact kind = TriangleContact::none;
 };
 
 /// The contacts of two placed models, in the order of the traversal; the first one only, if so

@@ -19,9 +19,9 @@ public:
     /// A face around the line: its third vertex.
     struct Ray {
         Vec3 apex;
-        bool of_a;
-        int outward; ///< +1: the face's outer side is the one that (e0, e1, apex) turns
-                     ///< counter-clockwise to; -1: the other one; 0: not known
+        bool of_a = false;
+        int outward = 0; ///< +1: the face's outer side is the one that (e0, e1, apex) turns
+                         ///< counter-clockwise to; -1: the other one; 0: not known
     };
 
     EdgeSectors(const Vec3& e0, const Vec3& e1) : e0_(e0), e1_(e1) {}

@@ -37,6 +37,7 @@ std::vector<Vec3> directions(const PlacedSolid& a, const PlacedSolid& b,
     std::stable_sort(separating.begin(), separating.end(),
                      [](const Direction& d, const Direction& e) { return d.count > e.count; });
     std::vector<Vec3> result;
+    result.reserve(separating.size() + 28);
     for (const Direction& d : separating)
         result.push_back(d.d);
     result.insert(result.begin() + (result.empty() ? 0 : 1), normalized_or_zero(mean));

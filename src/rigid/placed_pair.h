@@ -56,7 +56,7 @@ private:
     const PlacedPair& pair_;
     std::uint32_t first_a_ = ~0U, first_b_ = ~0U, count_a_ = 0, count_b_ = 0;
     std::array<Triangle, TriangleBlock::kLanes> a_;
-    TriangleBlock b_;
+    TriangleBlock b_{};
 };
 
 /// As the public query, for a pair placed already.

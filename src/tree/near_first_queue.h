@@ -75,7 +75,7 @@ private:
     };
     std::int32_t top_;
     std::array<std::uint64_t, 2> filled_{};
-    std::array<std::uint32_t, kBuckets> head_;
+    std::array<std::uint32_t, kBuckets> head_{};
     std::uint32_t free_ = kNone;
     boost::container::small_vector<Entry, 256> pool_;
 };

@@ -11,16 +11,16 @@ struct FrameMap {
     float linear[3][3];    ///< [row][column]
     float magnitude[3][3]; ///< |linear|, for half extents
     float translation[3];
-    float margin;     ///< added to every gap's rounding: a gap is real beyond this
-    float stretch_sq; ///< a squared gap in the target frame is at least this times larger in the
-                      ///< world (or equal)
-    float most_stretch_sq; ///< and at most this times
+    float margin = 0;     ///< added to every gap's rounding: a gap is real beyond this
+    float stretch_sq = 0; ///< a squared gap in the target frame is at least this times larger in
+                          ///< the world (or equal)
+    float most_stretch_sq = 0; ///< and at most this times
 };
 
 /// Two trees under their transforms: what a traversal of the pair needs to know.
 struct PairFrame {
-    FrameMap a_from_b; ///< takes b's boxes to a's frame
-    FrameMap b_from_a;
+    FrameMap a_from_b{}; ///< takes b's boxes to a's frame
+    FrameMap b_from_a{};
     bool valid = false; ///< false: a transform is singular and has no frame to compare in
 };
 

@@ -86,7 +86,7 @@ void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Vis
     const auto test = [&](const Node& node) {
         traverse_one::Hits hits;
         for (std::size_t i = 0; i < Node::kWidth; ++i) {
-            std::array<float, 3> c, h;
+            std::array<float, 3> c{}, h{};
             for (std::size_t k = 0; k < 3; ++k) {
                 c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
                 h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
@@ -112,7 +112,7 @@ template <typename Visit>
 void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin,
                    float bound_sq, const Visit& visit) {
     struct Entry {
-        float distance_sq;
+        float distance_sq = 0;
         NodeRef ref;
         bool operator<(const Entry& other) const { return distance_sq > other.distance_sq; }
     };

@@ -30,7 +30,7 @@ struct PairTraversal {
     const Tree& a;
     const Tree& b;
     const PairFrame& frame;
-    double bound_sq; ///< squared world distance beyond which pairs do not matter; 0: overlap
+    double bound_sq = 0; ///< squared world distance beyond which pairs do not matter; 0: overlap
     bool accept_early = false;      ///< stop where two boxes cannot be farther apart than the bound
     std::uint64_t volume_tests = 0; ///< counted up
 };
