@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_pair.cpp"
@@ -72,9 +73,10 @@ HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
 /// bit for each child.
 struct Bounds {
     HWY_ALIGN float lower_sq[Node::kWidth];
-    std::uint32_t used = 0;     ///< there is such a child
-    std::uint32_t near = 0;     ///< it may be within the bound
-    std::uint32_t accepted = 0; ///< all of it is within the bound
+    HWY_ALIGN float gap[Node::kWidth]; ///< largest on an axis of the node; negative: overlap
+    std::uint32_t used = 0;            ///< there is such a child
+    std::uint32_t near = 0;            ///< it may be within the bound
+    std::uint32_t accepted = 0;        ///< all of it is within the bound
 };
 
 /// The bounds of `box`, given in the other frame, to the children of `node`: the larger of what the
@@ -99,6 +101,7 @@ HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap
     for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
         V centre[3], extent[3];
         auto gap_sq = zero, reach_sq = zero;
+        auto largest_gap = hn::Set(d, hwy::LowestValue<float>());
         // Node frame: gap = |c - c'| - (h + h') - margin on each axis.
         for (int i = 0; i < 3; ++i) {
             const auto lower = hn::Load(d, node.lower[i] + lane),
@@ -107,8 +110,9 @@ HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap
             extent[i] = hn::Mul(half, hn::Sub(upper, lower));
             const auto apart = hn::Abs(hn::Sub(hn::Set(d, c_node[i]), centre[i]));
             const auto extents = hn::Add(hn::Set(d, h_node[i]), extent[i]);
-            const auto gap =
-                hn::Max(zero, hn::Sub(hn::Sub(apart, extents), hn::Set(d, to_node.margin)));
+            const auto rounded_gap = hn::Sub(apart, extents);
+            largest_gap = hn::Max(largest_gap, rounded_gap);
+            const auto gap = hn::Max(zero, hn::Sub(rounded_gap, hn::Set(d, to_node.margin)));
             gap_sq = hn::MulAdd(gap, gap, gap_sq);
             if constexpr (with_upper) {
                 const auto reach = hn::Add(hn::Add(apart, extents), hn::Set(d, to_node.margin));
@@ -136,6 +140,7 @@ HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap
         }
         lower_sq = hn::Max(lower_sq, hn::Mul(gap_sq, hn::Set(d, to_box.stretch_sq)));
         hn::Store(lower_sq, d, bounds.lower_sq + lane);
+        hn::Store(largest_gap, d, bounds.gap + lane);
         // Unused lanes hold an empty box. A bound that is not a number keeps the child.
         const auto used =
             hn::Le(hn::Load(d, node.lower[0] + lane), hn::Load(d, node.upper[0] + lane));
@@ -173,14 +178,24 @@ HWY_INLINE bool open_pair(PairTraversal& t, const BoxPair& pair, float bound_sq,
     t.volume_tests += static_cast<std::uint64_t>(std::popcount(bounds.used));
     if (with_upper && bounds.accepted != 0)
         return true;
-    for (std::uint32_t near = bounds.near; near != 0; near &= near - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+    const auto add = [&](std::uint32_t lane) {
         const std::uint32_t child = index * Node::kWidth + lane;
         if (open_a)
             pending.push_back({child, pair.b, bounds.lower_sq[lane]});
         else
             pending.push_back({pair.a, child, bounds.lower_sq[lane]});
+    };
+    // The child that overlaps deepest goes last, and so comes next: a contact is likeliest there.
+    std::uint32_t deepest = Node::kWidth;
+    for (std::uint32_t near = bounds.near; near != 0; near &= near - 1) {
+        auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+        if (deepest == Node::kWidth || bounds.gap[lane] < bounds.gap[deepest])
+            std::swap(lane, deepest);
+        if (lane != Node::kWidth)
+            add(lane);
     }
+    if (deepest != Node::kWidth)
+        add(deepest);
     return false;
 }
 
