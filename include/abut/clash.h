@@ -43,8 +43,7 @@ struct ClashRule {
 
 /// Reads rules from JSON; docs/clash.md gives the keys.
 /// Errors      Error, naming the file: file_not_found, malformed (syntax, an unknown key, a value
-/// of the wrong
-///             type or out of its domain).
+///             of the wrong type or out of its domain).
 std::vector<ClashRule> read_rules(const std::string& path);
 
 struct ClashOptions {
@@ -91,8 +90,7 @@ struct ClashReport {
 /// In/out      models in one world frame, metres. `seconds.import` is left 0.
 /// Errors      Error{bad_argument} for a negative or NaN tolerance, Error{interrupted}.
 /// Cost        the broad phase O(n log n + candidates); hierarchies are built once a mesh, and only
-/// for meshes
-///             that a candidate needs.
+///             for meshes that a candidate needs.
 ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options);
 
 /// Writers, each atomic: the file appears whole or not at all. Errors: Error{cannot_write}, naming

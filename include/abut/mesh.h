@@ -31,7 +31,8 @@ struct MeshReport {
 
 /// In/out      any mesh; never throws for bad topology.
 /// Errors      Error{bad_mesh} if an index is out of range or a coordinate is not finite or beyond
-/// 1e18. Cost        O(n log n) in the triangles.
+///             1e18.
+/// Cost        O(n log n) in the triangles.
 MeshReport inspect(const Mesh& mesh);
 
 } // namespace abut

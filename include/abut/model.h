@@ -16,10 +16,10 @@ public:
     /// Takes the mesh and builds its hierarchy.
     ///
     /// Degenerate  zero-area triangles are kept: they count as the segments or points that they
-    /// are.
-    ///             A mesh without triangles is a valid model that meets nothing.
+    ///             are. A mesh without triangles is a valid model that meets nothing.
     /// Errors      Error{bad_mesh} if an index is out of range or a coordinate is not finite or
-    /// beyond 1e18. Cost        O(n log n); parallel over subtrees.
+    ///             beyond 1e18.
+    /// Cost        O(n log n); parallel over subtrees.
     explicit Model(Mesh mesh);
 
     [[nodiscard]] const Mesh& mesh() const noexcept;

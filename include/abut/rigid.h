@@ -52,7 +52,7 @@ struct Contacts {
 /// Errors      Error{bad_argument} if a transform is not finite.
 /// Cost        output-sensitive; a few hundred volume tests for a first contact.
 /// Source      traversal as [Gottschalk, Lin, Manocha 1996], differs: eight boxes at a time in
-/// SIMD.
+///             SIMD.
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options = {});
 
@@ -84,7 +84,7 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
 /// Whether some two points of the surfaces are at most `tolerance` apart. Stops at the first proof.
 ///
 /// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or
-/// NaN.
+///             NaN.
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
             const Transform& world_from_b, double tolerance);
 

@@ -44,9 +44,8 @@ struct ReadOptions {
 /// Third-party readers run in a process of their own, so that a crash in one is an Error here.
 ///
 /// Errors      Error, naming the file: file_not_found, unreadable, malformed, unsupported, bad_mesh
-/// (an index
-///             out of range, a coordinate that is not finite, no triangle or only degenerate ones),
-///             reader_failed; Error{interrupted}.
+///             (an index out of range, a coordinate that is not finite, no triangle or only
+///             degenerate ones), reader_failed; Error{interrupted}.
 Scene read_scene(const std::string& path, const ReadOptions& options = {});
 
 /// Several files at once, in parallel. Errors as read_scene; of several, the first file's.

@@ -14,8 +14,7 @@ struct ClosestPoints {
 ///
 /// Degenerate  zero-length segments act as points; parallel segments return one minimiser.
 /// Source      [Ericson 2005, 5.1.9]. Differs: the lines' parameters come from cross products,
-/// which keeps
-///             almost parallel segments exact to rounding.
+///             which keeps almost parallel segments exact to rounding.
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1);
 

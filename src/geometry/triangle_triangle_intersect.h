@@ -17,10 +17,11 @@ enum class TriangleContact : std::uint8_t {
 ///
 /// In          any six finite points in one frame.
 /// Degenerate  zero-area triangles are the segments or points that they are; these and coplanar
-/// triangles touch at most. Accuracy    exact. Cost        6 to 8 orientation signs; up to some 40
-/// where triangles are coplanar or degenerate. Source      [Guigue, Devillers 2003]. Differs: the
-/// line test is written with one sign per triangle in place of
-///             permuted arguments, and returns touching and crossing apart.
+///             triangles touch at most.
+/// Accuracy    exact.
+/// Cost        6 to 8 orientation signs; up to some 40 where triangles are coplanar or degenerate.
+/// Source      [Guigue, Devillers 2003]. Differs: the line test is written with one sign per
+///             triangle in place of permuted arguments, and returns touching and crossing apart.
 TriangleContact triangle_triangle_intersect(const Triangle& a, const Triangle& b);
 
 /// Whether a closed segment (or point, if p = q) shares a point with a triangle that has an area.

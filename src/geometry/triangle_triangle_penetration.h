@@ -14,7 +14,7 @@ struct TriangleSeparation {
 /// Degenerate  zero-area triangles act as segments or points.
 /// Accuracy    to rounding; a lower bound for the surfaces that the triangles belong to, not more.
 /// Source      faces of the Minkowski difference: two normals and nine edge pairs [Gottschalk et
-/// al. 1996].
+///             al. 1996].
 TriangleSeparation triangle_triangle_penetration(const Triangle& a, const Triangle& b);
 
 } // namespace abut

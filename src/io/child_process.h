@@ -38,7 +38,7 @@ public:
     /// shrink them any more.
     ///
     /// Errors      Error{reader_failed} if a process still has them open for writing through a
-    /// mapping.
+    ///             mapping.
     std::span<const std::byte> bytes();
 
 private:
@@ -59,7 +59,8 @@ struct ChildReport {
 /// threads.
 ///
 /// In/out      arguments: the program's path and its arguments; should_stop: polled some 50 times a
-/// second. Errors      Error{unsupported} if the program cannot be started.
+///             second.
+/// Errors      Error{unsupported} if the program cannot be started.
 ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimits& limits,
                       const std::function<bool()>& should_stop, const ResultMemory& result);
 

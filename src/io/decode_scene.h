@@ -12,12 +12,11 @@ namespace abut {
 /// it is used.
 ///
 /// In/out      file: the name for Scene::file and errors; unit: factor of all lengths, applied to
-/// the transforms.
-///             A part id that occurs again gets "#2", "#3", …; an empty name becomes the id.
+///             the transforms. A part id that occurs again gets "#2", "#3", …; an empty name
+///             becomes the id.
 /// Errors      the error that the stream holds; Error{reader_failed} if the stream is not whole and
-/// sound;
-///             Error{bad_mesh} for an index out of range, a number that is not finite, no triangle
-///             at all or only degenerate ones.
+///             sound; Error{bad_mesh} for an index out of range, a number that is not finite, no
+///             triangle at all or only degenerate ones.
 Scene decode_scene(std::span<const std::byte> stream, const std::string& file, double unit);
 
 } // namespace abut

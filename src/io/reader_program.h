@@ -18,7 +18,7 @@ namespace abut {
 /// where `web-ifc` is installed.
 ///
 /// Errors      Error{unsupported}, naming the file, if no reader knows the extension or a program
-/// is missing.
+///             is missing.
 std::vector<std::string> reader_command(const std::string& file, std::uint64_t memory_limit);
 
 } // namespace abut

@@ -7,6 +7,7 @@
 #include "rigid/penetration.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 namespace abut {
@@ -92,7 +93,8 @@ Clash classify_meeting(const ClashPart& a, const ClashPart& b, std::vector<Conta
     return clash;
 }
 
-std::optional<Clash> apart(const ClashPart& a, const ClashPart& b, double clearance) {
+std::optional<Clash> apart(const ClashPart& a, const ClashPart& b, const PlacedPair& pair,
+                           double clearance) {
     Clash clash;
     const bool a_in_b = encloses(b.box, a.box);
     const bool b_in_a = encloses(a.box, b.box);
@@ -105,8 +107,7 @@ std::optional<Clash> apart(const ClashPart& a, const ClashPart& b, double cleara
     }
     if (!contained && clearance == 0)
         return std::nullopt;
-    const Gap gap = distance(a.model, a.world_from_mesh, b.model, b.world_from_mesh,
-                             contained ? DistanceOptions{} : DistanceOptions{clearance});
+    const Gap gap = distance(pair, contained ? std::numeric_limits<double>::infinity() : clearance);
     if (!contained && gap.status != Status::exact)
         return std::nullopt;
     clash.kind = contained ? ClashKind::contained : ClashKind::clearance;
@@ -124,7 +125,7 @@ std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, doubl
     Counters counters;
     const PlacedPair pair(a.model, a.world_from_mesh, b.model, b.world_from_mesh);
     std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
-    return contacts.empty() ? apart(a, b, clearance)
+    return contacts.empty() ? apart(a, b, pair, clearance)
                             : classify_meeting(a, b, std::move(contacts), touch);
 }
 

@@ -22,8 +22,7 @@ struct PartInstances {
 };
 
 /// Errors      Error{bad_mesh}, naming the model's file: a part names a mesh that is not there, an
-/// index or a
-///             coordinate is out of range, a transform is not finite.
+///             index or a coordinate is out of range, a transform is not finite.
 /// Cost        one transform of every vertex of every instance; parallel.
 PartInstances gather_parts(const std::vector<Scene>& models);
 

@@ -13,7 +13,7 @@ namespace abut {
 ///
 /// Accuracy    exact, over- and underflow included.
 /// Source      filter as [Shewchuk 1997, orient3d stage A], differs: an underflow term in the
-/// bound.
+///             bound.
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Sign of the doubled area of a, b, c projected along `axis` (0, 1, 2: on yz, zx, xy). Exact.

@@ -32,7 +32,7 @@ Transform inverse(const Transform& t);
 ///
 /// Accuracy    proven bounds, within 1e-5 of the singular values; 0 for a singular map.
 /// Source      Gershgorin discs of L^T L; its eigenvalues where the discs are too wide (shear,
-/// uneven scale).
+///             uneven scale).
 double least_stretch(const Transform& t);
 double most_stretch(const Transform& t);
 

@@ -43,7 +43,7 @@ std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Top
 inline constexpr double kLargestCoordinate = 1e18;
 
 /// Errors      Error{bad_mesh} if an index is out of range, or a coordinate not finite or beyond
-/// kLargestCoordinate.
+///             kLargestCoordinate.
 void require_valid(const Mesh& mesh);
 
 } // namespace abut

@@ -17,8 +17,7 @@ struct Escape {
 /// found.
 ///
 /// Accuracy    exact for the moved positions; the directions tried are the separating ones of the
-/// contacts, the
-///             commonest first, their mean, and 26 evenly spread.
+///             contacts, the commonest first, their mean, and 26 evenly spread.
 Vec3 nudge_that_parts(const PlacedSolid& a, const PlacedSolid& b,
                       std::span<const Contact> contacts);
 

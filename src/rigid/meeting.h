@@ -23,9 +23,8 @@ struct Meeting {
 ///
 /// In          all contacts of the pair.
 /// Accuracy    crossing, inside at stored vertices, overlap along edges: exact, by orientation
-/// signs of stored points.
-///             Triangles that lie inside a solid and touch its surface at vertices only are found
-///             by their middles.
+///             signs of stored points. Triangles that lie inside a solid and touch its surface at
+///             vertices only are found by their middles.
 Meeting examine_meeting(const PlacedSolid& a, const PlacedSolid& b,
                         std::span<const Contact> contacts);
 

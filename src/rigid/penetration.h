@@ -31,12 +31,11 @@ struct PenetrationOptions {
 /// solid's surface (of two solids, the larger of both ways). Between open surfaces: the largest,
 /// over the crossing triangle pairs, of the shortest translation that separates the two triangles.
 ///
-/// Accuracy    `depth` is reached at point_a and point_b to rounding; [depth, at_most] encloses the
-/// true value for
-///             solids; for open surfaces it is the definition.
+/// Accuracy    with a solid, `depth` is reached at point_a and point_b to rounding, and
+///             [depth, at_most] encloses the true value; else it is the definition's value at a
+///             common point.
 /// Source      branch and bound; the bound over a piece is the largest distance of its corners to
-/// one triangle of
-///             the solid (distance to a convex set is convex).
+///             one triangle of the solid (distance to a convex set is convex).
 LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
                                    std::span<const Contact> contacts,
                                    const PenetrationOptions& options);

@@ -17,8 +17,7 @@ public:
     /// A transform without an inverse (a flattened part) is applied to a copy of the mesh first.
     ///
     /// Errors      Error{bad_argument} if a transform is not finite; Error{bad_mesh} if such a copy
-    /// has positions
-    ///             out of range.
+    ///             has positions out of range.
     PlacedPair(const Model& a, const Transform& world_from_a, const Model& b,
                const Transform& world_from_b);
 

@@ -8,8 +8,9 @@
 
 namespace abut {
 
-/// A queue that gives the smallest key first, to within some 9 % (of the square root), and of those
-/// the last one added; constant time. Keys are squared distances, not negative.
+/// A queue that gives the smallest key first, to within 12 % (of the square root), and of those
+/// the last one added; constant time. Keys are squared distances, not negative; one that is not a
+/// number, of which nothing is known, counts as 0.
 ///
 /// The key's float bits grow with the key: the exponent and two bits of the fraction number a
 /// bucket. Buckets are lists in one pool; a bit each says which are not empty.
@@ -61,6 +62,8 @@ private:
         return static_cast<std::int32_t>(std::bit_cast<std::uint32_t>(key) >> 21);
     }
     [[nodiscard]] std::uint32_t bucket_of(float key) const {
+        if (!(key >= 0))
+            return 0;
         constexpr std::int32_t kLast = kBuckets - 1;
         return static_cast<std::uint32_t>(std::clamp(kLast - (top_ - code(key)), 0, kLast));
     }

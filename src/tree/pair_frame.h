@@ -25,8 +25,7 @@ struct PairFrame {
 };
 
 /// Accuracy    the margins cover all rounding: of composing the transforms, of the world positions
-/// that the exact
-///             kernels see, and of the traversal's single precision.
+///             that the exact kernels see, and of the traversal's single precision.
 PairFrame make_pair_frame(const Tree& a, const Transform& world_from_a, const Tree& b,
                           const Transform& world_from_b);
 

@@ -40,14 +40,14 @@ struct PairTraversal {
 /// In          frame.valid.
 /// Accuracy    conservative: every pair of primitives within the bound is visited.
 /// Cost        8 box pairs in one SIMD pass, some 60 instructions; no allocation for trees of usual
-/// depth. Source      [Gottschalk, Lin, Manocha 1996]. Differs: boxes aligned to each tree's own
-/// frame, the six face
-///             axes only, one box against eight; the box of larger surface is opened.
+///             depth.
+/// Source      [Gottschalk, Lin, Manocha 1996]. Differs: boxes aligned to each tree's own frame,
+///             the six face axes only, one box against eight; the box of larger surface is opened.
 Verdict traverse_depth_first(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 /// The same, nearest boxes first: fewest visits where the bound shrinks.
 /// Source      [Larsen, Gottschalk, Lin, Manocha 1999], the priority queue. Differs: buckets, so
-///             nearest to within 9 %; unbounded.
+///             nearest to within 12 %; unbounded.
 Verdict traverse_best_first(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 } // namespace abut

@@ -72,8 +72,9 @@ struct TreeOptions {
 ///
 /// In          fewer than 2^28 boxes, none empty, all finite.
 /// Cost        O(n log n); subtrees in parallel. The result does not depend on the number of
-/// threads. Source      binned surface-area heuristic [Wald 2007]; wide nodes by opening the
-/// largest child first.
+///             threads.
+/// Source      binned surface-area heuristic [Wald 2007]; wide nodes by opening the largest child
+///             first.
 Tree build_tree(std::span<const Aabb> boxes, const TreeOptions& options = {});
 
 /// Throws std::logic_error if a box fails to enclose what lies below it, or a slot is not in

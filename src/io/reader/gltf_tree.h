@@ -35,7 +35,7 @@ struct GltfTree {
 /// kinds, that the nodes form trees, that no extension is required that changes geometry.
 ///
 /// Errors      Fault malformed, unsupported, unreadable; nlohmann::json::exception for wrong types
-/// and missing keys.
+///             and missing keys.
 GltfTree read_gltf_tree(const std::string& file, bool binary);
 
 } // namespace abut

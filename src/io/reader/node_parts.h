@@ -32,7 +32,7 @@ std::vector<NodePart> assimp_parts(const aiScene& scene);
 /// Assimp's tree of nodes is not that of the JSON: then assimp_parts has to do.
 ///
 /// Errors      Fault malformed or bad_mesh if Assimp's meshes have not the sizes that the JSON
-/// promises.
+///             promises.
 std::vector<NodePart> gltf_parts(const aiScene& scene, const GltfTree& tree);
 
 } // namespace abut

@@ -15,7 +15,8 @@ namespace abut {
 ///
 /// In/out      extension: lower case, with its dot.
 /// Errors      Fault malformed if the file ends before what its header promises, bad_mesh for an
-/// index out of range. Cost        one pass over the file.
+///             index out of range.
+/// Cost        one pass over the file.
 std::optional<std::uint64_t> promised_triangles(const std::string& file,
                                                 const std::string& extension);
 
