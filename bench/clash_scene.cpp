@@ -1,5 +1,6 @@
 #include "clash_scene.h"
 
+#include "placement.h"
 #include "scenes/random.h"
 
 #include <algorithm>
@@ -12,42 +13,9 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-double unit(scenes::Random& random) {
-    return static_cast<double>(random.next() >> 11) * 0x1p-53;
-}
-
-/// Uniform over all rotations.
-/// Source      [Shoemake 1992].
-std::array<double, 4> random_rotation(scenes::Random& random) {
-    const double u = unit(random), v = kTurn * unit(random), w = kTurn * unit(random);
-    const double p = std::sqrt(1 - u), q = std::sqrt(u);
-    return {p * std::sin(v), p * std::cos(v), q * std::sin(w), q * std::cos(w)};
-}
-
-Vec3 placed(const Transform& t, const Vec3& p) {
-    const auto& m = t.m;
-    return {m[0] * p.x + m[3] * p.y + m[6] * p.z + m[9],
-            m[1] * p.x + m[4] * p.y + m[7] * p.z + m[10],
-            m[2] * p.x + m[5] * p.y + m[8] * p.z + m[11]};
-}
-
-void extend(Box3& box, const Vec3& p) {
-    box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y),
-                 std::min(box.lower.z, p.z)};
-    box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y),
-                 std::max(box.upper.z, p.z)};
-}
-
 bool overlap(const Box3& a, const Box3& b) {
     return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
-}
-
-Box3 box_of(const Mesh& mesh, const Transform& placement) {
-    Box3 box;
-    for (const Vec3& p : mesh.positions)
-        extend(box, placed(placement, p));
-    return box;
 }
 
 /// Cubes around the part's middle that hold it however it is turned.
@@ -60,17 +28,6 @@ std::vector<Box3> rotation_boxes(const ClashScene& scene) {
         boxes.push_back({{t.m[9] - radius, t.m[10] - radius, t.m[11] - radius},
                          {t.m[9] + radius, t.m[10] + radius, t.m[11] + radius}});
     return boxes;
-}
-
-/// Moves the middle of the box to the origin and scales its diagonal to 1.
-void normalise(Mesh& mesh) {
-    const Box3 box = box_of(mesh, {});
-    const Vec3 size{box.upper.x - box.lower.x, box.upper.y - box.lower.y,
-                    box.upper.z - box.lower.z};
-    const double scale = 1 / std::hypot(size.x, size.y, size.z);
-    for (Vec3& p : mesh.positions)
-        p = {scale * (p.x - box.lower.x - 0.5 * size.x), scale * (p.y - box.lower.y - 0.5 * size.y),
-             scale * (p.z - box.lower.z - 0.5 * size.z)};
 }
 
 } // namespace

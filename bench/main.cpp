@@ -43,6 +43,26 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     import_suite->callback([&] { report = run_import_suite(import); });
 
+    RigidSuiteOptions rigid;
+    CLI::App* rigid_suite = app.add_subcommand(
+        "rigid", "Queries on pairs of models in four regimes, against FCL, CGAL and Embree");
+    rigid_suite->add_option("files", rigid.files, "Model files, two a pair");
+    rigid_suite->add_option("--generated", rigid.generated,
+                            "Pairs of generated models of so many triangles each");
+    rigid_suite->add_option("--poses", rigid.poses, "In each regime");
+    rigid_suite->add_option("--rounds", rigid.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    rigid_suite->add_option("--only", rigid.only, "Cases whose name has this in it");
+    rigid_suite->add_flag("--alone", rigid.alone, "Without peers");
+    rigid_suite->add_option("--seed", rigid.seed, "Of the poses");
+    rigid_suite->callback([&] {
+        if (rigid.files.size() % 2 != 0)
+            throw CLI::ValidationError("files", "two files a pair");
+        if (rigid.files.empty() && rigid.generated.empty())
+            rigid.generated = {100000, 1000000};
+        report = run_rigid_suite(rigid);
+    });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

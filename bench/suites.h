@@ -3,6 +3,7 @@
 #include "clash_scene.h"
 #include "report.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,19 @@ struct ImportSuiteOptions {
 /// `read_scene`, which keeps the reader in a process of its own, against Assimp called in process.
 /// Errors      as read_scene.
 Report run_import_suite(const ImportSuiteOptions& options);
+
+struct RigidSuiteOptions {
+    std::vector<std::string> files;       ///< two a pair
+    std::vector<std::uint32_t> generated; ///< triangles of each model of a generated pair
+    std::size_t poses = 500;              ///< in each regime
+    int rounds = 3;
+    bool alone = false; ///< without peers
+    std::string only;   ///< run the cases whose name has this in it
+    std::uint64_t seed = 1;
+};
+
+/// Collide, distance and within on pairs of models, and their build, against FCL, CGAL and Embree.
+/// Errors      as read_mesh.
+Report run_rigid_suite(const RigidSuiteOptions& options);
 
 } // namespace abut::bench

@@ -1,0 +1,113 @@
+#include "measure.h"
+#include "peer_rigid.h"
+
+#ifdef ABUT_BENCH_FCL
+#include <fcl/fcl.h>
+#include <fmt/format.h>
+#endif
+
+namespace abut::bench {
+
+#ifdef ABUT_BENCH_FCL
+
+namespace {
+
+template <class BoundingVolume>
+std::shared_ptr<fcl::BVHModel<BoundingVolume>> build(const Mesh& mesh) {
+    std::vector<fcl::Vector3d> vertices;
+    std::vector<fcl::Triangle> triangles;
+    for (const Vec3& p : mesh.positions)
+        vertices.emplace_back(p.x, p.y, p.z);
+    for (const auto& t : mesh.triangles)
+        triangles.emplace_back(t[0], t[1], t[2]);
+    auto model = std::make_shared<fcl::BVHModel<BoundingVolume>>();
+    model->beginModel();
+    model->addSubModel(vertices, triangles);
+    model->endModel();
+    return model;
+}
+
+fcl::Transform3d placement(const Transform& t) {
+    fcl::Transform3d result = fcl::Transform3d::Identity();
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            result(row, column) = t.m[static_cast<std::size_t>(3 * column + row)];
+    return result;
+}
+
+class FclPeer final : public RigidPeer {
+public:
+    using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+
+    FclPeer(const std::string& volume, Geometry a, Geometry b)
+        : name_(fmt::format("FCL {}, {}", FCL_VERSION, volume)), measures_(volume != "OBB"),
+          a_(std::move(a)), b_(std::move(b)) {}
+
+    [[nodiscard]] const std::string& name() const override { return name_; }
+    [[nodiscard]] bool answers(RigidQuery query) const override {
+        // FCL has no distance between OBB hierarchies.
+        return measures_ || query == RigidQuery::first_contact || query == RigidQuery::all_contacts;
+    }
+    void place(const PosedPair& poses) override {
+        world_from_a_ = placement(poses.a), world_from_b_ = placement(poses.b);
+    }
+    double run(RigidQuery query, const PosedPair& /*poses*/, double tolerance) override {
+        if (query == RigidQuery::first_contact || query == RigidQuery::all_contacts) {
+            const bool all = query == RigidQuery::all_contacts;
+            const fcl::CollisionRequestd request(all ? std::size_t{1} << 30 : 1, false);
+            fcl::CollisionResultd result;
+            fcl::collide(a_.get(), world_from_a_, b_.get(), world_from_b_, request, result);
+            return static_cast<double>(result.numContacts());
+        }
+        const fcl::DistanceRequestd request(false);
+        // A search that starts with the tolerance leaves out all that is farther.
+        fcl::DistanceResultd result(
+            query == RigidQuery::within ? tolerance : std::numeric_limits<double>::max());
+        fcl::distance(a_.get(), world_from_a_, b_.get(), world_from_b_, request, result);
+        return query == RigidQuery::distance     ? std::max(0.0, result.min_distance)
+               : result.min_distance < tolerance ? 1
+                                                 : 0;
+    }
+
+private:
+    std::string name_;
+    bool measures_;
+    Geometry a_, b_;
+    fcl::Transform3d world_from_a_, world_from_b_;
+};
+
+template <class BoundingVolume>
+std::unique_ptr<RigidPeer> make_peer(const std::string& volume, const Mesh& a, const Mesh& b) {
+    return std::make_unique<FclPeer>(volume, build<BoundingVolume>(a), build<BoundingVolume>(b));
+}
+
+} // namespace
+
+std::vector<std::unique_ptr<RigidPeer>> make_fcl_peers(const Mesh& a, const Mesh& b) {
+    std::vector<std::unique_ptr<RigidPeer>> peers;
+    peers.push_back(make_peer<fcl::OBBRSSd>("OBBRSS", a, b));
+    peers.push_back(make_peer<fcl::RSSd>("RSS", a, b));
+    peers.push_back(make_peer<fcl::kIOSd>("kIOS", a, b));
+    peers.push_back(make_peer<fcl::OBBd>("OBB", a, b));
+    return peers;
+}
+
+std::optional<FclBuild> fcl_build(const Mesh& mesh) {
+    const double start = thread_seconds();
+    const auto model = build<fcl::OBBRSSd>(mesh);
+    const double seconds = thread_seconds() - start;
+    return FclBuild{seconds, static_cast<double>(model->memUsage(0))};
+}
+
+#else
+
+std::vector<std::unique_ptr<RigidPeer>> make_fcl_peers(const Mesh& /*a*/, const Mesh& /*b*/) {
+    return {};
+}
+std::optional<FclBuild> fcl_build(const Mesh& /*mesh*/) {
+    return {};
+}
+
+#endif
+
+} // namespace abut::bench

@@ -1,0 +1,263 @@
+#include <abut/model.h>
+#include <abut/rigid.h>
+#include <abut/scene.h>
+
+#include "measure.h"
+#include "peer_rigid.h"
+#include "scenes/bodies.h"
+#include "suites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr double kNear = 0.005, kFar = 0.1; ///< tolerances, in diagonals
+
+struct Case {
+    const char* name;
+    RigidQuery query;
+    Regime regime;
+    double tolerance = 0;
+};
+constexpr std::array kCases{
+    Case{"first contact, deep", RigidQuery::first_contact, Regime::deep},
+    Case{"first contact, graze in", RigidQuery::first_contact, Regime::graze_in},
+    Case{"first contact, graze out", RigidQuery::first_contact, Regime::graze_out},
+    Case{"all contacts, deep", RigidQuery::all_contacts, Regime::deep},
+    Case{"all contacts, graze in", RigidQuery::all_contacts, Regime::graze_in},
+    Case{"distance, graze out", RigidQuery::distance, Regime::graze_out},
+    Case{"distance, separated", RigidQuery::distance, Regime::separated},
+    Case{"distance, coherent path", RigidQuery::distance, Regime::path},
+    Case{"within 0.005, graze out", RigidQuery::within, Regime::graze_out, kNear},
+    Case{"within 0.1, graze out", RigidQuery::within, Regime::graze_out, kFar},
+    Case{"within 0.1, separated", RigidQuery::within, Regime::separated, kFar},
+};
+
+/// Seconds of each pose, the median over the rounds.
+class PoseTimes {
+public:
+    explicit PoseTimes(std::size_t poses) : seconds_(poses) {}
+    void add(std::size_t pose, double seconds) { seconds_[pose].push_back(seconds); }
+    [[nodiscard]] double median_us() const {
+        std::vector<double> each;
+        for (const auto& rounds : seconds_)
+            each.push_back(median(rounds));
+        return 1e6 * median(each);
+    }
+
+private:
+    std::vector<std::vector<double>> seconds_;
+};
+
+struct Answer {
+    double value = 0;
+    Counters counters;
+};
+
+class RigidSuite {
+public:
+    RigidSuite(const RigidSuiteOptions& options, const RigidScene& scene, Report& report)
+        : options_(options), scene_(scene), report_(report), a_(scene.a), b_(scene.b) {
+        if (options.alone)
+            return;
+        peers_ = make_fcl_peers(scene.a, scene.b);
+        fcl_ = peers_.size();
+        if (auto cgal = make_cgal_peer(scene.a, scene.b))
+            peers_.push_back(std::move(cgal));
+        if (auto embree = make_embree_peer(scene.a, scene.b))
+            peers_.push_back(std::move(embree));
+    }
+
+    void run() {
+        for (const Case& c : kCases)
+            if (options_.only.empty() ||
+                std::string_view(c.name).find(options_.only) != std::string_view::npos)
+                run(c);
+    }
+
+private:
+    Answer ours(const Case& c, const PosedPair& poses) {
+        switch (c.query) {
+        case RigidQuery::first_contact:
+        case RigidQuery::all_contacts: {
+            const auto mode =
+                c.query == RigidQuery::all_contacts ? ContactMode::all : ContactMode::first;
+            const Contacts contacts = collide(a_, poses.a, b_, poses.b, {.mode = mode});
+            return {static_cast<double>(contacts.pairs.size()), contacts.counters};
+        }
+        case RigidQuery::distance: {
+            const Gap gap = distance(a_, poses.a, b_, poses.b);
+            return {gap.distance, gap.counters};
+        }
+        default:
+            return {within(a_, poses.a, b_, poses.b, c.tolerance) ? 1.0 : 0.0, {}};
+        }
+    }
+
+    /// FCL's fastest volume for the case on a sample of the poses.
+    RigidPeer* best_fcl(const Case& c) {
+        RigidPeer* best = nullptr;
+        double least = 0;
+        std::string line = fmt::format("{}, {}: FCL on a sample, us:", scene_.name, c.name);
+        const auto& poses = scene_.of(c.regime);
+        for (std::size_t i = 0; i < fcl_; ++i) {
+            RigidPeer& peer = *peers_[i];
+            if (!peer.answers(c.query))
+                continue;
+            const std::size_t sample = std::min<std::size_t>(poses.size(), 25);
+            PoseTimes times(sample);
+            for (std::size_t k = 0; k < sample; ++k) {
+                const PosedPair& posed = poses[k * poses.size() / sample];
+                peer.place(posed);
+                const double start = wall_seconds();
+                peer.run(c.query, posed, c.tolerance);
+                times.add(k, wall_seconds() - start);
+            }
+            line += fmt::format(" {} {:.3g}", peer.name(), times.median_us());
+            if (best == nullptr || times.median_us() < least)
+                best = &peer, least = times.median_us();
+        }
+        if (best != nullptr)
+            report_.notes.push_back(line);
+        return best;
+    }
+
+    void run(const Case& c) {
+        std::vector<RigidPeer*> opponents;
+        if (RigidPeer* fcl = best_fcl(c))
+            opponents.push_back(fcl);
+        for (std::size_t i = fcl_; i < peers_.size(); ++i)
+            if (peers_[i]->answers(c.query))
+                opponents.push_back(peers_[i].get());
+        if (opponents.empty())
+            opponents.push_back(nullptr);
+        for (RigidPeer* peer : opponents)
+            compare(c, peer);
+    }
+
+    void compare(const Case& c, RigidPeer* peer) {
+        const auto& poses = scene_.of(c.regime);
+        PoseTimes our_times(poses.size()), their_times(poses.size());
+        std::vector<Answer> our_answers(poses.size());
+        std::vector<double> their_answers(poses.size());
+        for (int round = 0; round < options_.rounds; ++round)
+            for (std::size_t i = 0; i < poses.size(); ++i) {
+                const double start = wall_seconds();
+                our_answers[i] = ours(c, poses[i]);
+                our_times.add(i, wall_seconds() - start);
+                if (peer == nullptr)
+                    continue;
+                peer->place(poses[i]);
+                const double between = wall_seconds();
+                their_answers[i] = peer->run(c.query, poses[i], c.tolerance);
+                their_times.add(i, wall_seconds() - between);
+            }
+
+        Row row{scene_.name + ", " + c.name, our_times.median_us(), {}, {}, "us", 1, {}};
+        if (peer != nullptr)
+            row.peer = peer->name(), row.theirs = their_times.median_us();
+        std::vector<double> volumes, primitives, values;
+        for (const Answer& answer : our_answers) {
+            volumes.push_back(static_cast<double>(answer.counters.volume_tests));
+            primitives.push_back(static_cast<double>(answer.counters.primitive_tests));
+            values.push_back(answer.value);
+        }
+        row.counters["volume tests"] = median(volumes);
+        row.counters["triangle tests"] = median(primitives);
+        row.counters["answer"] = median(values);
+        if (peer != nullptr && peer->name().starts_with("FCL"))
+            row.counters["disagreements"] =
+                static_cast<double>(count_disagreements(c, our_answers, their_answers));
+        report_.rows.push_back(row);
+    }
+
+    /// FCL is not exact: contacts may differ where triangles all but touch. Distances should not.
+    static std::size_t count_disagreements(const Case& c, const std::vector<Answer>& ours,
+                                           const std::vector<double>& theirs) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < ours.size(); ++i)
+            count +=
+                std::abs(ours[i].value - theirs[i]) > (c.query == RigidQuery::distance ? 1e-12 : 0);
+        return count;
+    }
+
+    const RigidSuiteOptions& options_;
+    const RigidScene& scene_;
+    Report& report_;
+    Model a_, b_;
+    std::vector<std::unique_ptr<RigidPeer>> peers_;
+    std::size_t fcl_ = 0; ///< the first so many peers are FCL
+};
+
+void run_build(const std::string& name, const Mesh& mesh, int rounds, Report& report) {
+    set_threads(1);
+    std::vector<double> ours, embree, fcl;
+    std::size_t bytes = 0;
+    double fcl_bytes = 0;
+    for (int round = 0; round < rounds; ++round) {
+        Mesh copy = mesh;
+        const double start = thread_seconds();
+        const Model model(std::move(copy));
+        ours.push_back(1e3 * (thread_seconds() - start));
+        bytes = model.bytes();
+        if (const auto seconds = embree_build_seconds(mesh))
+            embree.push_back(1e3 * *seconds);
+        if (round < 1)
+            if (const auto built = fcl_build(mesh))
+                fcl.push_back(1e3 * built->seconds), fcl_bytes = built->bytes;
+    }
+    set_threads(0);
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    Row row{fmt::format("{} ({} triangles), build", name, mesh.triangles.size()),
+            median(ours),
+            {},
+            {},
+            "ms",
+            1,
+            {}};
+    row.counters["bytes a triangle"] = static_cast<double>(bytes) / triangles;
+    if (!embree.empty()) {
+        row.peer = "Embree 3, medium", row.theirs = median(embree);
+        report.rows.push_back(row);
+    }
+    if (!fcl.empty()) {
+        row.peer = "FCL OBBRSS", row.theirs = median(fcl);
+        row.counters["FCL's bytes a triangle"] = fcl_bytes / triangles;
+    }
+    if (!fcl.empty() || embree.empty())
+        report.rows.push_back(row);
+}
+
+} // namespace
+
+Report run_rigid_suite(const RigidSuiteOptions& options) {
+    Report report;
+    report.suite = "rigid";
+    const auto run = [&](const std::string& name_a, Mesh a, const std::string& name_b, Mesh b) {
+        const RigidScene scene = make_rigid_scene(name_a + " / " + name_b, std::move(a),
+                                                  std::move(b), options.poses, options.seed);
+        if (options.only.empty() || options.only == "build") {
+            run_build(name_a, scene.a, options.rounds, report);
+            run_build(name_b, scene.b, options.rounds, report);
+        }
+        RigidSuite(options, scene, report).run();
+    };
+    const auto stem = [](const std::string& file) {
+        return std::filesystem::path(file).stem().string();
+    };
+    for (std::size_t i = 0; i + 1 < options.files.size(); i += 2)
+        run(stem(options.files[i]), read_mesh(options.files[i]), stem(options.files[i + 1]),
+            read_mesh(options.files[i + 1]));
+    for (const std::uint32_t triangles : options.generated)
+        run(fmt::format("boulder {}k", triangles / 1000), scenes::boulder(triangles),
+            fmt::format("knot {}k", triangles / 1000), scenes::knot(triangles));
+    return report;
+}
+
+} // namespace abut::bench
