@@ -2,7 +2,6 @@
 #include "rigid/contacts.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace abut {
 
@@ -10,32 +9,28 @@ namespace {
 
 class ContactFinder : public LeafPairVisitor {
 public:
-    ContactFinder(const PlacedPair& pair, ContactMode mode, Counters& counters)
-        : mode_(mode), counters_(counters), leaves_(pair) {}
+    ContactFinder(const PlacedPair& pair, ContactMode mode) : mode_(mode), leaves_(pair) {}
 
-    double visit(NodeRef leaf_a, NodeRef leaf_b) override {
-        leaves_.fetch(leaf_a, leaf_b);
-        for (std::uint32_t i = 0; i < leaves_.count_a(); ++i) {
-            counters_.primitive_tests += leaf_b.count();
-            std::uint32_t lanes = may_intersect(leaves_.a(i), leaves_.b()) & leaves_.lanes_b();
-            for (; lanes != 0; lanes &= lanes - 1) {
-                const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-                const auto kind = triangle_triangle_intersect(leaves_.a(i), leaves_.b().get(lane));
-                if (kind == TriangleContact::none)
-                    continue;
-                contacts.push_back({leaves_.indices(i, lane), kind});
-                if (mode_ == ContactMode::first)
-                    return -1;
-            }
-        }
-        return 0;
+    double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) override {
+        leaves_.set_leaves(leaf_a, leaf_b);
+        const auto add = [&](auto i, auto j, TriangleContact kind) {
+            if (kind != TriangleContact::none)
+                contacts.push_back({leaves_.indices(i, j), kind});
+            return kind == TriangleContact::none || mode_ == ContactMode::all;
+        };
+        const bool go_on =
+            for_each_pair(pairs.cross,
+                          [&](auto i, auto j) { return add(i, j, TriangleContact::cross); }) &&
+            for_each_pair(pairs.may_meet, [&](auto i, auto j) {
+                return add(i, j, triangle_triangle_intersect(leaves_.a(i), leaves_.b(j)));
+            });
+        return go_on ? 0 : -1;
     }
 
     std::vector<Contact> contacts;
 
 private:
     ContactMode mode_;
-    Counters& counters_;
     LeafTriangles leaves_;
 };
 
@@ -43,10 +38,11 @@ private:
 
 std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters) {
     const std::uint64_t exact_before = exact_signs();
-    ContactFinder finder(pair, mode, counters);
+    ContactFinder finder(pair, mode);
     PairTraversal traversal = pair.traversal(0);
-    traverse_depth_first(traversal, finder);
+    traverse_contacts(traversal, finder);
     counters.volume_tests += traversal.volume_tests;
+    counters.primitive_tests += traversal.primitive_tests;
     counters.exact_tests += exact_signs() - exact_before;
     return std::move(finder.contacts);
 }

@@ -1,6 +1,7 @@
 #include <abut/error.h>
 #include <abut/rigid.h>
 
+#include "geometry/triangle_pair_block.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -21,21 +21,37 @@ namespace {
 /// Pairs that cheap bounds do not rule out are collected, and measured eight at a time.
 class NearestPairFinder : public LeafPairVisitor {
 public:
-    NearestPairFinder(const PlacedPair& pair, double bound_sq, bool first, Counters& counters)
-        : first_(first), counters_(counters), leaves_(pair), best_sq_(bound_sq) {}
+    NearestPairFinder(const PlacedPair& pair, double bound_sq, bool first)
+        : first_(first), leaves_(pair), best_sq_(bound_sq) {}
 
-    double visit(NodeRef leaf_a, NodeRef leaf_b) override {
-        leaves_.fetch(leaf_a, leaf_b);
-        for (std::uint32_t i = 0; i < leaves_.count_a(); ++i) {
-            counters_.primitive_tests += leaf_b.count();
-            const NearLanes lanes = near_lanes(leaves_.a(i), leaves_.b(), best_sq_);
-            if (find_contact(i, lanes.may_intersect & leaves_.lanes_b()))
-                return -1;
-            collect(i, lanes.may_be_near & leaves_.lanes_b());
-            if (found_ && first_)
-                return -1;
-        }
-        return best_sq_;
+    double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) override {
+        leaves_.set_leaves(leaf_a, leaf_b);
+        const auto take_contact = [&](auto i, auto j) {
+            best_ = {leaves_.a(i), leaves_.b(j), leaves_.indices(i, j)};
+            found_ = contact_ = true;
+            return false;
+        };
+        const bool apart = for_each_pair(pairs.cross, take_contact) &&
+                           for_each_pair(pairs.may_meet, [&](auto i, auto j) {
+                               return triangle_triangle_intersect(leaves_.a(i), leaves_.b(j)) ==
+                                          TriangleContact::none ||
+                                      take_contact(i, j);
+                           });
+        if (!apart)
+            return -1;
+        for_each_pair(pairs.may_meet | pairs.may_be_near, [&](auto i, auto j) {
+            block_.set(collected_, leaves_.a(i), leaves_.b(j));
+            indices_[collected_] = leaves_.indices(i, j);
+            if (++collected_ == TrianglePairBlock::kLanes)
+                measure();
+            return true;
+        });
+        return found_ && first_ ? -1 : best_sq_;
+    }
+
+    [[nodiscard]] Vec3 direction() const override {
+        const ClosestPoints points = triangle_triangle_distance(best_.a, best_.b);
+        return normalized_or_zero(points.b - points.a);
     }
 
     /// Measures what is left. Call it after the traversal.
@@ -63,29 +79,6 @@ private:
         TrianglePair indices;
     };
 
-    bool find_contact(std::uint32_t i, std::uint32_t lanes) {
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-            if (triangle_triangle_intersect(leaves_.a(i), leaves_.b().get(lane)) ==
-                TriangleContact::none)
-                continue;
-            best_ = {leaves_.a(i), leaves_.b().get(lane), leaves_.indices(i, lane)};
-            found_ = contact_ = true;
-            return true;
-        }
-        return false;
-    }
-
-    void collect(std::uint32_t i, std::uint32_t lanes) {
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-            block_.set(collected_, leaves_.a(i), leaves_.b(), lane);
-            indices_[collected_] = leaves_.indices(i, lane);
-            if (++collected_ == TrianglePairBlock::kLanes)
-                measure();
-        }
-    }
-
     void measure() {
         if (collected_ == 0)
             return;
@@ -97,17 +90,12 @@ private:
             const auto lane = static_cast<std::size_t>(nearest - lanes_sq);
             found_ = true;
             best_sq_ = *nearest;
-            for (std::size_t k = 0; k < 3; ++k) {
-                best_.a[k] = {block_.a[k][0][lane], block_.a[k][1][lane], block_.a[k][2][lane]};
-                best_.b[k] = {block_.b[k][0][lane], block_.b[k][1][lane], block_.b[k][2][lane]};
-            }
-            best_.indices = indices_[lane];
+            best_ = {block_.get_a(lane), block_.get_b(lane), indices_[lane]};
         }
         collected_ = 0;
     }
 
     bool first_;
-    Counters& counters_;
     LeafTriangles leaves_;
     double best_sq_;
     bool found_ = false, contact_ = false;
@@ -126,10 +114,9 @@ void require_bound(double bound, const char* what) {
 
 Gap distance(const PlacedPair& pair, double upper_bound) {
     const std::uint64_t exact_before = exact_signs();
-    Counters counters;
-    NearestPairFinder finder(pair, upper_bound * upper_bound, false, counters);
+    NearestPairFinder finder(pair, upper_bound * upper_bound, false);
     PairTraversal traversal = pair.traversal(upper_bound * upper_bound);
-    traverse_best_first(traversal, finder);
+    traverse_nearest(traversal, finder);
     finder.finish();
     Gap gap;
     if (finder.found()) {
@@ -138,9 +125,8 @@ Gap distance(const PlacedPair& pair, double upper_bound) {
         gap.distance = upper_bound;
         gap.status = Status::bound_only;
     }
-    counters.volume_tests = traversal.volume_tests;
-    counters.exact_tests = exact_signs() - exact_before;
-    gap.counters = counters;
+    gap.counters = {traversal.volume_tests, traversal.primitive_tests,
+                    exact_signs() - exact_before};
     return gap;
 }
 
@@ -154,11 +140,9 @@ bool within(const Model& a, const Transform& world_from_a, const Model& b,
             const Transform& world_from_b, double tolerance) {
     require_bound(tolerance, "tolerance");
     const PlacedPair pair(a, world_from_a, b, world_from_b);
-    Counters counters;
-    NearestPairFinder finder(pair, tolerance * tolerance, true, counters);
+    NearestPairFinder finder(pair, tolerance * tolerance, true);
     PairTraversal traversal = pair.traversal(tolerance * tolerance);
-    traversal.accept_early = true;
-    if (traverse_depth_first(traversal, finder) != Verdict::done)
+    if (traverse_within(traversal, finder) != Verdict::done)
         return true;
     finder.finish();
     return finder.found();

@@ -5,44 +5,71 @@
 #include "rigid/model_data.h"
 #include "rigid/tree_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut {
 
+namespace {
+
+/// The power of two that brings half a box to 1 or a little less; within what single precision
+/// can square.
+double scale_of(const Box3& box) {
+    const Vec3 half = is_empty(box) ? Vec3{} : 0.5 * (box.upper - box.lower);
+    const double size = std::max({half.x, half.y, half.z});
+    return size > 0 ? std::ldexp(1, std::clamp(std::ilogb(size) + 1, -30, 62)) : 1;
+}
+
+/// In: a rotation times the scale, and an origin.
+std::vector<Vec3> tree_positions(const Mesh& mesh, const Transform& model_from_tree, double scale) {
+    const auto& f = model_from_tree.m;
+    const Vec3 origin{f[9], f[10], f[11]};
+    const double factor = 1 / (scale * scale); // the inverse of s R is R^T / s = (s R)^T / s^2
+    std::vector<Vec3> result(mesh.positions.size());
+    parallel_for(mesh.positions.size(), 8192, [&](std::size_t i) {
+        const Vec3 d = factor * (mesh.positions[i] - origin);
+        result[i] = {f[0] * d.x + f[1] * d.y + f[2] * d.z, f[3] * d.x + f[4] * d.y + f[5] * d.z,
+                     f[6] * d.x + f[7] * d.y + f[8] * d.z};
+    });
+    return result;
+}
+
+} // namespace
+
 ModelData::ModelData(Mesh mesh) : mesh_(std::move(mesh)) {
     require_valid(mesh_);
-    model_from_tree_ = choose_tree_frame(mesh_);
-    const Transform& f = model_from_tree_;
-    const Vec3 origin{f.m[9], f.m[10], f.m[11]};
-    const auto to_tree = [&](const Vec3& p) {
-        const Vec3 d = p - origin;
-        return Vec3{f.m[0] * d.x + f.m[1] * d.y + f.m[2] * d.z,
-                    f.m[3] * d.x + f.m[4] * d.y + f.m[5] * d.z,
-                    f.m[6] * d.x + f.m[7] * d.y + f.m[8] * d.z};
-    };
-    std::vector<Aabb> boxes(mesh_.triangles.size());
-    parallel_for(boxes.size(), 2048, [&](std::size_t i) {
-        Box3 box;
-        double size = 0;
-        for (const std::uint32_t v : mesh_.triangles[i]) {
-            const Vec3& p = mesh_.positions[v];
-            extend(box, to_tree(p));
-            const Vec3 d = p - origin;
-            size = std::max({size, std::abs(d.x) + std::abs(d.y) + std::abs(d.z),
-                             std::abs(p.x) + std::abs(p.y) + std::abs(p.z)});
-        }
-        // A subtraction, a rounded rotation and three products and sums, each term below `size`.
-        boxes[i] = Aabb(box, 8 * 0x1p-53 * size);
-    });
-    tree_ = build_tree(boxes);
-    slots_.resize(mesh_.triangles.size());
+    Box3 bounds;
+    for (const auto& t : mesh_.triangles)
+        for (const std::uint32_t v : t)
+            extend(bounds, mesh_.positions[v]);
+    const double scale = scale_of(bounds);
+    model_from_tree_ = choose_tree_frame(mesh_, bounds);
+    for (std::size_t i = 0; i < 9; ++i)
+        model_from_tree_.m[i] *= scale;
+    tree_ = build_tree(TreeMesh{tree_positions(mesh_, model_from_tree_, scale), mesh_.triangles});
+    sort_vertices();
+}
+
+void ModelData::sort_vertices() {
+    constexpr std::uint32_t kNone = ~0U;
+    std::vector<std::uint32_t> sorted(mesh_.positions.size(), kNone);
+    vertices_.reserve(mesh_.positions.size());
+    slots_.resize(tree_.order.size());
     for (std::size_t slot = 0; slot < slots_.size(); ++slot)
-        slots_[slot] = mesh_.triangles[tree_.order[slot]];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = mesh_.triangles[tree_.order[slot]][k];
+            if (sorted[vertex] == kNone) {
+                sorted[vertex] = static_cast<std::uint32_t>(vertices_.size());
+                vertices_.push_back(mesh_.positions[vertex]);
+            }
+            slots_[slot][k] = sorted[vertex];
+        }
 }
 
 std::size_t ModelData::bytes() const {
-    return mesh_.positions.size() * sizeof(Vec3) + mesh_.triangles.size() * sizeof(slots_[0]) +
-           slots_.size() * sizeof(slots_[0]) + tree_.bytes();
+    return mesh_.positions.size() * sizeof(Vec3) +
+           mesh_.triangles.size() * sizeof(mesh_.triangles[0]) + tree_.bytes() +
+           vertices_.size() * sizeof(Vec3) + slots_.size() * sizeof(slots_[0]);
 }
 
 Model::Model(Mesh mesh) : data_(std::make_shared<const ModelData>(std::move(mesh))) {}

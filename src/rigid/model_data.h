@@ -21,23 +21,28 @@ public:
 
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }
-    /// Rigid to rounding.
+    /// Rigid to rounding, and a power of two in scale: the tree is about as large as 1.
     [[nodiscard]] const Transform& model_from_tree() const { return model_from_tree_; }
     /// Mesh index of the triangle in a slot of the tree.
     [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const { return tree_.order[slot]; }
     /// World position of the triangle in a slot, by the formula of abut/types.h.
     [[nodiscard]] Triangle world_triangle(std::uint32_t slot, const Transform& world) const {
         const auto& t = slots_[slot];
-        return {apply(world, mesh_.positions[t[0]]), apply(world, mesh_.positions[t[1]]),
-                apply(world, mesh_.positions[t[2]])};
+        return {apply(world, vertices_[t[0]]), apply(world, vertices_[t[1]]),
+                apply(world, vertices_[t[2]])};
     }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    void sort_vertices();
+
     Mesh mesh_;
     Transform model_from_tree_;
     Tree tree_;
-    std::vector<std::array<std::uint32_t, 3>> slots_; ///< triangles in the order of the leaves
+    /// Copies of positions and triangles in the order of the leaves: what is near in space is near
+    /// in memory.
+    std::vector<Vec3> vertices_;
+    std::vector<std::array<std::uint32_t, 3>> slots_;
 };
 
 } // namespace abut

@@ -34,7 +34,7 @@ public:
     void search(std::span<const std::uint32_t> starts, const PenetrationOptions& options) {
         for (const std::uint32_t vertex : starts)
             try_point(surface_.world_vertex(vertex));
-        evaluate_box(NodeRef::node(0), surface_.model().tree().bounds);
+        evaluate_box(NodeRef::node(0), surface_.model().tree().bounds, {});
         while (!pieces_.empty()) {
             const Piece piece = pieces_.top();
             if (piece.at_most <= depth * (1 + options.relative_accuracy))
@@ -67,18 +67,20 @@ private:
         }
         const Node& node = tree.nodes[ref.index()];
         for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
-            evaluate_box(node.child[i], node.box(i));
+            evaluate_box(node.child[i], node.box(i), node.frame);
     }
 
     /// Depth changes no faster than the point moves: what holds in the middle bounds the whole box.
-    void evaluate_box(NodeRef ref, const Aabb& box) {
+    void evaluate_box(NodeRef ref, const Aabb& box, const NodeFrame& frame) {
         ++evaluations_;
         Vec3 middle{0.5 * box.lower[0] + 0.5 * box.upper[0],
                     0.5 * box.lower[1] + 0.5 * box.upper[1],
                     0.5 * box.lower[2] + 0.5 * box.upper[2]};
         const Vec3 corner = Vec3{box.upper[0], box.upper[1], box.upper[2]} - middle;
-        const double radius = surface_.most_stretch() * length(corner) * (1 + 0x1p-20);
-        middle = apply(surface_.world_from_tree(), middle);
+        // The frame's axes are at right angles to a few parts in 2^24.
+        const double radius = surface_.most_stretch() *
+                              (length(corner) + 0x1p-20 * (length(corner) + length(middle)));
+        middle = apply(surface_.world_from_tree(), frame.point_to_tree(middle));
         PlacedSolid::Nearest nearest = solid_.nearest(middle, radius);
         const bool inside = solid_.contains_off_surface(middle);
         if (!inside && nearest.distance >= radius)

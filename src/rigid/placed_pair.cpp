@@ -33,19 +33,4 @@ PlacedPair::PlacedPair(const Model& a, const Transform& world_from_a, const Mode
     }
 }
 
-void LeafTriangles::fetch(NodeRef leaf_a, NodeRef leaf_b) {
-    if (leaf_a.first() != first_a_) {
-        first_a_ = leaf_a.first(), count_a_ = leaf_a.count();
-        for (std::uint32_t i = 0; i < count_a_; ++i)
-            a_[i] = pair_.a().world_triangle(first_a_ + i, pair_.world_from_a());
-    }
-    if (leaf_b.first() != first_b_) {
-        first_b_ = leaf_b.first(), count_b_ = leaf_b.count();
-        for (std::uint32_t lane = 0; lane < TriangleBlock::kLanes; ++lane)
-            b_.set(lane, lane < count_b_
-                             ? pair_.b().world_triangle(first_b_ + lane, pair_.world_from_b())
-                             : b_.get(0));
-    }
-}
-
 } // namespace abut

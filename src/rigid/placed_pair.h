@@ -3,11 +3,12 @@
 #include <abut/model.h>
 #include <abut/rigid.h>
 
-#include "geometry/triangle_block.h"
+#include "geometry/triangle_leaf.h"
 #include "rigid/model_data.h"
 #include "tree/traverse_pair.h"
 
-#include <optional>
+#include <array>
+#include <bit>
 
 namespace abut {
 
@@ -35,28 +36,51 @@ private:
     PairFrame frame_;
 };
 
-/// The world triangles of two leaves, fetched only when a leaf changes.
+/// The world triangles of two leaves, computed when they are asked for.
 class LeafTriangles {
 public:
     explicit LeafTriangles(const PlacedPair& pair) : pair_(pair) {}
 
-    void fetch(NodeRef leaf_a, NodeRef leaf_b);
-    [[nodiscard]] std::uint32_t count_a() const { return count_a_; }
-    [[nodiscard]] const Triangle& a(std::uint32_t i) const { return a_[i]; }
-    [[nodiscard]] const TriangleBlock& b() const { return b_; }
-    /// One bit for each triangle of b.
-    [[nodiscard]] std::uint32_t lanes_b() const { return (1U << count_b_) - 1; }
-    /// Mesh indices of triangle i of a and of lane j of b.
+    void set_leaves(NodeRef leaf_a, NodeRef leaf_b) {
+        if (leaf_a.first() != first_a_)
+            first_a_ = leaf_a.first(), known_a_ = 0;
+        if (leaf_b.first() != first_b_)
+            first_b_ = leaf_b.first(), known_b_ = 0;
+    }
+    const Triangle& a(std::uint32_t i) {
+        if ((known_a_ >> i & 1U) == 0)
+            a_[i] = pair_.a().world_triangle(first_a_ + i, pair_.world_from_a());
+        known_a_ |= 1U << i;
+        return a_[i];
+    }
+    const Triangle& b(std::uint32_t j) {
+        if ((known_b_ >> j & 1U) == 0)
+            b_[j] = pair_.b().world_triangle(first_b_ + j, pair_.world_from_b());
+        known_b_ |= 1U << j;
+        return b_[j];
+    }
+    /// Mesh indices of triangle i of a and j of b.
     [[nodiscard]] TrianglePair indices(std::uint32_t i, std::uint32_t j) const {
         return {pair_.a().triangle_at(first_a_ + i), pair_.b().triangle_at(first_b_ + j)};
     }
 
 private:
     const PlacedPair& pair_;
-    std::uint32_t first_a_ = ~0U, first_b_ = ~0U, count_a_ = 0, count_b_ = 0;
-    std::array<Triangle, TriangleBlock::kLanes> a_;
-    TriangleBlock b_{};
+    std::uint32_t first_a_ = ~0U, first_b_ = ~0U, known_a_ = 0, known_b_ = 0;
+    std::array<Triangle, TriangleLeaf::kLanes> a_, b_;
 };
+
+/// Calls body(i, j) for each pair in a set of LeafPairs, until it returns false. Whether it never
+/// did.
+template <typename Body>
+bool for_each_pair(std::uint32_t pairs, const Body& body) {
+    for (; pairs != 0; pairs &= pairs - 1) {
+        const auto bit = static_cast<std::uint32_t>(std::countr_zero(pairs));
+        if (!body(bit / TriangleLeaf::kLanes, bit % TriangleLeaf::kLanes))
+            return false;
+    }
+    return true;
+}
 
 /// As the public query, for a pair placed already.
 Gap distance(const PlacedPair& pair, double upper_bound);

@@ -40,8 +40,8 @@ PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform
     reach_ = most_stretch_ * 2 * half;
     const double world_size = std::abs(world_from_tree_.m[9]) + std::abs(world_from_tree_.m[10]) +
                               std::abs(world_from_tree_.m[11]) + reach_;
-    // Rounding of a point on its way to single precision in the tree's frame, ray ends included.
-    margin_ = 32 * 0x1p-24 * 4 * half + 64 * 0x1p-53 * world_size / least_stretch_;
+    // Rounding of a point on its way to single precision in a node's frame, ray ends included.
+    margin_ = 64 * 0x1p-24 * 4 * half + 64 * 0x1p-53 * world_size / least_stretch_;
     const auto& m = world_from_model.m;
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
 }

@@ -92,11 +92,7 @@ double summed_box_area(const std::vector<Triangle>& triangles, const Axes& axes)
 
 } // namespace
 
-Transform choose_tree_frame(const Mesh& mesh) {
-    Box3 bounds;
-    for (const auto& t : mesh.triangles)
-        for (const std::uint32_t v : t)
-            extend(bounds, mesh.positions[v]);
+Transform choose_tree_frame(const Mesh& mesh, const Box3& bounds) {
     if (is_empty(bounds))
         return {};
     const Vec3 origin = 0.5 * bounds.lower + 0.5 * bounds.upper;

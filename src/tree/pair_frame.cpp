@@ -28,26 +28,27 @@ double translation_reach(const Transform& t) {
 }
 
 /// `world_size` bounds all world coordinates in play.
-FrameMap make_map(const Transform& to_from, const Tree& to, const Transform& world_from_to,
-                  const Tree& from, double world_size) {
-    FrameMap map{};
-    for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t column = 0; column < 3; ++column) {
+TreeMap make_map(const Transform& to_from, const Transform& world_from_to, double world_size) {
+    TreeMap map;
+    map.to_from = to_from;
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 3; ++column)
             map.linear[row][column] = static_cast<float>(to_from.m[3 * column + row]);
-            map.magnitude[row][column] = std::abs(map.linear[row][column]);
-        }
-        map.translation[row] = static_cast<float>(to_from.m[9 + row]);
-    }
-    // Single precision: sums of at most 8 rounded terms, each below `size`. Double: the composed
-    // transforms and the world positions, as if all error fell on one axis.
+    map.row_sum = round_up(largest_row_sum(to_from));
+    // The composed transforms and the positions in the world and in the trees' frames, as if all
+    // error fell on one axis.
     const double least = least_stretch(world_from_to), most = most_stretch(world_from_to);
-    const double size =
-        largest_row_sum(to_from) * reach(from) + translation_reach(to_from) + reach(to);
-    map.margin = round_up(16 * 0x1p-24 * size + 64 * 0x1p-53 * world_size / least);
-    // Squares are summed and compared in single precision too: a few parts in 2^24.
-    map.stretch_sq = round_down(least * least * (1 - 8 * 0x1p-24));
-    map.most_stretch_sq = round_up(most * most * (1 + 8 * 0x1p-24));
+    map.margin = round_up(64 * 0x1p-53 * world_size / least);
+    // Nodes' axes are of unit length to a few parts in 2^24; squares are summed and compared in
+    // single precision too.
+    map.stretch_sq = round_down(least * least * (1 - 64 * 0x1p-24));
+    map.most_stretch_sq = round_up(most * most * (1 + 64 * 0x1p-24));
     return map;
+}
+
+/// No two points of the trees are farther apart, on each axis of a's frame.
+double reach_between(const Tree& a, const Tree& b, const Transform& a_from_b) {
+    return reach(a) + translation_reach(a_from_b) + largest_row_sum(a_from_b) * reach(b);
 }
 
 } // namespace
@@ -55,18 +56,21 @@ FrameMap make_map(const Transform& to_from, const Tree& to, const Transform& wor
 PairFrame make_pair_frame(const Tree& a, const Transform& world_from_a, const Tree& b,
                           const Transform& world_from_b) {
     PairFrame frame;
+    frame.world_from_a = world_from_a;
     const Transform a_from_b = compose(inverse(world_from_a), world_from_b);
     const Transform b_from_a = compose(inverse(world_from_b), world_from_a);
     const double world_size =
         translation_reach(world_from_a) + largest_row_sum(world_from_a) * reach(a) +
         translation_reach(world_from_b) + largest_row_sum(world_from_b) * reach(b);
-    frame.a_from_b = make_map(a_from_b, a, world_from_a, b, world_size);
-    frame.b_from_a = make_map(b_from_a, b, world_from_b, a, world_size);
-    const auto usable = [](const FrameMap& m) {
+    frame.a_from_b = make_map(a_from_b, world_from_a, world_size);
+    frame.b_from_a = make_map(b_from_a, world_from_b, world_size);
+    const double reach = reach_between(a, b, a_from_b);
+    frame.reach_sq = round_up(4 * reach * reach * double{frame.a_from_b.most_stretch_sq});
+    const auto usable = [](const TreeMap& m) {
         // Margins and stretches that are not numbers, or too small to square, prune wrongly or
         // nothing.
         return std::isfinite(m.margin) && std::isfinite(m.most_stretch_sq) &&
-               m.stretch_sq > 0x1p-100F;
+               std::isfinite(m.row_sum) && m.stretch_sq > 0x1p-100F;
     };
     frame.valid = usable(frame.a_from_b) && usable(frame.b_from_a);
     return frame;

@@ -1,31 +1,55 @@
 #pragma once
 
+#include "geometry/triangle_leaf.h"
 #include "math/transform.h"
 #include "tree/tree.h"
 
+#include <array>
+
 namespace abut {
 
-/// How the boxes of one tree appear in another's frame, in single precision, with what that may be
-/// off by.
-struct FrameMap {
-    float linear[3][3];    ///< [row][column]
-    float magnitude[3][3]; ///< |linear|, for half extents
-    float translation[3];
-    float margin = 0;     ///< added to every gap's rounding: a gap is real beyond this
+/// How the boxes of one node's frame appear in another's, in single precision, with what that may
+/// be off by: a gap is real beyond the margin.
+struct FrameMap : LeafPlacement {
+    std::array<std::array<float, 4>, 3> magnitude{}; ///< |linear|, for half extents
     float stretch_sq = 0; ///< a squared gap in the target frame is at least this times larger in
                           ///< the world (or equal)
     float most_stretch_sq = 0; ///< and at most this times
+
+    [[nodiscard]] std::array<float, 3> point(const std::array<float, 3>& p) const {
+        std::array<float, 3> r{};
+        for (std::size_t i = 0; i < 3; ++i)
+            r[i] = linear[i][0] * p[0] + linear[i][1] * p[1] + linear[i][2] * p[2] + translation[i];
+        return r;
+    }
+    [[nodiscard]] std::array<float, 3> half_extents(const std::array<float, 3>& h) const {
+        std::array<float, 3> r{};
+        for (std::size_t i = 0; i < 3; ++i)
+            r[i] = magnitude[i][0] * h[0] + magnitude[i][1] * h[1] + magnitude[i][2] * h[2];
+        return r;
+    }
+};
+
+/// The map between two trees' frames.
+struct TreeMap {
+    Transform to_from{};
+    std::array<std::array<float, 3>, 3> linear{}; ///< of to_from: [row][column]
+    float margin = 0;     ///< rounding of double precision, on each axis of the target
+    float row_sum = 0;    ///< largest sum of a row's magnitudes
+    float stretch_sq = 0; ///< as FrameMap's
+    float most_stretch_sq = 0;
 };
 
 /// Two trees under their transforms: what a traversal of the pair needs to know.
 struct PairFrame {
-    FrameMap a_from_b{}; ///< takes b's boxes to a's frame
-    FrameMap b_from_a{};
+    TreeMap a_from_b, b_from_a;
+    Transform world_from_a{};
+    float reach_sq = 0; ///< no two points of the trees are farther apart, squared, in the world
     bool valid = false; ///< false: a transform is singular and has no frame to compare in
 };
 
-/// Accuracy    the margins cover all rounding: of composing the transforms, of the world positions
-///             that the exact kernels see, and of the traversal's single precision.
+/// Accuracy    the margins cover all rounding: of the trees, of composing the transforms, and of
+///             the world positions that the exact kernels see.
 PairFrame make_pair_frame(const Tree& a, const Transform& world_from_a, const Tree& b,
                           const Transform& world_from_b);
 

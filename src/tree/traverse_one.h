@@ -20,7 +20,8 @@ void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit);
 /// by.
 struct TreeSegment {
     std::array<float, 3> middle, half;
-    float margin; ///< at least the error of each coordinate, in the tree's units
+    float margin; ///< at least the error of each coordinate in the frame of any node, in the
+                  ///< tree's units
 };
 
 /// Calls visit(slot) for every primitive whose leaf's box may meet the segment.
@@ -37,6 +38,27 @@ void for_each_near(const Tree& tree, const std::array<float, 3>& point, float ma
 namespace traverse_one {
 
 using Hits = std::array<bool, Node::kWidth>;
+
+/// Box in a node's frame that holds a box of the tree's frame. The same box where the frames are
+/// the same.
+inline Aabb in_frame(const Aabb& box, const NodeFrame& frame) {
+    Aabb result;
+    for (std::size_t i = 0; i < 3; ++i) {
+        float lower = 0, upper = 0, size = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float a = frame.turn[k][i], low = box.lower[k] - frame.origin[k],
+                        high = box.upper[k] - frame.origin[k];
+            lower += a >= 0 ? a * low : a * high;
+            upper += a >= 0 ? a * high : a * low;
+            if (frame.turned)
+                size +=
+                    std::abs(box.lower[k]) + std::abs(box.upper[k]) + 2 * std::abs(frame.origin[k]);
+        }
+        result.lower[i] = lower - 0x1p-20F * size;
+        result.upper[i] = upper + 0x1p-20F * size;
+    }
+    return result;
+}
 
 /// Descends wherever `test(node)` marks a child.
 template <typename Test, typename Visit>
@@ -67,12 +89,12 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
 template <typename Visit>
 void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
     const auto test = [&](const Node& node) {
+        const Aabb q = traverse_one::in_frame(query, node.frame);
         traverse_one::Hits hits;
         for (std::size_t i = 0; i < Node::kWidth; ++i)
-            hits[i] =
-                bool((node.lower[0][i] <= query.upper[0]) & (query.lower[0] <= node.upper[0][i]) &
-                     (node.lower[1][i] <= query.upper[1]) & (query.lower[1] <= node.upper[1][i]) &
-                     (node.lower[2][i] <= query.upper[2]) & (query.lower[2] <= node.upper[2][i]));
+            hits[i] = bool((node.lower[0][i] <= q.upper[0]) & (q.lower[0] <= node.upper[0][i]) &
+                           (node.lower[1][i] <= q.upper[1]) & (q.lower[1] <= node.upper[1][i]) &
+                           (node.lower[2][i] <= q.upper[2]) & (q.lower[2] <= node.upper[2][i]));
         return hits;
     };
     traverse_one::descend(tree, test, visit);
@@ -80,10 +102,10 @@ void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
 
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit) {
-    const auto& m = segment.middle;
-    const auto& e = segment.half;
-    const std::array<float, 3> reach{std::abs(e[0]), std::abs(e[1]), std::abs(e[2])};
     const auto test = [&](const Node& node) {
+        const std::array<float, 3> m = node.frame.point_from_tree(segment.middle),
+                                   e = node.frame.vector_from_tree(segment.half);
+        const std::array<float, 3> reach{std::abs(e[0]), std::abs(e[1]), std::abs(e[2])};
         traverse_one::Hits hits;
         for (std::size_t i = 0; i < Node::kWidth; ++i) {
             std::array<float, 3> c{}, h{};
@@ -129,12 +151,12 @@ void for_each_near(const Tree& tree, const std::array<float, 3>& point, float ma
             continue;
         }
         const Node& node = tree.nodes[ref.index()];
+        const std::array<float, 3> p = node.frame.point_from_tree(point);
         std::array<float, Node::kWidth> distance_sq{};
         for (std::size_t k = 0; k < 3; ++k)
             for (std::size_t i = 0; i < Node::kWidth; ++i) {
                 const float gap = std::max(
-                    0.0F,
-                    std::max(node.lower[k][i] - point[k], point[k] - node.upper[k][i]) - margin);
+                    0.0F, std::max(node.lower[k][i] - p[k], p[k] - node.upper[k][i]) - margin);
                 distance_sq[i] += gap * gap;
             }
         for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)

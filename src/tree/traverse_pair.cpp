@@ -12,42 +12,48 @@
 #include "simd/foreach_target.h"
 #include "simd/simd.h"
 
-// What the targets share. Two boxes still to be looked at: a child is named by 8 * node + lane, the
-// root by kRoot.
+// What the targets share. A child is named by 8 * node + lane, the root by kRoot.
 #ifndef ABUT_TREE_TRAVERSE_PAIR_ONCE
 #define ABUT_TREE_TRAVERSE_PAIR_ONCE
 namespace abut::traverse_pair {
 
 constexpr std::uint32_t kRoot = 0xffffffffU;
+/// Where one box has so many times the surface of the other, it is opened alone.
+constexpr float kUnlike = 4;
 
+enum class Mode : std::uint8_t { contacts, within, nearest };
+
+/// Two boxes still to be looked at.
 struct BoxPair {
     std::uint32_t a, b;
     float bound_sq; ///< lower bound of the squared distance
 };
-
-using BoxPairs = boost::container::small_vector<BoxPair, 512>;
+using BoxPairs = boost::container::small_vector<BoxPair, 256>;
 
 inline NodeRef ref_of(const Tree& tree, std::uint32_t name) {
     return name == kRoot ? NodeRef::node(0)
                          : tree.nodes[name / Node::kWidth].child[name % Node::kWidth];
 }
-inline Aabb box_of(const Tree& tree, std::uint32_t name) {
-    return name == kRoot ? tree.bounds : tree.nodes[name / Node::kWidth].box(name % Node::kWidth);
-}
 
-/// No two points of the trees are farther apart.
-inline float reach_sq(const PairTraversal& t) {
-    const FrameMap& m = t.frame.a_from_b;
-    float sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        float reach = std::abs(m.translation[i]) + m.margin +
-                      std::max(std::abs(t.a.bounds.lower[i]), std::abs(t.a.bounds.upper[i]));
-        for (std::size_t k = 0; k < 3; ++k)
-            reach += m.magnitude[i][k] *
-                     std::max(std::abs(t.b.bounds.lower[k]), std::abs(t.b.bounds.upper[k]));
-        sum += reach * reach;
+/// A box by its middle and half extents, in the frame of a node.
+struct MiddleBox {
+    std::array<float, 3> centre{}, half{};
+
+    MiddleBox() = default;
+    explicit MiddleBox(const Aabb& box) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            centre[i] = 0.5F * (box.lower[i] + box.upper[i]);
+            half[i] = 0.5F * (box.upper[i] - box.lower[i]);
+        }
     }
-    return sum * m.most_stretch_sq;
+};
+
+/// A direction as seen in a frame: its product with a vector there is the vector's length along it
+/// in the world.
+using Covector = std::array<float, 3>;
+
+inline float reach_along(const Covector& n, const std::array<float, 3>& half) {
+    return std::abs(n[0]) * half[0] + std::abs(n[1]) * half[1] + std::abs(n[2]) * half[2];
 }
 
 } // namespace abut::traverse_pair
@@ -59,9 +65,60 @@ namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using traverse_pair::BoxPair;
 using traverse_pair::BoxPairs;
+using traverse_pair::Covector;
+using traverse_pair::MiddleBox;
+using traverse_pair::Mode;
 
 using D = hn::CappedTag<float, Node::kWidth>;
 using V = hn::Vec<D>;
+
+// x_to = A_to (M (A_from^T x_from + o_from) + t - o_to), A the nodes' rotations. What the origins
+// cancel is computed in double, so that the error is relative to the nodes and their distance.
+HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& from,
+                              FrameMap& map) {
+    float turned[3][4]; // M A_from^T
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+            turned[i][k] = trees.linear[i][0] * from.frame.turn[0][k] +
+                           trees.linear[i][1] * from.frame.turn[1][k] +
+                           trees.linear[i][2] * from.frame.turn[2][k];
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            map.linear[i][k] = to.frame.turn[0][i] * turned[0][k] +
+                               to.frame.turn[1][i] * turned[1][k] +
+                               to.frame.turn[2][i] * turned[2][k];
+            map.magnitude[i][k] = std::abs(map.linear[i][k]);
+        }
+    const auto& m = trees.to_from.m;
+    const std::array<double, 3> o{from.frame.origin[0], from.frame.origin[1], from.frame.origin[2]};
+    float d[3];
+    for (std::size_t i = 0; i < 3; ++i)
+        d[i] = static_cast<float>(m[i] * o[0] + m[3 + i] * o[1] + m[6 + i] * o[2] + m[9 + i] -
+                                  double{to.frame.origin[i]});
+    map.translation = to.frame.vector_from_tree({d[0], d[1], d[2]});
+    const float size = to.reach + 2 * trees.row_sum * from.reach +
+                       2 * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
+    map.margin = 16 * 0x1p-24F * size + trees.margin;
+    map.stretch_sq = trees.stretch_sq;
+    map.most_stretch_sq = trees.most_stretch_sq;
+}
+
+/// Two nodes to each other, p of a and q of b.
+struct NodePair {
+    FrameMap p_from_q, q_from_p;
+    Covector n_p{}, n_q{}; ///< the direction, from a to b
+
+    HWY_INLINE NodePair(const PairFrame& frame, const Node& p, const Node& q, const Covector* n_a) {
+        between_nodes(frame.a_from_b, p, q, p_from_q);
+        between_nodes(frame.b_from_a, q, p, q_from_p);
+        if (n_a == nullptr)
+            return;
+        n_p = p.frame.vector_from_tree(*n_a);
+        for (std::size_t i = 0; i < 3; ++i)
+            n_q[i] = p_from_q.linear[0][i] * n_p[0] + p_from_q.linear[1][i] * n_p[1] +
+                     p_from_q.linear[2][i] * n_p[2];
+    }
+};
 
 HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
     std::uint8_t bits[8] = {};
@@ -74,57 +131,78 @@ HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
 struct Bounds {
     HWY_ALIGN float lower_sq[Node::kWidth];
     HWY_ALIGN float gap[Node::kWidth]; ///< largest on an axis of the node; negative: overlap
-    std::uint32_t used = 0;            ///< there is such a child
     std::uint32_t near = 0;            ///< it may be within the bound
     std::uint32_t accepted = 0;        ///< all of it is within the bound
+
+    template <Mode mode>
+    [[nodiscard]] float lower_bound_sq(std::uint32_t lane) const {
+        return mode == Mode::contacts ? 0 : lower_sq[lane];
+    }
 };
 
-/// The bounds of `box`, given in the other frame, to the children of `node`: the larger of what the
-/// face axes of either frame show. `to_node` takes the box to the node's frame, `to_box` the
-/// children to the box's.
-template <bool with_upper>
-HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap& to_node,
-                               const FrameMap& to_box, float bound_sq, Bounds& bounds) {
+/// How a box and a node's children are to be compared: `to_node` takes the box to the node's frame,
+/// `to_box` the children to the box's; the direction points from the node to the box where `sign`
+/// is 1.
+struct Comparison {
+    const FrameMap& to_node;
+    const FrameMap& to_box;
+    const Covector& n_node;
+    const Covector& n_box;
+    float sign;
+};
+
+/// The bounds of a box to the children of a node: the largest of what the face axes of either frame
+/// show, and the direction.
+template <Mode mode>
+HWY_INLINE void bound_children(const Node& node, const MiddleBox& box, const Comparison& compare,
+                               float bound_sq, Bounds& bounds) {
     const D d;
-    float c[3], h[3], c_node[3], h_node[3];
-    for (int i = 0; i < 3; ++i) {
-        c[i] = 0.5F * (box.lower[i] + box.upper[i]);
-        h[i] = 0.5F * (box.upper[i] - box.lower[i]);
-    }
-    for (int i = 0; i < 3; ++i) {
-        c_node[i] = to_node.linear[i][0] * c[0] + to_node.linear[i][1] * c[1] +
-                    to_node.linear[i][2] * c[2] + to_node.translation[i];
-        h_node[i] = to_node.magnitude[i][0] * h[0] + to_node.magnitude[i][1] * h[1] +
-                    to_node.magnitude[i][2] * h[2];
-    }
+    const FrameMap &to_node = compare.to_node, &to_box = compare.to_box;
+    const std::array<float, 3> c_node = to_node.point(box.centre),
+                               h_node = to_node.half_extents(box.half);
     const auto zero = hn::Zero(d), half = hn::Set(d, 0.5F);
+    const auto margin_node = hn::Set(d, to_node.margin), margin_box = hn::Set(d, to_box.margin);
     for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
         V centre[3], extent[3];
         auto gap_sq = zero, reach_sq = zero;
         auto largest_gap = hn::Set(d, hwy::LowestValue<float>());
         // Node frame: gap = |c - c'| - (h + h') - margin on each axis.
-        for (int i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 3; ++i) {
             const auto lower = hn::Load(d, node.lower[i] + lane),
                        upper = hn::Load(d, node.upper[i] + lane);
             centre[i] = hn::Mul(half, hn::Add(lower, upper));
             extent[i] = hn::Mul(half, hn::Sub(upper, lower));
             const auto apart = hn::Abs(hn::Sub(hn::Set(d, c_node[i]), centre[i]));
             const auto extents = hn::Add(hn::Set(d, h_node[i]), extent[i]);
-            const auto rounded_gap = hn::Sub(apart, extents);
-            largest_gap = hn::Max(largest_gap, rounded_gap);
-            const auto gap = hn::Max(zero, hn::Sub(rounded_gap, hn::Set(d, to_node.margin)));
-            gap_sq = hn::MulAdd(gap, gap, gap_sq);
-            if constexpr (with_upper) {
-                const auto reach = hn::Add(hn::Add(apart, extents), hn::Set(d, to_node.margin));
+            const auto gap = hn::Sub(apart, extents);
+            largest_gap = hn::Max(largest_gap, gap);
+            if constexpr (mode != Mode::contacts) {
+                const auto certain = hn::Max(zero, hn::Sub(gap, margin_node));
+                gap_sq = hn::MulAdd(certain, certain, gap_sq);
+            }
+            if constexpr (mode == Mode::within) {
+                const auto reach = hn::Add(hn::Add(apart, extents), margin_node);
                 reach_sq = hn::MulAdd(reach, reach, reach_sq);
             }
         }
+        // Unused lanes hold an empty box. A bound that is not a number keeps the child.
+        auto near = hn::Le(hn::Load(d, node.lower[0] + lane), hn::Load(d, node.upper[0] + lane));
+        const auto used = near;
         auto lower_sq = hn::Mul(gap_sq, hn::Set(d, to_node.stretch_sq));
+        if constexpr (mode == Mode::contacts) {
+            near = hn::AndNot(hn::Gt(largest_gap, margin_node), near);
+            hn::Store(largest_gap, d, bounds.gap + lane);
+        } else {
+            near = hn::AndNot(hn::Gt(lower_sq, hn::Set(d, bound_sq)), near);
+        }
+        if (hn::AllFalse(d, near))
+            continue;
         // Box frame: the children turned into it.
         gap_sq = zero;
-        for (int i = 0; i < 3; ++i) {
-            const auto* m = to_box.linear[i];
-            const auto* a = to_box.magnitude[i];
+        largest_gap = hn::Set(d, hwy::LowestValue<float>());
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto& m = to_box.linear[i];
+            const auto& a = to_box.magnitude[i];
             const auto c_box =
                 hn::MulAdd(hn::Set(d, m[0]), centre[0],
                            hn::MulAdd(hn::Set(d, m[1]), centre[1],
@@ -133,20 +211,40 @@ HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap
             const auto h_box = hn::MulAdd(
                 hn::Set(d, a[0]), extent[0],
                 hn::MulAdd(hn::Set(d, a[1]), extent[1], hn::Mul(hn::Set(d, a[2]), extent[2])));
-            const auto apart = hn::Abs(hn::Sub(hn::Set(d, c[i]), c_box));
-            const auto gap = hn::Max(zero, hn::Sub(hn::Sub(apart, hn::Add(hn::Set(d, h[i]), h_box)),
-                                                   hn::Set(d, to_box.margin)));
-            gap_sq = hn::MulAdd(gap, gap, gap_sq);
+            const auto apart = hn::Abs(hn::Sub(hn::Set(d, box.centre[i]), c_box));
+            const auto gap = hn::Sub(apart, hn::Add(hn::Set(d, box.half[i]), h_box));
+            if constexpr (mode == Mode::contacts) {
+                largest_gap = hn::Max(largest_gap, gap);
+            } else {
+                const auto certain = hn::Max(zero, hn::Sub(gap, margin_box));
+                gap_sq = hn::MulAdd(certain, certain, gap_sq);
+            }
         }
-        lower_sq = hn::Max(lower_sq, hn::Mul(gap_sq, hn::Set(d, to_box.stretch_sq)));
-        hn::Store(lower_sq, d, bounds.lower_sq + lane);
-        hn::Store(largest_gap, d, bounds.gap + lane);
-        // Unused lanes hold an empty box. A bound that is not a number keeps the child.
-        const auto used =
-            hn::Le(hn::Load(d, node.lower[0] + lane), hn::Load(d, node.upper[0] + lane));
-        bounds.used |= bits_of(d, used) << lane;
-        bounds.near |= bits_of(d, hn::AndNot(hn::Gt(lower_sq, hn::Set(d, bound_sq)), used)) << lane;
-        if constexpr (with_upper)
+        if constexpr (mode == Mode::contacts) {
+            near = hn::AndNot(hn::Gt(largest_gap, margin_box), near);
+        } else {
+            lower_sq = hn::Max(lower_sq, hn::Mul(gap_sq, hn::Set(d, to_box.stretch_sq)));
+        }
+        if constexpr (mode == Mode::nearest) {
+            // n . (c - c') - (reach of either box along n) - margin, in world units.
+            const Covector& n = compare.n_node;
+            auto along = hn::Set(d, n[0] * c_node[0] + n[1] * c_node[1] + n[2] * c_node[2]);
+            auto reach =
+                hn::Set(d, traverse_pair::reach_along(compare.n_box, box.half) +
+                               (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2])) * to_node.margin);
+            for (std::size_t i = 0; i < 3; ++i) {
+                along = hn::NegMulAdd(hn::Set(d, n[i]), centre[i], along);
+                reach = hn::MulAdd(hn::Set(d, std::abs(n[i])), extent[i], reach);
+            }
+            const auto certain = hn::Max(zero, hn::MulSub(hn::Set(d, compare.sign), along, reach));
+            lower_sq = hn::Max(lower_sq, hn::Mul(certain, certain));
+        }
+        if constexpr (mode != Mode::contacts) {
+            near = hn::AndNot(hn::Gt(lower_sq, hn::Set(d, bound_sq)), near);
+            hn::Store(lower_sq, d, bounds.lower_sq + lane);
+        }
+        bounds.near |= bits_of(d, near) << lane;
+        if constexpr (mode == Mode::within)
             bounds.accepted |=
                 bits_of(d,
                         hn::And(used, hn::Le(hn::Mul(reach_sq, hn::Set(d, to_node.most_stretch_sq)),
@@ -155,102 +253,207 @@ HWY_INLINE void bound_children(const Node& node, const Aabb& box, const FrameMap
     }
 }
 
-/// Opens one box of the pair and adds the pairs within the bound. True if the bound is met by whole
-/// boxes.
-template <bool with_upper>
-HWY_INLINE bool open_pair(PairTraversal& t, const BoxPair& pair, float bound_sq,
-                          BoxPairs& pending) {
-    using traverse_pair::box_of;
-    using traverse_pair::ref_of;
-    const NodeRef ref_a = ref_of(t.a, pair.a), ref_b = ref_of(t.b, pair.b);
-    const Aabb box_a = box_of(t.a, pair.a), box_b = box_of(t.b, pair.b);
-    const bool open_a =
-        !ref_a.is_leaf() && (ref_b.is_leaf() || box_a.half_area() > box_b.half_area());
-    const std::uint32_t index = (open_a ? ref_a : ref_b).index();
-    const Node& node = (open_a ? t.a : t.b).nodes[index];
-    Bounds bounds;
-    if (open_a)
-        bound_children<with_upper>(node, box_b, t.frame.a_from_b, t.frame.b_from_a, bound_sq,
-                                   bounds);
-    else
-        bound_children<with_upper>(node, box_a, t.frame.b_from_a, t.frame.a_from_b, bound_sq,
-                                   bounds);
-    t.volume_tests += static_cast<std::uint64_t>(std::popcount(bounds.used));
-    if (with_upper && bounds.accepted != 0)
+/// One traversal of a pair of trees.
+template <Mode mode>
+class PairWalk {
+public:
+    PairWalk(PairTraversal& t, LeafPairVisitor& visitor)
+        : t_(t), visitor_(visitor), bound_sq_(round_up(t.bound_sq)) {}
+
+    Verdict depth_first() {
+        found_.push_back({traverse_pair::kRoot, traverse_pair::kRoot, 0});
+        while (!found_.empty()) {
+            const BoxPair pair = found_.back();
+            found_.pop_back();
+            if (!(pair.bound_sq > bound_sq_) && !step(pair))
+                return verdict_;
+        }
+        return Verdict::done;
+    }
+
+    Verdict nearest_first() {
+        NearFirstQueue<BoxPair> pending(std::min(bound_sq_, t_.frame.reach_sq));
+        pending.push(0, {traverse_pair::kRoot, traverse_pair::kRoot, 0});
+        while (!pending.empty() && !pending.all_above(bound_sq_)) {
+            const BoxPair pair = pending.pop();
+            if (pair.bound_sq > bound_sq_)
+                continue;
+            found_.clear();
+            if (!step(pair))
+                return verdict_;
+            for (const BoxPair& child : found_)
+                pending.push(child.bound_sq, child);
+        }
+        return Verdict::done;
+    }
+
+private:
+    /// Looks at one pair: adds what is near below it to `found_`. False: stop, with a verdict.
+    bool step(const BoxPair& pair) {
+        const NodeRef a = traverse_pair::ref_of(t_.a, pair.a),
+                      b = traverse_pair::ref_of(t_.b, pair.b);
+        const Node& p = t_.a.nodes[a.is_leaf() ? pair.a / Node::kWidth : a.index()];
+        const Node& q = t_.b.nodes[b.is_leaf() ? pair.b / Node::kWidth : b.index()];
+        const NodePair nodes(t_.frame, p, q, has_direction_ ? &direction_ : nullptr);
+        if (a.is_leaf() && b.is_leaf())
+            return visit(nodes, a, b);
+        if (a.is_leaf())
+            return open_b(nodes, pair.a, MiddleBox(p.box(pair.a % Node::kWidth)), b.index());
+        if (b.is_leaf())
+            return open_a(nodes, a.index(), pair.b, MiddleBox(q.box(pair.b % Node::kWidth)));
+        const float area_a = p.bounds.half_area() * stretch_a(), area_b = q.bounds.half_area();
+        if (area_a > traverse_pair::kUnlike * area_b)
+            return open_a(nodes, a.index(), pair.b, MiddleBox(q.bounds));
+        if (area_b > traverse_pair::kUnlike * area_a)
+            return open_b(nodes, pair.a, MiddleBox(p.bounds), b.index());
+        return open_both(nodes, a.index(), b.index());
+    }
+
+    /// Areas of a in the units of b's frame, roughly.
+    [[nodiscard]] float stretch_a() const {
+        return t_.frame.a_from_b.stretch_sq / t_.frame.b_from_a.stretch_sq;
+    }
+
+    bool compare(const Node& node, const MiddleBox& box, const Comparison& comparison,
+                 Bounds& bounds) {
+        bound_children<mode>(node, box, comparison, bound_sq_, bounds);
+        t_.volume_tests += Node::kWidth;
+        if (mode == Mode::within && bounds.accepted != 0) {
+            verdict_ = Verdict::accepted;
+            return false;
+        }
         return true;
-    const auto add = [&](std::uint32_t lane) {
-        const std::uint32_t child = index * Node::kWidth + lane;
-        if (open_a)
-            pending.push_back({child, pair.b, bounds.lower_sq[lane]});
-        else
-            pending.push_back({pair.a, child, bounds.lower_sq[lane]});
-    };
-    // The child that overlaps deepest goes last, and so comes next: a contact is likeliest there.
-    std::uint32_t deepest = Node::kWidth;
-    for (std::uint32_t near = bounds.near; near != 0; near &= near - 1) {
-        auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
-        if (deepest == Node::kWidth || bounds.gap[lane] < bounds.gap[deepest])
-            std::swap(lane, deepest);
-        if (lane != Node::kWidth)
-            add(lane);
     }
-    if (deepest != Node::kWidth)
-        add(deepest);
-    return false;
-}
 
-/// What became of one pair: its leaves visited, or its children added to `found`.
-template <bool with_upper>
-HWY_INLINE bool step(PairTraversal& t, LeafPairVisitor& visitor, const BoxPair& pair,
-                     float& bound_sq, BoxPairs& found, Verdict& verdict) {
-    const NodeRef a = traverse_pair::ref_of(t.a, pair.a), b = traverse_pair::ref_of(t.b, pair.b);
-    if (!a.is_leaf() || !b.is_leaf()) {
-        verdict = Verdict::accepted;
-        return !open_pair<with_upper>(t, pair, bound_sq, found);
+    bool open_a(const NodePair& nodes, std::uint32_t p, std::uint32_t name_b,
+                const MiddleBox& box_b) {
+        Bounds bounds;
+        if (!compare(t_.a.nodes[p], box_b,
+                     {nodes.p_from_q, nodes.q_from_p, nodes.n_p, nodes.n_q, 1}, bounds))
+            return false;
+        return add(bounds, nodes, [&](std::uint32_t lane) {
+            return BoxPair{p * 8 + lane, name_b, bounds.lower_bound_sq<mode>(lane)};
+        });
     }
-    const double new_bound_sq = visitor.visit(a, b);
-    bound_sq = round_up(new_bound_sq);
-    verdict = Verdict::stopped;
-    return new_bound_sq >= 0;
-}
-
-template <bool with_upper>
-Verdict traverse_stack(PairTraversal& t, LeafPairVisitor& visitor) {
-    BoxPairs pending;
-    pending.push_back({traverse_pair::kRoot, traverse_pair::kRoot, 0});
-    float bound_sq = round_up(t.bound_sq);
-    Verdict verdict = Verdict::done;
-    while (!pending.empty()) {
-        const BoxPair pair = pending.back();
-        pending.pop_back();
-        if (!(pair.bound_sq > bound_sq) &&
-            !step<with_upper>(t, visitor, pair, bound_sq, pending, verdict))
-            return verdict;
+    bool open_b(const NodePair& nodes, std::uint32_t name_a, const MiddleBox& box_a,
+                std::uint32_t q) {
+        Bounds bounds;
+        if (!compare(t_.b.nodes[q], box_a,
+                     {nodes.q_from_p, nodes.p_from_q, nodes.n_q, nodes.n_p, -1}, bounds))
+            return false;
+        return add(bounds, nodes, [&](std::uint32_t lane) {
+            return BoxPair{name_a, q * 8 + lane, bounds.lower_bound_sq<mode>(lane)};
+        });
     }
-    return Verdict::done;
-}
-
-Verdict traverse_nearest(PairTraversal& t, LeafPairVisitor& visitor) {
-    float bound_sq = round_up(t.bound_sq);
-    NearFirstQueue<BoxPair> pending(std::min(bound_sq, traverse_pair::reach_sq(t)));
-    pending.push(0, {traverse_pair::kRoot, traverse_pair::kRoot, 0});
-    BoxPairs found;
-    Verdict verdict = Verdict::done;
-    while (!pending.empty() && !pending.all_above(bound_sq)) {
-        const BoxPair pair = pending.pop();
-        if (pair.bound_sq > bound_sq)
-            continue;
-        found.clear();
-        if (!step<false>(t, visitor, pair, bound_sq, found, verdict))
-            return verdict;
-        for (const BoxPair& child : found)
-            pending.push(child.bound_sq, child);
+    bool open_both(const NodePair& nodes, std::uint32_t p, std::uint32_t q) {
+        const Node& node_p = t_.a.nodes[p];
+        const Node& node_q = t_.b.nodes[q];
+        Bounds of_p;
+        if (!compare(node_p, MiddleBox(node_q.bounds),
+                     {nodes.p_from_q, nodes.q_from_p, nodes.n_p, nodes.n_q, 1}, of_p))
+            return false;
+        // The child that overlaps deepest goes last, and so comes next: a contact is likeliest
+        // there.
+        std::uint32_t deepest = Node::kWidth;
+        for (std::uint32_t near = of_p.near; near != 0; near &= near - 1) {
+            auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+            if (mode == Mode::contacts &&
+                (deepest == Node::kWidth || of_p.gap[lane] < of_p.gap[deepest]))
+                std::swap(lane, deepest);
+            if (lane != Node::kWidth &&
+                !open_b(nodes, p * 8 + lane, MiddleBox(node_p.box(lane)), q))
+                return false;
+        }
+        return deepest == Node::kWidth ||
+               open_b(nodes, p * 8 + deepest, MiddleBox(node_p.box(deepest)), q);
     }
-    return Verdict::done;
-}
 
-Verdict depth_first(PairTraversal& t, LeafPairVisitor& visitor) {
-    return t.accept_early ? traverse_stack<true>(t, visitor) : traverse_stack<false>(t, visitor);
+    /// Adds the children that are near; pairs of leaves are visited at once where order does not
+    /// matter.
+    template <class Pair>
+    bool add(const Bounds& bounds, const NodePair& nodes, const Pair& pair_of) {
+        std::uint32_t deepest = Node::kWidth;
+        for (std::uint32_t near = bounds.near; near != 0; near &= near - 1) {
+            auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+            if (mode == Mode::contacts &&
+                (deepest == Node::kWidth || bounds.gap[lane] < bounds.gap[deepest]))
+                std::swap(lane, deepest);
+            if (lane != Node::kWidth && !add(nodes, pair_of(lane)))
+                return false;
+        }
+        return deepest == Node::kWidth || add(nodes, pair_of(deepest));
+    }
+    bool add(const NodePair& nodes, const BoxPair& pair) {
+        if constexpr (mode != Mode::nearest) {
+            const NodeRef a = traverse_pair::ref_of(t_.a, pair.a),
+                          b = traverse_pair::ref_of(t_.b, pair.b);
+            if (a.is_leaf() && b.is_leaf())
+                return visit(nodes, a, b);
+        }
+        found_.push_back(pair);
+        return true;
+    }
+
+    bool visit(const NodePair& nodes, NodeRef a, NodeRef b) {
+        const TriangleLeaf &leaf_a = t_.a.leaf(a), &leaf_b = t_.b.leaf(b);
+        t_.primitive_tests += a.count() * b.count();
+        LeafPairs pairs;
+        if constexpr (mode == Mode::contacts) {
+            pairs = meeting_pairs(leaf_a, leaf_b, nodes.p_from_q);
+        } else {
+            const float stretch_sq = nodes.p_from_q.stretch_sq;
+            pairs = near_pairs(leaf_a, leaf_b, nodes.p_from_q,
+                               {bound_sq_ / stretch_sq * (1 + 0x1p-20F), bound_sq_, nodes.n_p});
+        }
+        // Lanes beyond the leaves' counts repeat the first.
+        constexpr std::uint32_t kRows[] = {0x000f, 0x00ff, 0x0fff, 0xffff};
+        constexpr std::uint32_t kColumns[] = {0x1111, 0x3333, 0x7777, 0xffff};
+        const std::uint32_t used = kRows[a.count() - 1] & kColumns[b.count() - 1];
+        pairs.cross &= used;
+        pairs.may_meet &= used;
+        pairs.may_be_near &= used;
+        if (pairs.any() == 0)
+            return true;
+        const double new_bound_sq = visitor_.visit(a, b, pairs);
+        if (!(new_bound_sq >= 0)) {
+            verdict_ = Verdict::stopped;
+            return false;
+        }
+        if constexpr (mode == Mode::nearest)
+            if (round_up(new_bound_sq) < bound_sq_)
+                take_direction();
+        bound_sq_ = round_up(new_bound_sq);
+        return true;
+    }
+
+    /// A vector of a's frame has length n . L v along the direction n of the world.
+    void take_direction() {
+        const Vec3 n = visitor_.direction();
+        const auto& m = t_.frame.world_from_a.m;
+        constexpr double kBelowOne = 1 - 0x1p-20;
+        for (std::size_t i = 0; i < 3; ++i)
+            direction_[i] = static_cast<float>(
+                kBelowOne * (n.x * m[3 * i] + n.y * m[3 * i + 1] + n.z * m[3 * i + 2]));
+        has_direction_ = true;
+    }
+
+    PairTraversal& t_;
+    LeafPairVisitor& visitor_;
+    float bound_sq_;
+    Verdict verdict_ = Verdict::done;
+    BoxPairs found_;
+    Covector direction_{};
+    bool has_direction_ = false;
+};
+
+Verdict contacts(PairTraversal& t, LeafPairVisitor& visitor) {
+    return PairWalk<Mode::contacts>(t, visitor).depth_first();
+}
+Verdict within_bound(PairTraversal& t, LeafPairVisitor& visitor) {
+    return PairWalk<Mode::within>(t, visitor).depth_first();
+}
+Verdict nearest(PairTraversal& t, LeafPairVisitor& visitor) {
+    return PairWalk<Mode::nearest>(t, visitor).nearest_first();
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -259,16 +462,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut {
 
-HWY_EXPORT(depth_first);
-HWY_EXPORT(traverse_nearest);
+HWY_EXPORT(contacts);
+HWY_EXPORT(within_bound);
+HWY_EXPORT(nearest);
 
-Verdict traverse_depth_first(PairTraversal& t, LeafPairVisitor& visitor) {
-    return t.a.empty() || t.b.empty() ? Verdict::done
-                                      : HWY_DYNAMIC_DISPATCH(depth_first)(t, visitor);
+Verdict traverse_contacts(PairTraversal& t, LeafPairVisitor& visitor) {
+    return t.a.empty() || t.b.empty() ? Verdict::done : HWY_DYNAMIC_DISPATCH(contacts)(t, visitor);
 }
-Verdict traverse_best_first(PairTraversal& t, LeafPairVisitor& visitor) {
+Verdict traverse_within(PairTraversal& t, LeafPairVisitor& visitor) {
     return t.a.empty() || t.b.empty() ? Verdict::done
-                                      : HWY_DYNAMIC_DISPATCH(traverse_nearest)(t, visitor);
+                                      : HWY_DYNAMIC_DISPATCH(within_bound)(t, visitor);
+}
+Verdict traverse_nearest(PairTraversal& t, LeafPairVisitor& visitor) {
+    return t.a.empty() || t.b.empty() ? Verdict::done : HWY_DYNAMIC_DISPATCH(nearest)(t, visitor);
 }
 
 } // namespace abut

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/triangle_leaf.h"
 #include "tree/pair_frame.h"
 #include "tree/tree.h"
 
@@ -15,15 +16,18 @@ public:
     LeafPairVisitor& operator=(const LeafPairVisitor&) = delete;
     virtual ~LeafPairVisitor() = default;
 
-    /// Returns the squared world distance beyond which pairs do not matter from now on; negative:
-    /// stop.
-    virtual double visit(NodeRef leaf_a, NodeRef leaf_b) = 0;
+    /// Looks at the pairs of triangles that are left: not none. Returns the squared world distance
+    /// beyond which pairs do not matter from now on; negative: stop.
+    virtual double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) = 0;
+    /// A direction of the world, from a to b, along which the trees seem to be far apart: that of
+    /// the closest points so far. Any vector of length 1 at most does; zero if none is known.
+    [[nodiscard]] virtual Vec3 direction() const { return {}; }
 };
 
 enum class Verdict : std::uint8_t {
     done,     ///< everything within the bound was visited
     stopped,  ///< by the visitor
-    accepted, ///< some boxes lie wholly within the bound of each other (only if that was asked for)
+    accepted, ///< some boxes lie wholly within the bound of each other
 };
 
 struct PairTraversal {
@@ -31,23 +35,28 @@ struct PairTraversal {
     const Tree& b;
     const PairFrame& frame;
     double bound_sq = 0; ///< squared world distance beyond which pairs do not matter; 0: overlap
-    bool accept_early = false;      ///< stop where two boxes cannot be farther apart than the bound
-    std::uint64_t volume_tests = 0; ///< counted up
+    std::uint64_t volume_tests = 0;    ///< counted up
+    std::uint64_t primitive_tests = 0; ///< counted up
 };
 
-/// Visits the leaf pairs that may be within the bound, depth first.
+/// Visits the leaf pairs that may share a point, depth first. Needs no bound.
 ///
-/// In          frame.valid.
-/// Accuracy    conservative: every pair of primitives within the bound is visited.
+/// In          trees of triangles; frame.valid.
+/// Accuracy    conservative: every pair of triangles that share a point is visited.
 /// Cost        8 box pairs in one SIMD pass, some 60 instructions; no allocation for trees of usual
 ///             depth.
-/// Source      [Gottschalk, Lin, Manocha 1996]. Differs: boxes aligned to each tree's own frame,
-///             the six face axes only, one box against eight; the box of larger surface is opened.
-Verdict traverse_depth_first(PairTraversal& traversal, LeafPairVisitor& visitor);
+/// Source      [Gottschalk, Lin, Manocha 1996]. Differs: the six face axes only, one box against
+///             eight; both nodes are opened at once where they are of like size.
+Verdict traverse_contacts(PairTraversal& traversal, LeafPairVisitor& visitor);
+
+/// The same for the leaf pairs that may be within the bound, which stays; `accepted` where two boxes
+/// lie wholly within it.
+Verdict traverse_within(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 /// The same, nearest boxes first: fewest visits where the bound shrinks.
 /// Source      [Larsen, Gottschalk, Lin, Manocha 1999], the priority queue. Differs: buckets, so
-///             nearest to within 12 %; unbounded.
-Verdict traverse_best_first(PairTraversal& traversal, LeafPairVisitor& visitor);
+///             nearest to within 12 %; unbounded; boxes and triangles are also told apart by their
+///             gap along the direction of the closest points so far.
+Verdict traverse_nearest(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 } // namespace abut

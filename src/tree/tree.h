@@ -1,7 +1,11 @@
 #pragma once
 
+#include <abut/types.h>
+
+#include "geometry/triangle_leaf.h"
 #include "volume/aabb.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -34,13 +38,52 @@ private:
     std::uint32_t bits_ = 0xffffffffU;
 };
 
+/// A frame of a node: x_node = sum over k of turn[k] (x_tree - origin)[k]. Its axes are at right
+/// angles and of unit length to single precision.
+struct alignas(16) NodeFrame {
+    /// The tree's axes as the node sees them: the columns of the rotation, padded to four.
+    std::array<std::array<float, 4>, 3> turn{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    std::array<float, 3> origin{};
+    bool turned = false; ///< false: axes and origin are the tree's
+
+    [[nodiscard]] std::array<float, 3> vector_from_tree(const std::array<float, 3>& v) const {
+        std::array<float, 3> r{};
+        for (std::size_t i = 0; i < 3; ++i)
+            r[i] = turn[0][i] * v[0] + turn[1][i] * v[1] + turn[2][i] * v[2];
+        return r;
+    }
+    [[nodiscard]] std::array<float, 3> point_from_tree(const std::array<float, 3>& p) const {
+        return vector_from_tree({p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]});
+    }
+    [[nodiscard]] Vec3 point_from_tree(const Vec3& p) const {
+        const double x = p.x - double{origin[0]}, y = p.y - double{origin[1]},
+                     z = p.z - double{origin[2]};
+        const auto along = [&](std::size_t i) {
+            return double{turn[0][i]} * x + double{turn[1][i]} * y + double{turn[2][i]} * z;
+        };
+        return {along(0), along(1), along(2)};
+    }
+    /// The way back, as the axes are at right angles to single precision only.
+    [[nodiscard]] Vec3 point_to_tree(const Vec3& p) const {
+        const auto along = [&](std::size_t k) {
+            return double{turn[k][0]} * p.x + double{turn[k][1]} * p.y + double{turn[k][2]} * p.z +
+                   double{origin[k]};
+        };
+        return {along(0), along(1), along(2)};
+    }
+};
+
 /// Eight children side by side: lane i of every row belongs to child i. Unused lanes come last:
-/// their box is empty (lower > upper), their reference none.
+/// their box is empty (lower > upper), their reference none. The boxes are aligned to the node's
+/// own frame.
 struct alignas(32) Node {
     static constexpr std::size_t kWidth = 8;
     float lower[3][kWidth]; ///< [axis][child]
     float upper[3][kWidth];
     NodeRef child[kWidth];
+    NodeFrame frame;
+    Aabb bounds;     ///< of all children
+    float reach = 0; ///< no coordinate of a child is larger
 
     [[nodiscard]] Aabb box(std::size_t i) const {
         Aabb b;
@@ -52,33 +95,52 @@ struct alignas(32) Node {
     }
 };
 
-/// Bounding-volume hierarchy over boxes, eight wide. Immutable once built.
+/// Bounding-volume hierarchy over boxes or triangles, eight wide. Immutable once built.
 struct Tree {
     std::vector<Node> nodes;          ///< nodes[0] is the root; empty if there is no primitive
     std::vector<std::uint32_t> order; ///< slot -> primitive; a leaf is a run of slots
-    Aabb bounds;                      ///< of all primitives
+    Aabb bounds;                      ///< of all primitives, in the tree's frame
+    /// Of a tree of triangles: leaf i's at first slot / 4, in the frame of the leaf's node.
+    std::vector<TriangleLeaf> leaves;
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
+    [[nodiscard]] const TriangleLeaf& leaf(NodeRef ref) const {
+        return leaves[ref.first() / TriangleLeaf::kLanes];
+    }
     [[nodiscard]] std::size_t bytes() const {
-        return nodes.size() * sizeof(Node) + order.size() * sizeof(order[0]);
+        return nodes.size() * sizeof(Node) + order.size() * sizeof(order[0]) +
+               leaves.size() * sizeof(TriangleLeaf);
     }
 };
 
-struct TreeOptions {
-    std::uint32_t leaf_size = 4; ///< primitives in a leaf, at most; 1 to 8
-};
-
-/// Builds the tree of some boxes.
+/// Builds the tree of some boxes; every node has the tree's axes.
 ///
 /// In          fewer than 2^28 boxes, none empty, all finite.
 /// Cost        O(n log n); subtrees in parallel. The result does not depend on the number of
 ///             threads.
 /// Source      binned surface-area heuristic [Wald 2007]; wide nodes by opening the largest child
-///             first.
-Tree build_tree(std::span<const Aabb> boxes, const TreeOptions& options = {});
+///             first. Differs: the cuts of small sets leave multiples of 4, then of 32, so that
+///             leaves and nodes are full.
+Tree build_tree(std::span<const Aabb> boxes);
 
-/// Throws std::logic_error if a box fails to enclose what lies below it, or a slot is not in
+/// The mesh of a tree, in the tree's frame.
+struct TreeMesh {
+    std::span<const Vec3> positions;
+    std::span<const std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Builds the tree of some triangles; a node has axes of its own where its children's boxes become
+/// smaller by it.
+///
+/// In          fewer than 2^28 triangles.
+/// Source      orientation by the covariance of the surface [Gottschalk, Lin, Manocha 1996].
+///             Differs: one for the eight children, so that its cost is paid once for up to 64
+///             pairs of boxes; of the triangles, not of their hull.
+Tree build_tree(const TreeMesh& mesh);
+
+/// Throws std::logic_error if a box fails to enclose what lies below it, or a primitive is not in
 /// exactly one leaf.
 void validate(const Tree& tree, std::span<const Aabb> boxes);
+void validate(const Tree& tree, const TreeMesh& mesh);
 
 } // namespace abut

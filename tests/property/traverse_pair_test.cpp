@@ -121,8 +121,8 @@ TEST_P(TraversePair, VisitsEveryPairWithinTheBound) {
                 PairTraversal depth{a.tree, b.tree, frame, bound * bound}, best = depth;
                 Recorder in_depth(a.tree, b.tree, bound * bound),
                     nearest_first(a.tree, b.tree, bound * bound);
-                EXPECT_EQ(traverse_depth_first(depth, in_depth), Verdict::done);
-                EXPECT_EQ(traverse_best_first(best, nearest_first), Verdict::done);
+                EXPECT_EQ(traverse_within(depth, in_depth), Verdict::done);
+                EXPECT_EQ(traverse_nearest(best, nearest_first), Verdict::done);
                 ASSERT_EQ(in_depth.seen, nearest_first.seen);
                 for (std::uint32_t i = 0; i < a.triangles.size(); ++i)
                     for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "math/vector.h"
+
+#include <cstddef>
+
+namespace abut {
+
+/// Eight pairs of triangles, lane by lane: what one pass of the distance kernel reads.
+struct alignas(64) TrianglePairBlock {
+    static constexpr std::size_t kLanes = 8;
+    double a[3][3][kLanes], b[3][3][kLanes]; ///< [vertex][axis][lane]
+
+    void set(std::size_t lane, const Triangle& ta, const Triangle& tb) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            a[i][0][lane] = ta[i].x;
+            a[i][1][lane] = ta[i].y;
+            a[i][2][lane] = ta[i].z;
+            b[i][0][lane] = tb[i].x;
+            b[i][1][lane] = tb[i].y;
+            b[i][2][lane] = tb[i].z;
+        }
+    }
+    [[nodiscard]] Triangle get_a(std::size_t lane) const { return get(a, lane); }
+    [[nodiscard]] Triangle get_b(std::size_t lane) const { return get(b, lane); }
+
+private:
+    static Triangle get(const double (&v)[3][3][kLanes], std::size_t lane) {
+        Triangle t;
+        for (std::size_t i = 0; i < 3; ++i)
+            t[i] = {v[i][0][lane], v[i][1][lane], v[i][2][lane]};
+        return t;
+    }
+};
+
+/// Squared distance of the pair in each lane; 0 may come out as a rounding residue where they
+/// cross.
+///
+/// Degenerate  zero-area triangles act as segments or points.
+/// Accuracy    of the distance: a few roundings of the coordinates' differences; crossing triangles
+///             are not recognised (their distance is that of their boundaries): test for
+///             intersection first.
+/// Source      minimum over 9 edge pairs and 6 vertex-face pairs, as [Larsen et al. 1999]. Differs:
+///             closest points of lines by cross products, so that almost parallel edges lose
+///             nothing.
+void distance_sq(const TrianglePairBlock& pairs, double (&result)[TrianglePairBlock::kLanes]);
+
+/// The same with one lane: the reference for every SIMD target.
+void distance_sq_reference(const TrianglePairBlock& pairs,
+                           double (&result)[TrianglePairBlock::kLanes]);
+
+} // namespace abut
