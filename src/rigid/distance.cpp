@@ -50,9 +50,22 @@ public:
     }
 
     [[nodiscard]] Vec3 direction() const override {
+        if (!found_)
+            return {};
         const ClosestPoints points = triangle_triangle_distance(best_.a, best_.b);
         return normalized_or_zero(points.b - points.a);
     }
+
+    /// Begins with a pair of triangles.
+    void seed(const Triangle& a, const Triangle& b, const TrianglePair& indices) {
+        const double sq = triangle_triangle_distance(a, b).distance_sq;
+        if (sq < best_sq_) {
+            best_sq_ = sq;
+            found_ = true;
+            best_ = {a, b, indices};
+        }
+    }
+    [[nodiscard]] double best_sq() const { return best_sq_; }
 
     /// Measures what is left. Call it after the traversal.
     void finish() {
@@ -112,10 +125,20 @@ void require_bound(double bound, const char* what) {
 
 } // namespace
 
+TrianglePair g_seed{~0U, ~0U};
 Gap distance(const PlacedPair& pair, double upper_bound) {
     const std::uint64_t exact_before = exact_signs();
     NearestPairFinder finder(pair, upper_bound * upper_bound, false);
-    PairTraversal traversal = pair.traversal(upper_bound * upper_bound);
+    if (g_seed.a != ~0U) {
+        const auto tri = [](const ModelData& m, std::uint32_t t, const Transform& w) {
+            const auto& x = m.mesh().triangles[t];
+            return Triangle{apply(w, m.mesh().positions[x[0]]), apply(w, m.mesh().positions[x[1]]),
+                            apply(w, m.mesh().positions[x[2]])};
+        };
+        finder.seed(tri(pair.a(), g_seed.a, pair.world_from_a()),
+                    tri(pair.b(), g_seed.b, pair.world_from_b()), g_seed);
+    }
+    PairTraversal traversal = pair.traversal(finder.best_sq());
     traverse_nearest(traversal, finder);
     finder.finish();
     Gap gap;

@@ -10,9 +10,15 @@
 #include <limits>
 #include <stdexcept>
 
-namespace abut {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tree/build.cpp"
+#include "simd/foreach_target.h"
+#include "simd/simd.h"
 
-namespace {
+// What the targets share.
+#ifndef ABUT_TREE_BUILD_ONCE
+#define ABUT_TREE_BUILD_ONCE
+namespace abut::build_tree_detail {
 
 constexpr std::uint32_t kLeafSize = TriangleLeaf::kLanes;
 constexpr std::uint32_t kBottomSize = kLeafSize * Node::kWidth; ///< of a node with full leaves
@@ -20,33 +26,77 @@ constexpr std::size_t kBins = 16;
 constexpr std::uint32_t kParallelSplit =
     4096; // below this many primitives, a task costs more than it saves
 
-/// Four floats that the compiler keeps in one register; the fourth is along for the ride.
+/// Four floats; the fourth is along for the ride.
 struct alignas(16) Quad {
     float v[4];
-
-    void lower(const Quad& other) {
-        for (std::size_t i = 0; i < 4; ++i)
-            v[i] = other.v[i] < v[i] ? other.v[i] : v[i];
-    }
-    void raise(const Quad& other) {
-        for (std::size_t i = 0; i < 4; ++i)
-            v[i] = other.v[i] > v[i] ? other.v[i] : v[i];
-    }
 };
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr Quad kHighest{{kInfinity, kInfinity, kInfinity, kInfinity}};
 constexpr Quad kLowest{{-kInfinity, -kInfinity, -kInfinity, -kInfinity}};
 
+/// A box, and in place of the fourth coordinate of its lower corner the number of its primitive.
+struct Primitive {
+    Quad lower, upper;
+
+    Primitive() = default;
+    Primitive(const Aabb& b, std::uint32_t index)
+        : lower{{b.lower[0], b.lower[1], b.lower[2], std::bit_cast<float>(index | kNumber)}},
+          upper{{b.upper[0], b.upper[1], b.upper[2], 0}} {}
+    [[nodiscard]] std::uint32_t index() const {
+        return std::bit_cast<std::uint32_t>(lower.v[3]) & ~kNumber;
+    }
+
+private:
+    /// Makes a float of usual size of every index below 2^28.
+    static constexpr std::uint32_t kNumber = 0x40000000;
+};
+
+} // namespace abut::build_tree_detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+using namespace build_tree_detail; // NOLINT(google-build-using-namespace): its own, shared part
+
+namespace hn = hwy::HWY_NAMESPACE;
+using D4 = hn::CappedTag<float, 4>;
+
+/// Lane by lane.
+template <typename Operation>
+Quad combine(const Quad& a, const Quad& b, const Operation& operation) {
+    const D4 d;
+    Quad r;
+    for (std::size_t i = 0; i < 4; i += hn::Lanes(d))
+        hn::Store(operation(hn::Load(d, a.v + i), hn::Load(d, b.v + i)), d, r.v + i);
+    return r;
+}
+Quad min(const Quad& a, const Quad& b) {
+    return combine(a, b, [](auto x, auto y) HWY_ATTR { return hn::Min(x, y); });
+}
+Quad max(const Quad& a, const Quad& b) {
+    return combine(a, b, [](auto x, auto y) HWY_ATTR { return hn::Max(x, y); });
+}
+Quad operator+(const Quad& a, const Quad& b) {
+    return combine(a, b, [](auto x, auto y) HWY_ATTR { return hn::Add(x, y); });
+}
+Quad operator-(const Quad& a, const Quad& b) {
+    return combine(a, b, [](auto x, auto y) HWY_ATTR { return hn::Sub(x, y); });
+}
+Quad operator*(const Quad& a, const Quad& b) {
+    return combine(a, b, [](auto x, auto y) HWY_ATTR { return hn::Mul(x, y); });
+}
+
 struct Bounds {
     Quad lower = kHighest, upper = kLowest;
 
     void merge(const Bounds& other) {
-        lower.lower(other.lower);
-        upper.raise(other.upper);
+        lower = min(lower, other.lower);
+        upper = max(upper, other.upper);
     }
     void extend(const Quad& p) {
-        lower.lower(p);
-        upper.raise(p);
+        lower = min(lower, p);
+        upper = max(upper, p);
     }
     [[nodiscard]] float half_area() const {
         const float x = upper.v[0] - lower.v[0], y = upper.v[1] - lower.v[1],
@@ -55,27 +105,10 @@ struct Bounds {
     }
 };
 
-/// A box, and in place of the fourth coordinate of its lower corner the number of its primitive.
-struct Primitive {
-    Bounds box;
-
-    Primitive() = default;
-    Primitive(const Aabb& b, std::uint32_t index) {
-        for (std::size_t i = 0; i < 3; ++i)
-            box.lower.v[i] = b.lower[i], box.upper.v[i] = b.upper[i];
-        box.lower.v[3] = std::bit_cast<float>(index);
-        box.upper.v[3] = 0;
-    }
-    [[nodiscard]] std::uint32_t index() const {
-        return std::bit_cast<std::uint32_t>(box.lower.v[3]);
-    }
-    [[nodiscard]] Quad centre() const {
-        Quad c;
-        for (std::size_t i = 0; i < 4; ++i)
-            c.v[i] = 0.5F * box.lower.v[i] + 0.5F * box.upper.v[i];
-        return c;
-    }
-};
+/// Twice the middle.
+Quad centre(const Primitive& primitive) {
+    return primitive.lower + primitive.upper;
+}
 
 /// A run of primitives and their boxes: of the primitives, and of their centres.
 struct Range {
@@ -84,49 +117,45 @@ struct Range {
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
     void add(const Primitive& primitive) {
-        bounds.merge(primitive.box);
-        centres.extend(primitive.centre());
+        bounds.merge({primitive.lower, primitive.upper});
+        centres.extend(centre(primitive));
     }
 };
 
 /// Where a range is cut: below a bin of an axis.
 struct Cut {
     std::size_t axis = 0, bin = 0;
-    std::uint32_t below = 0; ///< primitives there
     float cost = kInfinity;
 };
 
 /// The bins of a range on its three axes.
 class Binning {
 public:
-    explicit Binning(const Range& range)
-        : bins_(range.size() >= 4 * kBins ? kBins : kBins / 2), origin_(range.centres.lower) {
+    explicit Binning(const Range& range) : origin_(range.centres.lower) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float extent = range.centres.upper.v[axis] - range.centres.lower.v[axis];
             // A subnormal extent gives an infinite scale: such an axis is not cut.
-            const float s = extent > 0 ? 0.9999F * static_cast<float>(bins_) / extent : 0;
+            const float s = extent > 0 ? 0.9999F * static_cast<float>(kBins) / extent : 0;
             scale_.v[axis] = s < std::numeric_limits<float>::max() ? s : 0;
         }
     }
 
     void add(const Primitive& primitive) {
-        const Quad c = primitive.centre();
+        const Quad place = (centre(primitive) - origin_) * scale_;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            Bin& bin = bin_[axis][bin_of(c, axis)];
-            bin.box.merge(primitive.box);
+            Bin& bin = bin_[axis][bin_at(place.v[axis])];
+            bin.box.merge({primitive.lower, primitive.upper});
             ++bin.count;
         }
     }
     [[nodiscard]] bool is_below(const Primitive& primitive, const Cut& cut) const {
-        return bin_of(primitive.centre(), cut.axis) < cut.bin;
+        const float middle = primitive.lower.v[cut.axis] + primitive.upper.v[cut.axis];
+        return bin_at((middle - origin_.v[cut.axis]) * scale_.v[cut.axis]) < cut.bin;
     }
 
-    /// The cut of least area times primitives, counted in quanta; none if all centres coincide.
-    [[nodiscard]] Cut best(std::uint32_t size, std::uint32_t quantum) const {
+    /// The cut of least area times primitives; none if all centres coincide.
+    [[nodiscard]] Cut best() const {
         Cut best;
-        const auto quanta = [&](std::uint32_t count) {
-            return static_cast<float>((count + quantum - 1) / quantum);
-        };
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (scale_.v[axis] == 0)
                 continue;
@@ -134,19 +163,21 @@ public:
             std::array<std::uint32_t, kBins> below{};
             Bounds box;
             std::uint32_t count = 0;
-            for (std::size_t bin = 0; bin + 1 < bins_; ++bin) {
+            for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
                 box.merge(bin_[axis][bin].box);
                 count += bin_[axis][bin].count;
-                below_cost[bin] = box.half_area() * quanta(count);
+                below_cost[bin] = box.half_area() * static_cast<float>(count);
                 below[bin] = count;
             }
             box = {};
-            for (std::size_t bin = bins_ - 1; bin > 0; --bin) {
+            count = 0;
+            for (std::size_t bin = kBins - 1; bin > 0; --bin) {
                 box.merge(bin_[axis][bin].box);
-                const std::uint32_t above = size - below[bin - 1];
-                const float cost = below_cost[bin - 1] + box.half_area() * quanta(above);
-                if (below[bin - 1] > 0 && above > 0 && cost < best.cost)
-                    best = {axis, bin, below[bin - 1], cost};
+                count += bin_[axis][bin].count;
+                const float cost =
+                    below_cost[bin - 1] + box.half_area() * static_cast<float>(count);
+                if (below[bin - 1] > 0 && count > 0 && cost < best.cost)
+                    best = {axis, bin, cost};
             }
         }
         return best;
@@ -157,13 +188,11 @@ private:
         Bounds box;
         std::uint32_t count = 0;
     };
-    [[nodiscard]] std::size_t bin_of(const Quad& centre, std::size_t axis) const {
-        const auto bin =
-            static_cast<std::int32_t>((centre.v[axis] - origin_.v[axis]) * scale_.v[axis]);
-        return std::min(static_cast<std::size_t>(std::max(bin, 0)), bins_ - 1);
+    [[nodiscard]] std::size_t bin_at(float place) const {
+        const auto bin = static_cast<std::int32_t>(place);
+        return static_cast<std::size_t>(std::clamp(bin, 0, static_cast<std::int32_t>(kBins) - 1));
     }
 
-    std::size_t bins_;
     Quad origin_, scale_{};
     std::array<std::array<Bin, kBins>, 3> bin_;
 };
@@ -197,26 +226,50 @@ private:
     /// Cuts where the surface-area heuristic is least; in the middle of the run if all centres
     /// coincide. Small ranges are cut at multiples of a leaf or of a node of leaves.
     std::array<Range, 2> split(const Range& range) {
-        const std::uint32_t quantum = range.size() <= kBottomSize                  ? kLeafSize
-                                      : range.size() <= kBottomSize * Node::kWidth ? kBottomSize
-                                                                                   : 1;
+        if (range.size() <= kBottomSize)
+            return halve(range, kLeafSize);
+        if (range.size() <= kBottomSize * Node::kWidth)
+            return halve(range, kBottomSize);
         Binning bins(range);
         for (std::uint32_t i = range.begin; i < range.end; ++i)
             bins.add(primitives_[i]);
-        const Cut cut = bins.best(range.size(), quantum);
-        std::uint32_t below = cut.cost < kInfinity ? cut.below : range.size() / 2;
-        if (quantum == 1 && cut.cost < kInfinity)
-            return partition(range, bins, cut);
-        below =
-            std::clamp((below + quantum / 2) / quantum, 1U, (range.size() - 1) / quantum) * quantum;
-        const auto begin = primitives_.begin() + range.begin;
-        if (cut.cost < kInfinity)
-            std::nth_element(begin, begin + below, primitives_.begin() + range.end,
-                             [axis = cut.axis](const Primitive& p, const Primitive& q) {
-                                 return p.box.lower.v[axis] + p.box.upper.v[axis] <
-                                        q.box.lower.v[axis] + q.box.upper.v[axis];
-                             });
-        return {measure(range.begin, range.begin + below), measure(range.begin + below, range.end)};
+        const Cut cut = bins.best();
+        return cut.cost < kInfinity ? partition(range, bins, cut) : halve(range, 1);
+    }
+
+    /// Cuts in the middle of the longest axis of the centres, to a multiple of the quantum.
+    std::array<Range, 2> halve(const Range& range, std::uint32_t quantum) {
+        const Quad extent = range.centres.upper - range.centres.lower;
+        const auto axis =
+            static_cast<std::size_t>(std::max_element(extent.v, extent.v + 3) - extent.v);
+        const std::uint32_t cut = range.begin + (range.size() / quantum + 1) / 2 * quantum;
+        select(&primitives_[range.begin], &primitives_[range.end - 1], &primitives_[cut], axis);
+        return {measure(range.begin, cut), measure(cut, range.end)};
+    }
+
+    /// Puts the primitive that belongs at `nth` in the order of the axis there, smaller ones before
+    /// it. Source: [Hoare 1961], quickselect.
+    static void select(Primitive* low, Primitive* high, const Primitive* nth, std::size_t axis) {
+        const auto key = [axis](const Primitive& p)
+                             HWY_ATTR { return p.lower.v[axis] + p.upper.v[axis]; };
+        while (low < high) {
+            const float pivot = key(low[(high - low) / 2]);
+            Primitive *i = low, *j = high;
+            while (i <= j) {
+                while (key(*i) < pivot)
+                    ++i;
+                while (pivot < key(*j))
+                    --j;
+                if (i <= j)
+                    std::swap(*i++, *j--);
+            }
+            if (nth <= j)
+                high = j;
+            else if (nth >= i)
+                low = i;
+            else
+                return;
+        }
     }
 
     std::array<Range, 2> partition(const Range& range, const Binning& bins, const Cut& cut) {
@@ -309,12 +362,28 @@ private:
     std::atomic<std::uint32_t> next_node_{0};
 };
 
-Tree build(std::vector<Primitive>& primitives) {
+void build(std::vector<Primitive>& primitives, Tree& tree) {
+    Builder(primitives, tree).build();
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(build);
+
+namespace {
+
+using build_tree_detail::Primitive;
+
+Tree build_tree(std::vector<Primitive>& primitives) {
     if (primitives.size() >= (1U << 28))
         throw std::length_error("tree: 2^28 primitives or more");
     Tree tree;
     if (!primitives.empty())
-        Builder(primitives, tree).build();
+        HWY_DYNAMIC_DISPATCH(build)(primitives, tree);
     return tree;
 }
 
@@ -324,7 +393,7 @@ Tree build_tree(std::span<const Aabb> boxes) {
     std::vector<Primitive> primitives(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i)
         primitives[i] = Primitive(boxes[i], static_cast<std::uint32_t>(i));
-    Tree tree = build(primitives);
+    Tree tree = build_tree(primitives);
     for (Node& node : tree.nodes)
         for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
             node.bounds.merge(node.box(i));
@@ -344,10 +413,11 @@ Tree build_tree(const TreeMesh& mesh) {
             }
         primitives[i] = Primitive(box, static_cast<std::uint32_t>(i));
     });
-    Tree tree = build(primitives);
+    Tree tree = build_tree(primitives);
     primitives = {};
     orient_nodes(tree, mesh);
     return tree;
 }
 
 } // namespace abut
+#endif

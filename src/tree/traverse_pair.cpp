@@ -21,7 +21,12 @@ constexpr std::uint32_t kRoot = 0xffffffffU;
 /// Where one box has so many times the surface of the other, it is opened alone.
 constexpr float kUnlike = 4;
 
-enum class Mode : std::uint8_t { contacts, within, nearest };
+enum class Mode : std::uint8_t {
+    contacts,
+    within,
+    nearest,
+    descent, ///< to the children whose middles are nearest
+};
 
 /// Two boxes still to be looked at.
 struct BoxPair {
@@ -98,7 +103,7 @@ HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& 
     map.translation = to.frame.vector_from_tree({d[0], d[1], d[2]});
     const float size = to.reach + 2 * trees.row_sum * from.reach +
                        2 * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
-    map.margin = 16 * 0x1p-24F * size + trees.margin;
+    map.margin = 24 * 0x1p-24F * size + trees.margin;
     map.stretch_sq = trees.stretch_sq;
     map.most_stretch_sq = trees.most_stretch_sq;
 }
@@ -184,9 +189,16 @@ HWY_INLINE void bound_children(const Node& node, const MiddleBox& box, const Com
                 const auto reach = hn::Add(hn::Add(apart, extents), margin_node);
                 reach_sq = hn::MulAdd(reach, reach, reach_sq);
             }
+            if constexpr (mode == Mode::descent)
+                reach_sq = hn::MulAdd(apart, apart, reach_sq);
         }
         // Unused lanes hold an empty box. A bound that is not a number keeps the child.
         auto near = hn::Le(hn::Load(d, node.lower[0] + lane), hn::Load(d, node.upper[0] + lane));
+        if constexpr (mode == Mode::descent) {
+            hn::Store(reach_sq, d, bounds.lower_sq + lane);
+            bounds.near |= bits_of(d, near) << lane;
+            continue;
+        }
         const auto used = near;
         auto lower_sq = hn::Mul(gap_sq, hn::Set(d, to_node.stretch_sq));
         if constexpr (mode == Mode::contacts) {
@@ -258,7 +270,10 @@ template <Mode mode>
 class PairWalk {
 public:
     PairWalk(PairTraversal& t, LeafPairVisitor& visitor)
-        : t_(t), visitor_(visitor), bound_sq_(round_up(t.bound_sq)) {}
+        : t_(t), visitor_(visitor), bound_sq_(round_up(t.bound_sq)) {
+        if constexpr (mode == Mode::nearest)
+            take_direction();
+    }
 
     Verdict depth_first() {
         found_.push_back({traverse_pair::kRoot, traverse_pair::kRoot, 0});
@@ -269,6 +284,21 @@ public:
                 return verdict_;
         }
         return Verdict::done;
+    }
+
+    /// Visits one pair of leaves that seem to be near each other.
+    Verdict descend() {
+        BoxPair pair{traverse_pair::kRoot, traverse_pair::kRoot, 0};
+        while (true) {
+            found_.clear();
+            if (!step(pair))
+                return verdict_;
+            if (found_.empty())
+                return Verdict::done;
+            pair = *std::min_element(
+                found_.begin(), found_.end(),
+                [](const BoxPair& x, const BoxPair& y) { return x.bound_sq < y.bound_sq; });
+        }
     }
 
     Verdict nearest_first() {
@@ -286,6 +316,8 @@ public:
         }
         return Verdict::done;
     }
+
+    [[nodiscard]] float bound_sq() const { return bound_sq_; }
 
 private:
     /// Looks at one pair: adds what is near below it to `found_`. False: stop, with a verdict.
@@ -384,7 +416,9 @@ private:
         return deepest == Node::kWidth || add(nodes, pair_of(deepest));
     }
     bool add(const NodePair& nodes, const BoxPair& pair) {
-        if constexpr (mode != Mode::nearest) {
+        if (mode != Mode::descent && (mode != Mode::nearest || has_direction_)) {
+            if (pair.bound_sq > bound_sq_)
+                return true;
             const NodeRef a = traverse_pair::ref_of(t_.a, pair.a),
                           b = traverse_pair::ref_of(t_.b, pair.b);
             if (a.is_leaf() && b.is_leaf())
@@ -429,6 +463,8 @@ private:
     /// A vector of a's frame has length n . L v along the direction n of the world.
     void take_direction() {
         const Vec3 n = visitor_.direction();
+        if (n == Vec3{})
+            return;
         const auto& m = t_.frame.world_from_a.m;
         constexpr double kBelowOne = 1 - 0x1p-20;
         for (std::size_t i = 0; i < 3; ++i)
@@ -453,6 +489,12 @@ Verdict within_bound(PairTraversal& t, LeafPairVisitor& visitor) {
     return PairWalk<Mode::within>(t, visitor).depth_first();
 }
 Verdict nearest(PairTraversal& t, LeafPairVisitor& visitor) {
+    if (!(t.bound_sq < t.frame.reach_sq)) {
+        PairWalk<Mode::descent> walk(t, visitor);
+        if (walk.descend() == Verdict::stopped)
+            return Verdict::stopped;
+        t.bound_sq = walk.bound_sq();
+    }
     return PairWalk<Mode::nearest>(t, visitor).nearest_first();
 }
 
