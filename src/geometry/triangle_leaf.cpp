@@ -1,5 +1,7 @@
 #include "geometry/triangle_leaf.h"
 
+#include <limits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/triangle_leaf.cpp"
 #include "simd/foreach_target.h"
@@ -99,7 +101,7 @@ HWY_INLINE hn::Vec<D> determinant_bound(D d, hn::Vec<D> u, hn::Vec<D> w, hn::Vec
         hn::MulAdd(hn::Set(d, 6.1F), hn::Mul(e, outer), hn::Mul(hn::Set(d, 40 * 0x1p-24F), uuw));
     bound = hn::Add(bound, hn::Mul(hn::Set(d, 0x1p-110F), hn::Add(w, hn::Set(d, 1.0F))));
     return hn::IfThenElse(hn::Lt(uuw, hn::Set(d, 0x1p110F)), bound,
-                          hn::Set(d, hwy::HighestValue<float>()));
+                          hn::Set(d, std::numeric_limits<float>::infinity()));
 }
 
 /// Three vertices against a plane: n . (q - p), and what each may be off by.

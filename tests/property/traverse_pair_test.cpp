@@ -11,23 +11,23 @@
 namespace abut::test {
 namespace {
 
-/// Triangles with their boxes in the model's frame, as primitives.
+/// Triangles in the model's frame, and their tree.
 struct Primitives {
     std::vector<Triangle> triangles;
     Tree tree;
 
     Primitives(Random& random, int count, const Vec3& middle, double scale) {
-        std::vector<Aabb> boxes;
+        std::vector<Vec3> positions;
+        std::vector<std::array<std::uint32_t, 3>> indices;
         for (int i = 0; i < count; ++i) {
             const Vec3 p = middle + random.in_cube(scale);
-            const double size = scale * std::pow(10, random.uniform(-3, -0.5));
+            const double size = scale * std::pow(10, random.uniform(-2.5, 0));
             triangles.push_back({p, p + random.in_cube(size), p + random.in_cube(size)});
-            Box3 box;
-            for (const Vec3& v : triangles.back())
-                extend(box, v);
-            boxes.emplace_back(box);
+            const auto first = static_cast<std::uint32_t>(positions.size());
+            positions.insert(positions.end(), triangles.back().begin(), triangles.back().end());
+            indices.push_back({first, first + 1, first + 2});
         }
-        tree = build_tree(boxes);
+        tree = build_tree(TreeMesh{positions, indices});
     }
 };
 
@@ -48,30 +48,42 @@ double vertex_distance_sq(const Triangle& a, const Transform& world_a, const Tri
     return best;
 }
 
-bool meet(const Triangle& a, const Transform& world_a, const Triangle& b,
-          const Transform& world_b) {
-    return overlap(world_box(a, world_a), world_box(b, world_b)) &&
-           triangle_triangle_intersect(
-               {apply(world_a, a[0]), apply(world_a, a[1]), apply(world_a, a[2])},
-               {apply(world_b, b[0]), apply(world_b, b[1]), apply(world_b, b[2])}) !=
-               TriangleContact::none;
+TriangleContact contact_of(const Triangle& a, const Transform& world_a, const Triangle& b,
+                           const Transform& world_b) {
+    return overlap(world_box(a, world_a), world_box(b, world_b))
+               ? triangle_triangle_intersect(
+                     {apply(world_a, a[0]), apply(world_a, a[1]), apply(world_a, a[2])},
+                     {apply(world_b, b[0]), apply(world_b, b[1]), apply(world_b, b[2])})
+               : TriangleContact::none;
 }
+
+using PairSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 class Recorder : public LeafPairVisitor {
 public:
-    Recorder(const Tree& a, const Tree& b, double bound_sq) : a_(a), b_(b), bound_sq_(bound_sq) {}
-    double visit(NodeRef leaf_a, NodeRef leaf_b) override {
+    Recorder(const Tree& a, const Tree& b, double bound_sq, const Vec3& direction = {})
+        : a_(a), b_(b), bound_sq_(bound_sq), direction_(direction) {}
+    double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) override {
+        EXPECT_NE(pairs.any(), 0U);
+        EXPECT_EQ(pairs.cross & pairs.may_meet, 0U);
         for (std::uint32_t i = 0; i < leaf_a.count(); ++i)
-            for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
-                seen.emplace(a_.order[leaf_a.first() + i], b_.order[leaf_b.first() + j]);
+            for (std::uint32_t j = 0; j < leaf_b.count(); ++j) {
+                const std::pair pair{a_.order[leaf_a.first() + i], b_.order[leaf_b.first() + j]};
+                if ((pairs.any() >> (4 * i + j) & 1U) != 0)
+                    seen.insert(pair);
+                if ((pairs.cross >> (4 * i + j) & 1U) != 0)
+                    cross.insert(pair);
+            }
         return bound_sq_;
     }
-    std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+    [[nodiscard]] Vec3 direction() const override { return direction_; }
+    PairSet seen, cross;
 
 private:
     const Tree& a_;
     const Tree& b_;
     double bound_sq_;
+    Vec3 direction_;
 };
 
 struct Kind {
@@ -100,7 +112,7 @@ TEST_P(TraversePair, VisitsEveryPairWithinTheBound) {
     for_each_simd_target([&](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(901);
-        std::size_t within = 0, visited = 0, total = 0;
+        std::size_t within = 0, visited = 0, total = 0, met = 0, crossed = 0, accepted = 0;
         for (int round = 0; round < 12; ++round) {
             const Vec3 offset_a = random.in_cube(kind.model_offset),
                        offset_b = random.in_cube(kind.model_offset);
@@ -117,28 +129,54 @@ TEST_P(TraversePair, VisitsEveryPairWithinTheBound) {
             put(world_b, offset_b, place + random.in_cube(0.8 * kind.size));
             const PairFrame frame = make_pair_frame(a.tree, world_a, b.tree, world_b);
             ASSERT_TRUE(frame.valid);
-            for (const double bound : {0.0, 0.01 * kind.size, 0.2 * kind.size}) {
-                PairTraversal depth{a.tree, b.tree, frame, bound * bound}, best = depth;
+            PairTraversal contacts{a.tree, b.tree, frame};
+            Recorder touched(a.tree, b.tree, 0);
+            EXPECT_EQ(traverse_contacts(contacts, touched), Verdict::done);
+            for (std::uint32_t i = 0; i < a.triangles.size(); ++i)
+                for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {
+                    const TriangleContact kind =
+                        contact_of(a.triangles[i], world_a, b.triangles[j], world_b);
+                    met += kind != TriangleContact::none ? 1 : 0;
+                    ASSERT_TRUE(kind == TriangleContact::none || touched.seen.contains({i, j}));
+                    if (touched.cross.contains({i, j})) {
+                        ++crossed;
+                        ASSERT_EQ(kind, TriangleContact::cross);
+                    }
+                }
+            for (const double bound : {0.01 * kind.size, 0.1 * kind.size, 3 * kind.size}) {
+                PairTraversal depth{a.tree, b.tree, frame, bound * bound}, best = depth,
+                                                                           along = depth;
                 Recorder in_depth(a.tree, b.tree, bound * bound),
-                    nearest_first(a.tree, b.tree, bound * bound);
-                EXPECT_EQ(traverse_within(depth, in_depth), Verdict::done);
+                    nearest_first(a.tree, b.tree, bound * bound),
+                    directed(a.tree, b.tree, bound * bound, random.direction());
+                const Verdict verdict = traverse_within(depth, in_depth);
                 EXPECT_EQ(traverse_nearest(best, nearest_first), Verdict::done);
-                ASSERT_EQ(in_depth.seen, nearest_first.seen);
+                EXPECT_EQ(traverse_nearest(along, directed), Verdict::done);
+                bool any = false;
                 for (std::uint32_t i = 0; i < a.triangles.size(); ++i)
                     for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {
-                        const Triangle &s = a.triangles[i], &t = b.triangles[j];
-                        const bool near =
-                            bound > 0 ? vertex_distance_sq(s, world_a, t, world_b) <= bound * bound
-                                      : meet(s, world_a, t, world_b);
-                        if (!near)
+                        if (vertex_distance_sq(a.triangles[i], world_a, b.triangles[j], world_b) >
+                            bound * bound)
                             continue;
                         ++within;
-                        ASSERT_TRUE(in_depth.seen.contains({i, j})) << "bound " << bound;
+                        any = true;
+                        ASSERT_TRUE(verdict == Verdict::accepted || in_depth.seen.contains({i, j}));
+                        ASSERT_TRUE(nearest_first.seen.contains({i, j})) << "bound " << bound;
+                        ASSERT_TRUE(directed.seen.contains({i, j})) << "bound " << bound;
                     }
-                visited += in_depth.seen.size();
+                if (verdict == Verdict::accepted) {
+                    ++accepted;
+                    ASSERT_TRUE(any);
+                }
+                if (bound > 0.5 * kind.size)
+                    continue;
+                visited += nearest_first.seen.size();
                 total += a.triangles.size() * b.triangles.size();
             }
         }
+        EXPECT_GT(met, 100U);
+        EXPECT_GT(crossed, met * 8 / 10); // told without exact arithmetic
+        EXPECT_GT(accepted, 0U);
         EXPECT_GT(within, 300U);
         EXPECT_LT(visited, total / 2);
     });

@@ -1,5 +1,6 @@
 #include <abut/progress.h>
 
+#include "math/transform.h"
 #include "tests/support/random.h"
 #include "tree/traverse_one.h"
 #include "tree/tree.h"
@@ -35,15 +36,11 @@ void expect_same(const Tree& a, const Tree& b) {
 }
 
 void expect_valid(const Boxes& boxes) {
-    for (std::uint32_t leaf_size = 1; leaf_size <= 8; ++leaf_size) {
-        const Tree tree = build_tree(boxes, {.leaf_size = leaf_size});
-        ASSERT_NO_THROW(validate(tree, boxes)) << boxes.size() << " boxes";
-        for (const Node& node : tree.nodes)
-            for (const NodeRef ref : node.child)
-                ASSERT_TRUE(ref.is_none() || !ref.is_leaf() || ref.count() <= leaf_size);
-        if (boxes.size() > 10000)
-            break;
-    }
+    const Tree tree = build_tree(boxes);
+    ASSERT_NO_THROW(validate(tree, boxes)) << boxes.size() << " boxes";
+    // Leaves and nodes are full but for a few.
+    EXPECT_LE(tree.order.size(), 4 + 1.3 * static_cast<double>(boxes.size()));
+    EXPECT_LE(tree.nodes.size(), 1 + boxes.size() / 12);
 }
 
 TEST(Tree, OfEverySize) {
@@ -70,7 +67,11 @@ TEST(Tree, ValidateFindsFaults) {
     const Boxes boxes = random_boxes(random, 200);
     const Tree good = build_tree(boxes);
     Tree bad = good;
-    bad.order[7] = bad.order[8];
+    std::uint32_t other = 0;
+    while (bad.order[other] == bad.order[7])
+        ++other;
+    bad.order[7] = bad.order[other];
+    EXPECT_THROW(validate(bad, boxes), std::logic_error);
     Boxes grown = boxes;
     grown[good.order[50]].upper[1] += 100;
     EXPECT_THROW(validate(good, grown), std::logic_error);
@@ -98,6 +99,77 @@ TEST(Tree, TheSameForAnyNumberOfThreads) {
     };
     EXPECT_EQ(visits(one), visits(two));
     EXPECT_FALSE(visits(one).empty());
+}
+
+/// Some triangles, and the mesh that a tree is built of.
+struct Soup {
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+
+    void add(const Triangle& t) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        positions.insert(positions.end(), t.begin(), t.end());
+        triangles.push_back({first, first + 1, first + 2});
+    }
+    [[nodiscard]] TreeMesh mesh() const { return {positions, triangles}; }
+};
+
+TEST(Tree, OfTrianglesEnclosesThemInEveryNodesFrame) {
+    Random random(810);
+    std::size_t turned = 0, nodes = 0;
+    for (int kind = 0; kind < 60; ++kind) {
+        const double scale = std::pow(10, random.integer(-6, 6));
+        const Vec3 away = random.in_cube(kind % 5 == 0 ? 1000 * scale : 0);
+        const Transform pose = random.pose(0);
+        Soup soup;
+        const int count = kind < 10 ? kind : random.integer(1, 5000);
+        for (int i = 0; i < count; ++i) {
+            Vec3 p = random.in_cube(scale);
+            if (kind % 3 == 0)
+                p.z = 0.1 * p.x; // a plane askew
+            Triangle t{p, p + random.in_cube(0.05 * scale), p + random.in_cube(0.05 * scale)};
+            if (i % 20 == 0)
+                t[1] = t[2]; // of no area
+            for (Vec3& v : t)
+                v = away + apply(pose, v);
+            soup.add(t);
+        }
+        const Tree tree = build_tree(soup.mesh());
+        ASSERT_NO_THROW(validate(tree, soup.mesh())) << "kind " << kind;
+        for (const Node& node : tree.nodes) {
+            ++nodes;
+            turned += node.frame.turn[0][0] != 1 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(turned, nodes / 10);
+    EXPECT_LT(turned, nodes);
+}
+
+TEST(Tree, LeavesHoldTheirTrianglesInTheirNodesFrame) {
+    Random random(811);
+    Soup soup;
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 p = random.in_cube(1);
+        soup.add({p, p + random.in_cube(0.01), p + random.in_cube(0.01)});
+    }
+    const Tree tree = build_tree(soup.mesh());
+    std::size_t seen = 0;
+    for (const Node& node : tree.nodes)
+        for (const NodeRef child : node.child) {
+            if (child.is_none() || !child.is_leaf())
+                continue;
+            for (std::uint32_t lane = 0; lane < child.count(); ++lane)
+                for (std::size_t v = 0; v < 3; ++v) {
+                    const auto& leaf = tree.leaf(child);
+                    const Vec3 p = node.frame.point_from_tree(
+                        soup.positions[soup.triangles[tree.order[child.first() + lane]][v]]);
+                    ASSERT_EQ(leaf.v[v][0][lane], static_cast<float>(p.x));
+                    ASSERT_EQ(leaf.v[v][1][lane], static_cast<float>(p.y));
+                    ASSERT_EQ(leaf.v[v][2][lane], static_cast<float>(p.z));
+                    ++seen;
+                }
+        }
+    EXPECT_EQ(seen, 9000U);
 }
 
 bool meet(const Aabb& a, const Aabb& b) {
@@ -128,7 +200,7 @@ TEST(TraverseOne, OverlapVisitsEveryBoxThatMeetsTheQuery) {
         }
     }
     EXPECT_GT(met, 1500U);
-    EXPECT_LT(visited, 12 * met); // whole leaves are visited, not the whole tree
+    EXPECT_LT(visited, 16 * met); // whole leaves are visited, not the whole tree
 }
 
 /// By clipping the segment to the slabs, in double.
@@ -226,7 +298,7 @@ TEST(TraverseOne, NearFindsTheNearestBox) {
 }
 
 TEST(TraverseOne, AnEmptyTreeHasNothing) {
-    const Tree tree = build_tree({});
+    const Tree tree = build_tree(std::span<const Aabb>());
     EXPECT_TRUE(tree.empty());
     const auto fail = [](std::uint32_t) -> float {
         ADD_FAILURE();

@@ -1,0 +1,100 @@
+// The SIMD kernels, on every target that this machine has, against the one-lane reference and the
+// exact or precise answer.
+
+#include "geometry/triangle_pair_block.h"
+#include "geometry/triangle_triangle_distance.h"
+#include "geometry/triangle_triangle_intersect.h"
+#include "tests/support/precise_distance.h"
+#include "tests/support/random.h"
+#include "tests/support/simd_targets.h"
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+Triangle any_triangle(Random& random, int kind) {
+    switch (kind % 4) {
+    case 0:
+        return random.lattice_triangle(3);
+    case 1: { // thin
+        const Triangle t = random.triangle();
+        return {t[0], t[1],
+                0.5 * (t[0] + t[1]) + random.in_cube(std::pow(10, random.uniform(-17, 0)))};
+    }
+    case 2: { // far off, small
+        const Vec3 away{3000.5, -70000.25, 12};
+        const Triangle t = random.triangle(0.1);
+        return {away + t[0], away + t[1], away + t[2]};
+    }
+    default:
+        return random.triangle(2);
+    }
+}
+
+TEST(TrianglePairBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(503);
+        double worst = 0;
+        int apart = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const Triangle a = any_triangle(random, i);
+            TrianglePairBlock block{};
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane)
+                block.set(lane, a, any_triangle(random, i));
+            double simd[TrianglePairBlock::kLanes], one[TrianglePairBlock::kLanes];
+            distance_sq(block, simd);
+            distance_sq_reference(block, one);
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
+                const Triangle b = block.get_b(lane);
+                const double unit = 0x1p-53 * size_of(a, b);
+                const double d = std::sqrt(simd[lane]);
+                ASSERT_NEAR(d, std::sqrt(one[lane]), 64 * unit) << "case " << i;
+                worst = std::max(worst, std::abs(d - std::sqrt(one[lane])) / unit);
+                if (triangle_triangle_intersect(a, b) == TriangleContact::none) {
+                    ++apart;
+                    ASSERT_NEAR(d, std::sqrt(triangle_triangle_distance(a, b).distance_sq),
+                                64 * unit)
+                        << "case " << i;
+                }
+            }
+        }
+        std::cout << target << ": worst " << worst << " roundings\n";
+        EXPECT_GT(apart, 30000);
+    });
+}
+
+TEST(TrianglePairBlock, DistanceAgainstAHundredDigits) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(504);
+        double worst = 0;
+        for (int i = 0; i < 200; ++i) {
+            const Triangle a = any_triangle(random, i);
+            TrianglePairBlock block{};
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
+                Triangle b = any_triangle(random, i);
+                if (i % 2 == 1) { // a vertex just off the face, which may be a needle
+                    const double s = random.uniform(0, 1), t = random.uniform(0, 1 - s);
+                    b[random.bits() % 3] = a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0]) +
+                                           random.in_cube(std::pow(10, random.uniform(-17, 0)));
+                }
+                block.set(lane, a, b);
+            }
+            double simd[TrianglePairBlock::kLanes];
+            distance_sq(block, simd);
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
+                const Triangle b = block.get_b(lane);
+                const double unit = 0x1p-53 * size_of(a, b);
+                const double truth = double(precise_boundary_distance(a, b));
+                ASSERT_NEAR(std::sqrt(simd[lane]), truth, 64 * unit) << "case " << i;
+                worst = std::max(worst, std::abs(std::sqrt(simd[lane]) - truth) / unit);
+            }
+        }
+        std::cout << target << ": worst " << worst << " roundings\n";
+    });
+}
+
+} // namespace
+} // namespace abut::test
