@@ -27,6 +27,16 @@ struct TrianglePair {
     }
 };
 
+/// What queries remember of two models from one pose to the next: where they met, or where they
+/// were closest. A query that is given it looks there first; the answer is the same, but for which
+/// of several first contacts or closest pairs is found.
+///
+/// One a pair of models and a thread. Starts empty; what belongs to other models does no harm.
+struct Workspace {
+    bool used = false;
+    TrianglePair last;
+};
+
 enum class ContactMode : std::uint8_t {
     first, ///< stop at the first pair found
     all,   ///< every pair
@@ -34,6 +44,7 @@ enum class ContactMode : std::uint8_t {
 
 struct CollideOptions {
     ContactMode mode = ContactMode::first;
+    Workspace* workspace = nullptr; ///< for a first contact
 };
 
 struct Contacts {
@@ -56,13 +67,23 @@ struct Contacts {
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options = {});
 
+/// The part of a triangle that a point lies on.
+enum class FeatureKind : std::uint8_t { vertex, edge, face };
+struct Feature {
+    FeatureKind kind = FeatureKind::face;
+    std::uint8_t index = 0; ///< vertex k; or the edge from vertex k to the next; 0 for the face
+    friend bool operator==(const Feature&, const Feature&) = default;
+};
+
 /// A pair of closest points.
 struct Gap {
     double distance = std::numeric_limits<double>::infinity(); ///< 0 if the surfaces meet
-    Vec3 point_a, point_b;                                     ///< on the surfaces, world frame
+    double at_least = 0; ///< no two points are closer: proven; the distance itself if that is exact
+    Vec3 point_a, point_b; ///< on the surfaces, world frame
     std::uint32_t triangle_a = 0, triangle_b = 0;
-    Status status =
-        Status::exact; ///< bound_only: `distance` is the `upper_bound` given, and no pair is closer
+    /// converged: within the errors allowed; bound_only: `distance` is the `upper_bound` given, and
+    /// no pair is closer.
+    Status status = Status::exact;
     Counters counters;
 };
 
@@ -70,22 +91,28 @@ struct DistanceOptions {
     /// Stop caring beyond this: if no two points are closer, the result is `bound_only` with this
     /// distance. A known bound makes the query faster.
     double upper_bound = std::numeric_limits<double>::infinity();
+    /// What the distance may exceed the true one by: this length, or this share of the result.
+    double absolute_error = 0, relative_error = 0;
+    Workspace* workspace = nullptr;
 };
 
 /// Distance of the surfaces and one pair of points that realises it.
 ///
 /// Degenerate  an empty model is infinitely far away (status `bound_only`).
-/// Accuracy    to double rounding; 0 exactly if and only if `collide` finds a contact.
-/// Errors      Error{bad_argument} if a transform is not finite or the bound is negative or NaN.
+/// Accuracy    to double rounding, or within the errors allowed; 0 exactly if and only if `collide`
+///             finds a contact. With no error allowed, whether they meet is decided exactly.
+/// Errors      Error{bad_argument} if a transform is not finite, or the bound or an error is
+///             negative or NaN.
 /// Source      best-first order as [Larsen, Gottschalk, Lin, Manocha 1999].
 Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
              const Transform& world_from_b, const DistanceOptions& options = {});
 
-/// Whether some two points of the surfaces are at most `tolerance` apart. Stops at the first proof.
+/// Whether some two points of the surfaces are at most `tolerance` apart. Stops at the first proof:
+/// a pair of triangles or of boxes that lies within it, or the last box that lies beyond.
 ///
 /// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or
 ///             NaN.
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
-            const Transform& world_from_b, double tolerance);
+            const Transform& world_from_b, double tolerance, Workspace* workspace = nullptr);
 
 } // namespace abut

@@ -53,6 +53,7 @@ struct Transform {
 /// What a result claims of its numbers.
 enum class Status : std::uint8_t {
     exact,      ///< the answer for the given positions, numbers to double rounding
+    converged,  ///< the answer within the error that was allowed
     bound_only, ///< the numbers are a proven bound of the answer
 };
 

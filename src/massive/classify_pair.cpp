@@ -107,7 +107,8 @@ std::optional<Clash> apart(const ClashPart& a, const ClashPart& b, const PlacedP
     }
     if (!contained && clearance == 0)
         return std::nullopt;
-    const Gap gap = distance(pair, contained ? std::numeric_limits<double>::infinity() : clearance);
+    const Gap gap = distance(
+        pair, {.upper_bound = contained ? std::numeric_limits<double>::infinity() : clearance});
     if (!contained && gap.status != Status::exact)
         return std::nullopt;
     clash.kind = contained ? ClashKind::contained : ClashKind::clearance;

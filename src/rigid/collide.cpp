@@ -34,6 +34,13 @@ private:
     LeafTriangles leaves_;
 };
 
+bool still_meet(const PlacedPair& pair, const TrianglePair& last) {
+    return last.a < pair.a().mesh().triangles.size() && last.b < pair.b().mesh().triangles.size() &&
+           triangle_triangle_intersect(pair.a().world_mesh_triangle(last.a, pair.world_from_a()),
+                                       pair.b().world_mesh_triangle(last.b, pair.world_from_b())) !=
+               TriangleContact::none;
+}
+
 } // namespace
 
 std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters) {
@@ -51,9 +58,16 @@ Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options) {
     Contacts result;
     const PlacedPair pair(a, world_from_a, b, world_from_b);
+    Workspace* const workspace = options.mode == ContactMode::first ? options.workspace : nullptr;
+    if (workspace != nullptr && workspace->used && still_meet(pair, workspace->last)) {
+        result.pairs.push_back(workspace->last);
+        return result;
+    }
     for (const Contact& c : find_contacts(pair, options.mode, result.counters))
         result.pairs.push_back(c.pair);
     std::sort(result.pairs.begin(), result.pairs.end());
+    if (workspace != nullptr && result.any())
+        *workspace = {true, result.pairs[0]};
     return result;
 }
 

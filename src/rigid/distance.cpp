@@ -16,13 +16,26 @@ namespace abut {
 
 namespace {
 
+/// What a distance may exceed the true one by.
+struct Slack {
+    double absolute = 0, relative = 0;
+
+    [[nodiscard]] bool any() const { return absolute > 0 || relative > 0; }
+    /// Nothing that is nearer than this by less than the slack matters: d - error(d) >= 0.
+    [[nodiscard]] double least_of_interest(double distance) const {
+        return std::max(0.0, distance - std::max(absolute, relative * distance));
+    }
+};
+
 /// Keeps the nearest pair of triangles below the bound; a contact ends the search with distance 0.
 ///
 /// Pairs that cheap bounds do not rule out are collected, and measured eight at a time.
 class NearestPairFinder : public LeafPairVisitor {
 public:
-    NearestPairFinder(const PlacedPair& pair, double bound_sq, bool first)
-        : first_(first), leaves_(pair), best_sq_(bound_sq) {}
+    /// `first`: stop at the first pair within the bound. The slack is what the answer may exceed
+    /// the distance by.
+    NearestPairFinder(const PlacedPair& pair, double bound, bool first, const Slack& slack = {})
+        : first_(first), pair_(pair), leaves_(pair), slack_(slack), best_sq_(bound * bound) {}
 
     double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) override {
         leaves_.set_leaves(leaf_a, leaf_b);
@@ -46,7 +59,7 @@ public:
                 measure();
             return true;
         });
-        return found_ && first_ ? -1 : best_sq_;
+        return found_ && first_ ? -1 : bound_sq();
     }
 
     [[nodiscard]] Vec3 direction() const override {
@@ -56,16 +69,29 @@ public:
         return normalized_or_zero(points.b - points.a);
     }
 
-    /// Begins with a pair of triangles.
-    void seed(const Triangle& a, const Triangle& b, const TrianglePair& indices) {
-        const double sq = triangle_triangle_distance(a, b).distance_sq;
-        if (sq < best_sq_) {
-            best_sq_ = sq;
-            found_ = true;
-            best_ = {a, b, indices};
-        }
+    /// Begins with a pair of triangles. Whether that answers everything.
+    bool begin_with(const TrianglePair& last) {
+        if (last.a >= pair_.a().mesh().triangles.size() ||
+            last.b >= pair_.b().mesh().triangles.size())
+            return false;
+        const Candidate candidate{pair_.a().world_mesh_triangle(last.a, pair_.world_from_a()),
+                                  pair_.b().world_mesh_triangle(last.b, pair_.world_from_b()),
+                                  last};
+        const double sq = triangle_triangle_distance(candidate.a, candidate.b).distance_sq;
+        contact_ = sq == 0 &&
+                   triangle_triangle_intersect(candidate.a, candidate.b) != TriangleContact::none;
+        if (contact_ || sq < best_sq_ || (first_ && sq <= best_sq_))
+            best_ = candidate, best_sq_ = sq, found_ = true;
+        return contact_ || (found_ && first_);
     }
-    [[nodiscard]] double best_sq() const { return best_sq_; }
+
+    /// Squared distance beyond which pairs do not matter.
+    [[nodiscard]] double bound_sq() const {
+        if (!found_ || !slack_.any())
+            return best_sq_;
+        const double bound = slack_.least_of_interest(std::sqrt(best_sq_));
+        return bound * bound;
+    }
 
     /// Measures what is left. Call it after the traversal.
     void finish() {
@@ -74,16 +100,17 @@ public:
     }
 
     [[nodiscard]] bool found() const { return found_; }
-    [[nodiscard]] Gap gap() const {
+    [[nodiscard]] const TrianglePair& indices() const { return best_.indices; }
+    void report(Gap& gap) const {
+        if (!found_)
+            return;
         const ClosestPoints points = triangle_triangle_distance(best_.a, best_.b);
-        Gap gap;
         // Surfaces apart by less than rounding are still apart.
         gap.distance =
             contact_ ? 0
                      : std::max(std::sqrt(points.distance_sq), std::numeric_limits<double>::min());
         gap.point_a = points.a, gap.point_b = points.b;
         gap.triangle_a = best_.indices.a, gap.triangle_b = best_.indices.b;
-        return gap;
     }
 
 private:
@@ -109,7 +136,9 @@ private:
     }
 
     bool first_;
+    const PlacedPair& pair_;
     LeafTriangles leaves_;
+    Slack slack_;
     double best_sq_;
     bool found_ = false, contact_ = false;
     Candidate best_;
@@ -125,49 +154,55 @@ void require_bound(double bound, const char* what) {
 
 } // namespace
 
-TrianglePair g_seed{~0U, ~0U};
-Gap distance(const PlacedPair& pair, double upper_bound) {
+Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     const std::uint64_t exact_before = exact_signs();
-    NearestPairFinder finder(pair, upper_bound * upper_bound, false);
-    if (g_seed.a != ~0U) {
-        const auto tri = [](const ModelData& m, std::uint32_t t, const Transform& w) {
-            const auto& x = m.mesh().triangles[t];
-            return Triangle{apply(w, m.mesh().positions[x[0]]), apply(w, m.mesh().positions[x[1]]),
-                            apply(w, m.mesh().positions[x[2]])};
-        };
-        finder.seed(tri(pair.a(), g_seed.a, pair.world_from_a()),
-                    tri(pair.b(), g_seed.b, pair.world_from_b()), g_seed);
-    }
-    PairTraversal traversal = pair.traversal(finder.best_sq());
-    traverse_nearest(traversal, finder);
-    finder.finish();
+    const Slack slack{options.absolute_error, options.relative_error};
+    NearestPairFinder finder(pair, options.upper_bound, false, slack);
+    Workspace* const workspace = options.workspace;
     Gap gap;
-    if (finder.found()) {
-        gap = finder.gap();
-    } else {
-        gap.distance = upper_bound;
-        gap.status = Status::bound_only;
+    if (workspace == nullptr || !workspace->used || !finder.begin_with(workspace->last)) {
+        PairTraversal traversal = pair.traversal(finder.bound_sq());
+        traverse_nearest(traversal, finder);
+        finder.finish();
+        gap.counters.volume_tests = traversal.volume_tests;
+        gap.counters.primitive_tests = traversal.primitive_tests;
     }
-    gap.counters = {traversal.volume_tests, traversal.primitive_tests,
-                    exact_signs() - exact_before};
+    finder.report(gap);
+    gap.at_least = gap.distance;
+    if (!finder.found()) {
+        gap.distance = gap.at_least = options.upper_bound;
+        gap.status = Status::bound_only;
+    } else if (slack.any() && gap.distance > 0) {
+        gap.at_least = slack.least_of_interest(gap.distance);
+        gap.status = Status::converged;
+    }
+    if (workspace != nullptr && finder.found())
+        *workspace = {true, {gap.triangle_a, gap.triangle_b}};
+    gap.counters.exact_tests = exact_signs() - exact_before;
     return gap;
 }
 
 Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
              const Transform& world_from_b, const DistanceOptions& options) {
     require_bound(options.upper_bound, "distance bound");
-    return distance(PlacedPair(a, world_from_a, b, world_from_b), options.upper_bound);
+    require_bound(options.absolute_error, "absolute error");
+    require_bound(options.relative_error, "relative error");
+    return distance(PlacedPair(a, world_from_a, b, world_from_b), options);
 }
 
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
-            const Transform& world_from_b, double tolerance) {
+            const Transform& world_from_b, double tolerance, Workspace* workspace) {
     require_bound(tolerance, "tolerance");
     const PlacedPair pair(a, world_from_a, b, world_from_b);
-    NearestPairFinder finder(pair, tolerance * tolerance, true);
+    NearestPairFinder finder(pair, tolerance, true);
+    if (workspace != nullptr && workspace->used && finder.begin_with(workspace->last))
+        return true;
     PairTraversal traversal = pair.traversal(tolerance * tolerance);
-    if (traverse_within(traversal, finder) != Verdict::done)
+    if (traverse_within(traversal, finder) == Verdict::accepted)
         return true;
     finder.finish();
+    if (workspace != nullptr && finder.found())
+        *workspace = {true, finder.indices()};
     return finder.found();
 }
 

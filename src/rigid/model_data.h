@@ -31,6 +31,13 @@ public:
         return {apply(world, vertices_[t[0]]), apply(world, vertices_[t[1]]),
                 apply(world, vertices_[t[2]])};
     }
+    /// World position of a triangle by its mesh index.
+    [[nodiscard]] Triangle world_mesh_triangle(std::uint32_t triangle,
+                                               const Transform& world) const {
+        const auto& t = mesh_.triangles[triangle];
+        return {apply(world, mesh_.positions[t[0]]), apply(world, mesh_.positions[t[1]]),
+                apply(world, mesh_.positions[t[2]])};
+    }
     [[nodiscard]] std::size_t bytes() const;
 
 private:

@@ -83,6 +83,6 @@ bool for_each_pair(std::uint32_t pairs, const Body& body) {
 }
 
 /// As the public query, for a pair placed already.
-Gap distance(const PlacedPair& pair, double upper_bound);
+Gap distance(const PlacedPair& pair, const DistanceOptions& options);
 
 } // namespace abut

@@ -25,7 +25,10 @@ public:
 
     [[nodiscard]] bool empty() const { return (filled_[0] | filled_[1]) == 0; }
 
+    [[nodiscard]] std::size_t size() const { return size_; }
+
     void push(float key, const Item& item) {
+        ++size_;
         const std::uint32_t bucket = bucket_of(key);
         std::uint32_t entry = free_;
         if (entry != kNone) {
@@ -41,6 +44,7 @@ public:
 
     /// Takes the next item. In: not empty.
     Item pop() {
+        --size_;
         const std::uint32_t bucket = first_bucket();
         const std::uint32_t entry = head_[bucket];
         const Item item = pool_[entry].item;
@@ -77,6 +81,7 @@ private:
         std::uint32_t next;
     };
     std::int32_t top_;
+    std::size_t size_ = 0;
     std::array<std::uint64_t, 2> filled_{};
     std::array<std::uint32_t, kBuckets> head_{};
     std::uint32_t free_ = kNone;

@@ -277,13 +277,7 @@ public:
 
     Verdict depth_first() {
         found_.push_back({traverse_pair::kRoot, traverse_pair::kRoot, 0});
-        while (!found_.empty()) {
-            const BoxPair pair = found_.back();
-            found_.pop_back();
-            if (!(pair.bound_sq > bound_sq_) && !step(pair))
-                return verdict_;
-        }
-        return Verdict::done;
+        return drain() ? Verdict::done : verdict_;
     }
 
     /// Visits one pair of leaves that seem to be near each other.
@@ -311,8 +305,11 @@ public:
             found_.clear();
             if (!step(pair))
                 return verdict_;
-            for (const BoxPair& child : found_)
-                pending.push(child.bound_sq, child);
+            if (pending.size() < t_.queue_limit)
+                for (const BoxPair& child : found_)
+                    pending.push(child.bound_sq, child);
+            else if (!drain())
+                return verdict_;
         }
         return Verdict::done;
     }
@@ -320,6 +317,17 @@ public:
     [[nodiscard]] float bound_sq() const { return bound_sq_; }
 
 private:
+    /// Looks at all that was found, last first. False: stop, with a verdict.
+    bool drain() {
+        while (!found_.empty()) {
+            const BoxPair pair = found_.back();
+            found_.pop_back();
+            if (!(pair.bound_sq > bound_sq_) && !step(pair))
+                return false;
+        }
+        return true;
+    }
+
     /// Looks at one pair: adds what is near below it to `found_`. False: stop, with a verdict.
     bool step(const BoxPair& pair) {
         const NodeRef a = traverse_pair::ref_of(t_.a, pair.a),

@@ -35,6 +35,8 @@ struct PairTraversal {
     const Tree& b;
     const PairFrame& frame;
     double bound_sq = 0; ///< squared world distance beyond which pairs do not matter; 0: overlap
+    /// Pairs of boxes that traverse_nearest keeps, at most about: beyond, it goes depth first.
+    std::size_t queue_limit = std::size_t{1} << 16;
     std::uint64_t volume_tests = 0;    ///< counted up
     std::uint64_t primitive_tests = 0; ///< counted up
 };
@@ -55,7 +57,7 @@ Verdict traverse_within(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 /// The same, nearest boxes first: fewest visits where the bound shrinks.
 /// Source      [Larsen, Gottschalk, Lin, Manocha 1999], the priority queue. Differs: buckets, so
-///             nearest to within 12 %; unbounded; boxes and triangles are also told apart by their
+///             nearest to within 12 %; boxes and triangles are also told apart by their
 ///             gap along the direction of the closest points so far.
 Verdict traverse_nearest(PairTraversal& traversal, LeafPairVisitor& visitor);
 
