@@ -17,9 +17,9 @@ inline constexpr double kUnderflow = 0x1p-500;
 inline Vec3 to_double(const Float3& v) {
     return {v[0], v[1], v[2]};
 }
-inline Float3 to_float(const Vec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+/// Each coordinate to the nearest float. Out of line: where this and to_double are inlined, g++ 12
+/// at -O2 (-ftree-slp-vectorize) takes the double for the float, rounding left out.
+Float3 to_float(const Vec3& v);
 inline float dot(const Float3& a, const Float3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

@@ -121,9 +121,9 @@ KdopMap<k>::KdopMap(const RelativePose& pose) : margin(pose.margin) {
             const Normal opposite{-cone.normals[j][0], -cone.normals[j][1], -cone.normals[j][2]};
             for (std::uint32_t slab = 0; slab < normals.size(); ++slab)
                 if (normals[slab] == cone.normals[j] || normals[slab] == opposite)
-                    terms[i][j] = {slab, static_cast<float>(normals[slab] == opposite
-                                                                ? -cone.weights[j]
-                                                                : cone.weights[j])};
+                    terms[i][j] = {slab,
+                                   static_cast<float>(normals[slab] == opposite ? -cone.weights[j]
+                                                                                : cone.weights[j])};
         }
     }
 }

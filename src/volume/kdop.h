@@ -17,8 +17,8 @@ constexpr std::array<std::array<int, 3>, k / 2> kdop_normals() {
     static_assert(k == 14 || k == 18 || k == 26);
     using Normal = std::array<int, 3>;
     constexpr std::array<Normal, 3> kAxes{Normal{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    constexpr std::array<Normal, 6> kFaceDiagonals{Normal{0, 1, 1},  {0, 1, -1}, {1, 0, 1},
-                                                   {1, 0, -1}, {1, 1, 0},  {1, -1, 0}};
+    constexpr std::array<Normal, 6> kFaceDiagonals{Normal{0, 1, 1}, {0, 1, -1}, {1, 0, 1},
+                                                   {1, 0, -1},      {1, 1, 0},  {1, -1, 0}};
     constexpr std::array<Normal, 4> kCubeDiagonals{
         Normal{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
     std::array<Normal, k / 2> normals{};

@@ -142,16 +142,16 @@ HWY_INLINE Lanes3<D> shortest_vector(D d, const Core<D, 2>& a, const Core<D, 2>&
             for (int corner = 0; corner < 4; ++corner) {
                 const auto half_a = (corner & 1) != 0 ? a.half[1 - i] : hn::Neg(a.half[1 - i]);
                 const auto half_b = (corner & 2) != 0 ? b.half[1 - j] : hn::Neg(b.half[1 - j]);
-                best.offer(edges.shortest(minus_scaled(
-                    plus_scaled(w, half_b, b.direction[1 - j]), half_a, a.direction[1 - i])));
+                best.offer(edges.shortest(minus_scaled(plus_scaled(w, half_b, b.direction[1 - j]),
+                                                       half_a, a.direction[1 - i])));
             }
         }
     for (int corner = 0; corner < 4; ++corner) {
         const auto end = [&](const Core<D, 2>& core, int i) HWY_ATTR {
             return (corner >> i & 1) != 0 ? core.half[i] : hn::Neg(core.half[i]);
         };
-        Lanes3<D> v = plus_scaled(plus_scaled(w, end(b, 0), b.direction[0]), end(b, 1),
-                                  b.direction[1]);
+        Lanes3<D> v =
+            plus_scaled(plus_scaled(w, end(b, 0), b.direction[0]), end(b, 1), b.direction[1]);
         const auto s = clamp_to<D>(dot(v, a.dual[0]), a.half[0]),
                    t = clamp_to<D>(dot(v, a.dual[1]), a.half[1]);
         best.offer(minus_scaled(minus_scaled(v, s, a.direction[0]), t, a.direction[1]));
@@ -221,14 +221,14 @@ HWY_INLINE Separation<D> separation_of_cores(D d, const float (*row)[VolumeBound
         }
         gap = hn::Max(gap, gap_along(d, v, a, b, w));
     }
-    gap = hn::Sub(gap, hn::Add(hn::Load(d, row[3] + lane),
-                               hn::Set(d, one.swept.radius + one.margin)));
+    gap = hn::Sub(gap,
+                  hn::Add(hn::Load(d, row[3] + lane), hn::Set(d, one.swept.radius + one.margin)));
     return {gap, square_of_gap(d, gap)};
 }
 
 template <class D, std::size_t n>
-HWY_INLINE Separation<D> separation(D d, const VolumeBlock<SweptSphere<n>>& block,
-                                    std::size_t lane, const SweptSphereImage<n>& one) {
+HWY_INLINE Separation<D> separation(D d, const VolumeBlock<SweptSphere<n>>& block, std::size_t lane,
+                                    const SweptSphereImage<n>& one) {
     return separation_of_cores(d, block.row, lane, one);
 }
 template <class D>
@@ -296,8 +296,7 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Obb>& block, std::siz
             const auto sine_sq = hn::MulAdd(c1, c1, hn::Mul(c2, c2));
             // Below this the edges are parallel, and the faces' normals say as much.
             const auto usable = hn::Gt(sine_sq, hn::Set(d, 0x1p-20F));
-            const auto along =
-                hn::Sub(hn::Div(open, hn::Sqrt(sine_sq)), margin);
+            const auto along = hn::Sub(hn::Div(open, hn::Sqrt(sine_sq)), margin);
             gap = hn::IfThenElse(usable, hn::Max(gap, along), gap);
         }
     }
@@ -317,9 +316,9 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Kdop<k>>& block, std:
         const auto& n = Kdop<k>::kNormals[i];
         const int norm_sq = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
         const float inverse_norm = norm_sq == 1 ? 1.0F : norm_sq == 2 ? 0.70710678F : 0.57735027F;
-        const auto apart =
-            hn::Max(hn::Sub(hn::Set(d, one.kdop.lower[i]), hn::Load(d, block.row[kSlabs + i] + lane)),
-                    hn::Sub(hn::Load(d, block.row[i] + lane), hn::Set(d, one.kdop.upper[i])));
+        const auto apart = hn::Max(
+            hn::Sub(hn::Set(d, one.kdop.lower[i]), hn::Load(d, block.row[kSlabs + i] + lane)),
+            hn::Sub(hn::Load(d, block.row[i] + lane), hn::Set(d, one.kdop.upper[i])));
         open[i] = hn::MulSub(apart, hn::Set(d, inverse_norm), hn::Set(d, one.margin));
         gap = hn::Max(gap, open[i]);
     }
@@ -386,7 +385,9 @@ template <std::size_t n>
 HWY_INLINE ImageBall ball_around(const SweptSphereImage<n>& image) {
     return {image.swept.centre, image.swept.circumradius()};
 }
-HWY_INLINE ImageBall ball_around(const ObbImage& image) { return {image.centre, image.radius}; }
+HWY_INLINE ImageBall ball_around(const ObbImage& image) {
+    return {image.centre, image.radius};
+}
 template <std::size_t k>
 HWY_INLINE ImageBall ball_around(const KdopImage<k>& image) {
     ImageBall ball{{}, image.kdop.circumradius()};

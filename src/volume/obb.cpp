@@ -71,8 +71,8 @@ std::array<Vec3, 8> corners_of(const Obb& box) {
         corners[corner] = to_double(box.centre);
         for (unsigned i = 0; i < 3; ++i) {
             const double half = box.half[i];
-            corners[corner] = corners[corner] + ((corner >> i & 1U) != 0 ? half : -half) *
-                                                    to_double(box.axis[i]);
+            corners[corner] =
+                corners[corner] + ((corner >> i & 1U) != 0 ? half : -half) * to_double(box.axis[i]);
         }
     }
     return corners;

@@ -3,6 +3,11 @@
 #include "volume/convex_hull.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -13,6 +18,9 @@ namespace {
 constexpr std::size_t kFew = 8;
 // Flatter than this, measured by deviations along the axes, a set has no hull worth the name.
 constexpr double kFlat = 1e-6;
+// A hull costs some 4 us a vertex. Of more points than this, the hull is built of the extreme ones
+// along so many directions: enough for a covariance.
+constexpr std::size_t kManyPoints = 384, kDirections = 64;
 
 struct Principal {
     Axes axes;
@@ -68,6 +76,44 @@ std::vector<Vec3> vertices_of(std::span<const Triangle> triangles) {
     return vertices;
 }
 
+/// Directions spread evenly over a half sphere, along a spiral.
+std::array<Vec3, kDirections> spiral() {
+    std::array<Vec3, kDirections> directions;
+    for (std::size_t i = 0; i < kDirections; ++i) {
+        const double z = (static_cast<double>(i) + 0.5) / kDirections;
+        const double angle = 2 * std::numbers::pi * static_cast<double>(i) / std::numbers::phi;
+        const double r = std::sqrt(1 - z * z);
+        directions[i] = {r * std::cos(angle), r * std::sin(angle), z};
+    }
+    return directions;
+}
+
+/// Every point once; of many, those that lie farthest one way or the other.
+std::vector<Vec3> candidates_for_hull(std::vector<Vec3> points) {
+    const auto key = [](const Vec3& p) { return std::tie(p.x, p.y, p.z); };
+    if (points.size() > kManyPoints) {
+        static const std::array<Vec3, kDirections> kSpiral = spiral();
+        std::vector<Vec3> extremes;
+        for (const Vec3& direction : kSpiral) {
+            const Vec3 *low = &points[0], *high = low;
+            double least = dot(direction, *low), most = least;
+            for (const Vec3& p : points) {
+                const double x = dot(direction, p);
+                if (x < least)
+                    least = x, low = &p;
+                if (x > most)
+                    most = x, high = &p;
+            }
+            extremes.insert(extremes.end(), {*low, *high});
+        }
+        points = std::move(extremes);
+    }
+    std::sort(points.begin(), points.end(),
+              [&](const Vec3& p, const Vec3& q) { return key(p) < key(q); });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+}
+
 Principal principal_of(std::span<const Triangle> surface) {
     const Vec3 origin = surface[0][0];
     Vec3 mean;
@@ -107,7 +153,7 @@ Axes hull_axes(std::span<const Triangle> triangles) {
     const Principal own = principal_of(triangles);
     if (triangles.size() <= kFew || own.thinness < kFlat)
         return own.axes;
-    const std::vector<Triangle> hull = convex_hull(vertices_of(triangles));
+    const std::vector<Triangle> hull = convex_hull(candidates_for_hull(vertices_of(triangles)));
     return hull.empty() ? own.axes : principal_of(hull).axes;
 }
 

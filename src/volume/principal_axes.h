@@ -25,8 +25,10 @@ Axes principal_axes(std::span<const Triangle> surface);
 /// The same of the surface of the triangles' convex hull, which how finely a part is meshed does
 /// not sway; of the triangles themselves if they are few or lie in a plane.
 ///
-/// Cost        O(n log n), some microseconds a triangle.
-/// Source      [Gottschalk, Lin, Manocha 1996]. Differs: few triangles are taken as they are.
+/// Cost        under a microsecond for up to 8 triangles; else some 4 us a vertex of the hull, 128
+///             of them at most, and a scan.
+/// Source      [Gottschalk, Lin, Manocha 1996]. Differs: up to 8 triangles are taken as they are;
+///             of more than 128, the hull is that of the extreme vertices along 64 directions.
 Axes hull_axes(std::span<const Triangle> triangles);
 
 } // namespace abut

@@ -70,7 +70,7 @@ Support smallest_ball(std::span<const Vec3> points, const Support& support) {
 /// The vertices that lie farthest both ways along the axes and diagonals of the cube.
 std::vector<Vec3> extreme_vertices(std::span<const Triangle> triangles) {
     constexpr std::array<Vec3, 13> kDirections{
-        Vec3{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0},  {1, -1, 0}, {1, 0, 1},  {1, 0, -1},
+        Vec3{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0},  {1, -1, 0}, {1, 0, 1}, {1, 0, -1},
         {0, 1, 1},     {0, 1, -1}, {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
     std::vector<Vec3> extremes;
     for (const Vec3& direction : kDirections) {
@@ -123,8 +123,8 @@ Sphere Sphere::merge(const Sphere& a, const Sphere& b) {
     Sphere sphere;
     sphere.centre = to_float(apart > 0 ? ca + (0.5 * (low + high) / apart) * (cb - ca) : ca);
     const Vec3 c = to_double(sphere.centre);
-    sphere.radius =
-        round_up(std::max(length(ca - c) + a.radius, length(cb - c) + b.radius) * (1 + 16 * 0x1p-53));
+    sphere.radius = round_up(std::max(length(ca - c) + a.radius, length(cb - c) + b.radius) *
+                             (1 + 16 * 0x1p-53));
     return sphere;
 }
 

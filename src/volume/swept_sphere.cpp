@@ -91,8 +91,7 @@ void reach_corners(const AlignedBalls& aligned, double radius, std::array<Extent
         const double excess = x * x + y * y + ball.centre.z * ball.centre.z - r * r;
         if (!(x > 0 && y > 0 && excess > 0))
             continue;
-        const double m =
-            0.5 * ((x + y) - std::sqrt(std::max(0.0, (x + y) * (x + y) - 2 * excess)));
+        const double m = 0.5 * ((x + y) - std::sqrt(std::max(0.0, (x + y) * (x + y) - 2 * excess)));
         const auto extend_to = [&](double c, const Extent& e, Extent& g) {
             if (c > e.high)
                 g.high = std::max(g.high, e.high + m);
@@ -136,7 +135,7 @@ SweptSphere<dimension> fit_balls(std::span<const Ball> balls, const Axes& axes) 
     Vec3 centre = aligned.origin;
     for (std::size_t i = 0; i < dimension; ++i) {
         centre = centre + core[i].middle() * aligned.axes[i];
-        swept.axes[i] = {to_float(aligned.axes[i]), static_cast<float>(core[i].half())};
+        swept.axes[i] = {to_float(aligned.axes[i]), to_float({core[i].half(), 0, 0})[0]};
     }
     swept.centre = to_float(centre);
     // Whatever was rounded or estimated until here: the radius makes it a sound volume. Differences,
@@ -144,9 +143,9 @@ SweptSphere<dimension> fit_balls(std::span<const Ball> balls, const Axes& axes) 
     // from the centre.
     double largest = 0;
     for (const Ball& ball : balls)
-        largest = std::max(largest, distance_from_core(swept, ball.centre) + ball.radius +
-                                        64 * 0x1p-53 *
-                                            length(ball.centre - to_double(swept.centre)));
+        largest =
+            std::max(largest, distance_from_core(swept, ball.centre) + ball.radius +
+                                  64 * 0x1p-53 * length(ball.centre - to_double(swept.centre)));
     swept.radius = round_up(largest * (1 + 4 * 0x1p-53) + kUnderflow);
     return swept;
 }
