@@ -213,7 +213,7 @@ HWY_INLINE Separation<D> separation_of_cores(D d, const float (*row)[VolumeBound
     Lanes3<D> v = shortest_vector(d, a, b, w);
     auto gap = gap_along(d, v, a, b, w);
     if constexpr (n > 0) {
-        // Twice: two directions are not at right angles to each other.
+        // Twice: the directions of the one are not at right angles to those of the other.
         const auto rounding = hn::Mul(size, hn::Set(d, 16 * 0x1p-24F));
         for (int i = 0; i < 2; ++i) {
             straighten(v, a, rounding);

@@ -26,7 +26,7 @@ struct alignas(32) VolumeBlock {
         for (std::size_t i = 0; i < V::kFloats; ++i)
             values[i] = row[i][lane];
         V volume;
-        std::memcpy(&volume, values.data(), sizeof(values));
+        std::memcpy(static_cast<void*>(&volume), values.data(), sizeof(values));
         return volume;
     }
 };
