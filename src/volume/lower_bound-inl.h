@@ -383,10 +383,10 @@ struct ImageBall {
 };
 template <std::size_t n>
 HWY_INLINE ImageBall ball_around(const SweptSphereImage<n>& image) {
-    return {image.swept.centre, image.swept.circumradius()};
+    return {image.swept.centre, image.circumradius};
 }
 HWY_INLINE ImageBall ball_around(const ObbImage& image) {
-    return {image.centre, image.radius};
+    return {image.centre, image.circumradius};
 }
 template <std::size_t k>
 HWY_INLINE ImageBall ball_around(const KdopImage<k>& image) {

@@ -127,7 +127,7 @@ float Obb::circumradius() const {
 ObbImage image_of(const Obb& volume, const RelativePose& pose) {
     ObbImage image{};
     image.centre = apply(pose, volume.centre);
-    image.radius = volume.circumradius() * pose.most_stretch;
+    image.circumradius = volume.circumradius() * pose.most_stretch;
     image.margin = pose.margin;
     auto& e = image.direction;
     for (std::size_t i = 0; i < 3; ++i) {

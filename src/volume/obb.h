@@ -44,7 +44,7 @@ struct ObbImage {
     /// [i][k]: half the length of edge k times |direction_i x direction_k|
     std::array<std::array<float, 3>, 3> half_across;
     float normals_spread; ///< sum_i (normal_i . d)^2 <= spread |d|^2; 1 if rigid
-    float radius;         ///< no point is farther from the centre
+    float circumradius;   ///< no point is farther from the centre
     float margin;
 };
 ObbImage image_of(const Obb& volume, const RelativePose& pose);

@@ -207,6 +207,7 @@ SweptSphereImage<dimension> image_of(const SweptSphere<dimension>& volume,
                                      const RelativePose& pose) {
     SweptSphereImage<dimension> image;
     image.margin = pose.margin;
+    image.circumradius = volume.circumradius() * pose.most_stretch;
     image.swept.centre = apply(pose, volume.centre);
     image.swept.radius = volume.radius * pose.most_stretch;
     for (std::size_t i = 0; i < dimension; ++i) {

@@ -68,6 +68,7 @@ struct SweptSphereImage {
     SweptSphere<dimension> swept;
     /// Vectors of the core's plane with dual_i . direction_k = 1 if i = k, else 0.
     std::array<std::array<float, 3>, dimension> dual{};
+    float circumradius = 0; ///< no point is farther from the centre
     float margin = 0;
 };
 
