@@ -238,7 +238,7 @@ TEST(TraverseVolumes, AcceptsEarlyOnlyWhatIsWithinTheBound) {
         for (const Triangle& t : s.placed_a)
             for (const Triangle& u : s.placed_b)
                 distance_sq = std::min(distance_sq, triangle_triangle_distance(t, u).distance_sq);
-        const double bound_sq = distance_sq * std::pow(random.uniform(0.5, 3), 2);
+        const double bound_sq = distance_sq * std::pow(random.uniform(0.5, 12), 2);
         for (const Volume volume : kKinds) {
             const auto va = s.a.volumes(volume), vb = s.b.volumes(volume);
             const VolumeFrame frame = make_volume_frame(*va, s.world_a, *vb, s.world_b);
@@ -255,8 +255,9 @@ TEST(TraverseVolumes, AcceptsEarlyOnlyWhatIsWithinTheBound) {
             }
         }
     }
-    EXPECT_GT(accepted, 60);
-    EXPECT_GT(done, 60);
+    std::cout << accepted << " accepted, " << done << " done\n";
+    EXPECT_GT(accepted, 40);
+    EXPECT_GT(done, 40);
 }
 
 TEST(TraverseVolumes, WhatHasNoVolumes) {

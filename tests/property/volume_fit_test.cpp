@@ -24,7 +24,7 @@ void expect_encloses(const V& volume, const std::vector<Triangle>& triangles) {
 
 TYPED_TEST(VolumeFit, EnclosesItsTriangles) {
     Random random(1101);
-    for (int i = 0; i < 350; ++i) {
+    for (int i = 0; i < 210; ++i) {
         const auto triangles = any_triangles(random, i);
         SCOPED_TRACE(i);
         expect_encloses(TypeParam::fit(triangles), triangles);
@@ -66,7 +66,7 @@ TYPED_TEST(VolumeFit, EnclosesWhatTheMarginAllows) {
 
 TYPED_TEST(VolumeFit, MergedEnclosesBoth) {
     Random random(1104);
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 140; ++i) {
         const auto first = any_triangles(random, i), second = any_triangles(random, 5 * i + 2);
         const TypeParam a = TypeParam::fit(first), b = TypeParam::fit(second);
         const TypeParam both = TypeParam::merge(a, b);
