@@ -92,7 +92,7 @@ public:
 
     Verdict best_first() {
         // No two points are farther apart than the farthest of the roots' balls.
-        VolumeBounds bounds;
+        VolumeBounds bounds{};
         bound_all<true>(D(), root_block(), image_of(b_.layer.root, a_.from_other), bounds);
         NearFirstQueue<VolumePair> pending(
             std::min(bound_sq_, bounds.upper_sq[0] * a_.most_stretch_sq));
@@ -151,7 +151,7 @@ private:
     /// may be within the bound. True if one is wholly within it.
     template <bool with_upper, typename Add>
     HWY_INLINE bool open(const Side<V>& side, std::uint32_t index, const V& other, const Add& add) {
-        VolumeBounds bounds;
+        VolumeBounds bounds{};
         bound_all<with_upper>(D(), side.layer.children[index], image_of(other, side.from_other),
                               bounds);
         const std::uint32_t used = traverse_volumes::children_of(side.tree.nodes[index]);

@@ -52,7 +52,7 @@ private:
         return file.get();
     }
 
-    qhT state_;
+    qhT state_{};
 };
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "volume/lower_bound.h"
 
+#include <cmath>
 #include <variant>
 
 #undef HWY_TARGET_INCLUDE
@@ -68,7 +69,7 @@ template <typename V>
 float distance_lower_bound(const V& a, const V& b, const typename V::Map& map) {
     VolumeBlock<V> block;
     block.set(0, a);
-    VolumeBounds bounds;
+    VolumeBounds bounds{};
     // One lane would do; eight at once take no longer.
     bound_distances(block, image_of(b, map), bounds);
     return std::sqrt(bounds.lower_sq[0]);

@@ -140,8 +140,10 @@ ObbImage image_of(const Obb& volume, const RelativePose& pose) {
         const std::size_t k = (i + 1) % 3, l = (i + 2) % 3;
         const Float3 across = cross(e[k], e[l]);
         const float sine = std::sqrt(dot(across, across));
-        image.normal[i] = scaled(1 / sine, across);
-        image.normal_half[i] = image.half[i] * std::abs(dot(image.normal[i], e[i]));
+        image.normal[i] = scaled(sine > 0 ? 1 / sine : 0, across);
+        // All three: of edges that are almost parallel, the normal is not at right angles to them.
+        for (std::size_t j = 0; j < 3; ++j)
+            image.normal_half[i] += image.half[j] * std::abs(dot(image.normal[i], e[j]));
         image.half_across[k][l] = image.half[l] * sine;
         image.half_across[l][k] = image.half[k] * sine;
     }

@@ -24,7 +24,7 @@ constexpr std::size_t kManyPoints = 384, kDirections = 64;
 
 struct Principal {
     Axes axes;
-    double thinness; ///< of the least to the largest standard deviation
+    double thinness = 0; ///< of the least to the largest standard deviation
 };
 
 /// The first axis is kept; the others are turned until they are at right angles to what comes
@@ -92,9 +92,9 @@ std::array<Vec3, kDirections> spiral() {
 std::vector<Vec3> candidates_for_hull(std::vector<Vec3> points) {
     const auto key = [](const Vec3& p) { return std::tie(p.x, p.y, p.z); };
     if (points.size() > kManyPoints) {
-        static const std::array<Vec3, kDirections> kSpiral = spiral();
+        static const std::array<Vec3, kDirections> directions = spiral();
         std::vector<Vec3> extremes;
-        for (const Vec3& direction : kSpiral) {
+        for (const Vec3& direction : directions) {
             const Vec3 *low = &points[0], *high = low;
             double least = dot(direction, *low), most = least;
             for (const Vec3& p : points) {

@@ -58,7 +58,7 @@ double reach_at(double radius, double off) {
 /// Where the core ends on each of its axes: as far in as the radius allows, but for corners.
 template <std::size_t dimension>
 std::array<Extent, dimension> inset_extents(const AlignedBalls& aligned, double radius) {
-    std::array<Extent, dimension> core;
+    std::array<Extent, dimension> core{};
     for (std::size_t i = 0; i < dimension; ++i) {
         // No ball sticks out farther than the sweep's ends reach there.
         Extent ends;
@@ -184,6 +184,7 @@ SweptSphere<dimension> SweptSphere<dimension>::merge(const SweptSphere& a, const
     add_corners(a, corners);
     add_corners(b, corners);
     std::vector<Vec3> points;
+    points.reserve(corners.size());
     for (const Ball& ball : corners)
         points.push_back(ball.centre);
     return fit_balls<dimension>(corners, principal_axes(points));

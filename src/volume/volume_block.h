@@ -16,13 +16,13 @@ struct alignas(32) VolumeBlock {
 
     void set(std::size_t lane, const V& volume) {
         static_assert(std::is_trivially_copyable_v<V> && sizeof(V) >= V::kFloats * sizeof(float));
-        std::array<float, V::kFloats> values;
+        std::array<float, V::kFloats> values{};
         std::memcpy(values.data(), &volume, sizeof(values));
         for (std::size_t i = 0; i < V::kFloats; ++i)
             row[i][lane] = values[i];
     }
     [[nodiscard]] V get(std::size_t lane) const {
-        std::array<float, V::kFloats> values;
+        std::array<float, V::kFloats> values{};
         for (std::size_t i = 0; i < V::kFloats; ++i)
             values[i] = row[i][lane];
         V volume;

@@ -93,6 +93,11 @@ struct Pair {
         a = part(random, i, scale);
         b = part(random, i / 5, scale * std::pow(10, random.uniform(-1, 0.5)));
         a_from_b = any_pose(random, affine);
+        if (affine && i % 8 == 0) // edges of a box become almost parallel, in any direction
+            a_from_b = compose(
+                compose(a_from_b, Transform({1, 0, 0, 0, 1, 0, 0, 0,
+                                             std::pow(10, random.uniform(-5, -1)), 0, 0, 0})),
+                random.pose(0));
         const Vec3 shift = std::pow(10, random.uniform(-1, 1)) * scale * random.direction();
         a_from_b.m[9] = shift.x, a_from_b.m[10] = shift.y, a_from_b.m[11] = shift.z;
     }
