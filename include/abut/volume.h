@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+namespace abut {
+
+/// The kinds of bounding volume that a model's hierarchy can be made of.
+enum class Volume : std::uint8_t {
+    automatic, ///< what wins the benchmarks
+    aabb,      ///< boxes that share an orientation
+    sphere,    ///< smallest ball, nearly
+    kdop14,    ///< slabs along the axes and the diagonals of the cube
+    kdop18,    ///< along the axes and the diagonals of its faces
+    kdop26,    ///< along all of these
+    obb,       ///< oriented box, from the statistics of the convex hull
+    pss,       ///< point swept by a sphere
+    lss,       ///< line segment swept by a sphere
+    rss,       ///< rectangle swept by a sphere
+};
+
+} // namespace abut

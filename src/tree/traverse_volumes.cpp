@@ -1,0 +1,256 @@
+#include "tree/traverse_volumes.h"
+
+#include "tree/near_first_queue.h"
+
+#include <algorithm>
+#include <bit>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tree/traverse_volumes.cpp"
+#include "simd/foreach_target.h"
+#include "volume/lower_bound-inl.h"
+
+// What the targets share. Two volumes still to be looked at: a child is named by 8 * node + lane,
+// the root by kRoot.
+#ifndef ABUT_TREE_TRAVERSE_VOLUMES_ONCE
+#define ABUT_TREE_TRAVERSE_VOLUMES_ONCE
+namespace abut::traverse_volumes {
+
+constexpr std::uint32_t kRoot = 0xffffffffU;
+
+struct VolumePair {
+    std::uint32_t a, b;
+    float bound_sq; ///< lower bound of the squared distance
+};
+using VolumePairs = boost::container::small_vector<VolumePair, 512>;
+
+/// One side of the pair, and how the other's volumes come into its frame.
+template <typename V>
+struct Side {
+    const Tree& tree;
+    const VolumeLayer<V>& layer;
+    typename V::Map from_other;
+    float stretch_sq, most_stretch_sq; ///< of squares, to the world
+
+    [[nodiscard]] NodeRef ref(std::uint32_t name) const {
+        return name == kRoot ? NodeRef::node(0)
+                             : tree.nodes[name / Node::kWidth].child[name % Node::kWidth];
+    }
+    [[nodiscard]] V volume(std::uint32_t name) const {
+        return name == kRoot ? layer.root
+                             : layer.children[name / Node::kWidth].get(name % Node::kWidth);
+    }
+};
+
+/// A bit for each child that a node has.
+inline std::uint32_t children_of(const Node& node) {
+    std::uint32_t bits = 0;
+    for (std::uint32_t i = 0; i < Node::kWidth; ++i)
+        bits |= node.child[i].is_none() ? 0U : 1U << i;
+    return bits;
+}
+
+} // namespace abut::traverse_volumes
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE::volumes {
+
+using traverse_volumes::Side;
+using traverse_volumes::VolumePair;
+using traverse_volumes::VolumePairs;
+
+/// A traversal of two trees with volumes of one kind.
+template <typename V>
+class Traversal {
+public:
+    Traversal(VolumeTraversal& t, LeafPairVisitor& visitor)
+        : counts_(t), visitor_(visitor), a_{t.a, std::get<VolumeLayer<V>>(t.volumes_a.layer()),
+                                            typename V::Map(t.frame.a_from_b), t.frame.stretch_a_sq,
+                                            t.frame.most_stretch_a_sq},
+          b_{t.b, std::get<VolumeLayer<V>>(t.volumes_b.layer()), typename V::Map(t.frame.b_from_a),
+             t.frame.stretch_b_sq, t.frame.most_stretch_b_sq},
+          bound_sq_(round_up(t.bound_sq)) {}
+
+    template <bool with_upper>
+    Verdict depth_first() {
+        VolumePairs pending;
+        pending.push_back({traverse_volumes::kRoot, traverse_volumes::kRoot, 0});
+        while (!pending.empty()) {
+            const VolumePair pair = pending.back();
+            pending.pop_back();
+            if (pair.bound_sq > bound_sq_)
+                continue;
+            if (const Verdict verdict = step<with_upper>(pair, pending); verdict != Verdict::done)
+                return verdict;
+        }
+        return Verdict::done;
+    }
+
+    Verdict best_first() {
+        // No two points are farther apart than the farthest of the roots' balls.
+        VolumeBounds bounds{};
+        bound_all<true>(D(), root_block(), image_of(b_.layer.root, a_.from_other), bounds);
+        NearFirstQueue<VolumePair> pending(
+            std::min(bound_sq_, bounds.upper_sq[0] * a_.most_stretch_sq));
+        pending.push(0, {traverse_volumes::kRoot, traverse_volumes::kRoot, 0});
+        VolumePairs found;
+        while (!pending.empty() && !pending.all_above(bound_sq_)) {
+            const VolumePair pair = pending.pop();
+            if (pair.bound_sq > bound_sq_)
+                continue;
+            found.clear();
+            if (const Verdict verdict = step<false>(pair, found); verdict != Verdict::done)
+                return verdict;
+            for (const VolumePair& child : found)
+                pending.push(child.bound_sq, child);
+        }
+        return Verdict::done;
+    }
+
+private:
+    using D = hn::CappedTag<float, VolumeBounds::kLanes>;
+
+    [[nodiscard]] VolumeBlock<V> root_block() const {
+        VolumeBlock<V> block;
+        block.set(0, a_.layer.root);
+        return block;
+    }
+
+    /// Visits the pair's leaves, or adds its children to `found`; not done: the end.
+    template <bool with_upper>
+    HWY_INLINE Verdict step(const VolumePair& pair, VolumePairs& found) {
+        const NodeRef ref_a = a_.ref(pair.a), ref_b = b_.ref(pair.b);
+        if (ref_a.is_leaf() && ref_b.is_leaf()) {
+            const double bound_sq = visitor_.visit(ref_a, ref_b);
+            bound_sq_ = round_up(bound_sq);
+            return bound_sq >= 0 ? Verdict::done : Verdict::stopped;
+        }
+        const V volume_a = a_.volume(pair.a), volume_b = b_.volume(pair.b);
+        const auto size = [](const V& volume, const Side<V>& side) {
+            const float r = volume.circumradius();
+            return r * r * side.most_stretch_sq;
+        };
+        const bool open_a =
+            !ref_a.is_leaf() && (ref_b.is_leaf() || size(volume_a, a_) > size(volume_b, b_));
+        const bool accepted =
+            open_a ? open<with_upper>(a_, ref_a.index(), volume_b,
+                                      [&](auto child, float bound_sq) {
+                                          found.push_back({child, pair.b, bound_sq});
+                                      })
+                   : open<with_upper>(b_, ref_b.index(), volume_a, [&](auto child, float bound_sq) {
+                         found.push_back({pair.a, child, bound_sq});
+                     });
+        return accepted ? Verdict::accepted : Verdict::done;
+    }
+
+    /// Bounds one volume, given in the other frame, to the children of a node, and adds those that
+    /// may be within the bound. True if one is wholly within it.
+    template <bool with_upper, typename Add>
+    HWY_INLINE bool open(const Side<V>& side, std::uint32_t index, const V& other, const Add& add) {
+        VolumeBounds bounds{};
+        bound_all<with_upper>(D(), side.layer.children[index], image_of(other, side.from_other),
+                              bounds);
+        const std::uint32_t used = traverse_volumes::children_of(side.tree.nodes[index]);
+        counts_.volume_tests += static_cast<std::uint64_t>(std::popcount(used));
+        // The child that overlaps deepest goes last, and so comes next: a contact is likeliest
+        // there.
+        std::uint32_t deepest = Node::kWidth;
+        for (std::uint32_t rest = used; rest != 0; rest &= rest - 1) {
+            auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+            if (with_upper && bounds.upper_sq[lane] * side.most_stretch_sq <= bound_sq_)
+                return true;
+            bounds.lower_sq[lane] *= side.stretch_sq;
+            // A bound that is not a number keeps the child.
+            if (bounds.lower_sq[lane] > bound_sq_)
+                continue;
+            if (deepest == Node::kWidth || bounds.gap[lane] < bounds.gap[deepest])
+                std::swap(lane, deepest);
+            if (lane != Node::kWidth)
+                add(index * static_cast<std::uint32_t>(Node::kWidth) + lane, bounds.lower_sq[lane]);
+        }
+        if (deepest != Node::kWidth)
+            add(index * static_cast<std::uint32_t>(Node::kWidth) + deepest,
+                bounds.lower_sq[deepest]);
+        return false;
+    }
+
+    VolumeTraversal& counts_;
+    LeafPairVisitor& visitor_;
+    Side<V> a_, b_;
+    float bound_sq_;
+};
+
+template <typename V>
+Traversal<V> traversal_of(const VolumeLayer<V>&, VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return Traversal<V>(t, visitor);
+}
+
+} // namespace abut::HWY_NAMESPACE::volumes
+
+namespace abut::HWY_NAMESPACE {
+
+Verdict volumes_depth_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return std::visit(
+        [&](const auto& layer) HWY_ATTR {
+            auto traversal = volumes::traversal_of(layer, t, visitor);
+            return t.accept_early ? traversal.template depth_first<true>()
+                                  : traversal.template depth_first<false>();
+        },
+        t.volumes_a.layer());
+}
+
+Verdict volumes_best_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return std::visit(
+        [&](const auto& layer)
+            HWY_ATTR { return volumes::traversal_of(layer, t, visitor).best_first(); },
+        t.volumes_a.layer());
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(volumes_depth_first);
+HWY_EXPORT(volumes_best_first);
+
+VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a,
+                              const VolumeTree& b, const Transform& world_from_b) {
+    VolumeFrame frame;
+    const double least_a = least_stretch(world_from_a), most_a = most_stretch(world_from_a),
+                 least_b = least_stretch(world_from_b), most_b = most_stretch(world_from_b);
+    const auto origin = [](const Transform& t) { return length({t.m[9], t.m[10], t.m[11]}); };
+    const double world_size =
+        origin(world_from_a) + most_a * a.reach() + origin(world_from_b) + most_b * b.reach();
+    // Double precision: the composed transforms and the world positions.
+    const double slack = 128 * 0x1p-53 * world_size;
+    frame.a_from_b = make_relative_pose(compose(inverse(world_from_a), world_from_b), a.reach(),
+                                        b.reach(), slack / least_a);
+    frame.b_from_a = make_relative_pose(compose(inverse(world_from_b), world_from_a), b.reach(),
+                                        a.reach(), slack / least_b);
+    // Products with them are rounded once more.
+    frame.stretch_a_sq = round_down(least_a * least_a * (1 - 8 * 0x1p-24));
+    frame.stretch_b_sq = round_down(least_b * least_b * (1 - 8 * 0x1p-24));
+    frame.most_stretch_a_sq = round_up(most_a * most_a * (1 + 8 * 0x1p-24));
+    frame.most_stretch_b_sq = round_up(most_b * most_b * (1 + 8 * 0x1p-24));
+    frame.valid = a.kind() == b.kind() && frame.a_from_b.valid && frame.b_from_a.valid &&
+                  std::isfinite(frame.most_stretch_a_sq) &&
+                  std::isfinite(frame.most_stretch_b_sq) && frame.stretch_a_sq > 0x1p-100F &&
+                  frame.stretch_b_sq > 0x1p-100F;
+    return frame;
+}
+
+Verdict traverse_depth_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return HWY_DYNAMIC_DISPATCH(volumes_depth_first)(t, visitor);
+}
+Verdict traverse_best_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return HWY_DYNAMIC_DISPATCH(volumes_best_first)(t, visitor);
+}
+
+} // namespace abut
+#endif

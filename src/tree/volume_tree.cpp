@@ -1,0 +1,116 @@
+#include "tree/volume_tree.h"
+
+#include "core/parallel.h"
+
+#include <algorithm>
+#include <array>
+
+namespace abut {
+
+namespace {
+
+/// Triangles in the order in which a walk of the tree meets them: those below any child are a run.
+class SubtreeRuns {
+public:
+    struct Run {
+        std::size_t begin = 0, count = 0;
+    };
+
+    SubtreeRuns(const Tree& tree, std::span<const Triangle> triangles)
+        : tree_(tree), triangles_(triangles), runs_(tree.nodes.size()) {
+        sorted_.reserve(triangles.size());
+        walk(NodeRef::node(0));
+    }
+
+    [[nodiscard]] std::span<const Triangle> below(std::size_t node, std::size_t child) const {
+        const Run& run = runs_[node][child];
+        return std::span(sorted_).subspan(run.begin, run.count);
+    }
+    [[nodiscard]] std::span<const Triangle> all() const { return sorted_; }
+
+private:
+    Run walk(NodeRef ref) {
+        Run run{sorted_.size(), 0};
+        if (ref.is_leaf()) {
+            for (std::uint32_t i = 0; i < ref.count(); ++i)
+                sorted_.push_back(triangles_[tree_.order[ref.first() + i]]);
+        } else {
+            const Node& node = tree_.nodes[ref.index()];
+            for (std::size_t i = 0; i < Node::kWidth; ++i)
+                if (!node.child[i].is_none())
+                    runs_[ref.index()][i] = walk(node.child[i]);
+        }
+        run.count = sorted_.size() - run.begin;
+        return run;
+    }
+
+    const Tree& tree_;
+    std::span<const Triangle> triangles_;
+    std::vector<std::array<Run, Node::kWidth>> runs_;
+    std::vector<Triangle> sorted_;
+};
+
+template <typename V>
+std::unique_ptr<const VolumeTree> build(Volume kind, const Tree& tree,
+                                        std::span<const Triangle> triangles, double margin) {
+    return std::make_unique<VolumeTree>(kind, VolumeLayer<V>(tree, triangles, margin));
+}
+
+} // namespace
+
+template <typename V>
+VolumeLayer<V>::VolumeLayer(const Tree& tree, std::span<const Triangle> triangles, double margin)
+    : children(tree.nodes.size()) {
+    const SubtreeRuns runs(tree, triangles);
+    root = V::fit(runs.all(), margin);
+    std::vector<double> reaches(tree.nodes.size());
+    parallel_for(tree.nodes.size(), 16, [&](std::size_t n) {
+        for (std::size_t i = 0; i < Node::kWidth; ++i)
+            if (!tree.nodes[n].child[i].is_none()) {
+                const V volume = V::fit(runs.below(n, i), margin);
+                children[n].set(i, volume);
+                reaches[n] = std::max(reaches[n], volume.reach());
+            }
+    });
+    reach = root.reach();
+    for (const double r : reaches)
+        reach = std::max(reach, r);
+}
+
+double VolumeTree::reach() const {
+    return std::visit([](const auto& layer) { return layer.reach; }, layer_);
+}
+std::size_t VolumeTree::bytes() const {
+    return std::visit([](const auto& layer) { return layer.bytes(); }, layer_);
+}
+
+std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tree,
+                                                    std::span<const Triangle> triangles,
+                                                    double margin) {
+    if (tree.empty())
+        return nullptr;
+    switch (kind) {
+    case Volume::automatic:
+    case Volume::aabb:
+        return nullptr;
+    case Volume::sphere:
+        return build<Sphere>(kind, tree, triangles, margin);
+    case Volume::kdop14:
+        return build<Kdop14>(kind, tree, triangles, margin);
+    case Volume::kdop18:
+        return build<Kdop18>(kind, tree, triangles, margin);
+    case Volume::kdop26:
+        return build<Kdop26>(kind, tree, triangles, margin);
+    case Volume::obb:
+        return build<Obb>(kind, tree, triangles, margin);
+    case Volume::pss:
+        return build<Pss>(kind, tree, triangles, margin);
+    case Volume::lss:
+        return build<Lss>(kind, tree, triangles, margin);
+    case Volume::rss:
+        return build<Rss>(kind, tree, triangles, margin);
+    }
+    return nullptr;
+}
+
+} // namespace abut

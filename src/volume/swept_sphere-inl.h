@@ -1,0 +1,180 @@
+// Gaps between swept spheres: of one and several.
+
+// Included once for each target.
+#if defined(ABUT_VOLUME_SWEPT_SPHERE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ABUT_VOLUME_SWEPT_SPHERE_INL_H
+#undef ABUT_VOLUME_SWEPT_SPHERE_INL_H
+#else
+#define ABUT_VOLUME_SWEPT_SPHERE_INL_H
+#endif
+
+#include "volume/lanes-inl.h"
+#include "volume/sphere.h"
+#include "volume/swept_sphere.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE::volumes {
+
+/// The core of swept spheres: directions and half lengths.
+template <class D, std::size_t n>
+struct Core {
+    // Never empty: a point's core has none.
+    Lanes3<D> direction[n + 1], dual[n + 1];
+    hn::Vec<D> half[n + 1];
+};
+
+/// The shortest vector so far from a point of the one core to a point of the other.
+template <class D>
+struct Shortest {
+    Lanes3<D> vector;
+    hn::Vec<D> length_sq;
+
+    HWY_INLINE void offer(const Lanes3<D>& v) {
+        const auto sq = dot(v, v);
+        const auto shorter = hn::Lt(sq, length_sq);
+        length_sq = hn::IfThenElse(shorter, sq, length_sq);
+        vector.x = hn::IfThenElse(shorter, v.x, vector.x);
+        vector.y = hn::IfThenElse(shorter, v.y, vector.y);
+        vector.z = hn::IfThenElse(shorter, v.z, vector.z);
+    }
+};
+
+/// What segments of two given directions have in common, however they lie.
+template <class D>
+struct SegmentPair {
+    Lanes3<D> a, b;
+    hn::Vec<D> half_a, half_b, cosine;
+    Lanes3<D> to_a; ///< w . to_a is where a's line is nearest to b's, for w from a's middle to b's
+
+    HWY_INLINE SegmentPair(D d, const Lanes3<D>& direction_a, hn::Vec<D> length_a,
+                           const Lanes3<D>& direction_b, hn::Vec<D> length_b)
+        : a(direction_a), b(direction_b), half_a(length_a), half_b(length_b), cosine(dot(a, b)) {
+        // s = w . (b x (a x b)) / |a x b|^2; parallel lines are nearest everywhere.
+        const Lanes3<D> across = cross(a, b);
+        const auto sine_sq = dot(across, across);
+        const auto inverse = hn::IfThenElseZero(hn::Gt(sine_sq, hn::Set(d, 0x1p-40F)),
+                                                hn::Div(hn::Set(d, 1.0F), sine_sq));
+        const Lanes3<D> m = cross(b, across);
+        to_a = {hn::Mul(inverse, m.x), hn::Mul(inverse, m.y), hn::Mul(inverse, m.z)};
+    }
+
+    /// The shortest vector from the one segment to the other.
+    HWY_INLINE Lanes3<D> shortest(const Lanes3<D>& w) const {
+        auto s = clamp_to<D>(dot(w, to_a), half_a);
+        const auto p = clamp_to<D>(hn::MulSub(s, cosine, dot(w, b)), half_b);
+        s = clamp_to<D>(hn::MulAdd(p, cosine, dot(w, a)), half_a);
+        return minus_scaled(plus_scaled(w, p, b), s, a);
+    }
+};
+
+/// The shortest vector between two rectangles that do not cross: of two edges, or of a corner and a
+/// face. `w` goes from a's middle to b's.
+template <class D>
+HWY_INLINE Lanes3<D> shortest_vector(D d, const Core<D, 2>& a, const Core<D, 2>& b,
+                                     const Lanes3<D>& w) {
+    Shortest<D> best{w, hn::Set(d, hwy::HighestValue<float>())};
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j) {
+            const SegmentPair<D> edges(d, a.direction[i], a.half[i], b.direction[j], b.half[j]);
+            for (int corner = 0; corner < 4; ++corner) {
+                const auto half_a = (corner & 1) != 0 ? a.half[1 - i] : hn::Neg(a.half[1 - i]);
+                const auto half_b = (corner & 2) != 0 ? b.half[1 - j] : hn::Neg(b.half[1 - j]);
+                best.offer(edges.shortest(minus_scaled(plus_scaled(w, half_b, b.direction[1 - j]),
+                                                       half_a, a.direction[1 - i])));
+            }
+        }
+    for (int corner = 0; corner < 4; ++corner) {
+        const auto end = [&](const Core<D, 2>& core, int i) HWY_ATTR {
+            return (corner >> i & 1) != 0 ? core.half[i] : hn::Neg(core.half[i]);
+        };
+        Lanes3<D> v =
+            plus_scaled(plus_scaled(w, end(b, 0), b.direction[0]), end(b, 1), b.direction[1]);
+        const auto s = clamp_to<D>(dot(v, a.dual[0]), a.half[0]),
+                   t = clamp_to<D>(dot(v, a.dual[1]), a.half[1]);
+        best.offer(minus_scaled(minus_scaled(v, s, a.direction[0]), t, a.direction[1]));
+        v = plus_scaled(plus_scaled(w, end(a, 0), a.direction[0]), end(a, 1), a.direction[1]);
+        const auto p = clamp_to<D>(dot(v, b.dual[0]), b.half[0]),
+                   q = clamp_to<D>(dot(v, b.dual[1]), b.half[1]);
+        best.offer(minus_scaled(minus_scaled(v, p, b.direction[0]), q, b.direction[1]));
+    }
+    return best.vector;
+}
+template <class D>
+HWY_INLINE Lanes3<D> shortest_vector(D d, const Core<D, 1>& a, const Core<D, 1>& b,
+                                     const Lanes3<D>& w) {
+    return SegmentPair<D>(d, a.direction[0], a.half[0], b.direction[0], b.half[0]).shortest(w);
+}
+template <class D>
+HWY_INLINE Lanes3<D> shortest_vector(D, const Core<D, 0>&, const Core<D, 0>&, const Lanes3<D>& w) {
+    return w;
+}
+
+/// Takes off what a vector has along the directions that it is at right angles to but for rounding:
+/// a core's support along it is as wide as what is left there.
+template <class D, std::size_t n>
+HWY_INLINE void straighten(Lanes3<D>& v, const Core<D, n>& core, hn::Vec<D> rounding) {
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto along = dot(v, core.direction[i]);
+        v = minus_scaled(v, hn::IfThenElseZero(hn::Lt(hn::Abs(along), rounding), along),
+                         core.direction[i]);
+    }
+}
+
+/// The gap of two cores along a direction: (v . w - sum_i half_i |v . direction_i|) / |v|.
+template <class D, std::size_t n>
+HWY_INLINE hn::Vec<D> gap_along(D d, const Lanes3<D>& v, const Core<D, n>& a, const Core<D, n>& b,
+                                const Lanes3<D>& w) {
+    auto gap = dot(v, w);
+    for (std::size_t i = 0; i < n; ++i) {
+        gap = hn::NegMulAdd(a.half[i], hn::Abs(dot(v, a.direction[i])), gap);
+        gap = hn::NegMulAdd(b.half[i], hn::Abs(dot(v, b.direction[i])), gap);
+    }
+    const auto sq = dot(v, v);
+    return hn::IfThenElseZero(hn::Gt(sq, hn::Set(d, 0x1p-100F)), hn::Div(gap, hn::Sqrt(sq)));
+}
+
+template <class D, std::size_t n>
+HWY_INLINE Separation<D> separation_of_cores(D d, const float (*row)[VolumeBounds::kLanes],
+                                             std::size_t lane, const SweptSphereImage<n>& one) {
+    Core<D, n> a, b;
+    const Lanes3<D> w = sub(set3(d, one.swept.centre), load3(d, row, lane));
+    auto size = hn::Max(hn::Max(hn::Abs(w.x), hn::Abs(w.y)), hn::Abs(w.z));
+    for (std::size_t i = 0; i < n; ++i) {
+        a.direction[i] = a.dual[i] = load3(d, row + 4 + 4 * i, lane);
+        a.half[i] = hn::Load(d, row[4 + 4 * i + 3] + lane);
+        b.direction[i] = set3(d, one.swept.axes[i].direction);
+        b.dual[i] = set3(d, one.dual[i]);
+        b.half[i] = hn::Set(d, one.swept.axes[i].half);
+        size = hn::Add(size, hn::Add(a.half[i], b.half[i]));
+    }
+    Lanes3<D> v = shortest_vector(d, a, b, w);
+    auto gap = gap_along(d, v, a, b, w);
+    if constexpr (n > 0) {
+        // Twice: the directions of the one are not at right angles to those of the other.
+        const auto rounding = hn::Mul(size, hn::Set(d, 16 * 0x1p-24F));
+        for (int i = 0; i < 2; ++i) {
+            straighten(v, a, rounding);
+            straighten(v, b, rounding);
+        }
+        gap = hn::Max(gap, gap_along(d, v, a, b, w));
+    }
+    gap = hn::Sub(gap,
+                  hn::Add(hn::Load(d, row[3] + lane), hn::Set(d, one.swept.radius + one.margin)));
+    return {gap, square_of_gap(d, gap)};
+}
+
+template <class D, std::size_t n>
+HWY_INLINE Separation<D> separation(D d, const VolumeBlock<SweptSphere<n>>& block, std::size_t lane,
+                                    const SweptSphereImage<n>& one) {
+    return separation_of_cores(d, block.row, lane, one);
+}
+template <class D>
+HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Sphere>& block, std::size_t lane,
+                                    const SweptSphereImage<0>& one) {
+    return separation_of_cores(d, block.row, lane, one);
+}
+
+} // namespace abut::HWY_NAMESPACE::volumes
+HWY_AFTER_NAMESPACE();
+
+#endif
