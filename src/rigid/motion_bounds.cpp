@@ -11,6 +11,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 /// What the roundings below can add to a time, many times over.
 constexpr double kShorter = 1 - 0x1p-40;
+constexpr int kRounds = 3; // more find little
 
 } // namespace
 
@@ -36,7 +37,7 @@ double free_time(const Vec3& offset, const Vec3& velocity, double bend, double s
     // Up to time `end`, bend / 2 s^2 <= growth s: balls in straight motion whose radii grow by
     // `growth` in all enclose them. Their contact: |offset + s velocity| = r + growth s.
     double proven = 0;
-    for (int round = 0; round < 2; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
         const double end = round == 0 ? horizon : std::min(horizon, 2 * proven);
         const double growth = 0.5 * bend * end;
         const double half_slope = closing - r * growth, square = speed_sq - growth * growth;
@@ -48,9 +49,10 @@ double free_time(const Vec3& offset, const Vec3& velocity, double bend, double s
         // square s^2 + 2 half_slope s + missing = 0, by the form that does not cancel.
         const double meet =
             half_slope > 0 ? (half_slope + root) / -square : missing / (root - half_slope);
-        if (never || kShorter * meet >= end)
-            return end == horizon ? kNever : std::max(proven, kShorter * end);
-        proven = std::max(proven, kShorter * meet);
+        const bool beyond = never || kShorter * meet >= end;
+        if (beyond && end == horizon)
+            return kNever;
+        proven = std::max(proven, kShorter * (beyond ? end : meet));
     }
     return proven;
 }

@@ -159,14 +159,14 @@ MovingBox box_of_b(const MovingPair& pair, const Moment& moment, const TreeBox& 
 }
 
 double free_time(const MovingPair& pair, const Moment& moment, const MovingBox& a,
-                 const MovingBox& b, double horizon) {
+                 const MovingBox& b, double enough, double horizon) {
     const Vec3 offset = b.centre - a.centre, velocity = b.velocity - a.velocity;
     const double rate_a = pair.a.trajectory.speed_of_rotation(),
                  rate_b = pair.b.trajectory.speed_of_rotation();
     const double bend = rate_a * rate_a * a.centre_arm + rate_b * rate_b * b.centre_arm;
     const double as_balls =
         free_time(offset, velocity, bend, a.radius + b.radius + pair.margin, horizon);
-    if (as_balls >= horizon)
+    if (as_balls > enough)
         return as_balls;
     const double in_a = free_time_along(gap_between(offset, a.half_in_a, b.half_in_a), velocity,
                                         moment.spin_a, moment.spin_b, pair, moment.velocity, a, b);

@@ -61,9 +61,9 @@ struct MovingBox {
 MovingBox box_of_a(const MovingPair& pair, const Moment& moment, const TreeBox& box);
 MovingBox box_of_b(const MovingPair& pair, const Moment& moment, const TreeBox& box);
 
-/// From the moment on, the boxes' contents do not meet for at least this long; infinite: not up to
-/// `horizon`.
+/// From the moment on, the boxes' contents do not meet for at least this long; infinite: not for
+/// as long as `horizon`. What is found to be more than `enough` is not improved further.
 double free_time(const MovingPair& pair, const Moment& moment, const MovingBox& a,
-                 const MovingBox& b, double horizon);
+                 const MovingBox& b, double enough, double horizon);
 
 } // namespace abut

@@ -8,16 +8,20 @@
 #include "rigid/contacts.h"
 #include "rigid/motion_bounds.h"
 #include "rigid/moving_boxes.h"
+#include "rigid/moving_triangles.h"
 
 #include <algorithm>
-#include <boost/container/small_vector.hpp>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace abut {
 
 namespace {
 
 constexpr double kEnd = 1; ///< of the time that is looked at
+constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Default tolerance, of the larger model's diagonal.
 constexpr double kTolerance = 1e-6;
 /// How often pairs of triangles within the tolerance are followed, in all, before contact is
@@ -26,6 +30,9 @@ constexpr int kMostFollowed = 4096;
 /// Below this many times the margin for rounding, nothing is told from contact: twice, so that what
 /// is left of larger gaps always moves the time on.
 constexpr double kUndecided = 2;
+/// Radians by which both together turn within a window: bounds hold for one, and are good for
+/// turns this small.
+constexpr double kMostTurn = 0.5;
 /// A moment is used again while no point has moved farther than this share of a box's radius.
 constexpr double kStale = 0.125;
 
@@ -52,29 +59,44 @@ TreeBox box_of(const Tree& tree, std::uint32_t name) {
 /// Advances all pairs in the order of the times before which they cannot meet.
 class ImpactSearch {
 public:
-    ImpactSearch(const ModelData& a, const ModelData& b, const MovingPair& pair, double tolerance)
-        : a_(a), b_(b), pair_(pair), tolerance_(std::max(tolerance, kUndecided * pair.margin)) {}
+    ImpactSearch(const Model& a, const Model& b, const MovingPair& pair, double tolerance)
+        : a_(a), b_(b), pair_(pair), tolerance_(std::max(tolerance, kUndecided * pair.margin)),
+          window_(kMostTurn /
+                  (pair.a.trajectory.speed_of_rotation() + pair.b.trajectory.speed_of_rotation())) {
+    }
 
     Impact run() {
-        push({0, kRoot, kRoot, false});
-        while (!waiting_.empty()) {
-            std::pop_heap(waiting_.begin(), waiting_.end());
-            const Waiting next = waiting_.back();
-            waiting_.pop_back();
-            if (!next.triangles)
-                open(next);
-            else if (advance(next))
-                break;
-        }
+        for (double begin = 0; begin <= kEnd && !answered_; begin = next_begin_)
+            search_from(begin);
         impact_.counters = counters_;
         return impact_;
     }
 
 private:
+    /// One window of time. What can only meet after it is not kept: the next window finds it again
+    /// from the roots, in fewer pairs than the many small ones into which it was split here.
+    void search_from(double begin) {
+        window_end_ = std::min(kEnd, begin + window_);
+        next_begin_ = kNever;
+        waiting_.clear();
+        push({begin, kRoot, kRoot, false});
+        while (!waiting_.empty() && !answered_) {
+            std::pop_heap(waiting_.begin(), waiting_.end());
+            const Waiting next = waiting_.back();
+            waiting_.pop_back();
+            if (next.triangles)
+                advance(next);
+            else
+                open(next);
+        }
+    }
+
     void push(const Waiting& pair) {
-        if (pair.time <= kEnd) {
+        if (pair.time <= window_end_) {
             waiting_.push_back(pair);
             std::push_heap(waiting_.begin(), waiting_.end());
+        } else {
+            next_begin_ = std::min(next_begin_, pair.time);
         }
     }
 
@@ -87,9 +109,10 @@ private:
 
     /// Replaces a pair of boxes by the pairs below it.
     void open(const Waiting& pair) {
-        const NodeRef ref_a = ref_of(a_.tree(), pair.a), ref_b = ref_of(b_.tree(), pair.b);
-        const TreeBox tree_box_a = box_of(a_.tree(), pair.a),
-                      tree_box_b = box_of(b_.tree(), pair.b);
+        const NodeRef ref_a = ref_of(a_.data().tree(), pair.a),
+                      ref_b = ref_of(b_.data().tree(), pair.b);
+        const TreeBox tree_box_a = box_of(a_.data().tree(), pair.a),
+                      tree_box_b = box_of(b_.data().tree(), pair.b);
         const double radius_a = length(tree_box_a.half), radius_b = length(tree_box_b.half);
         const Moment& now = moment_for(pair.time, std::min(radius_a, radius_b));
         const MovingBox box_a = box_of_a(pair_, now, tree_box_a),
@@ -100,13 +123,14 @@ private:
         }
         const bool open_a = !ref_a.is_leaf() && (ref_b.is_leaf() || radius_a > radius_b);
         const std::uint32_t index = (open_a ? ref_a : ref_b).index();
-        const Node& node = (open_a ? a_ : b_).tree().nodes[index];
+        const Node& node = (open_a ? a_ : b_).data().tree().nodes[index];
         for (std::uint32_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i) {
             ++counters_.volume_tests;
             const TreeBox child = child_box(node, i);
-            const double free =
-                open_a ? free_time(pair_, now, box_of_a(pair_, now, child), box_b, kEnd - now.time)
-                       : free_time(pair_, now, box_a, box_of_b(pair_, now, child), kEnd - now.time);
+            const double free = open_a ? free_time(pair_, now, box_of_a(pair_, now, child), box_b,
+                                                   window_end_ - now.time, kEnd - now.time)
+                                       : free_time(pair_, now, box_a, box_of_b(pair_, now, child),
+                                                   window_end_ - now.time, kEnd - now.time);
             const std::uint32_t name = index * Node::kWidth + i;
             push({std::max(pair.time, now.time + free), open_a ? name : pair.a,
                   open_a ? pair.b : name, false});
@@ -126,10 +150,12 @@ private:
         approach.fastest = pair_.speed;
         TriangleBlock block_b{};
         for (std::uint32_t j = 0; j < TriangleBlock::kLanes; ++j)
-            block_b.set(j, b_.world_triangle(leaf_b.first() + std::min(j, leaf_b.count() - 1),
-                                             moment_.world_from_b));
+            block_b.set(j,
+                        b_.data().world_triangle(leaf_b.first() + std::min(j, leaf_b.count() - 1),
+                                                 moment_.world_from_b));
         for (std::uint32_t i = 0; i < leaf_a.count(); ++i) {
-            const Triangle triangle = a_.world_triangle(leaf_a.first() + i, moment_.world_from_a);
+            const Triangle triangle =
+                a_.data().world_triangle(leaf_a.first() + i, moment_.world_from_a);
             const std::uint32_t meeting = may_intersect(triangle, block_b);
             TrianglePairBlock pairs{};
             for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
@@ -146,75 +172,52 @@ private:
     }
 
     [[nodiscard]] Triangle triangle_a(std::uint32_t slot, double time) const {
-        return a_.world_triangle(slot, pair_.a.trajectory.at(time));
+        return a_.data().world_triangle(slot, pair_.a.trajectory.at(time));
     }
     [[nodiscard]] Triangle triangle_b(std::uint32_t slot, double time) const {
-        return b_.world_triangle(slot, pair_.b.trajectory.at(time));
+        return b_.data().world_triangle(slot, pair_.b.trajectory.at(time));
     }
 
-    /// Measures two triangles and lets them wait for their next time. True if they are the answer.
-    bool advance(const Waiting& pair) {
+    /// Measures two triangles: they are the answer, or wait for their next time.
+    void advance(const Waiting& pair) {
         ++counters_.primitive_tests;
         const Triangle a = triangle_a(pair.a, pair.time), b = triangle_b(pair.b, pair.time);
         const ClosestPoints closest = triangle_triangle_distance(a, b);
         const double gap = std::sqrt(closest.distance_sq);
+        if (gap <= tolerance_ && decide(pair, closest, gap))
+            return;
+        push({pair.time + free_time(pair_, pair.time, a, b, closest), pair.a, pair.b, true});
+    }
+
+    /// Whether two triangles within the tolerance end the search: they will meet, or nobody knows.
+    bool decide(const Waiting& pair, const ClosestPoints& closest, double gap) {
         const Vec3 normal = normalized_or_zero(closest.b - closest.a);
-        if (gap <= tolerance_) {
-            impact_.hit = true;
-            impact_.time = pair.time;
-            impact_.gap = gap;
-            impact_.point_a = closest.a, impact_.point_b = closest.b;
-            impact_.normal = normal;
-            impact_.triangle_a = a_.triangle_at(pair.a),
-            impact_.triangle_b = b_.triangle_at(pair.b);
-            impact_.contact_time = contact_after(pair, closest, normal);
-            if (impact_.contact_time <= kEnd)
-                return true;
-            impact_.status = Status::bound_only;
-            if (gap <= kUndecided * pair_.margin || ++followed_ > kMostFollowed)
-                return true;
-            impact_ = {};
-        }
-        push({pair.time + free_time_along(normal, closest.a, a, b, pair.time), pair.a, pair.b,
-              true});
-        return false;
-    }
-
-    /// For how long two triangles stay apart along the unit vector n, vertex by vertex.
-    [[nodiscard]] double free_time_along(const Vec3& n, const Vec3& origin, const Triangle& a,
-                                         const Triangle& b, double time) const {
-        struct Vertex {
-            double height, speed;
-        };
-        const auto vertices = [&](const Trajectory& trajectory, const Triangle& t, double& bend) {
-            const double turn =
-                length(cross(n, trajectory.angular_velocity())) * trajectory.speed_of_rotation();
-            std::array<Vertex, 3> result{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                result[i] = {dot(n, t[i] - origin), dot(n, trajectory.velocity_at(t[i], time))};
-                bend = std::max(bend, turn * trajectory.axis_distance(t[i], time));
-            }
-            return result;
-        };
-        double bend_a = 0, bend_b = 0;
-        const auto of_a = vertices(pair_.a.trajectory, a, bend_a),
-                   of_b = vertices(pair_.b.trajectory, b, bend_b);
-        double least = kEnd;
-        for (const Vertex& p : of_a)
-            for (const Vertex& q : of_b)
-                least =
-                    std::min(least, free_time({q.height - p.height - pair_.margin,
-                                               p.speed - q.speed, bend_a + bend_b, pair_.speed}));
-        return least;
-    }
-
-    /// A time at which two triangles that are almost in contact share a point; infinite if none is
-    /// found where they should meet at their present speed.
-    double contact_after(const Waiting& pair, const ClosestPoints& closest, const Vec3& normal) {
         const double closing =
             dot(normal, pair_.a.trajectory.velocity_at(closest.a, pair.time) -
                             pair_.b.trajectory.velocity_at(closest.b, pair.time));
-        const double expected = closing > 0 ? std::sqrt(closest.distance_sq) / closing : 0;
+        const bool undecided = gap <= kUndecided * pair_.margin || ++followed_ > kMostFollowed;
+        double contact_time = contact_of_triangles(pair, closing > 0 ? gap / closing : 0);
+        if (contact_time > kEnd && undecided)
+            contact_time = contact_of_models(
+                pair.time, pair_.margin / (closing > 0 ? closing : std::max(pair_.speed, kEnd)));
+        answered_ = contact_time <= kEnd || undecided;
+        if (!answered_)
+            return false;
+        impact_.hit = true;
+        impact_.time = pair.time;
+        impact_.contact_time = contact_time;
+        impact_.gap = gap;
+        impact_.point_a = closest.a, impact_.point_b = closest.b;
+        impact_.normal = normal;
+        impact_.triangle_a = a_.data().triangle_at(pair.a);
+        impact_.triangle_b = b_.data().triangle_at(pair.b);
+        impact_.status = contact_time <= kEnd ? Status::exact : Status::bound_only;
+        return true;
+    }
+
+    /// A time at which the two triangles share a point, now or where they should at their present
+    /// speed; infinite if none is found.
+    double contact_of_triangles(const Waiting& pair, double expected) {
         for (const double part : {0.0, 1.001, 1.1, 2.0, 8.0}) {
             const double time = std::min(kEnd, pair.time + part * expected);
             ++counters_.primitive_tests;
@@ -224,14 +227,30 @@ private:
             if (expected == 0)
                 break;
         }
-        return std::numeric_limits<double>::infinity();
+        return kNever;
     }
 
-    const ModelData& a_;
-    const ModelData& b_;
+    /// The same for the whole models: near two triangles that only touch, others may cross.
+    double contact_of_models(double time, double step) {
+        for (const double steps : {1.0, 16.0, 256.0, 4096.0}) {
+            const double then = std::min(kEnd, time + steps * step);
+            const PlacedPair placed(a_, pair_.a.trajectory.at(then), b_,
+                                    pair_.b.trajectory.at(then));
+            if (!find_contacts(placed, ContactMode::first, counters_).empty())
+                return then;
+        }
+        return kNever;
+    }
+
+    const Model& a_;
+    const Model& b_;
     const MovingPair& pair_;
     double tolerance_;
-    boost::container::small_vector<Waiting, 512> waiting_; ///< a heap, the earliest first
+    double window_;         ///< length of a window
+    double window_end_ = 0; ///< of the present one
+    double next_begin_ = 0; ///< no pair that was left out can meet before this time
+    bool answered_ = false;
+    std::vector<Waiting> waiting_; ///< a heap, the earliest first
     Moment moment_;
     int followed_ = 0;
     Counters counters_;
@@ -280,7 +299,7 @@ Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
     const std::vector<Contact> contact = find_contacts(placed, ContactMode::first, at_start);
     Impact impact =
         contact.empty()
-            ? ImpactSearch(data_a, data_b, pair,
+            ? ImpactSearch(a, b, pair,
                            options.tolerance.value_or(default_tolerance(data_a, data_b)))
                   .run()
             : impact_at_start(placed, contact.front());
