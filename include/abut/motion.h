@@ -67,7 +67,8 @@ struct Impact {
     /// A time at which they are in contact as `collide` sees it, and so never earlier than the
     /// first contact. Infinite if none was found (status `bound_only`, or no hit).
     double contact_time = std::numeric_limits<double>::infinity();
-    double gap = std::numeric_limits<double>::infinity(); ///< of the two triangles at `time`
+    /// Between the two triangles at `time`: the models are at most this far apart.
+    double gap = std::numeric_limits<double>::infinity();
     Vec3 point_a, point_b; ///< closest points of these triangles at `time`, world frame
     Vec3 normal;           ///< unit vector from a to b there; zero if they meet at the start
     std::uint32_t triangle_a = 0, triangle_b = 0;
