@@ -156,15 +156,15 @@ private:
         for (std::uint32_t i = 0; i < leaf_a.count(); ++i) {
             const Triangle triangle =
                 a_.data().world_triangle(leaf_a.first() + i, moment_.world_from_a);
-            const std::uint32_t meeting = may_intersect(triangle, block_b);
             TrianglePairBlock pairs{};
             for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
                 pairs.set(j, triangle, block_b, j);
+            // None cross: nothing has met before now.
             double squares[TrianglePairBlock::kLanes];
             distance_sq(pairs, squares);
             for (std::uint32_t j = 0; j < leaf_b.count(); ++j) {
                 ++counters_.primitive_tests;
-                approach.gap = (meeting >> j & 1U) != 0 ? 0 : std::sqrt(squares[j]) - pair_.margin;
+                approach.gap = std::sqrt(squares[j]) - pair_.margin;
                 push({std::max(pair.time, moment_.time + free_time(approach)), leaf_a.first() + i,
                       leaf_b.first() + j, true});
             }
