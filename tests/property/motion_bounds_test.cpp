@@ -68,7 +68,7 @@ void check(const Model& a, const Motion& motion_a, const Model& b, const Motion&
 
 TEST(MotionBounds, Boxes) {
     Random random(2200);
-    constexpr int kCases = 3000;
+    constexpr int kCases = 1000;
     Tally tally;
     for (int i = 0; i < kCases; ++i) {
         const auto flat = [&] { return random.chance(0.2) ? 0 : random.uniform(0.02, 0.8); };
@@ -90,7 +90,7 @@ TEST(MotionBounds, Boxes) {
 
 TEST(MotionBounds, Triangles) {
     Random random(2201);
-    constexpr int kCases = 3000;
+    constexpr int kCases = 1000;
     Tally tally;
     for (int i = 0; i < kCases; ++i) {
         const auto one = [&] {

@@ -188,7 +188,7 @@ bool check(const Case& c, int& undecided) {
 
 TEST(TimeOfImpact, IsNeverLateAndMissesNothing) {
     Random random(2100);
-    constexpr int kCases = 2000;
+    constexpr int kCases = 1000;
     int hits = 0, undecided = 0;
     for (int i = 0; i < kCases; ++i) {
         hits += check(make_case(random, i), undecided) ? 1 : 0;
