@@ -85,24 +85,20 @@ TEST(TimeOfImpact, TheToleranceBoundsTheGap) {
 }
 
 TEST(TimeOfImpact, ABarTurnsIntoABox) {
-    // From x = 2 (along the bar) the box's face y = 1 is reached by the bar's upper side y = 0.1 at
-    // the angle where its end's corner or side first meets (2, 1): 2 sin a + 0.1 cos a = 1 on the
-    // line y = 1 is the corner (3, 0.1) turned? The bar is longer: its side passes (2, 1), where
-    // the point at distance sqrt(5) lies 0.1 above the bar's axis.
+    // The bar's upper side lies 0.1 above the axis about which it turns, so it passes the corner
+    // (2, 1) of the target 0.1 / sqrt(5) rad before the corner's own angle.
     const Model bar(box_mesh({0, -0.1, -0.1}, {4, 0.1, 0.1}));
     const Model target(box_mesh({2, 1, -1}, {9, 5, 1}));
     const double angle = std::atan2(1.0, 2.0) - std::asin(0.1 / std::sqrt(5.0));
-    ASSERT_GT(2, std::sqrt(16.01) * std::cos(angle) - 4); // the bar reaches beyond that corner
-    // The end of the bar, at (4, 0.1) turned, must not come first at the face y = 1.
+    // Or its end, (4, 0.1), comes first to the face y = 1.
     const double end_angle = std::asin(1 / std::hypot(4, 0.1)) - std::atan2(0.1, 4);
     const double first = std::min(angle, end_angle);
     expect_hit(bar, spin({0, 0, kPi / 2}), target, Motion::fixed({}), first / (kPi / 2));
     expect_hit(target, Motion::fixed({}), bar, spin({0, 0, kPi / 2}), first / (kPi / 2));
 }
 
-TEST(TimeOfImpact, ABarTurnsIntoABall) {
-    // A needle along x from the origin meets a point (a ball without radius would be missed by
-    // none): a tetrahedron's vertex at angle 1 rad, distance 2.
+TEST(TimeOfImpact, ANeedleTurnsIntoATip) {
+    // A needle along x meets the tip of a triangle at an angle of 1 rad.
     const Model needle(Mesh{{{0, 0, 0}, {3, 0, 0}}, {{0, 1, 1}}});
     const Vec3 tip{2 * std::cos(1.0), 2 * std::sin(1.0), 0};
     const Model plate(Mesh{{tip, tip + Vec3{-1, 2, -0.5}, tip + Vec3{-1, 2, 0.5}}, {{0, 1, 2}}});
