@@ -63,6 +63,19 @@ int main(int argc, char** argv) {
         report = run_rigid_suite(rigid);
     });
 
+    ImpactSuiteOptions impact;
+    CLI::App* impact_suite =
+        app.add_subcommand("impact", "Time of impact of models that cross each other, against FCL");
+    impact_suite->add_option("files", impact.files, "Pairs of model files")->required();
+    impact_suite->add_option("--motions", impact.motions, "Random motions a row")
+        ->check(CLI::Range(1, 1000000));
+    impact_suite->add_option("--rounds", impact.rounds, "Passes; medians are taken")
+        ->check(CLI::Range(1, 1000));
+    impact_suite->add_option("--seed", impact.seed, "Of the motions");
+    impact_suite->add_option("--peer-limit", impact.peer_limit, "Seconds a row; 0 leaves FCL out")
+        ->check(CLI::NonNegativeNumber);
+    impact_suite->callback([&] { report = run_impact_suite(impact); });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

@@ -44,4 +44,17 @@ struct RigidSuiteOptions {
 /// Errors      as read_mesh.
 Report run_rigid_suite(const RigidSuiteOptions& options);
 
+struct ImpactSuiteOptions {
+    std::vector<std::string> files; ///< first and second model of each pair
+    int motions = 200;
+    int rounds = 3;
+    std::uint64_t seed = 1;
+    double peer_limit = 30; ///< seconds that the peer has for each row; 0: no peer
+};
+
+/// Times of impact of random motions that let two models cross, against FCL's conservative
+/// advancement.
+/// Errors      as read_scene; Error{bad_argument} for an odd number of files.
+Report run_impact_suite(const ImpactSuiteOptions& options);
+
 } // namespace abut::bench

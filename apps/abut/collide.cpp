@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "two_models.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -10,28 +11,64 @@ namespace {
 
 struct CollideArguments {
     TwoModelsOptions models;
+    PosesOption poses;
     bool all = false;
     std::string fail_on;
 };
 
+CollideOptions options_of(const CollideArguments& arguments) {
+    return {.mode = arguments.all ? ContactMode::all : ContactMode::first};
+}
+
+void add_answer(const CollideArguments& arguments, const Contacts& contacts,
+                nlohmann::ordered_json& answer) {
+    nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
+    for (const TrianglePair& pair : contacts.pairs)
+        pairs.push_back({pair.a, pair.b});
+    answer["contact"] = contacts.any();
+    answer["all"] = arguments.all;
+    answer["triangle_pairs"] = std::move(pairs);
+    answer["status"] = to_string(contacts.status);
+    answer["counters"] = describe(contacts.counters);
+}
+
+int run_many(const CollideArguments& arguments, const CommonOptions& common) {
+    const std::vector<Pose> poses = read_poses(arguments.poses.file);
+    const TwoModels models = load(arguments.models, common);
+    const Stopwatch watch;
+    const std::vector<Contacts> all =
+        collide(models.a, models.b, placements(models, poses), options_of(arguments));
+    const double seconds = watch.seconds();
+    if (common.json) {
+        nlohmann::ordered_json answer = describe(arguments.models);
+        answer["poses"] = nlohmann::ordered_json::array();
+        for (const Contacts& contacts : all)
+            add_answer(arguments, contacts, answer["poses"].emplace_back());
+        answer["seconds"] = describe_seconds(models, seconds);
+        print(dump(answer));
+    } else if (!common.quiet) {
+        std::string text;
+        for (const Contacts& contacts : all)
+            text += !contacts.any() ? "no contact\n"
+                    : arguments.all ? fmt::format("contact: {} triangle pairs\n",
+                                                  grouped(contacts.pairs.size()))
+                                    : "contact\n";
+        print(text);
+    }
+    const bool any = std::any_of(all.begin(), all.end(), [](const Contacts& c) { return c.any(); });
+    return any && !arguments.fail_on.empty() ? kExitProblem : kExitDone;
+}
+
 int run(const CollideArguments& arguments, const CommonOptions& common) {
     const TwoModels models = load(arguments.models, common);
     const Stopwatch watch;
-    const Contacts contacts =
-        collide(models.a, models.world_from_a, models.b, models.world_from_b,
-                {.mode = arguments.all ? ContactMode::all : ContactMode::first});
+    const Contacts contacts = collide(models.a, models.world_from_a, models.b, models.world_from_b,
+                                      options_of(arguments));
     const double seconds = watch.seconds();
 
     if (common.json) {
-        nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
-        for (const TrianglePair& pair : contacts.pairs)
-            pairs.push_back({pair.a, pair.b});
         nlohmann::ordered_json answer = describe(arguments.models);
-        answer["contact"] = contacts.any();
-        answer["all"] = arguments.all;
-        answer["triangle_pairs"] = std::move(pairs);
-        answer["status"] = to_string(contacts.status);
-        answer["counters"] = describe(contacts.counters);
+        add_answer(arguments, contacts, answer);
         answer["seconds"] = describe_seconds(models, seconds);
         print(dump(answer));
     } else if (!common.quiet) {
@@ -58,10 +95,14 @@ Subcommand add_collide(CLI::App& root, CommonOptions& common) {
     CLI::App* app =
         add_subcommand(root, common, "collide", "Do the surfaces of two models share a point?");
     add_two_models(*app, arguments->models);
+    add_poses(*app, arguments->poses);
     app->add_flag("--all", arguments->all, "List every pair of triangles that meet");
     app->add_option("--fail-on", arguments->fail_on, "Exit with status 1 on 'contact'")
         ->check(CLI::IsMember({"contact"}));
-    return {app, [arguments, &common] { return run(*arguments, common); }};
+    return {app, [arguments, &common] {
+                return arguments->poses.file.empty() ? run(*arguments, common)
+                                                     : run_many(*arguments, common);
+            }};
 }
 
 } // namespace abut::command

@@ -6,10 +6,39 @@
 #include "interrupt.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace abut::command {
+
+namespace {
+
+/// `fail` throws, given what is wrong.
+template <typename Fail>
+Pose parse_pose(const std::string& text, const Fail& fail) {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        const auto number = parse_number(std::string_view(text).substr(begin, comma - begin));
+        if (!number)
+            fail(fmt::format("'{}' is no finite number", text.substr(begin, comma - begin)));
+        numbers.push_back(number.value_or(0));
+        begin = comma + 1;
+    }
+    if (numbers.size() != 7)
+        fail(fmt::format("takes 7 numbers x,y,z,qw,qx,qy,qz, not {}", numbers.size()));
+    const Pose pose{{numbers[0], numbers[1], numbers[2]},
+                    {numbers[3], numbers[4], numbers[5], numbers[6]}};
+    if (std::all_of(pose.rotation.begin(), pose.rotation.end(), [](double q) { return q == 0; }))
+        fail("the quaternion has zero length");
+    return pose;
+}
+
+} // namespace
 
 void add_two_models(CLI::App& app, TwoModelsOptions& options) {
     app.add_option("A", options.files[0], "First model")->required();
@@ -23,26 +52,10 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
 }
 
 Pose parse_pose(const std::string& option, const std::string& text) {
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', begin), text.size());
-        const auto number = parse_number(std::string_view(text).substr(begin, comma - begin));
-        if (!number)
-            throw Error(ErrorCode::bad_argument, fmt::format("{}: '{}' is no finite number", option,
-                                                             text.substr(begin, comma - begin)));
-        numbers.push_back(*number);
-        begin = comma + 1;
-    }
-    if (numbers.size() != 7)
-        throw Error(
-            ErrorCode::bad_argument,
-            fmt::format("{}: takes 7 numbers x,y,z,qw,qx,qy,qz, not {}", option, numbers.size()));
-    const Pose pose{{numbers[0], numbers[1], numbers[2]},
-                    {numbers[3], numbers[4], numbers[5], numbers[6]}};
-    if (std::all_of(pose.rotation.begin(), pose.rotation.end(), [](double q) { return q == 0; }))
-        throw Error(ErrorCode::bad_argument,
-                    fmt::format("{}: the quaternion has zero length", option));
-    return pose;
+    const auto fail = [&](const std::string& message) {
+        throw Error(ErrorCode::bad_argument, option + ": " + message);
+    };
+    return parse_pose(text, fail);
 }
 
 TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
@@ -71,6 +84,41 @@ TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
     Model b(std::move(meshes[1]));
     return {std::move(a), std::move(b),   world_from_a,
             world_from_b, seconds_import, build_watch.seconds()};
+}
+
+void add_poses(CLI::App& app, PosesOption& option) {
+    app.add_option("--poses", option.file,
+                   "File with a pose of B in each row, as --pose-b: the answers of all, in order")
+        ->check(not_empty("FILE"))
+        ->excludes("--pose-b");
+}
+
+std::vector<Pose> read_poses(const std::string& file) {
+    if (!std::filesystem::exists(file))
+        throw Error(ErrorCode::file_not_found, file, "no such file");
+    std::ifstream stream(file);
+    std::vector<Pose> poses;
+    std::size_t row = 0;
+    for (std::string line; std::getline(stream, line);) {
+        ++row;
+        std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+        if (line.empty() || line[0] == '#')
+            continue;
+        poses.push_back(parse_pose(line, [&](const std::string& message) {
+            throw Error(ErrorCode::malformed, file, fmt::format("line {}: {}", row, message));
+        }));
+    }
+    if (row == 0 && (!stream.eof() || std::filesystem::is_directory(file)))
+        throw Error(ErrorCode::unreadable, file, "cannot be read");
+    return poses;
+}
+
+std::vector<Placement> placements(const TwoModels& models, const std::vector<Pose>& poses_of_b) {
+    std::vector<Placement> result;
+    result.reserve(poses_of_b.size());
+    for (const Pose& pose : poses_of_b)
+        result.push_back({models.world_from_a, pose});
+    return result;
 }
 
 nlohmann::ordered_json describe(const TwoModelsOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <abut/batch.h>
 #include <abut/model.h>
 #include <abut/rigid.h>
 #include <abut/types.h>
@@ -8,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 /// What collide, distance and within share: two models, each under its pose.
 namespace abut::command {
@@ -17,6 +19,19 @@ struct TwoModelsOptions {
     std::array<std::string, 2> poses; ///< as given; empty: identity
     double unit = 0;
 };
+
+/// --poses FILE: many poses of B in one run.
+struct PosesOption {
+    std::string file; ///< empty: the one pose of --pose-b
+};
+
+/// Declares it; it excludes --pose-b.
+void add_poses(CLI::App& app, PosesOption& option);
+
+/// One row a pose, as --pose-b takes it; empty lines and lines that begin with # are skipped.
+///
+/// Errors      Error naming the file, and the line: file_not_found, unreadable, malformed.
+std::vector<Pose> read_poses(const std::string& file);
 
 /// Two models ready for a query.
 struct TwoModels {
@@ -35,6 +50,9 @@ Pose parse_pose(const std::string& option, const std::string& text);
 
 /// Checks the poses, reads the files, builds the hierarchies.
 TwoModels load(const TwoModelsOptions& options, const CommonOptions& common);
+
+/// A under its pose, B under each of the poses.
+std::vector<Placement> placements(const TwoModels& models, const std::vector<Pose>& poses_of_b);
 
 /// {a, b}: the beginning of each JSON answer.
 nlohmann::ordered_json describe(const TwoModelsOptions& options);

@@ -1,10 +1,12 @@
 #pragma once
 
 /// The whole library. One header a subject; each can be included alone.
+#include <abut/batch.h>
 #include <abut/clash.h>
 #include <abut/error.h>
 #include <abut/mesh.h>
 #include <abut/model.h>
+#include <abut/motion.h>
 #include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>

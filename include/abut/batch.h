@@ -1,0 +1,42 @@
+#pragma once
+
+#include <abut/model.h>
+#include <abut/motion.h>
+#include <abut/rigid.h>
+#include <abut/types.h>
+
+#include <span>
+#include <vector>
+
+/// Many queries of one pair of models at once: the verbs of rigid.h and motion.h for a list of
+/// placements, in parallel (`set_threads`). Each answer equals that of the single query, counters
+/// included, and stands at its placement's index.
+///
+/// Errors, of all: those of the single query, for the first placement that has one; its message
+/// begins with "placement N: ", N counted from 0.
+namespace abut {
+
+/// Where both models are.
+struct Placement {
+    Transform world_from_a, world_from_b;
+};
+
+/// How both models move.
+struct MotionPair {
+    Motion a, b;
+};
+
+std::vector<Contacts> collide(const Model& a, const Model& b, std::span<const Placement> placements,
+                              const CollideOptions& options = {});
+
+std::vector<Gap> distance(const Model& a, const Model& b, std::span<const Placement> placements,
+                          const DistanceOptions& options = {});
+
+std::vector<bool> within(const Model& a, const Model& b, std::span<const Placement> placements,
+                         double tolerance);
+
+std::vector<Impact> time_of_impact(const Model& a, const Model& b,
+                                   std::span<const MotionPair> motions,
+                                   const ImpactOptions& options = {});
+
+} // namespace abut

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <abut/motion.h>
+
+#include "math/transform.h"
+
+namespace abut {
+
+/// A motion, ready to be evaluated at many times. The one implementation of its formula.
+class Trajectory {
+public:
+    /// Errors      Error{bad_argument} if a value is not finite or the quaternion has zero length.
+    explicit Trajectory(const Motion& motion);
+
+    [[nodiscard]] Transform at(double t) const;
+    /// Place of the centre at time t.
+    [[nodiscard]] Vec3 centre(double t) const { return centre_ + t * velocity_; }
+    [[nodiscard]] const Vec3& velocity() const { return velocity_; }
+    [[nodiscard]] const Vec3& angular_velocity() const { return angular_velocity_; }
+    [[nodiscard]] double speed_of_rotation() const { return rate_; }
+    /// Velocity of the body's point that is at x at time t.
+    [[nodiscard]] Vec3 velocity_at(const Vec3& x, double t) const {
+        return velocity_ + cross(angular_velocity_, x - centre(t));
+    }
+    /// Distance of a world point from the axis through the centre at time t; of a point of the
+    /// body it never changes.
+    [[nodiscard]] double axis_distance(const Vec3& x, double t) const {
+        return length(cross(axis_, x - centre(t)));
+    }
+    [[nodiscard]] const Transform& start() const { return start_; }
+
+private:
+    Transform start_;
+    Vec3 centre_, velocity_, angular_velocity_;
+    double rate_; ///< |angular_velocity|
+    Vec3 axis_;   ///< unit vector, or zero
+};
+
+} // namespace abut

@@ -1,0 +1,117 @@
+/// time-of-impact, and --poses of collide, distance and within: unit boxes, answers by hand.
+#include "tests/command/models.h"
+#include "tests/command/run_command.h"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+class TimeOfImpactCommand : public ::testing::Test {
+protected:
+    TemporaryFolder folder_;
+    std::string box_ = folder_.write("box.obj", box_obj());
+
+    Outcome ask(const std::string& verb, std::vector<std::string> options) {
+        options.insert(options.begin(), {verb, box_, box_});
+        return run_abut(options);
+    }
+};
+
+TEST_F(TimeOfImpactCommand, BoxesApproach) {
+    const Outcome outcome = ask(
+        "time-of-impact", {"--pose-b", "3,0.5,0,1,0,0,0", "--end-b", "-1,0.5,0,1,0,0,0", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto answer = outcome.json();
+    EXPECT_EQ(answer["hit"], true);
+    EXPECT_LE(answer["time"], 0.5);
+    EXPECT_NEAR(answer["time"], 0.5, 1e-6);
+    EXPECT_NEAR(answer["contact_time"], 0.5, 1e-6);
+    EXPECT_EQ(answer["status"], "exact");
+    EXPECT_NEAR(answer["normal"][0], 1, 1e-6);
+    EXPECT_EQ(answer["a"], box_);
+    for (const char* key :
+         {"gap", "point_a", "point_b", "triangle_a", "triangle_b", "counters", "seconds"})
+        EXPECT_TRUE(answer.contains(key)) << key;
+}
+
+TEST_F(TimeOfImpactCommand, TheToleranceBoundsTheGap) {
+    const Outcome outcome =
+        ask("time-of-impact", {"--pose-a", "-3,0.5,0,1,0,0,0", "--end-a", "9,0.5,0,1,0,0,0",
+                               "--tolerance", "1e-9", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_LE(outcome.json()["gap"], 1e-9);
+    EXPECT_NEAR(outcome.json()["time"], 1.0 / 6, 1e-9);
+}
+
+TEST_F(TimeOfImpactCommand, AScrewGoesAnotherWay) {
+    // Half a turn about z with the origin from (3, 0) to (-1, 0): straight on, B goes through A; by
+    // the screw it circles (1, 0) at a distance of 2.
+    const std::vector<std::string> motion{"--pose-b", "3,0,0,1,0,0,0", "--end-b",
+                                          "-1.5,0,0,0,0,0,1", "--json"};
+    EXPECT_EQ(ask("time-of-impact", motion).json()["hit"], true);
+    std::vector<std::string> screw = motion;
+    screw.emplace_back("--screw");
+    const auto answer = ask("time-of-impact", screw).json();
+    EXPECT_EQ(answer["hit"], false);
+    EXPECT_EQ(answer["time"], 1);
+}
+
+TEST_F(TimeOfImpactCommand, FailOnAndSentences) {
+    EXPECT_EQ(ask("time-of-impact", {"--fail-on", "impact", "--quiet"}).status, 1);
+    EXPECT_EQ(ask("time-of-impact", {"--fail-on", "impact", "--pose-b", "3,0,0,1,0,0,0"}).status,
+              0);
+    EXPECT_EQ(ask("time-of-impact", {"--pose-b", "3,0,0,1,0,0,0"}).out, "no impact\n");
+    EXPECT_EQ(ask("time-of-impact", {}).out.rfind("impact at 0, gap 0\n", 0), 0U);
+}
+
+TEST_F(TimeOfImpactCommand, BadUsageIsRefused) {
+    for (const auto& [option, value, word] : {std::array{"--end-a", "0,0,0", "7 numbers"},
+                                              {"--end-b", "0,0,0,0,0,0,0", "zero length"},
+                                              {"--end-b", "x,0,0,1,0,0,0", "--end-b"},
+                                              {"--tolerance", "-1", "--tolerance"},
+                                              {"--tolerance", "nan", "nan"},
+                                              {"--fail-on", "contact", "--fail-on"}})
+        expect_refused(ask("time-of-impact", {option, value}), {word});
+}
+
+TEST_F(TimeOfImpactCommand, ManyPosesInOneRun) {
+    const std::string poses = folder_.write(
+        "poses.csv", "# far, touching, inside\n3,0,0,1,0,0,0\r\n\n 1, 0, 0, 5, 0, 0, 0\n"
+                     "0.5,0.25,0.25,1,0,0,0");
+    const auto contacts = ask("collide", {"--poses", poses, "--json"}).json();
+    ASSERT_EQ(contacts["poses"].size(), 3U);
+    EXPECT_EQ(contacts["poses"][0]["contact"], false);
+    EXPECT_EQ(contacts["poses"][1]["contact"], true);
+    EXPECT_EQ(contacts["poses"][2]["contact"], true);
+    const auto gaps = ask("distance", {"--poses", poses, "--json"}).json();
+    ASSERT_EQ(gaps["poses"].size(), 3U);
+    EXPECT_EQ(gaps["poses"][0]["distance"], 2.0);
+    EXPECT_EQ(gaps["poses"][1]["distance"], 0.0);
+    EXPECT_EQ(ask("distance", {"--poses", poses}).out, "2\n0\n0\n");
+    // A's own pose counts.
+    EXPECT_EQ(
+        ask("distance", {"--poses", poses, "--pose-a", "-1,0,0,1,0,0,0"}).out.rfind("3\n1\n", 0),
+        0U);
+    EXPECT_EQ(ask("within", {"--poses", poses, "--tolerance", "1"}).out,
+              "farther\nwithin\nwithin\n");
+    EXPECT_EQ(ask("collide", {"--poses", poses}).out, "no contact\ncontact\ncontact\n");
+    EXPECT_EQ(ask("collide", {"--poses", poses, "--fail-on", "contact", "--quiet"}).status, 1);
+    const std::string far = folder_.write("far.csv", "3,0,0,1,0,0,0\n");
+    EXPECT_EQ(ask("collide", {"--poses", far, "--fail-on", "contact"}).status, 0);
+    EXPECT_EQ(ask("within", {"--poses", far, "--fail-on", "within", "--tolerance", "3"}).status, 1);
+}
+
+TEST_F(TimeOfImpactCommand, BadFilesOfPosesAreNamedWithTheLine) {
+    const std::string bad = folder_.write("bad.csv", "3,0,0,1,0,0,0\n\n3,0,0,1,0,0\n");
+    expect_refused(ask("collide", {"--poses", bad}), {bad, "line 3", "7 numbers"});
+    const std::string nan = folder_.write("nan.csv", "3,0,nan,1,0,0,0\n");
+    expect_refused(ask("distance", {"--poses", nan}), {nan, "line 1", "nan"});
+    expect_refused(ask("within", {"--tolerance", "1", "--poses", folder_ / "none.csv"}),
+                   {"none.csv", "no such file"});
+    expect_refused(ask("collide", {"--poses", bad, "--pose-b", "0,0,0,1,0,0,0"}), {"--poses"});
+}
+
+} // namespace
+} // namespace abut::test
