@@ -11,3 +11,4 @@
 #include <abut/rigid.h>
 #include <abut/scene.h>
 #include <abut/types.h>
+#include <abut/volume.h>

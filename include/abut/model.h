@@ -2,12 +2,19 @@
 
 #include <abut/mesh.h>
 #include <abut/types.h>
+#include <abut/volume.h>
 
 #include <memory>
 
 namespace abut {
 
 class ModelData;
+
+struct ModelOptions {
+    /// The bounding volume of the hierarchy. Queries of two models use it where both have the same;
+    /// else, and for a single model, the boxes that every model has.
+    Volume volume = Volume::automatic;
+};
 
 /// A mesh with the bounding-volume hierarchy that queries need. Immutable once built: copies share
 /// the data, and any number of threads may query it.
@@ -20,7 +27,7 @@ public:
     /// Errors      Error{bad_mesh} if an index is out of range or a coordinate is not finite or
     ///             beyond 1e18.
     /// Cost        O(n log n); parallel over subtrees.
-    explicit Model(Mesh mesh);
+    explicit Model(Mesh mesh, const ModelOptions& options = {});
 
     [[nodiscard]] const Mesh& mesh() const noexcept;
     /// Memory of mesh and hierarchy, in bytes.

@@ -6,8 +6,9 @@ namespace abut {
 
 /// The kinds of bounding volume that a model's hierarchy can be made of.
 enum class Volume : std::uint8_t {
-    automatic, ///< what wins the benchmarks
-    aabb,      ///< boxes that share an orientation
+    automatic, ///< what wins the benchmarks: boxes; every node has axes of its own where they fit
+               ///< better, else the model's
+    aabb,      ///< boxes along the model's axes
     sphere,    ///< smallest ball, nearly
     kdop14,    ///< slabs along the axes and the diagonals of the cube
     kdop18,    ///< along the axes and the diagonals of its faces

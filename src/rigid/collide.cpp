@@ -47,7 +47,7 @@ std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Cou
     const std::uint64_t exact_before = exact_signs();
     ContactFinder finder(pair, mode);
     PairTraversal traversal = pair.traversal(0);
-    traverse_contacts(traversal, finder);
+    pair.visit_contacts(traversal, finder);
     counters.volume_tests += traversal.volume_tests;
     counters.primitive_tests += traversal.primitive_tests;
     counters.exact_tests += exact_signs() - exact_before;

@@ -162,7 +162,7 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     Gap gap;
     if (workspace == nullptr || !workspace->used || !finder.begin_with(workspace->last)) {
         PairTraversal traversal = pair.traversal(finder.bound_sq());
-        traverse_nearest(traversal, finder);
+        pair.visit_nearest(traversal, finder);
         finder.finish();
         gap.counters.volume_tests = traversal.volume_tests;
         gap.counters.primitive_tests = traversal.primitive_tests;
@@ -198,7 +198,7 @@ bool within(const Model& a, const Transform& world_from_a, const Model& b,
     if (workspace != nullptr && workspace->used && finder.begin_with(workspace->last))
         return true;
     PairTraversal traversal = pair.traversal(tolerance * tolerance);
-    if (traverse_within(traversal, finder) == Verdict::accepted)
+    if (pair.visit_within(traversal, finder) == Verdict::accepted)
         return true;
     finder.finish();
     if (workspace != nullptr && finder.found())

@@ -36,7 +36,7 @@ std::vector<Vec3> tree_positions(const Mesh& mesh, const Transform& model_from_t
 
 } // namespace
 
-ModelData::ModelData(Mesh mesh) : mesh_(std::move(mesh)) {
+ModelData::ModelData(Mesh mesh, const ModelOptions& options) : mesh_(std::move(mesh)) {
     require_valid(mesh_);
     Box3 bounds;
     for (const auto& t : mesh_.triangles)
@@ -46,7 +46,9 @@ ModelData::ModelData(Mesh mesh) : mesh_(std::move(mesh)) {
     model_from_tree_ = choose_tree_frame(mesh_, bounds);
     for (std::size_t i = 0; i < 9; ++i)
         model_from_tree_.m[i] *= scale;
-    tree_ = build_tree(TreeMesh{tree_positions(mesh_, model_from_tree_, scale), mesh_.triangles});
+    const std::vector<Vec3> positions = tree_positions(mesh_, model_from_tree_, scale);
+    tree_ = build_tree(TreeMesh{positions, mesh_.triangles}, options.volume != Volume::aabb);
+    volumes_ = build_volume_tree(options.volume, tree_, {positions, mesh_.triangles});
     sort_vertices();
 }
 
@@ -67,12 +69,13 @@ void ModelData::sort_vertices() {
 }
 
 std::size_t ModelData::bytes() const {
-    return mesh_.positions.size() * sizeof(Vec3) +
+    return (volumes_ ? volumes_->bytes() : 0) + mesh_.positions.size() * sizeof(Vec3) +
            mesh_.triangles.size() * sizeof(mesh_.triangles[0]) + tree_.bytes() +
            vertices_.size() * sizeof(Vec3) + slots_.size() * sizeof(slots_[0]);
 }
 
-Model::Model(Mesh mesh) : data_(std::make_shared<const ModelData>(std::move(mesh))) {}
+Model::Model(Mesh mesh, const ModelOptions& options)
+    : data_(std::make_shared<const ModelData>(std::move(mesh), options)) {}
 const Mesh& Model::mesh() const noexcept {
     return data_->mesh();
 }

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <abut/mesh.h>
+#include <abut/model.h>
 #include <abut/types.h>
 
 #include "math/transform.h"
 #include "tree/tree.h"
+#include "tree/volume_tree.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace abut {
@@ -17,10 +20,12 @@ namespace abut {
 class ModelData {
 public:
     /// Errors      Error{bad_mesh}.
-    explicit ModelData(Mesh mesh);
+    ModelData(Mesh mesh, const ModelOptions& options);
 
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }
+    /// The volumes that were asked for in place of the tree's boxes; null if none were.
+    [[nodiscard]] const VolumeTree* volumes() const { return volumes_.get(); }
     /// Rigid to rounding, and a power of two in scale: the tree is about as large as 1.
     [[nodiscard]] const Transform& model_from_tree() const { return model_from_tree_; }
     /// Mesh index of the triangle in a slot of the tree.
@@ -46,6 +51,7 @@ private:
     Mesh mesh_;
     Transform model_from_tree_;
     Tree tree_;
+    std::unique_ptr<const VolumeTree> volumes_;
     /// Copies of positions and triangles in the order of the leaves: what is near in space is near
     /// in memory.
     std::vector<Vec3> vertices_;

@@ -11,10 +11,19 @@ namespace abut {
 
 namespace {
 
-TreeBox box_between(const Aabb& box) {
+/// The box's hull in the tree's axes. A node's axes are at right angles to a few parts in 2^24.
+TreeBox box_between(const Aabb& box, const NodeFrame& frame, double scale) {
     const auto middle = [&](std::size_t i) { return 0.5 * (double{box.lower[i]} + box.upper[i]); };
     const auto half = [&](std::size_t i) { return 0.5 * (double{box.upper[i]} - box.lower[i]); };
-    return {{middle(0), middle(1), middle(2)}, {half(0), half(1), half(2)}};
+    const Vec3 centre{middle(0), middle(1), middle(2)}, h{half(0), half(1), half(2)};
+    const double off = 0x1p-20 * (length(centre) + length(h));
+    const auto reach = [&](std::size_t k) {
+        const auto& t = frame.turn[k];
+        return std::abs(double{t[0]}) * h.x + std::abs(double{t[1]}) * h.y +
+               std::abs(double{t[2]}) * h.z + off;
+    };
+    return {scale * frame.point_to_tree(centre), scale * Vec3{reach(0), reach(1), reach(2)},
+            scale * (length(h) + 2 * off)};
 }
 
 /// Of a rotation: its transpose takes back.
@@ -29,15 +38,20 @@ Vec3 translation_of(const Transform& t) {
 
 MovingPair::Body make_body(const Tree& tree, const Transform& model_from_tree,
                            const Motion& motion) {
-    MovingPair::Body body{Trajectory(motion), model_from_tree, {}, {}, {}, 0};
-    const Transform world_from_tree = compose(body.trajectory.at(0), model_from_tree);
+    // The tree's frame is a rotation times a power of two.
+    const auto& m = model_from_tree.m;
+    const double scale = std::exp2(std::round(std::log2(length({m[0], m[1], m[2]}))));
+    MovingPair::Body body{Trajectory(motion), scale, model_from_tree, {}, {}, {}, 0};
+    for (std::size_t i = 0; i < 9; ++i)
+        body.model_from_tree.m[i] /= scale;
+    const Transform world_from_tree = compose(body.trajectory.at(0), body.model_from_tree);
     body.centre = apply_transposed(world_from_tree,
                                    body.trajectory.centre(0) - translation_of(world_from_tree));
     body.angular_velocity = apply_transposed(world_from_tree, body.trajectory.angular_velocity());
     body.axis = normalized_or_zero(body.angular_velocity);
     if (!tree.empty()) {
-        const TreeBox box = root_box(tree);
-        body.reach = length(box.centre) + length(box.half);
+        const TreeBox box = root_box(tree, scale);
+        body.reach = length(box.centre) + box.radius;
     }
     return body;
 }
@@ -99,11 +113,11 @@ double free_time_along(const Vec3& gap, const Vec3& velocity, const Vec3& spin_a
 
 } // namespace
 
-TreeBox root_box(const Tree& tree) {
-    return box_between(tree.bounds);
+TreeBox root_box(const Tree& tree, double scale) {
+    return box_between(tree.bounds, {}, scale);
 }
-TreeBox child_box(const Node& node, std::size_t child) {
-    return box_between(node.box(child));
+TreeBox child_box(const Node& node, std::size_t child, double scale) {
+    return box_between(node.box(child), node.frame, scale);
 }
 
 MovingPair::MovingPair(const Tree& tree_a, const Transform& model_from_tree_a,
@@ -143,9 +157,9 @@ Moment::Moment(const MovingPair& pair, double t)
 
 MovingBox box_of_a(const MovingPair& pair, const Moment& moment, const TreeBox& box) {
     const Vec3 arm = box.centre - pair.a.centre;
-    return {box.centre,       cross(moment.spin_a, arm),
-            box.half,         apply_magnitude_transposed(moment.magnitude, box.half),
-            length(box.half), length(cross(pair.a.axis, arm))};
+    return {box.centre, cross(moment.spin_a, arm),
+            box.half,   apply_magnitude_transposed(moment.magnitude, box.half),
+            box.radius, length(cross(pair.a.axis, arm))};
 }
 
 MovingBox box_of_b(const MovingPair& pair, const Moment& moment, const TreeBox& box) {
@@ -154,7 +168,7 @@ MovingBox box_of_b(const MovingPair& pair, const Moment& moment, const TreeBox& 
             moment.velocity + cross(moment.spin_b, centre - moment.centre_b),
             apply_magnitude(moment.magnitude, box.half),
             box.half,
-            length(box.half),
+            box.radius,
             length(cross(pair.b.axis, box.centre - pair.b.centre))};
 }
 

@@ -8,20 +8,23 @@
 
 namespace abut {
 
-/// What the time of impact knows of a tree's nodes: boxes, here in the axes of the tree's frame.
-/// The one place that depends on how nodes store them.
+/// What the time of impact knows of a tree's nodes: boxes, here in the axes of the tree's frame but
+/// in the model's units. The one place that depends on how nodes store them.
 struct TreeBox {
     Vec3 centre, half;
+    double radius = 0; ///< half the diagonal of the box in its own axes
 };
 
-TreeBox root_box(const Tree& tree);
-TreeBox child_box(const Node& node, std::size_t child);
+/// In          scale: the model's units in one of the tree's.
+TreeBox root_box(const Tree& tree, double scale);
+TreeBox child_box(const Node& node, std::size_t child, double scale);
 
 /// Two bodies in motion: their trees, and how each frame moves.
 struct MovingPair {
     struct Body {
         Trajectory trajectory;
-        Transform model_from_tree;
+        double scale = 1;              ///< the model's units in one of the tree's
+        Transform model_from_tree;     ///< without the scale
         Vec3 centre, angular_velocity; ///< in the frame of the tree, where both stand still
         Vec3 axis;                     ///< of length 1, or zero
         double reach = 0;              ///< of the tree's points from its origin

@@ -4,17 +4,17 @@ namespace abut {
 
 namespace {
 
+/// The kind of volume that a model was built with, as far as a copy can tell.
+Volume kind_of(const Model& model) {
+    const VolumeTree* volumes = model.data().volumes();
+    return volumes != nullptr ? volumes->kind() : Volume::automatic;
+}
+
 Model baked(const Model& model, const Transform& world) {
     Mesh mesh = model.mesh();
     for (Vec3& p : mesh.positions)
         p = apply(world, p);
-    return Model(std::move(mesh));
-}
-
-PairFrame frame_of(const Model& a, const Transform& world_from_a, const Model& b,
-                   const Transform& world_from_b) {
-    return make_pair_frame(a.data().tree(), compose(world_from_a, a.data().model_from_tree()),
-                           b.data().tree(), compose(world_from_b, b.data().model_from_tree()));
+    return Model(std::move(mesh), {.volume = kind_of(model)});
 }
 
 } // namespace
@@ -24,13 +24,38 @@ PlacedPair::PlacedPair(const Model& a, const Transform& world_from_a, const Mode
     : a_(a), b_(b), world_from_a_(world_from_a), world_from_b_(world_from_b) {
     require_finite(world_from_a, "transform of a");
     require_finite(world_from_b, "transform of b");
-    frame_ = frame_of(a_, world_from_a_, b_, world_from_b_);
+    compare_frames();
     if (!frame_.valid && !a_.data().tree().empty() && !b_.data().tree().empty()) {
         // The same positions by the same formula; identity then leaves them as they are.
         a_ = baked(a, world_from_a), b_ = baked(b, world_from_b);
         world_from_a_ = world_from_b_ = {};
-        frame_ = frame_of(a_, world_from_a_, b_, world_from_b_);
+        compare_frames();
     }
+}
+
+void PlacedPair::compare_frames() {
+    const Transform world_from_tree_a = compose(world_from_a_, a().model_from_tree()),
+                    world_from_tree_b = compose(world_from_b_, b().model_from_tree());
+    frame_ = make_pair_frame(a().tree(), world_from_tree_a, b().tree(), world_from_tree_b);
+    if (a().volumes() != nullptr && b().volumes() != nullptr)
+        volume_frame_ =
+            make_volume_frame(*a().volumes(), world_from_tree_a, *b().volumes(), world_from_tree_b);
+}
+
+Verdict PlacedPair::visit_contacts(PairTraversal& t, LeafPairVisitor& visitor) const {
+    return volume_frame_.valid
+               ? traverse_contacts({t, *a().volumes(), *b().volumes(), volume_frame_}, visitor)
+               : traverse_contacts(t, visitor);
+}
+Verdict PlacedPair::visit_within(PairTraversal& t, LeafPairVisitor& visitor) const {
+    return volume_frame_.valid
+               ? traverse_within({t, *a().volumes(), *b().volumes(), volume_frame_}, visitor)
+               : traverse_within(t, visitor);
+}
+Verdict PlacedPair::visit_nearest(PairTraversal& t, LeafPairVisitor& visitor) const {
+    return volume_frame_.valid
+               ? traverse_nearest({t, *a().volumes(), *b().volumes(), volume_frame_}, visitor)
+               : traverse_nearest(t, visitor);
 }
 
 } // namespace abut

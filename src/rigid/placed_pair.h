@@ -5,7 +5,7 @@
 
 #include "geometry/triangle_leaf.h"
 #include "rigid/model_data.h"
-#include "tree/traverse_pair.h"
+#include "tree/traverse_volumes.h"
 
 #include <array>
 #include <bit>
@@ -29,11 +29,18 @@ public:
     [[nodiscard]] PairTraversal traversal(double bound_sq) const {
         return {a().tree(), b().tree(), frame_, bound_sq};
     }
+    /// The traversals of the models' volumes; of their boxes where they have none, or not the same.
+    Verdict visit_contacts(PairTraversal& traversal, LeafPairVisitor& visitor) const;
+    Verdict visit_within(PairTraversal& traversal, LeafPairVisitor& visitor) const;
+    Verdict visit_nearest(PairTraversal& traversal, LeafPairVisitor& visitor) const;
 
 private:
+    void compare_frames();
+
     Model a_, b_;
     Transform world_from_a_, world_from_b_;
     PairFrame frame_;
+    VolumeFrame volume_frame_; ///< valid where both have volumes of the same kind
 };
 
 /// The world triangles of two leaves, computed when they are asked for.

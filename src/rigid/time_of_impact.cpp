@@ -1,7 +1,7 @@
 #include <abut/error.h>
 #include <abut/motion.h>
 
-#include "geometry/triangle_block.h"
+#include "geometry/triangle_pair_block.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
@@ -51,9 +51,9 @@ NodeRef ref_of(const Tree& tree, std::uint32_t name) {
     return name == kRoot ? NodeRef::node(0)
                          : tree.nodes[name / Node::kWidth].child[name % Node::kWidth];
 }
-TreeBox box_of(const Tree& tree, std::uint32_t name) {
-    return name == kRoot ? root_box(tree)
-                         : child_box(tree.nodes[name / Node::kWidth], name % Node::kWidth);
+TreeBox box_of(const Tree& tree, std::uint32_t name, double scale) {
+    return name == kRoot ? root_box(tree, scale)
+                         : child_box(tree.nodes[name / Node::kWidth], name % Node::kWidth, scale);
 }
 
 /// Advances all pairs in the order of the times before which they cannot meet.
@@ -111,9 +111,9 @@ private:
     void open(const Waiting& pair) {
         const NodeRef ref_a = ref_of(a_.data().tree(), pair.a),
                       ref_b = ref_of(b_.data().tree(), pair.b);
-        const TreeBox tree_box_a = box_of(a_.data().tree(), pair.a),
-                      tree_box_b = box_of(b_.data().tree(), pair.b);
-        const double radius_a = length(tree_box_a.half), radius_b = length(tree_box_b.half);
+        const TreeBox tree_box_a = box_of(a_.data().tree(), pair.a, pair_.a.scale),
+                      tree_box_b = box_of(b_.data().tree(), pair.b, pair_.b.scale);
+        const double radius_a = tree_box_a.radius, radius_b = tree_box_b.radius;
         const Moment& now = moment_for(pair.time, std::min(radius_a, radius_b));
         const MovingBox box_a = box_of_a(pair_, now, tree_box_a),
                         box_b = box_of_b(pair_, now, tree_box_b);
@@ -126,7 +126,7 @@ private:
         const Node& node = (open_a ? a_ : b_).data().tree().nodes[index];
         for (std::uint32_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i) {
             ++counters_.volume_tests;
-            const TreeBox child = child_box(node, i);
+            const TreeBox child = child_box(node, i, (open_a ? pair_.a : pair_.b).scale);
             const double free = open_a ? free_time(pair_, now, box_of_a(pair_, now, child), box_b,
                                                    window_end_ - now.time, kEnd - now.time)
                                        : free_time(pair_, now, box_a, box_of_b(pair_, now, child),
@@ -148,17 +148,14 @@ private:
         approach.bend = rate_a * rate_a * (box_a.centre_arm + box_a.radius) +
                         rate_b * rate_b * (box_b.centre_arm + box_b.radius);
         approach.fastest = pair_.speed;
-        TriangleBlock block_b{};
-        for (std::uint32_t j = 0; j < TriangleBlock::kLanes; ++j)
-            block_b.set(j,
-                        b_.data().world_triangle(leaf_b.first() + std::min(j, leaf_b.count() - 1),
-                                                 moment_.world_from_b));
+        Triangle b[TriangleLeaf::kLanes];
+        for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
+            b[j] = b_.data().world_triangle(leaf_b.first() + j, moment_.world_from_b);
         for (std::uint32_t i = 0; i < leaf_a.count(); ++i) {
-            const Triangle triangle =
-                a_.data().world_triangle(leaf_a.first() + i, moment_.world_from_a);
+            const Triangle a = a_.data().world_triangle(leaf_a.first() + i, moment_.world_from_a);
             TrianglePairBlock pairs{};
             for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
-                pairs.set(j, triangle, block_b, j);
+                pairs.set(j, a, b[j]);
             // None cross: nothing has met before now.
             double squares[TrianglePairBlock::kLanes];
             distance_sq(pairs, squares);
@@ -257,11 +254,9 @@ private:
     Impact impact_;
 };
 
-double default_tolerance(const ModelData& a, const ModelData& b) {
-    const auto diagonal = [](const Tree& tree) {
-        return tree.empty() ? 0 : 2 * length(root_box(tree).half);
-    };
-    return kTolerance * std::max(diagonal(a.tree()), diagonal(b.tree()));
+double default_tolerance(const MovingPair& pair, const Tree& a, const Tree& b) {
+    return kTolerance * 2 *
+           std::max(root_box(a, pair.a.scale).radius, root_box(b, pair.b.scale).radius);
 }
 
 /// The models share a point at the start.
@@ -297,12 +292,11 @@ Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
     Counters at_start;
     const PlacedPair placed(a, pair.a.trajectory.at(0), b, pair.b.trajectory.at(0));
     const std::vector<Contact> contact = find_contacts(placed, ContactMode::first, at_start);
-    Impact impact =
-        contact.empty()
-            ? ImpactSearch(a, b, pair,
-                           options.tolerance.value_or(default_tolerance(data_a, data_b)))
-                  .run()
-            : impact_at_start(placed, contact.front());
+    Impact impact = contact.empty() ? ImpactSearch(a, b, pair,
+                                                   options.tolerance.value_or(default_tolerance(
+                                                       pair, data_a.tree(), data_b.tree())))
+                                          .run()
+                                    : impact_at_start(placed, contact.front());
     impact.counters.volume_tests += at_start.volume_tests;
     impact.counters.primitive_tests += at_start.primitive_tests;
     impact.counters.exact_tests = exact_signs() - exact_before;

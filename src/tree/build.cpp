@@ -400,7 +400,7 @@ Tree build_tree(std::span<const Aabb> boxes) {
     return tree;
 }
 
-Tree build_tree(const TreeMesh& mesh) {
+Tree build_tree(const TreeMesh& mesh, bool own_axes) {
     std::vector<Primitive> primitives(mesh.triangles.size());
     parallel_for(primitives.size(), 4096, [&](std::size_t i) {
         Aabb box;
@@ -415,7 +415,7 @@ Tree build_tree(const TreeMesh& mesh) {
     });
     Tree tree = build_tree(primitives);
     primitives = {};
-    orient_nodes(tree, mesh);
+    orient_nodes(tree, mesh, own_axes);
     return tree;
 }
 

@@ -144,8 +144,9 @@ float reach_of(const Aabb& box) {
 
 class Orienter {
 public:
-    Orienter(Tree& tree, const TreeMesh& mesh)
-        : tree_(tree), mesh_(mesh), position_rounding_(0x1p-23F * reach_of(tree.bounds)) {}
+    Orienter(Tree& tree, const TreeMesh& mesh, bool own_axes)
+        : tree_(tree), mesh_(mesh), own_axes_(own_axes),
+          position_rounding_(0x1p-23F * reach_of(tree.bounds)) {}
 
     void run() {
         fill_leaves();
@@ -204,7 +205,7 @@ private:
             area += node.box(i).half_area();
         NodeFrame own;
         std::array<Aabb, Node::kWidth> boxes;
-        if (m.end - m.first <= kMostSlots && principal_frame(m, own)) {
+        if (own_axes_ && m.end - m.first <= kMostSlots && principal_frame(m, own)) {
             float own_area = 0;
             for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i) {
                 const NodeRef child = node.child[i];
@@ -276,15 +277,16 @@ private:
 
     Tree& tree_;
     const TreeMesh& mesh_;
+    bool own_axes_;
     float position_rounding_; ///< of a position in single precision
     std::vector<Moments> moments_;
 };
 
 } // namespace
 
-void orient_nodes(Tree& tree, const TreeMesh& mesh) {
+void orient_nodes(Tree& tree, const TreeMesh& mesh, bool own_axes) {
     if (!tree.empty())
-        Orienter(tree, mesh).run();
+        Orienter(tree, mesh, own_axes).run();
 }
 
 } // namespace abut

@@ -5,6 +5,7 @@
 #include "tree/tree.h"
 
 #include <array>
+#include <cmath>
 
 namespace abut {
 
@@ -29,6 +30,14 @@ struct FrameMap : LeafPlacement {
         return r;
     }
 };
+
+/// A direction as seen in a frame: its product with a vector there is the vector's length along it
+/// in the world.
+using Covector = std::array<float, 3>;
+
+inline float reach_along(const Covector& n, const std::array<float, 3>& half) {
+    return std::abs(n[0]) * half[0] + std::abs(n[1]) * half[1] + std::abs(n[2]) * half[2];
+}
 
 /// The map between two trees' frames.
 struct TreeMap {

@@ -10,7 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_pair.cpp"
 #include "simd/foreach_target.h"
-#include "simd/simd.h"
+#include "tree/node_pair-inl.h"
 
 // What the targets share. A child is named by 8 * node + lane, the root by kRoot.
 #ifndef ABUT_TREE_TRAVERSE_PAIR_ONCE
@@ -53,14 +53,6 @@ struct MiddleBox {
     }
 };
 
-/// A direction as seen in a frame: its product with a vector there is the vector's length along it
-/// in the world.
-using Covector = std::array<float, 3>;
-
-inline float reach_along(const Covector& n, const std::array<float, 3>& half) {
-    return std::abs(n[0]) * half[0] + std::abs(n[1]) * half[1] + std::abs(n[2]) * half[2];
-}
-
 } // namespace abut::traverse_pair
 #endif
 
@@ -70,60 +62,11 @@ namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using traverse_pair::BoxPair;
 using traverse_pair::BoxPairs;
-using traverse_pair::Covector;
 using traverse_pair::MiddleBox;
 using traverse_pair::Mode;
 
 using D = hn::CappedTag<float, Node::kWidth>;
 using V = hn::Vec<D>;
-
-// x_to = A_to (M (A_from^T x_from + o_from) + t - o_to), A the nodes' rotations. What the origins
-// cancel is computed in double, so that the error is relative to the nodes and their distance.
-HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& from,
-                              FrameMap& map) {
-    float turned[3][4]; // M A_from^T
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 4; ++k)
-            turned[i][k] = trees.linear[i][0] * from.frame.turn[0][k] +
-                           trees.linear[i][1] * from.frame.turn[1][k] +
-                           trees.linear[i][2] * from.frame.turn[2][k];
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 4; ++k) {
-            map.linear[i][k] = to.frame.turn[0][i] * turned[0][k] +
-                               to.frame.turn[1][i] * turned[1][k] +
-                               to.frame.turn[2][i] * turned[2][k];
-            map.magnitude[i][k] = std::abs(map.linear[i][k]);
-        }
-    const auto& m = trees.to_from.m;
-    const std::array<double, 3> o{from.frame.origin[0], from.frame.origin[1], from.frame.origin[2]};
-    float d[3];
-    for (std::size_t i = 0; i < 3; ++i)
-        d[i] = static_cast<float>(m[i] * o[0] + m[3 + i] * o[1] + m[6 + i] * o[2] + m[9 + i] -
-                                  double{to.frame.origin[i]});
-    map.translation = to.frame.vector_from_tree({d[0], d[1], d[2]});
-    const float size = to.reach + 2 * trees.row_sum * from.reach +
-                       2 * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
-    map.margin = 24 * 0x1p-24F * size + trees.margin;
-    map.stretch_sq = trees.stretch_sq;
-    map.most_stretch_sq = trees.most_stretch_sq;
-}
-
-/// Two nodes to each other, p of a and q of b.
-struct NodePair {
-    FrameMap p_from_q, q_from_p;
-    Covector n_p{}, n_q{}; ///< the direction, from a to b
-
-    HWY_INLINE NodePair(const PairFrame& frame, const Node& p, const Node& q, const Covector* n_a) {
-        between_nodes(frame.a_from_b, p, q, p_from_q);
-        between_nodes(frame.b_from_a, q, p, q_from_p);
-        if (n_a == nullptr)
-            return;
-        n_p = p.frame.vector_from_tree(*n_a);
-        for (std::size_t i = 0; i < 3; ++i)
-            n_q[i] = p_from_q.linear[0][i] * n_p[0] + p_from_q.linear[1][i] * n_p[1] +
-                     p_from_q.linear[2][i] * n_p[2];
-    }
-};
 
 HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
     std::uint8_t bits[8] = {};
@@ -242,7 +185,7 @@ HWY_INLINE void bound_children(const Node& node, const MiddleBox& box, const Com
             const Covector& n = compare.n_node;
             auto along = hn::Set(d, n[0] * c_node[0] + n[1] * c_node[1] + n[2] * c_node[2]);
             auto reach =
-                hn::Set(d, traverse_pair::reach_along(compare.n_box, box.half) +
+                hn::Set(d, reach_along(compare.n_box, box.half) +
                                (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2])) * to_node.margin);
             for (std::size_t i = 0; i < 3; ++i) {
                 along = hn::NegMulAdd(hn::Set(d, n[i]), centre[i], along);
@@ -437,23 +380,9 @@ private:
     }
 
     bool visit(const NodePair& nodes, NodeRef a, NodeRef b) {
-        const TriangleLeaf &leaf_a = t_.a.leaf(a), &leaf_b = t_.b.leaf(b);
         t_.primitive_tests += a.count() * b.count();
-        LeafPairs pairs;
-        if constexpr (mode == Mode::contacts) {
-            pairs = meeting_pairs(leaf_a, leaf_b, nodes.p_from_q);
-        } else {
-            const float stretch_sq = nodes.p_from_q.stretch_sq;
-            pairs = near_pairs(leaf_a, leaf_b, nodes.p_from_q,
-                               {bound_sq_ / stretch_sq * (1 + 0x1p-20F), bound_sq_, nodes.n_p});
-        }
-        // Lanes beyond the leaves' counts repeat the first.
-        constexpr std::uint32_t kRows[] = {0x000f, 0x00ff, 0x0fff, 0xffff};
-        constexpr std::uint32_t kColumns[] = {0x1111, 0x3333, 0x7777, 0xffff};
-        const std::uint32_t used = kRows[a.count() - 1] & kColumns[b.count() - 1];
-        pairs.cross &= used;
-        pairs.may_meet &= used;
-        pairs.may_be_near &= used;
+        const LeafPairs pairs =
+            compare_leaves(t_.a, a, t_.b, b, nodes, mode == Mode::contacts, bound_sq_);
         if (pairs.any() == 0)
             return true;
         const double new_bound_sq = visitor_.visit(a, b, pairs);

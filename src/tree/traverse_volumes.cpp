@@ -11,6 +11,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_volumes.cpp"
 #include "simd/foreach_target.h"
+#include "tree/node_pair-inl.h"
 #include "volume/lower_bound-inl.h"
 
 // What the targets share. Two volumes still to be looked at: a child is named by 8 * node + lane,
@@ -67,16 +68,18 @@ using traverse_volumes::VolumePairs;
 template <typename V>
 class Traversal {
 public:
-    Traversal(VolumeTraversal& t, LeafPairVisitor& visitor)
-        : counts_(t), visitor_(visitor), a_{t.a, std::get<VolumeLayer<V>>(t.volumes_a.layer()),
-                                            typename V::Map(t.frame.a_from_b), t.frame.stretch_a_sq,
-                                            t.frame.most_stretch_a_sq},
-          b_{t.b, std::get<VolumeLayer<V>>(t.volumes_b.layer()), typename V::Map(t.frame.b_from_a),
-             t.frame.stretch_b_sq, t.frame.most_stretch_b_sq},
-          bound_sq_(round_up(t.bound_sq)) {}
+    Traversal(const VolumeTraversal& t, LeafPairVisitor& visitor)
+        : pair_(t.pair),
+          visitor_(visitor), a_{t.pair.a, std::get<VolumeLayer<V>>(t.volumes_a.layer()),
+                                typename V::Map(t.frame.a_from_b), t.frame.stretch_a_sq,
+                                t.frame.most_stretch_a_sq},
+          b_{t.pair.b, std::get<VolumeLayer<V>>(t.volumes_b.layer()),
+             typename V::Map(t.frame.b_from_a), t.frame.stretch_b_sq, t.frame.most_stretch_b_sq},
+          bound_sq_(round_up(t.pair.bound_sq)) {}
 
     template <bool with_upper>
     Verdict depth_first() {
+        contacts_only_ = !with_upper;
         VolumePairs pending;
         pending.push_back({traverse_volumes::kRoot, traverse_volumes::kRoot, 0});
         while (!pending.empty()) {
@@ -125,9 +128,7 @@ private:
     HWY_INLINE Verdict step(const VolumePair& pair, VolumePairs& found) {
         const NodeRef ref_a = a_.ref(pair.a), ref_b = b_.ref(pair.b);
         if (ref_a.is_leaf() && ref_b.is_leaf()) {
-            const double bound_sq = visitor_.visit(ref_a, ref_b);
-            bound_sq_ = round_up(bound_sq);
-            return bound_sq >= 0 ? Verdict::done : Verdict::stopped;
+            return visit(ref_a, leaf_node(a_, pair.a), ref_b, leaf_node(b_, pair.b));
         }
         const V volume_a = a_.volume(pair.a), volume_b = b_.volume(pair.b);
         const auto size = [](const V& volume, const Side<V>& side) {
@@ -147,6 +148,22 @@ private:
         return accepted ? Verdict::accepted : Verdict::done;
     }
 
+    /// The node that a leaf is a child of.
+    static const Node& leaf_node(const Side<V>& side, std::uint32_t name) {
+        return side.tree.nodes[name / Node::kWidth];
+    }
+    Verdict visit(NodeRef a, const Node& p, NodeRef b, const Node& q) {
+        pair_.primitive_tests += a.count() * b.count();
+        const NodePair nodes(pair_.frame, p, q, nullptr);
+        const LeafPairs pairs =
+            compare_leaves(pair_.a, a, pair_.b, b, nodes, contacts_only_, bound_sq_);
+        if (pairs.any() == 0)
+            return Verdict::done;
+        const double bound_sq = visitor_.visit(a, b, pairs);
+        bound_sq_ = round_up(bound_sq);
+        return bound_sq >= 0 ? Verdict::done : Verdict::stopped;
+    }
+
     /// Bounds one volume, given in the other frame, to the children of a node, and adds those that
     /// may be within the bound. True if one is wholly within it.
     template <bool with_upper, typename Add>
@@ -155,7 +172,7 @@ private:
         bound_all<with_upper>(D(), side.layer.children[index], image_of(other, side.from_other),
                               bounds);
         const std::uint32_t used = traverse_volumes::children_of(side.tree.nodes[index]);
-        counts_.volume_tests += static_cast<std::uint64_t>(std::popcount(used));
+        pair_.volume_tests += static_cast<std::uint64_t>(std::popcount(used));
         // The child that overlaps deepest goes last, and so comes next: a contact is likeliest
         // there.
         std::uint32_t deepest = Node::kWidth;
@@ -178,14 +195,16 @@ private:
         return false;
     }
 
-    VolumeTraversal& counts_;
+    PairTraversal& pair_;
     LeafPairVisitor& visitor_;
     Side<V> a_, b_;
     float bound_sq_;
+    bool contacts_only_ = false;
 };
 
 template <typename V>
-Traversal<V> traversal_of(const VolumeLayer<V>&, VolumeTraversal& t, LeafPairVisitor& visitor) {
+Traversal<V> traversal_of(const VolumeLayer<V>&, const VolumeTraversal& t,
+                          LeafPairVisitor& visitor) {
     return Traversal<V>(t, visitor);
 }
 
@@ -193,17 +212,21 @@ Traversal<V> traversal_of(const VolumeLayer<V>&, VolumeTraversal& t, LeafPairVis
 
 namespace abut::HWY_NAMESPACE {
 
-Verdict volumes_depth_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
+Verdict volume_contacts(const VolumeTraversal& t, LeafPairVisitor& visitor) {
     return std::visit(
         [&](const auto& layer) HWY_ATTR {
-            auto traversal = volumes::traversal_of(layer, t, visitor);
-            return t.accept_early ? traversal.template depth_first<true>()
-                                  : traversal.template depth_first<false>();
+            return volumes::traversal_of(layer, t, visitor).template depth_first<false>();
         },
         t.volumes_a.layer());
 }
-
-Verdict volumes_best_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
+Verdict volumes_within(const VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return std::visit(
+        [&](const auto& layer) HWY_ATTR {
+            return volumes::traversal_of(layer, t, visitor).template depth_first<true>();
+        },
+        t.volumes_a.layer());
+}
+Verdict nearest_volumes(const VolumeTraversal& t, LeafPairVisitor& visitor) {
     return std::visit(
         [&](const auto& layer)
             HWY_ATTR { return volumes::traversal_of(layer, t, visitor).best_first(); },
@@ -216,8 +239,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut {
 
-HWY_EXPORT(volumes_depth_first);
-HWY_EXPORT(volumes_best_first);
+HWY_EXPORT(volume_contacts);
+HWY_EXPORT(volumes_within);
+HWY_EXPORT(nearest_volumes);
 
 VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a,
                               const VolumeTree& b, const Transform& world_from_b) {
@@ -245,11 +269,14 @@ VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a
     return frame;
 }
 
-Verdict traverse_depth_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
-    return HWY_DYNAMIC_DISPATCH(volumes_depth_first)(t, visitor);
+Verdict traverse_contacts(const VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return HWY_DYNAMIC_DISPATCH(volume_contacts)(t, visitor);
 }
-Verdict traverse_best_first(VolumeTraversal& t, LeafPairVisitor& visitor) {
-    return HWY_DYNAMIC_DISPATCH(volumes_best_first)(t, visitor);
+Verdict traverse_within(const VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return HWY_DYNAMIC_DISPATCH(volumes_within)(t, visitor);
+}
+Verdict traverse_nearest(const VolumeTraversal& t, LeafPairVisitor& visitor) {
+    return HWY_DYNAMIC_DISPATCH(nearest_volumes)(t, visitor);
 }
 
 } // namespace abut

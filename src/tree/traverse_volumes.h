@@ -27,25 +27,20 @@ VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a
                               const VolumeTree& b, const Transform& world_from_b);
 
 struct VolumeTraversal {
-    const Tree& a;
+    PairTraversal& pair; ///< the trees, the bound, the counters
     const VolumeTree& volumes_a;
-    const Tree& b;
     const VolumeTree& volumes_b;
     const VolumeFrame& frame;
-    double bound_sq = 0; ///< squared world distance beyond which pairs do not matter; 0: overlap
-    bool accept_early = false; ///< stop where two volumes cannot be farther apart than the bound
-    std::uint64_t volume_tests = 0; ///< counted up
 };
 
-/// Visits the leaf pairs that may be within the bound, depth first, as the traversal of boxes does.
+/// As the traversals of boxes, with the volumes in their place.
 ///
 /// In          frame.valid; each volume tree built over the tree beside it.
-/// Accuracy    conservative: every pair of primitives within the bound is visited.
+/// Accuracy    conservative: every pair of triangles within the bound is visited.
 /// Source      [Gottschalk, Lin, Manocha 1996], [Larsen et al. 1999]. Differs: one volume against
 ///             eight; of two nodes that of the larger circumscribed ball is opened.
-Verdict traverse_depth_first(VolumeTraversal& traversal, LeafPairVisitor& visitor);
-
-/// The same, nearest volumes first: fewest visits where the bound shrinks.
-Verdict traverse_best_first(VolumeTraversal& traversal, LeafPairVisitor& visitor);
+Verdict traverse_contacts(const VolumeTraversal& traversal, LeafPairVisitor& visitor);
+Verdict traverse_within(const VolumeTraversal& traversal, LeafPairVisitor& visitor);
+Verdict traverse_nearest(const VolumeTraversal& traversal, LeafPairVisitor& visitor);
 
 } // namespace abut

@@ -132,11 +132,11 @@ struct TreeMesh {
 /// Builds the tree of some triangles; a node has axes of its own where its children's boxes become
 /// smaller by it.
 ///
-/// In          fewer than 2^28 triangles.
+/// In          fewer than 2^28 triangles; `own_axes` false: all nodes have the tree's.
 /// Source      orientation by the covariance of the surface [Gottschalk, Lin, Manocha 1996].
 ///             Differs: one for the eight children, so that its cost is paid once for up to 64
 ///             pairs of boxes; of the triangles, not of their hull.
-Tree build_tree(const TreeMesh& mesh);
+Tree build_tree(const TreeMesh& mesh, bool own_axes = true);
 
 /// Throws std::logic_error if a box fails to enclose what lies below it, or a primitive is not in
 /// exactly one leaf.

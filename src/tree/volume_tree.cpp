@@ -85,10 +85,14 @@ std::size_t VolumeTree::bytes() const {
 }
 
 std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tree,
-                                                    std::span<const Triangle> triangles,
-                                                    double margin) {
-    if (tree.empty())
+                                                    const TreeMesh& mesh) {
+    if (tree.empty() || kind == Volume::automatic || kind == Volume::aabb)
         return nullptr;
+    std::vector<Triangle> triangles;
+    triangles.reserve(mesh.triangles.size());
+    for (const auto& t : mesh.triangles)
+        triangles.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
+    const double margin = 0; // what double precision loses is in the frame of a pair
     switch (kind) {
     case Volume::automatic:
     case Volume::aabb:

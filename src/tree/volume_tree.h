@@ -32,14 +32,11 @@ private:
     Layer layer_;
 };
 
-/// Fits volumes to all that lies below the children of a tree.
+/// Fits volumes to all that lies below the children of a tree of triangles.
 ///
-/// In          triangles: of the primitives (by their numbers), in the tree's frame, each coordinate
-///             off by no more than `margin`.
 /// Returns     none for the kinds that the tree's own boxes are: `automatic` and `aabb`; and for an
 ///             empty tree.
 std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tree,
-                                                    std::span<const Triangle> triangles,
-                                                    double margin);
+                                                    const TreeMesh& mesh);
 
 } // namespace abut
