@@ -4,6 +4,7 @@
 #include <abut/types.h>
 
 #include "math/transform.h"
+#include "rigid/solid.h"
 #include "tree/tree.h"
 
 #include <array>
@@ -31,6 +32,8 @@ public:
         return {apply(world, mesh_.positions[t[0]]), apply(world, mesh_.positions[t[1]]),
                 apply(world, mesh_.positions[t[2]])};
     }
+    /// Whether the mesh bounds a solid; the first question examines it.
+    [[nodiscard]] const Solid& solid() const { return solid_.of(mesh_); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -38,6 +41,7 @@ private:
     Transform model_from_tree_;
     Tree tree_;
     std::vector<std::array<std::uint32_t, 3>> slots_; ///< triangles in the order of the leaves
+    LazySolid solid_;
 };
 
 } // namespace abut

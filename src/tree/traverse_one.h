@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Traversals of one tree: for a box, for a segment, for the nearest primitive to a point. Bodies
-/// below.
+/// Traversals of one tree: for a box, for a segment (in order, if wanted), for the nearest primitive
+/// to a point. Bodies below.
 namespace abut {
 
 /// Calls visit(slot) for every primitive in a leaf whose box meets `query`.
@@ -27,6 +27,11 @@ struct TreeSegment {
 /// Source      separating axes of segment and box [Ericson 2005, 5.3.3].
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
+
+/// The same, boxes that the segment enters first in front; visit returns the parameter (of middle + s
+/// half, -1 <= s <= 1) beyond which nothing matters any more.
+template <typename Visit>
+void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 
 /// Calls visit(slot) for primitives nearest box first; visit returns the squared distance in the
 /// tree's frame beyond which nothing matters any more.
@@ -62,6 +67,43 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
     }
 }
 
+/// Which children a segment may meet, and where it enters them at the earliest.
+struct SegmentMeetings {
+    Hits hits;
+    std::array<float, Node::kWidth> enter; ///< of middle + s half
+};
+
+inline SegmentMeetings meet_segment(const Node& node, const TreeSegment& segment) {
+    // What a quotient of a box's distance and the half vector loses, times a few.
+    constexpr float kRounding = 0x1p-20F;
+    const auto& m = segment.middle;
+    const auto& e = segment.half;
+    const std::array<float, 3> reach{std::abs(e[0]), std::abs(e[1]), std::abs(e[2])};
+    SegmentMeetings meetings{};
+    for (std::size_t i = 0; i < Node::kWidth; ++i) {
+        std::array<float, 3> c{}, h{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
+            h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
+        }
+        // Box axes, then the cross products of the segment with the box axes. The latter's products
+        // are rounded relative to themselves and to the box: the margin in h outweighs that.
+        bool hit = true;
+        float enter = -1;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+            hit = bool(hit & (std::abs(c[k]) <= h[k] + reach[k]) &
+                       (std::abs(c[u] * e[v] - c[v] * e[u]) <= h[u] * reach[v] + h[v] * reach[u]));
+            // c + s e = -h or +h, whichever comes first.
+            if (reach[k] > 0)
+                enter = std::max(enter, (-h[k] - (e[k] > 0 ? c[k] : -c[k])) / reach[k]);
+        }
+        meetings.hits[i] = hit;
+        meetings.enter[i] = enter - kRounding;
+    }
+    return meetings;
+}
+
 } // namespace traverse_one
 
 template <typename Visit>
@@ -80,32 +122,42 @@ void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
 
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit) {
-    const auto& m = segment.middle;
-    const auto& e = segment.half;
-    const std::array<float, 3> reach{std::abs(e[0]), std::abs(e[1]), std::abs(e[2])};
     const auto test = [&](const Node& node) {
-        traverse_one::Hits hits;
-        for (std::size_t i = 0; i < Node::kWidth; ++i) {
-            std::array<float, 3> c{}, h{};
-            for (std::size_t k = 0; k < 3; ++k) {
-                c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
-                h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
-            }
-            // Box axes, then the cross products of the segment with the box axes. The latter's
-            // products are rounded relative to themselves and to the box: the margin in h outweighs
-            // that.
-            bool hit = true;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-                hit = bool(
-                    hit & (std::abs(c[k]) <= h[k] + reach[k]) &
-                    (std::abs(c[u] * e[v] - c[v] * e[u]) <= h[u] * reach[v] + h[v] * reach[u]));
-            }
-            hits[i] = hit;
-        }
-        return hits;
+        return traverse_one::meet_segment(node, segment).hits;
     };
     traverse_one::descend(tree, test, visit);
+}
+
+template <typename Visit>
+void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit) {
+    struct Entry {
+        float enter = -1;
+        NodeRef ref;
+    };
+    if (tree.empty())
+        return;
+    float bound = 1;
+    boost::container::small_vector<Entry, 128> pending{{-1, NodeRef::node(0)}};
+    while (!pending.empty()) {
+        const Entry entry = pending.back();
+        pending.pop_back();
+        if (entry.enter > bound)
+            continue;
+        if (entry.ref.is_leaf()) {
+            for (std::uint32_t slot = entry.ref.first();
+                 slot < entry.ref.first() + entry.ref.count(); ++slot)
+                bound = visit(slot);
+            continue;
+        }
+        const Node& node = tree.nodes[entry.ref.index()];
+        const auto meetings = traverse_one::meet_segment(node, segment);
+        const auto first = static_cast<std::ptrdiff_t>(pending.size());
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
+            if (meetings.hits[i] && meetings.enter[i] <= bound)
+                pending.push_back({meetings.enter[i], node.child[i]});
+        std::sort(pending.begin() + first, pending.end(),
+                  [](const Entry& a, const Entry& b) { return a.enter > b.enter; });
+    }
 }
 
 template <typename Visit>
