@@ -72,7 +72,7 @@ enum class HitSide : std::uint8_t {
 
 /// Where a ray meets a triangle.
 struct RayHit {
-    bool hit = false; ///< else nothing below is set
+    bool hit = false;                                   ///< else nothing below is set
     double t = std::numeric_limits<double>::infinity(); ///< the ray's parameter
     Vec3 point;                                         ///< on the triangle
     std::uint32_t triangle = 0;
@@ -123,12 +123,10 @@ bool overlaps(const Model& model, const Transform& world_from_model, const Orien
 bool overlaps(const Model& model, const Transform& world_from_model, const Segment& segment);
 
 /// All triangles that share a point with the shape, sorted. Otherwise as `overlaps`.
-std::vector<std::uint32_t> overlapping_triangles(const Model& model,
-                                                 const Transform& world_from_model,
-                                                 const Sphere& sphere);
-std::vector<std::uint32_t> overlapping_triangles(const Model& model,
-                                                 const Transform& world_from_model,
-                                                 const Box3& box);
+std::vector<std::uint32_t>
+overlapping_triangles(const Model& model, const Transform& world_from_model, const Sphere& sphere);
+std::vector<std::uint32_t>
+overlapping_triangles(const Model& model, const Transform& world_from_model, const Box3& box);
 std::vector<std::uint32_t> overlapping_triangles(const Model& model,
                                                  const Transform& world_from_model,
                                                  const OrientedBox& box);

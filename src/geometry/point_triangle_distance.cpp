@@ -1,5 +1,7 @@
 #include "geometry/point_triangle_distance.h"
 
+#include <algorithm>
+
 namespace abut {
 
 TriangleFoot foot_within(const Vec3& p, const Triangle& t) {
@@ -20,7 +22,7 @@ TriangleFoot foot_within(const Vec3& p, const Triangle& t) {
         return {};
     const Vec3 foot = g * u + h * v;
     TriangleFoot result{true, origin + foot, w - foot, {}};
-    result.weights[k] = 1 - g - h;
+    result.weights[k] = std::max(0.0, 1 - g - h);
     result.weights[(k + 1) % 3] = g;
     result.weights[(k + 2) % 3] = h;
     return result;

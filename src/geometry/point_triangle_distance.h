@@ -16,8 +16,8 @@ struct ClosestPoints {
 /// Foot of a point on the plane of a triangle, if it lies within the triangle.
 struct TriangleFoot {
     bool within = false;
-    Vec3 point, gap;                   ///< gap: from the foot to the point
-    std::array<double, 3> weights{};   ///< barycentric
+    Vec3 point, gap;                 ///< gap: from the foot to the point
+    std::array<double, 3> weights{}; ///< barycentric
 };
 
 /// Accuracy    the foot to a few roundings of the coordinates' differences, whatever the width of

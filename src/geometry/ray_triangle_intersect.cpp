@@ -43,9 +43,8 @@ struct Normal {
     }
     /// n . w, w rounded from magnitudes of sum `w_terms`.
     [[nodiscard]] Rounded dot(const Vec3& w, const Vec3& w_terms) const {
-        return {abut::dot(value, w),
-                kRounding * abut::dot(terms, w_terms) +
-                    kUnderflow * (1 + w_terms.x + w_terms.y + w_terms.z)};
+        return {abut::dot(value, w), kRounding * abut::dot(terms, w_terms) +
+                                         kUnderflow * (1 + w_terms.x + w_terms.y + w_terms.z)};
     }
 };
 
@@ -95,8 +94,8 @@ std::optional<Interval> interval_along(const Ray& ray, const Triangle& triangle)
     const ExactTriangle t(triangle);
     const DyadicVec3 o(ray.origin), d(ray.direction);
     const Dyadic d_sq = dot(d, d);
-    std::array<DyadicVec3, 3> off;  // (v - o) x d: multiples of one normal
-    std::array<Dyadic, 3> along;    // (v - o) . d
+    std::array<DyadicVec3, 3> off; // (v - o) x d: multiples of one normal
+    std::array<Dyadic, 3> along;   // (v - o) . d
     for (std::size_t i = 0; i < 3; ++i)
         off[i] = cross(t.v[i] - o, d), along[i] = dot(t.v[i] - o, d);
     // Any component that is not zero for all tells them apart.
@@ -156,10 +155,7 @@ std::optional<RayTriangleHit> hit_along(const Ray& ray, const Triangle& triangle
     const std::optional<Fraction> entry = exact_entry(ray, triangle);
     if (!entry)
         return std::nullopt;
-    RayTriangleHit hit;
-    hit.t = rounded(*entry);
-    hit.weights = nearest_on_triangle(ray.origin + hit.t * ray.direction, triangle).weights;
-    return hit;
+    return RayTriangleHit{rounded(*entry), 0};
 }
 
 double crossing(const Ray& ray, const Triangle& triangle, const Normal& n) {
@@ -176,32 +172,24 @@ double crossing(const Ray& ray, const Triangle& triangle, const Normal& n) {
                : rounded(exact_crossing(ray, triangle));
 }
 
-/// Barycentric coordinates of a point next to a triangle. `across`: the sides of the edges opposite
-/// to each vertex; 0: exactly on it.
-std::array<double, 3> weights_at(const Vec3& p, const Triangle& triangle, const Vec3& n,
-                                 const std::array<int, 3>& across) {
-    std::array<double, 3> weights{};
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 &q = triangle[(i + 1) % 3], &r = triangle[(i + 2) % 3];
-        weights[i] = across[i] == 0 ? 0 : std::max(0.0, dot(cross(r - q, p - q), n));
-        sum += weights[i];
-    }
-    if (!(sum > 0 && std::isfinite(sum))) // a needle, or squares out of range
-        return nearest_on_triangle(p, triangle).weights;
-    for (double& w : weights)
-        w /= sum;
-    return weights;
+/// Where on the edge from q to r its point nearest to p is.
+double fraction_along(const Vec3& p, const Vec3& q, const Vec3& r) {
+    const double s = dot(p - q, r - q) / length_sq(r - q);
+    return s > 0 ? std::min(s, 1.0) : 0; // also where the edge's square is out of range
+}
+
+/// The sides of the edges across from each vertex, as seen along a ray.
+std::array<int, 3> edge_sides(const Ray& ray, const Triangle& t) {
+    const Vec3 &o = ray.origin, &d = ray.direction;
+    return {turn_around_line(o, d, t[1], t[2]), turn_around_line(o, d, t[2], t[0]),
+            turn_around_line(o, d, t[0], t[1])};
 }
 
 } // namespace
 
 std::optional<RayTriangleHit> ray_triangle_intersect(const Ray& ray, const Triangle& t) {
-    const Vec3 &o = ray.origin, &d = ray.direction;
-    const std::array<int, 3> across{turn_around_line(o, d, t[1], t[2]),
-                                    turn_around_line(o, d, t[2], t[0]),
-                                    turn_around_line(o, d, t[0], t[1])};
-    const auto [least, greatest] = std::minmax({across[0], across[1], across[2]});
+    const std::array<int, 3> sides = edge_sides(ray, t);
+    const auto [least, greatest] = std::minmax({sides[0], sides[1], sides[2]});
     if (least < 0 && greatest > 0)
         return std::nullopt;
     // The three determinants sum up to n . d.
@@ -217,11 +205,27 @@ std::optional<RayTriangleHit> ray_triangle_intersect(const Ray& ray, const Trian
         (std::isfinite(ray.t_max) && compare_crossing(ray, t, n, facing, ray.t_max) <= 0);
     if (!begins_before || !ends_after)
         return std::nullopt;
-    RayTriangleHit hit;
-    hit.t = std::clamp(crossing(ray, t, n), ray.t_min, ray.t_max);
-    hit.weights = weights_at(o + hit.t * d, t, n.value, across);
-    hit.side = facing > 0 ? -1 : 1;
-    return hit;
+    return RayTriangleHit{std::clamp(crossing(ray, t, n), ray.t_min, ray.t_max),
+                          facing > 0 ? -1 : 1};
+}
+
+std::array<double, 3> hit_weights(const Ray& ray, const Triangle& t, const RayTriangleHit& hit) {
+    const Vec3 p = ray.origin + hit.t * ray.direction;
+    if (hit.side != 0) {
+        const std::array<int, 3> sides = edge_sides(ray, t);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+            if (sides[i] != 0)
+                continue;
+            std::array<double, 3> weights{};
+            weights[k] = sides[j] == 0   ? 1 // on two edges: their vertex
+                         : sides[k] == 0 ? 0
+                                         : fraction_along(p, t[j], t[k]);
+            weights[j] = 1 - weights[k];
+            return weights;
+        }
+    }
+    return nearest_on_triangle(p, t).weights;
 }
 
 int compare_hits(const Ray& ray, const Triangle& a, const RayTriangleHit& hit_a, const Triangle& b,

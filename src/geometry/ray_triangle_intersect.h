@@ -11,8 +11,7 @@ namespace abut {
 
 /// Where a ray meets a triangle.
 struct RayTriangleHit {
-    double t = 0;                    ///< of its range that lies in the triangle, the least
-    std::array<double, 3> weights{}; ///< barycentric; exactly 0 for a vertex across the edge met
+    double t = 0; ///< of its range that lies in the triangle, the least
     int side = 0; ///< +1: it comes from where the vertices run counter-clockwise; -1: from behind;
                   ///< 0: it lies in the triangle's plane, or the triangle has no area
 };
@@ -25,6 +24,12 @@ struct RayTriangleHit {
 /// Accuracy    whether: exact. t: to 2^-40 relative, and within the ray's range.
 /// Cost        three signs, and one for each end of the range.
 std::optional<RayTriangleHit> ray_triangle_intersect(const Ray& ray, const Triangle& t);
+
+/// Barycentric coordinates of the point where a ray meets a triangle.
+///
+/// Accuracy    exactly 0 for the vertex across from an edge that the ray meets; else to the rounding
+///             of origin + t direction.
+std::array<double, 3> hit_weights(const Ray& ray, const Triangle& t, const RayTriangleHit& hit);
 
 /// Sign of t_a - t_b for two triangles that a ray meets: negative if it meets a first. Exact.
 int compare_hits(const Ray& ray, const Triangle& a, const RayTriangleHit& hit_a, const Triangle& b,

@@ -49,9 +49,8 @@ double quotient(const Dyadic& a, const Dyadic& b) {
         denominator <<= -shift;
     exponent -= shift;
     Dyadic::Integer ratio = numerator / denominator;
-    const double magnitude =
-        std::ldexp(static_cast<double>(static_cast<std::uint64_t>(Dyadic::Integer(ratio >> 1))),
-                   exponent + 1);
+    const double magnitude = std::ldexp(
+        static_cast<double>(static_cast<std::uint64_t>(Dyadic::Integer(ratio >> 1))), exponent + 1);
     return a.sign() == b.sign() ? magnitude : -magnitude;
 }
 

@@ -27,8 +27,7 @@ public:
 private:
     using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                                   boost::multiprecision::et_off>;
-    Dyadic(Integer mantissa, int exponent)
-        : mantissa_(std::move(mantissa)), exponent_(exponent) {}
+    Dyadic(Integer mantissa, int exponent) : mantissa_(std::move(mantissa)), exponent_(exponent) {}
     /// The mantissa over a smaller power of two.
     [[nodiscard]] Integer over(int exponent) const { return mantissa_ << (exponent_ - exponent); }
 
@@ -40,8 +39,7 @@ private:
 struct DyadicVec3 {
     Dyadic x, y, z;
     DyadicVec3() = default;
-    DyadicVec3(Dyadic a, Dyadic b, Dyadic c)
-        : x(std::move(a)), y(std::move(b)), z(std::move(c)) {}
+    DyadicVec3(Dyadic a, Dyadic b, Dyadic c) : x(std::move(a)), y(std::move(b)), z(std::move(c)) {}
     explicit DyadicVec3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
 };
 

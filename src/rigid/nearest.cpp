@@ -70,8 +70,7 @@ public:
 
     [[nodiscard]] Nearest operator()(const Vec3& point) const {
         Nearest result = find_nearest(placed_, point, options_.upper_bound);
-        if (options_.signed_distance && result.distance > 0 &&
-            placed_.contains_off_surface(point))
+        if (options_.signed_distance && result.distance > 0 && placed_.contains_off_surface(point))
             result.distance = -result.distance;
         return result;
     }

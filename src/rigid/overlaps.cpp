@@ -83,9 +83,12 @@ Mesh surface_of(const OrientedBox& box) {
         mesh.positions.push_back(apply(box.world_from_box, corner));
         require_point(mesh.positions.back(), "oriented box");
     }
-    for (const std::array<std::uint32_t, 4>& face :
-         {std::array{0U, 2U, 3U, 1U}, {4U, 5U, 7U, 6U}, {0U, 1U, 5U, 4U}, {2U, 6U, 7U, 3U},
-          {0U, 4U, 6U, 2U}, {1U, 3U, 7U, 5U}}) {
+    for (const std::array<std::uint32_t, 4>& face : {std::array{0U, 2U, 3U, 1U},
+                                                     {4U, 5U, 7U, 6U},
+                                                     {0U, 1U, 5U, 4U},
+                                                     {2U, 6U, 7U, 3U},
+                                                     {0U, 4U, 6U, 2U},
+                                                     {1U, 3U, 7U, 5U}}) {
         mesh.triangles.push_back({face[0], face[1], face[2]});
         mesh.triangles.push_back({face[0], face[2], face[3]});
     }

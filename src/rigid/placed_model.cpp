@@ -66,8 +66,7 @@ bool PlacedModel::make_frame() {
 
 std::optional<ClippedSegment> PlacedModel::tree_segment(const Vec3& from, const Vec3& to,
                                                         double error) const {
-    const double margin =
-        this->margin(magnitude(from) + magnitude(to)) + error / least_stretch_;
+    const double margin = this->margin(magnitude(from) + magnitude(to)) + error / least_stretch_;
     const Vec3 p = apply(tree_from_world_, from), d = apply(tree_from_world_, to) - p;
     const auto [begin, end] = clip_to_cube(p, d, half_ + 2 * margin);
     if (!(begin <= end))

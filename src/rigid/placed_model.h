@@ -79,7 +79,9 @@ public:
     /// The triangle of least index that the point lies on. Exact.
     [[nodiscard]] std::optional<std::uint32_t> triangle_at(const Vec3& point) const;
     /// Whether the point lies on the surface. Exact.
-    [[nodiscard]] bool on_surface(const Vec3& point) const { return triangle_at(point).has_value(); }
+    [[nodiscard]] bool on_surface(const Vec3& point) const {
+        return triangle_at(point).has_value();
+    }
 
 private:
     /// Prepares the tree's frame; false if the transform leaves none to work in.
@@ -105,16 +107,14 @@ inline double magnitude(const Vec3& p) {
 
 template <typename Visit>
 void PlacedModel::for_each_overlap(const Box3& box, const Visit& visit) const {
-    const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper,
-               half = 0.5 * box.upper - 0.5 * box.lower;
+    const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper, half = 0.5 * box.upper - 0.5 * box.lower;
     const Vec3 p = apply(tree_from_world_, middle);
     const auto& m = tree_from_world_.m;
     const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[3]) * half.y + std::abs(m[6]) * half.z,
                  std::abs(m[1]) * half.x + std::abs(m[4]) * half.y + std::abs(m[7]) * half.z,
                  std::abs(m[2]) * half.x + std::abs(m[5]) * half.y + std::abs(m[8]) * half.z};
-    abut::for_each_overlap(model().tree(),
-                           Aabb({p - h, p + h}, margin(magnitude(middle) + magnitude(half))),
-                           visit);
+    abut::for_each_overlap(
+        model().tree(), Aabb({p - h, p + h}, margin(magnitude(middle) + magnitude(half))), visit);
 }
 
 template <typename Visit>
@@ -139,11 +139,10 @@ void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit&
                 return;
         return;
     }
-    abut::for_each_near(
-        model().tree(),
-        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-        round_up(margin(magnitude(point))), tree_bound_sq(bound_sq),
-        [&](std::uint32_t slot) { return tree_bound_sq(visit(slot)); });
+    abut::for_each_near(model().tree(),
+                        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
+                        round_up(margin(magnitude(point))), tree_bound_sq(bound_sq),
+                        [&](std::uint32_t slot) { return tree_bound_sq(visit(slot)); });
 }
 
 } // namespace abut

@@ -31,8 +31,8 @@ public:
         const Vec3 unit = (1 / scaled_length_) * scaled;
         const Vec3 to_middle = model.middle() - ray.origin;
         // Of every length and of every point below.
-        const double error = 64 * 0x1p-53 *
-                             (magnitude(ray.origin) + magnitude(model.middle()) + model.reach());
+        const double error =
+            64 * 0x1p-53 * (magnitude(ray.origin) + magnitude(model.middle()) + model.reach());
         const double nearest = dot(to_middle, unit), reach = model.reach() + error;
         const auto widened = [&](double length, double direction) {
             return length + direction * (0x1p-48 * std::abs(length) + error);
@@ -40,8 +40,8 @@ public:
         begin_ = std::max(nearest - reach, widened(length_at(ray.t_min), -1));
         end_ = std::min(nearest + reach, widened(length_at(ray.t_max), 1));
         if (begin_ <= end_)
-            clipped_ = model.tree_segment(ray.origin + begin_ * unit, ray.origin + end_ * unit,
-                                          error);
+            clipped_ =
+                model.tree_segment(ray.origin + begin_ * unit, ray.origin + end_ * unit, error);
     }
 
     [[nodiscard]] const std::optional<ClippedSegment>& clipped() const { return clipped_; }
@@ -51,8 +51,7 @@ public:
     [[nodiscard]] float segment_parameter(double t) const {
         const double length = length_at(t) + 0x1p-39 * std::abs(length_at(t));
         const double fraction = (length - begin_) / (end_ - begin_);
-        const double s =
-            2 * (fraction - clipped_->begin) / (clipped_->end - clipped_->begin) - 1;
+        const double s = 2 * (fraction - clipped_->begin) / (clipped_->end - clipped_->begin) - 1;
         // 1 also where a length is zero, and s not a number.
         return s < 1 ? round_up(std::max(s, -1.0)) : 1;
     }
@@ -79,17 +78,15 @@ bool before(const Ray& ray, const Candidate& a, const Candidate& b) {
     return order != 0 ? order < 0 : a.triangle < b.triangle;
 }
 
-RayHit describe(const Candidate& c) {
-    const auto& w = c.hit.weights;
+RayHit describe(const Ray& ray, const Candidate& c) {
+    const auto w = hit_weights(ray, c.corners, c.hit);
     RayHit result;
     result.hit = true;
     result.t = c.hit.t;
     result.point = w[0] * c.corners[0] + w[1] * c.corners[1] + w[2] * c.corners[2];
     result.triangle = c.triangle;
     result.barycentric = w;
-    result.side = c.hit.side > 0   ? HitSide::front
-                  : c.hit.side < 0 ? HitSide::back
-                                   : HitSide::along;
+    result.side = c.hit.side > 0 ? HitSide::front : c.hit.side < 0 ? HitSide::back : HitSide::along;
     return result;
 }
 
@@ -105,19 +102,18 @@ RayHit find_first(const PlacedModel& model, const Ray& ray) {
         return {};
     std::optional<Candidate> first;
     float bound = 1;
-    for_each_along_segment(
-        model.model().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
-            const Triangle corners = model.world_slot(slot);
-            if (const auto hit = ray_triangle_intersect(ray, corners)) {
-                const Candidate candidate{model.model().triangle_at(slot), corners, *hit};
-                if (!first || before(ray, candidate, *first)) {
-                    first = candidate;
-                    bound = span.segment_parameter(hit->t);
-                }
+    for_each_along_segment(model.model().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
+        const Triangle corners = model.world_slot(slot);
+        if (const auto hit = ray_triangle_intersect(ray, corners)) {
+            const Candidate candidate{model.model().triangle_at(slot), corners, *hit};
+            if (!first || before(ray, candidate, *first)) {
+                first = candidate;
+                bound = span.segment_parameter(hit->t);
             }
-            return bound;
-        });
-    return first ? describe(*first) : RayHit();
+        }
+        return bound;
+    });
+    return first ? describe(ray, *first) : RayHit();
 }
 
 } // namespace
@@ -148,18 +144,17 @@ std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_mod
     if (!span.clipped())
         return {};
     std::vector<Candidate> candidates;
-    for_each_on_segment(
-        placed.model().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
-            const Triangle corners = placed.world_slot(slot);
-            if (const auto hit = ray_triangle_intersect(ray, corners))
-                candidates.push_back({placed.model().triangle_at(slot), corners, *hit});
-        });
+    for_each_on_segment(placed.model().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
+        const Triangle corners = placed.world_slot(slot);
+        if (const auto hit = ray_triangle_intersect(ray, corners))
+            candidates.push_back({placed.model().triangle_at(slot), corners, *hit});
+    });
     std::sort(candidates.begin(), candidates.end(),
               [&](const Candidate& a, const Candidate& b) { return before(ray, a, b); });
     std::vector<RayHit> results;
     results.reserve(candidates.size());
     for (const Candidate& c : candidates) {
-        results.push_back(describe(c));
+        results.push_back(describe(ray, c));
         // In order also where rounding, within its bound, says otherwise.
         if (results.size() > 1)
             results.back().t = std::max(results.back().t, results[results.size() - 2].t);
