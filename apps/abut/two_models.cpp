@@ -23,20 +23,7 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
 }
 
 Pose parse_pose(const std::string& option, const std::string& text) {
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', begin), text.size());
-        const auto number = parse_number(std::string_view(text).substr(begin, comma - begin));
-        if (!number)
-            throw Error(ErrorCode::bad_argument, fmt::format("{}: '{}' is no finite number", option,
-                                                             text.substr(begin, comma - begin)));
-        numbers.push_back(*number);
-        begin = comma + 1;
-    }
-    if (numbers.size() != 7)
-        throw Error(
-            ErrorCode::bad_argument,
-            fmt::format("{}: takes 7 numbers x,y,z,qw,qx,qy,qz, not {}", option, numbers.size()));
+    const std::vector<double> numbers = parse_numbers(option, text, "x,y,z,qw,qx,qy,qz");
     const Pose pose{{numbers[0], numbers[1], numbers[2]},
                     {numbers[3], numbers[4], numbers[5], numbers[6]}};
     if (std::all_of(pose.rotation.begin(), pose.rotation.end(), [](double q) { return q == 0; }))
