@@ -43,6 +43,17 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     import_suite->callback([&] { report = run_import_suite(import); });
 
+    ShapesSuiteOptions shapes;
+    CLI::App* shapes_suite =
+        app.add_subcommand("shapes", "One model and rays, points: against Embree and CGAL");
+    shapes_suite->add_option("--model", shapes.file, "Model file to use instead of a wavy torus");
+    shapes_suite->add_option("--triangles", shapes.triangles, "Of the torus");
+    shapes_suite->add_option("--queries", shapes.queries, "In each case");
+    shapes_suite->add_option("--rounds", shapes.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    shapes_suite->add_option("--seed", shapes.seed, "Of the queries");
+    shapes_suite->callback([&] { report = run_shapes_suite(shapes); });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

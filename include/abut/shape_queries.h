@@ -52,8 +52,8 @@ struct Nearest {
 /// Degenerate  an empty model is infinitely far away (status `bound_only`).
 /// Accuracy    to double rounding; 0 exactly if and only if the point lies on the surface; its sign
 ///             is exact.
-/// Errors      Error{bad_argument} if the bound is negative or NaN, or if a signed distance is asked
-///             of a model that is not closed.
+/// Errors      Error{bad_argument} if the bound is negative or NaN, or if a signed distance is
+///             asked of a model that is not closed.
 /// Cost        some 30 boxes and triangles. Signed: also that of `contains`.
 Nearest nearest(const Model& model, const Transform& world_from_model, const Vec3& point,
                 const NearestOptions& options = {});

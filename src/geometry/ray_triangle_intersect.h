@@ -27,8 +27,8 @@ std::optional<RayTriangleHit> ray_triangle_intersect(const Ray& ray, const Trian
 
 /// Barycentric coordinates of the point where a ray meets a triangle.
 ///
-/// Accuracy    exactly 0 for the vertex across from an edge that the ray meets; else to the rounding
-///             of origin + t direction.
+/// Accuracy    exactly 0 for the vertex across from an edge that the ray meets; else to the
+///             rounding of origin + t direction.
 std::array<double, 3> hit_weights(const Ray& ray, const Triangle& t, const RayTriangleHit& hit);
 
 /// Sign of t_a - t_b for two triangles that a ray meets: negative if it meets a first. Exact.

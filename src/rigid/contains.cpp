@@ -14,10 +14,7 @@ class ContainmentQuery {
 public:
     ContainmentQuery(const Model& model, const Transform& world_from_model)
         : placed_(model, model.data().solid(), world_from_model),
-          model_from_world_(inverse(placed_.world())) {
-        const auto& m = placed_.world().m;
-        mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
-    }
+          model_from_world_(inverse(placed_.world())) {}
 
     [[nodiscard]] Containment operator()(const Vec3& point) const {
         Containment result;
@@ -31,7 +28,7 @@ public:
             // An affine map moves mesh and point alike; a mirroring one turns the number's sign.
             const double number =
                 winding_number(placed_.model().mesh(), apply(model_from_world_, point));
-            result.winding_number = mirrored_ ? -number : number;
+            result.winding_number = placed_.mirrored() ? -number : number;
             result.side = std::abs(number) >= 0.5 ? Side::inside : Side::outside;
         }
         return result;
@@ -40,7 +37,6 @@ public:
 private:
     PlacedSolid placed_;
     Transform model_from_world_;
-    bool mirrored_;
 };
 
 } // namespace

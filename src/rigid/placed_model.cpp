@@ -45,9 +45,9 @@ PlacedModel::PlacedModel(const Model& model, const Transform& world_from_model)
 }
 
 bool PlacedModel::make_frame() {
-    // Less, and squares of distances in the tree's frame may underflow in single precision; or one
-    // direction is so much shorter than another that rounding swamps it.
-    constexpr double kLeastStretch = 0x1p-50, kLeastRatio = 0x1p-30;
+    // Beyond, cubes of what the inverse is made of leave the range of doubles; or one direction is
+    // so much shorter than another that rounding swamps it.
+    constexpr double kLeastStretch = 0x1p-300, kMostStretch = 0x1p300, kLeastRatio = 0x1p-30;
     world_from_tree_ = compose(world_, model().model_from_tree());
     tree_from_world_ = inverse(world_from_tree_);
     least_stretch_ = abut::least_stretch(world_from_tree_);
@@ -60,13 +60,16 @@ bool PlacedModel::make_frame() {
     reach_ = most_stretch_ * 2 * half_;
     world_extent_ = magnitude(middle()) + reach_;
     return model().tree().empty() ||
-           (least_stretch_ > kLeastStretch && least_stretch_ > kLeastRatio * most_stretch_ &&
-            margin(0) < 1e18);
+           (least_stretch_ > kLeastStretch && most_stretch_ < kMostStretch &&
+            least_stretch_ > kLeastRatio * most_stretch_ && margin(0) < 1e18);
 }
 
 std::optional<ClippedSegment> PlacedModel::tree_segment(const Vec3& from, const Vec3& to,
                                                         double error) const {
     const double margin = this->margin(magnitude(from) + magnitude(to)) + error / least_stretch_;
+    // Off by more than the model's size: all of it may be met, and squares must stay finite.
+    if (!(margin <= half_))
+        return ClippedSegment{{{}, {}, round_up(2 * half_)}, 0, 1};
     const Vec3 p = apply(tree_from_world_, from), d = apply(tree_from_world_, to) - p;
     const auto [begin, end] = clip_to_cube(p, d, half_ + 2 * margin);
     if (!(begin <= end))

@@ -89,7 +89,7 @@ private:
     /// What a world point near the model may be off by in the tree's frame in single precision;
     /// `size`: of the world coordinates that it was computed from.
     [[nodiscard]] double margin(double size) const {
-        return 32 * 0x1p-24 * 4 * half_ + 128 * 0x1p-53 * (world_extent_ + size) / least_stretch_;
+        return 64 * 0x1p-24 * 4 * half_ + 128 * 0x1p-53 * (world_extent_ + size) / least_stretch_;
     }
 
     Model model_;
@@ -132,17 +132,18 @@ void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit&
         return round_up(d * d * (1 + 0x1p-20));
     };
     const Vec3 p = apply(tree_from_world_, point);
+    const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     // Squares must stay finite in single precision.
-    if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 1e18)) {
+    if (!(largest < 1e18)) {
         for (std::uint32_t slot = 0; slot < model().mesh().triangles.size(); ++slot)
             if (visit(slot) < 0)
                 return;
         return;
     }
-    abut::for_each_near(model().tree(),
-                        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-                        round_up(margin(magnitude(point))), tree_bound_sq(bound_sq),
-                        [&](std::uint32_t slot) { return tree_bound_sq(visit(slot)); });
+    abut::for_each_near(
+        model().tree(), {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
+        round_up(margin(magnitude(point)) + 16 * 0x1p-24 * largest), tree_bound_sq(bound_sq),
+        [&](std::uint32_t slot) { return tree_bound_sq(visit(slot)); });
 }
 
 } // namespace abut

@@ -22,7 +22,7 @@ Vec3 ray_direction(std::uint32_t k) {
 
 PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model)
     : PlacedModel(model, world_from_model), solid_(solid) {
-    const auto& m = world_from_model.m;
+    const auto& m = world().m;
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
 }
 

@@ -8,14 +8,16 @@
 
 namespace abut {
 
-/// A placed model that may bound a solid: what is inside, what is nearest. Cheap to make, one a
-/// thread.
+/// A placed model that may bound a solid: what is inside, what is nearest. The solid must outlive
+/// it.
 class PlacedSolid : public PlacedModel {
 public:
     /// Errors      as PlacedModel.
     PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model);
 
     [[nodiscard]] const Solid& solid() const { return solid_; }
+    /// Whether world() turns left hands into right ones.
+    [[nodiscard]] bool mirrored() const { return mirrored_; }
     /// solid().outward as seen in the world: a mirroring transform turns it round.
     [[nodiscard]] int outward() const { return mirrored_ ? -solid_.outward : solid_.outward; }
 

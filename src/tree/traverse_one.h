@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Traversals of one tree: for a box, for a segment (in order, if wanted), for the nearest primitive
-/// to a point. Bodies below.
+/// Traversals of one tree: for a box, for a segment (in order, if wanted), for the nearest
+/// primitive to a point. Bodies below.
 namespace abut {
 
 /// Calls visit(slot) for every primitive in a leaf whose box meets `query`.
@@ -28,8 +28,8 @@ struct TreeSegment {
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 
-/// The same, boxes that the segment enters first in front; visit returns the parameter (of middle + s
-/// half, -1 <= s <= 1) beyond which nothing matters any more.
+/// The same, boxes that the segment enters first in front; visit returns the parameter (of middle +
+/// s half, -1 <= s <= 1) beyond which nothing matters any more.
 template <typename Visit>
 void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 

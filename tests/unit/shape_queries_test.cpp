@@ -147,6 +147,20 @@ TEST(AllHits, ThroughTwoCorners) {
     EXPECT_EQ(first_hit(kBox, Pose{}, {{-1, -1, -1}, {1, 1, 1}}).triangle, hits[0].triangle);
 }
 
+TEST(NearestPoint, OfPointsVeryFar) {
+    for (const double far : {1e3, 1e9, 1e15, 1e18})
+        for (const double scale : {1.0, 0x1p-30, 0x1p-49, 0x1p-60}) {
+            const Nearest n = nearest(kBox, scaling(scale, scale, scale), {far, scale / 2, 0});
+            EXPECT_EQ(n.distance, far - scale) << far << ' ' << scale;
+            if (far * 0x1p-20 < scale) { // else rounding makes many points the nearest
+                EXPECT_EQ(n.point, (Vec3{scale, scale / 2, 0}));
+            }
+            const Ray ray{{far, scale / 2, scale / 4}, {-1, 0, 0}};
+            EXPECT_EQ(first_hit(kBox, scaling(scale, scale, scale), ray).t, far - scale)
+                << far << ' ' << scale;
+        }
+}
+
 TEST(FirstHit, FromVeryFarAndWithOddDirections) {
     for (const double far : {1e3, 1e9, 1e15, 1e18}) {
         const RayHit hit = first_hit(kBox, Pose{}, {{0.25, 0.5, far}, {0, 0, -1}});
