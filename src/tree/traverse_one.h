@@ -67,41 +67,36 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
     }
 }
 
-/// Which children a segment may meet, and where it enters them at the earliest.
-struct SegmentMeetings {
-    Hits hits;
-    std::array<float, Node::kWidth> enter; ///< of middle + s half
+/// Where a segment (middle + s half) enters and leaves the children at the earliest and the latest;
+/// it misses those that it leaves before it enters them.
+struct Passage {
+    std::array<float, Node::kWidth> enter, leave;
 };
 
-inline SegmentMeetings meet_segment(const Node& node, const TreeSegment& segment) {
-    // What a quotient of a box's distance and the half vector loses, times a few.
+/// Source      slabs [Kay, Kajiya 1986].
+inline Passage pass(const Node& node, const TreeSegment& segment) {
+    // Rounding of a quotient of about 1, times a few; what larger ones lose changes nothing.
     constexpr float kRounding = 0x1p-20F;
-    const auto& m = segment.middle;
-    const auto& e = segment.half;
-    const std::array<float, 3> reach{std::abs(e[0]), std::abs(e[1]), std::abs(e[2])};
-    SegmentMeetings meetings{};
-    for (std::size_t i = 0; i < Node::kWidth; ++i) {
-        std::array<float, 3> c{}, h{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
-            h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
+    Passage passage;
+    passage.enter.fill(-1);
+    passage.leave.fill(1);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float m = segment.middle[k], e = segment.half[k], inverse = 1 / e;
+        const bool up = !std::signbit(e); // of zeros too: their inverse has it
+        const float* near = up ? node.lower[k] : node.upper[k];
+        const float* far = up ? node.upper[k] : node.lower[k];
+        const float to_near = up ? m + segment.margin : m - segment.margin,
+                    to_far = up ? m - segment.margin : m + segment.margin;
+        // Along an axis the quotient is infinite, or not a number on a face: then min and max keep
+        // what they had.
+        for (std::size_t i = 0; i < Node::kWidth; ++i) {
+            passage.enter[i] = std::max(passage.enter[i], (near[i] - to_near) * inverse);
+            passage.leave[i] = std::min(passage.leave[i], (far[i] - to_far) * inverse);
         }
-        // Box axes, then the cross products of the segment with the box axes. The latter's products
-        // are rounded relative to themselves and to the box: the margin in h outweighs that.
-        bool hit = true;
-        float enter = -1;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-            hit = bool(hit & (std::abs(c[k]) <= h[k] + reach[k]) &
-                       (std::abs(c[u] * e[v] - c[v] * e[u]) <= h[u] * reach[v] + h[v] * reach[u]));
-            // c + s e = -h or +h, whichever comes first.
-            if (reach[k] > 0)
-                enter = std::max(enter, (-h[k] - (e[k] > 0 ? c[k] : -c[k])) / reach[k]);
-        }
-        meetings.hits[i] = hit;
-        meetings.enter[i] = enter - kRounding;
     }
-    return meetings;
+    for (std::size_t i = 0; i < Node::kWidth; ++i)
+        passage.enter[i] -= kRounding, passage.leave[i] += kRounding;
+    return passage;
 }
 
 } // namespace traverse_one
@@ -122,8 +117,30 @@ void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
 
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit) {
+    const auto& m = segment.middle;
+    const auto& e = segment.half;
+    const std::array<float, 3> reach{std::abs(e[0]), std::abs(e[1]), std::abs(e[2])};
     const auto test = [&](const Node& node) {
-        return traverse_one::meet_segment(node, segment).hits;
+        traverse_one::Hits hits;
+        for (std::size_t i = 0; i < Node::kWidth; ++i) {
+            std::array<float, 3> c{}, h{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
+                h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
+            }
+            // Box axes, then the cross products of the segment with the box axes. The latter's
+            // products are rounded relative to themselves and to the box: the margin in h outweighs
+            // that.
+            bool hit = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+                hit = bool(
+                    hit & (std::abs(c[k]) <= h[k] + reach[k]) &
+                    (std::abs(c[u] * e[v] - c[v] * e[u]) <= h[u] * reach[v] + h[v] * reach[u]));
+            }
+            hits[i] = hit;
+        }
+        return hits;
     };
     traverse_one::descend(tree, test, visit);
 }
@@ -150,11 +167,12 @@ void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const 
             continue;
         }
         const Node& node = tree.nodes[entry.ref.index()];
-        const auto meetings = traverse_one::meet_segment(node, segment);
+        const traverse_one::Passage passage = traverse_one::pass(node, segment);
+        // What is entered first is to be taken first: last on the stack.
         const auto first = static_cast<std::ptrdiff_t>(pending.size());
         for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
-            if (meetings.hits[i] && meetings.enter[i] <= bound)
-                pending.push_back({meetings.enter[i], node.child[i]});
+            if (passage.enter[i] <= std::min(passage.leave[i], bound))
+                pending.push_back({passage.enter[i], node.child[i]});
         std::sort(pending.begin() + first, pending.end(),
                   [](const Entry& a, const Entry& b) { return a.enter > b.enter; });
     }
