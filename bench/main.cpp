@@ -75,6 +75,16 @@ int main(int argc, char** argv) {
     impact_suite->add_option("--peer-limit", impact.peer_limit, "Seconds a row; 0 leaves FCL out")
         ->check(CLI::NonNegativeNumber);
     impact_suite->callback([&] { report = run_impact_suite(impact); });
+    ShapesSuiteOptions shapes;
+    CLI::App* shapes_suite =
+        app.add_subcommand("shapes", "One model and rays, points: against Embree and CGAL");
+    shapes_suite->add_option("--model", shapes.file, "Model file to use instead of a wavy torus");
+    shapes_suite->add_option("--triangles", shapes.triangles, "Of the torus");
+    shapes_suite->add_option("--queries", shapes.queries, "In each case");
+    shapes_suite->add_option("--rounds", shapes.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    shapes_suite->add_option("--seed", shapes.seed, "Of the queries");
+    shapes_suite->callback([&] { report = run_shapes_suite(shapes); });
 
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");

@@ -56,5 +56,16 @@ struct ImpactSuiteOptions {
 /// advancement.
 /// Errors      as read_scene; Error{bad_argument} for an odd number of files.
 Report run_impact_suite(const ImpactSuiteOptions& options);
+struct ShapesSuiteOptions {
+    std::string file; ///< empty: a generated model
+    std::uint32_t triangles = 100000;
+    std::size_t queries = 20000;
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
+
+/// One model against rays (Embree), points (CGAL) and containment.
+/// Errors      as read_mesh.
+Report run_shapes_suite(const ShapesSuiteOptions& options);
 
 } // namespace abut::bench

@@ -10,6 +10,10 @@ Subcommand add_collide(CLI::App& root, CommonOptions& common);
 Subcommand add_distance(CLI::App& root, CommonOptions& common);
 Subcommand add_within(CLI::App& root, CommonOptions& common);
 Subcommand add_time_of_impact(CLI::App& root, CommonOptions& common);
+Subcommand add_nearest(CLI::App& root, CommonOptions& common);
+Subcommand add_ray(CLI::App& root, CommonOptions& common);
+Subcommand add_overlap(CLI::App& root, CommonOptions& common);
+Subcommand add_contains(CLI::App& root, CommonOptions& common);
 Subcommand add_clash(CLI::App& root, CommonOptions& common);
 Subcommand add_scene(CLI::App& root, CommonOptions& common);
 

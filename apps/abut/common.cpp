@@ -67,6 +67,31 @@ std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
+std::vector<double> parse_numbers(const std::string& what, std::string_view text,
+                                  const std::string& form) {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        const std::string_view word = text.substr(begin, comma - begin);
+        const auto number = parse_number(word);
+        if (!number)
+            throw Error(ErrorCode::bad_argument,
+                        fmt::format("{}: '{}' is no finite number", what, word));
+        numbers.push_back(*number);
+        begin = comma + 1;
+    }
+    const auto wanted = static_cast<std::size_t>(std::count(form.begin(), form.end(), ',')) + 1;
+    if (numbers.size() != wanted)
+        throw Error(ErrorCode::bad_argument, fmt::format("{}: takes {} numbers {}, not {}", what,
+                                                         wanted, form, numbers.size()));
+    return numbers;
+}
+
+Vec3 parse_point(const std::string& what, std::string_view text) {
+    const std::vector<double> p = parse_numbers(what, text, "x,y,z");
+    return {p[0], p[1], p[2]};
+}
+
 CLI::Validator not_empty(const std::string& type_name) {
     return CLI::Validator(
         [](std::string& text) { return text.empty() ? std::string("must not be empty") : ""; },

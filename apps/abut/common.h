@@ -45,6 +45,14 @@ void add_unit_option(CLI::App& app, double& unit);
 /// The whole text as one finite number.
 std::optional<double> parse_number(std::string_view text);
 
+/// A comma-separated list of as many finite numbers as `form` names ("x,y,z").
+///
+/// Errors      Error{bad_argument}, its line beginning with `what` (an option, a place in a file).
+std::vector<double> parse_numbers(const std::string& what, std::string_view text,
+                                  const std::string& form);
+/// "x,y,z". Errors as parse_numbers.
+Vec3 parse_point(const std::string& what, std::string_view text);
+
 /// Checks for options: text; a finite number of at least 0; one above 0; a whole number in a range.
 CLI::Validator not_empty(const std::string& type_name);
 CLI::Validator not_negative();

@@ -15,31 +15,6 @@
 
 namespace abut::command {
 
-namespace {
-
-/// `fail` throws, given what is wrong.
-template <typename Fail>
-Pose parse_pose(const std::string& text, const Fail& fail) {
-    std::vector<double> numbers;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', begin), text.size());
-        const auto number = parse_number(std::string_view(text).substr(begin, comma - begin));
-        if (!number)
-            fail(fmt::format("'{}' is no finite number", text.substr(begin, comma - begin)));
-        numbers.push_back(number.value_or(0));
-        begin = comma + 1;
-    }
-    if (numbers.size() != 7)
-        fail(fmt::format("takes 7 numbers x,y,z,qw,qx,qy,qz, not {}", numbers.size()));
-    const Pose pose{{numbers[0], numbers[1], numbers[2]},
-                    {numbers[3], numbers[4], numbers[5], numbers[6]}};
-    if (std::all_of(pose.rotation.begin(), pose.rotation.end(), [](double q) { return q == 0; }))
-        fail("the quaternion has zero length");
-    return pose;
-}
-
-} // namespace
-
 void add_two_models(CLI::App& app, TwoModelsOptions& options) {
     app.add_option("A", options.files[0], "First model")->required();
     app.add_option("B", options.files[1], "Second model")->required();
@@ -52,10 +27,13 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
 }
 
 Pose parse_pose(const std::string& option, const std::string& text) {
-    const auto fail = [&](const std::string& message) {
-        throw Error(ErrorCode::bad_argument, option + ": " + message);
-    };
-    return parse_pose(text, fail);
+    const std::vector<double> numbers = parse_numbers(option, text, "x,y,z,qw,qx,qy,qz");
+    const Pose pose{{numbers[0], numbers[1], numbers[2]},
+                    {numbers[3], numbers[4], numbers[5], numbers[6]}};
+    if (std::all_of(pose.rotation.begin(), pose.rotation.end(), [](double q) { return q == 0; }))
+        throw Error(ErrorCode::bad_argument,
+                    fmt::format("{}: the quaternion has zero length", option));
+    return pose;
 }
 
 TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
@@ -104,9 +82,11 @@ std::vector<Pose> read_poses(const std::string& file) {
         std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
         if (line.empty() || line[0] == '#')
             continue;
-        poses.push_back(parse_pose(line, [&](const std::string& message) {
-            throw Error(ErrorCode::malformed, file, fmt::format("line {}: {}", row, message));
-        }));
+        try {
+            poses.push_back(parse_pose(fmt::format("line {}", row), line));
+        } catch (const Error& error) {
+            throw Error(ErrorCode::malformed, file, error.what());
+        }
     }
     if (row == 0 && (!stream.eof() || std::filesystem::is_directory(file)))
         throw Error(ErrorCode::unreadable, file, "cannot be read");
@@ -136,7 +116,9 @@ nlohmann::ordered_json describe_seconds(const TwoModels& models, double query) {
 }
 
 const char* to_string(Status status) {
-    return status == Status::exact ? "exact" : "bound_only";
+    return status == Status::exact       ? "exact"
+           : status == Status::converged ? "converged"
+                                         : "bound_only";
 }
 
 } // namespace abut::command

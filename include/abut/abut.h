@@ -10,5 +10,7 @@
 #include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>
+#include <abut/shape_queries.h>
+#include <abut/shapes.h>
 #include <abut/types.h>
 #include <abut/volume.h>

@@ -1,14 +1,9 @@
 #pragma once
 
+#include "geometry/point_triangle_distance.h"
 #include "math/vector.h"
 
 namespace abut {
-
-/// Two points and their squared distance.
-struct ClosestPoints {
-    double distance_sq = 0;
-    Vec3 a, b;
-};
 
 /// Closest points of the segments p + s u and q + t v, s and t in [0, 1].
 ///
@@ -17,9 +12,6 @@ struct ClosestPoints {
 ///             which keeps almost parallel segments exact to rounding.
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1);
-
-/// Closest point of a triangle to a point: `a` is the point, `b` lies on the triangle.
-ClosestPoints point_triangle_distance(const Vec3& p, const Triangle& t);
 
 /// Closest points of two triangles. Where an edge of one pierces the other, the piercing point,
 /// distance 0.

@@ -66,8 +66,8 @@ Clash classify_meeting(const ClashPart& a, const ClashPart& b, std::vector<Conta
     // the same everywhere.
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
-    const PlacedSolid solid_a(a.model, a.solid(), a.world_from_mesh);
-    const PlacedSolid solid_b(b.model, b.solid(), b.world_from_mesh);
+    const PlacedSolid solid_a(a.model, a.model.data().solid(), a.world_from_mesh);
+    const PlacedSolid solid_b(b.model, b.model.data().solid(), b.world_from_mesh);
     Clash clash = touching(solid_a, solid_b, contacts.front());
     clash.triangle_pairs = contacts.size();
     if (same_triangles(a, b)) {
@@ -100,8 +100,8 @@ std::optional<Clash> apart(const ClashPart& a, const ClashPart& b, const PlacedP
     const bool b_in_a = encloses(a.box, b.box);
     bool contained = false;
     if (a_in_b || b_in_a) {
-        const PlacedSolid solid_a(a.model, a.solid(), a.world_from_mesh);
-        const PlacedSolid solid_b(b.model, b.solid(), b.world_from_mesh);
+        const PlacedSolid solid_a(a.model, a.model.data().solid(), a.world_from_mesh);
+        const PlacedSolid solid_b(b.model, b.model.data().solid(), b.world_from_mesh);
         contained =
             (a_in_b && lies_inside(solid_a, solid_b)) || (b_in_a && lies_inside(solid_b, solid_a));
     }

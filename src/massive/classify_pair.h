@@ -3,9 +3,6 @@
 #include <abut/clash.h>
 #include <abut/model.h>
 
-#include "rigid/solid.h"
-
-#include <functional>
 #include <optional>
 
 namespace abut {
@@ -13,8 +10,6 @@ namespace abut {
 /// A part as the narrow phase sees it.
 struct ClashPart {
     const Model& model;
-    std::function<const Solid&()>
-        solid; ///< asked for only where surfaces meet or boxes enclose each other
     const Transform& world_from_mesh;
     const Box3& box; ///< world
 };

@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <optional>
 
 namespace abut {
@@ -48,22 +46,6 @@ public:
 private:
     void step(unsigned char byte) { value_ = (value_ ^ byte) * 0x100000001b3U; }
     std::uint64_t value_ = 0xcbf29ce484222325U;
-};
-
-/// What a mesh needs in the narrow phase. Its solidity is found when a pair first asks for it.
-class NarrowMesh {
-public:
-    explicit NarrowMesh(const Mesh& mesh) : model_(mesh) {}
-    [[nodiscard]] const Model& model() const { return model_; }
-    [[nodiscard]] const Solid& solid() const {
-        std::call_once(once_, [&] { solid_ = examine_solid(model_.mesh()); });
-        return solid_;
-    }
-
-private:
-    Model model_;
-    mutable std::once_flag once_;
-    mutable Solid solid_;
 };
 
 void require_length(double value, const char* what) {
@@ -149,7 +131,7 @@ private:
         ProgressMeter progress(options_.progress, "hierarchies", list.size());
         meshes_.resize(parts_.meshes.size());
         parallel_for(list.size(), 1, [&](std::size_t k) {
-            meshes_[list[k]] = std::make_unique<NarrowMesh>(*parts_.meshes[list[k]]);
+            meshes_[list[k]].emplace(*parts_.meshes[list[k]]);
             progress.advance();
         });
     }
@@ -175,9 +157,7 @@ private:
 
     [[nodiscard]] ClashPart narrow_part(std::uint32_t i) const {
         const PartInstance& p = parts_.parts[i];
-        const NarrowMesh& mesh = *meshes_[p.mesh];
-        return {mesh.model(), [&mesh]() -> const Solid& { return mesh.solid(); }, p.world_from_mesh,
-                p.box};
+        return {*meshes_[p.mesh], p.world_from_mesh, p.box};
     }
 
     void identify(Clash& clash, const Candidate& c) const {
@@ -205,7 +185,7 @@ private:
     ClashReport report_;
     PartInstances parts_;
     std::vector<Candidate> candidates_;
-    std::vector<std::unique_ptr<NarrowMesh>> meshes_;
+    std::vector<std::optional<Model>> meshes_; ///< of parts that a candidate needs
 };
 
 } // namespace

@@ -92,15 +92,21 @@ int sign_of(const Int& v) {
     return (v > 0) - (v < 0);
 }
 
-/// Int holds products of two differences, Wide of three.
+/// Determinant of three rows. Int holds products of two entries, Wide of three.
 template <typename Int, typename Wide>
-int orient3d_integer(const Scaled<12>& s) {
-    std::array<Int, 9> d{}; // rows b - a, c - a, d - a
-    for (std::size_t i = 0; i < 9; ++i)
-        d[i] = s.get<Int>(3 + i) - s.get<Int>(i % 3);
+int determinant_sign(const std::array<Int, 9>& d) {
     const Int x = d[4] * d[8] - d[5] * d[7], y = d[5] * d[6] - d[3] * d[8],
               z = d[3] * d[7] - d[4] * d[6];
     return sign_of(Wide(Wide(d[0]) * Wide(x) + Wide(d[1]) * Wide(y) + Wide(d[2]) * Wide(z)));
+}
+
+/// Rows b - a (b itself, if it is a direction), c - a, d - a.
+template <typename Int, typename Wide>
+int orient3d_integer(const Scaled<12>& s, bool direction) {
+    std::array<Int, 9> d{};
+    for (std::size_t i = 0; i < 9; ++i)
+        d[i] = direction && i < 3 ? s.get<Int>(3 + i) : Int(s.get<Int>(3 + i) - s.get<Int>(i % 3));
+    return determinant_sign<Int, Wide>(d);
 }
 
 template <typename Int>
@@ -110,16 +116,18 @@ int orient2d_integer(const Scaled<6>& s) {
     return sign_of(Int(ux * vy - uy * vx));
 }
 
-int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+/// `direction`: b is one, not a point.
+int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+                   bool direction = false) {
     ++t_exact_signs;
     const Scaled<12> s({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
     // |difference| < 2^(bits + 1), |x| < 2^(2 bits + 3), |det| < 6 * 2^(3 (bits + 1))
     if (s.bits <= 40)
-        return orient3d_integer<__int128, __int128>(s);
+        return orient3d_integer<__int128, __int128>(s, direction);
     if (s.bits <= 61)
-        return orient3d_integer<__int128, Int256>(s);
-    return s.bits <= 168 ? orient3d_integer<Int512, Int512>(s)
-                         : orient3d_integer<IntAny, IntAny>(s);
+        return orient3d_integer<__int128, Int256>(s, direction);
+    return s.bits <= 168 ? orient3d_integer<Int512, Int512>(s, direction)
+                         : orient3d_integer<IntAny, IntAny>(s, direction);
 }
 
 int orient2d_exact(double ax, double ay, double bx, double by, double cx, double cy) {
@@ -142,14 +150,9 @@ int orient2d(double ax, double ay, double bx, double by, double cx, double cy) {
     return orient2d_exact(ax, ay, bx, by, cx, cy);
 }
 
-} // namespace
-
-std::uint64_t exact_signs() {
-    return t_exact_signs;
-}
-
-int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const Vec3 u = b - a, v = c - a, w = d - a;
+/// Sign of u . (v x w), each a difference of two points as rounded; 0 if rounding may have changed
+/// it.
+int determinant_filter(const Vec3& u, const Vec3& v, const Vec3& w) {
     const double vywz = v.y * w.z, vzwy = v.z * w.y;
     const double vzwx = v.z * w.x, vxwz = v.x * w.z;
     const double vxwy = v.x * w.y, vywx = v.y * w.x;
@@ -160,12 +163,30 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const double bound = (8 + 64 * kEpsilon) * kEpsilon * permanent +
                          kUnderflow * (1 + std::abs(u.x) + std::abs(u.y) + std::abs(u.z));
     // Overflow makes the bound infinite or not a number: then neither comparison holds.
-    if (det > bound || -det > bound)
-        return sign(det);
+    return det > bound || -det > bound ? sign(det) : 0;
+}
+
+} // namespace
+
+std::uint64_t exact_signs() {
+    return t_exact_signs;
+}
+
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    if (const int side = determinant_filter(b - a, c - a, d - a); side != 0)
+        return side;
     // Common enough to be worth a look: a shared vertex, a collapsed triangle.
     if (b == a || c == a || d == a || c == b || d == b || d == c)
         return 0;
     return orient3d_exact(a, b, c, d);
+}
+
+int turn_around_line(const Vec3& origin, const Vec3& direction, const Vec3& p, const Vec3& q) {
+    if (const int turn = determinant_filter(direction, p - origin, q - origin); turn != 0)
+        return turn;
+    if (p == origin || q == origin || p == q)
+        return 0;
+    return orient3d_exact(origin, direction, p, q, true);
 }
 
 int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis) {

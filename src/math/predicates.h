@@ -16,6 +16,14 @@ namespace abut {
 ///             bound.
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+/// Sign of direction . ((p - origin) x (q - origin)): +1 if the edge from p to q runs
+/// counter-clockwise around the line as seen against its direction, 0 if the line and the edge lie
+/// in one plane.
+///
+/// In          the direction is no difference of points: it is taken as given.
+/// Accuracy    exact, as orient3d.
+int turn_around_line(const Vec3& origin, const Vec3& direction, const Vec3& p, const Vec3& q);
+
 /// Sign of the doubled area of a, b, c projected along `axis` (0, 1, 2: on yz, zx, xy). Exact.
 int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis);
 

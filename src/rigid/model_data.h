@@ -5,6 +5,7 @@
 #include <abut/types.h>
 
 #include "math/transform.h"
+#include "rigid/solid.h"
 #include "tree/tree.h"
 #include "tree/volume_tree.h"
 
@@ -43,6 +44,8 @@ public:
         return {apply(world, mesh_.positions[t[0]]), apply(world, mesh_.positions[t[1]]),
                 apply(world, mesh_.positions[t[2]])};
     }
+    /// Whether the mesh bounds a solid; the first question examines it.
+    [[nodiscard]] const Solid& solid() const { return solid_.of(mesh_); }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
@@ -56,6 +59,7 @@ private:
     /// in memory.
     std::vector<Vec3> vertices_;
     std::vector<std::array<std::uint32_t, 3>> slots_;
+    LazySolid solid_;
 };
 
 } // namespace abut

@@ -1,20 +1,13 @@
 #include "rigid/placed_solid.h"
 
-#include "geometry/triangle_triangle_intersect.h"
+#include "geometry/point_triangle_distance.h"
 #include "math/predicates.h"
-#include "tree/traverse_one.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace abut {
 
 namespace {
-
-std::array<float, 3> to_float(const Vec3& p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
 
 /// Directions with no special relation to each other or to any axis; which one is tried k-th.
 Vec3 ray_direction(std::uint32_t k) {
@@ -28,43 +21,16 @@ Vec3 ray_direction(std::uint32_t k) {
 } // namespace
 
 PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model)
-    : public_model_(model), model_(model.data()), solid_(solid), world_(world_from_model) {
-    world_from_tree_ = compose(world_from_model, model_.model_from_tree());
-    tree_from_world_ = inverse(world_from_tree_);
-    least_stretch_ = abut::least_stretch(world_from_tree_);
-    most_stretch_ = abut::most_stretch(world_from_tree_);
-    const Aabb& box = model_.tree().bounds;
-    double half = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        half = std::max({half, std::abs(double{box.lower[k]}), std::abs(double{box.upper[k]})});
-    reach_ = most_stretch_ * 2 * half;
-    const double world_size = std::abs(world_from_tree_.m[9]) + std::abs(world_from_tree_.m[10]) +
-                              std::abs(world_from_tree_.m[11]) + reach_;
-    // Rounding of a point on its way to single precision in a node's frame, ray ends included.
-    margin_ = 64 * 0x1p-24 * 4 * half + 64 * 0x1p-53 * world_size / least_stretch_;
-    const auto& m = world_from_model.m;
+    : PlacedModel(model, world_from_model), solid_(solid) {
+    const auto& m = world().m;
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
 }
 
-bool PlacedSolid::on_surface(const Vec3& point) const {
-    const Vec3 p = apply(tree_from_world_, point);
-    const Triangle as_triangle{point, point, point};
-    bool on = false;
-    for_each_overlap(model_.tree(), Aabb({p, p}, margin_), [&](std::uint32_t slot) {
-        on = on || triangle_triangle_intersect(as_triangle, model_.world_triangle(slot, world_)) !=
-                       TriangleContact::none;
-    });
-    return on;
-}
-
 bool PlacedSolid::odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const {
-    const Vec3 p = apply(tree_from_world_, from), q = apply(tree_from_world_, to);
-    const TreeSegment segment{to_float(0.5 * (p + q)), to_float(0.5 * (q - p)),
-                              static_cast<float>(margin_)};
     bool odd = false;
     clear = true;
-    for_each_on_segment(model_.tree(), segment, [&](std::uint32_t slot) {
-        const Triangle t = model_.world_triangle(slot, world_);
+    for_each_on_segment(from, to, [&](std::uint32_t slot) {
+        const Triangle t = world_slot(slot);
         const int side_from = orient3d(t[0], t[1], t[2], from),
                   side_to = orient3d(t[0], t[1], t[2], to);
         if (side_from * side_to > 0)
@@ -83,12 +49,10 @@ bool PlacedSolid::odd_crossings(const Vec3& from, const Vec3& to, bool& clear) c
 }
 
 bool PlacedSolid::contains_off_surface(const Vec3& point) const {
-    const Transform& f = world_;
-    const Vec3 o = apply(f, {model_.model_from_tree().m[9], model_.model_from_tree().m[10],
-                             model_.model_from_tree().m[11]});
-    const double far = length(point - o) + 2 * reach_;
-    if (!(length(point - o) <= 2 * reach_))
+    const double off = length(point - middle());
+    if (!(off <= 2 * reach()))
         return false;
+    const double far = off + 2 * reach();
     const std::uint32_t wanted = solid_.closed ? 1 : 3;
     std::uint32_t clear_rays = 0, odd_rays = 0;
     // A ray is unclear with probability next to zero; the limit ends the loop on absurd input only.
@@ -105,27 +69,21 @@ bool PlacedSolid::winds_around(const Vec3& point) const {
     if (solid_.closed)
         return contains(point);
     // The winding number does not change under an affine map that moves the mesh and the point.
-    const Vec3 local = apply(inverse(world_), point);
-    return std::abs(std::abs(winding_number(model_.mesh(), local)) - 1) <= kWindingRounding;
+    const Vec3 local = apply(inverse(world()), point);
+    return std::abs(std::abs(winding_number(model().mesh(), local)) - 1) <= kWindingRounding;
 }
 
 PlacedSolid::Nearest PlacedSolid::nearest(const Vec3& point, double bound) const {
     Nearest best;
     double best_sq = bound * bound;
-    const auto tree_bound_sq = [&] {
-        const double d = std::sqrt(best_sq) / least_stretch_;
-        return round_up(d * d * (1 + 0x1p-20));
-    };
-    for_each_near(model_.tree(), to_float(apply(tree_from_world_, point)),
-                  static_cast<float>(margin_), tree_bound_sq(), [&](std::uint32_t slot) {
-                      const Triangle t = model_.world_triangle(slot, world_);
-                      const ClosestPoints c = point_triangle_distance(point, t);
-                      if (c.distance_sq < best_sq) {
-                          best_sq = c.distance_sq;
-                          best = {std::sqrt(c.distance_sq), c.b, slot};
-                      }
-                      return tree_bound_sq();
-                  });
+    for_each_near(point, best_sq, [&](std::uint32_t slot) {
+        const ClosestPoints c = point_triangle_distance(point, world_slot(slot));
+        if (c.distance_sq < best_sq) {
+            best_sq = c.distance_sq;
+            best = {std::sqrt(c.distance_sq), c.b, slot};
+        }
+        return best_sq;
+    });
     return best;
 }
 

@@ -5,6 +5,7 @@
 #include "mesh/topology.h"
 
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace abut {
@@ -24,6 +25,19 @@ struct Solid {
 /// In          a valid mesh.
 /// Cost        O(n log n), plus a few winding numbers where the mesh is not closed.
 Solid examine_solid(const Mesh& mesh);
+
+/// The solid of one mesh, examined when it is first asked for. Any number of threads may ask.
+class LazySolid {
+public:
+    [[nodiscard]] const Solid& of(const Mesh& mesh) const {
+        std::call_once(once_, [&] { solid_ = examine_solid(mesh); });
+        return solid_;
+    }
+
+private:
+    mutable std::once_flag once_;
+    mutable Solid solid_;
+};
 
 /// Signed number of times that the mesh winds around a point: the sum of the solid angles over 4
 /// pi.

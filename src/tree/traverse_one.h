@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Traversals of one tree: for a box, for a segment, for the nearest primitive to a point. Bodies
-/// below.
+/// Traversals of one tree: for a box, for a segment (in order, if wanted), for the nearest
+/// primitive to a point. Bodies below.
 namespace abut {
 
 /// Calls visit(slot) for every primitive in a leaf whose box meets `query`.
@@ -28,6 +28,11 @@ struct TreeSegment {
 /// Source      separating axes of segment and box [Ericson 2005, 5.3.3].
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
+
+/// The same, boxes that the segment enters first in front; visit returns the parameter (of middle +
+/// s half, -1 <= s <= 1) beyond which nothing matters any more.
+template <typename Visit>
+void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 
 /// Calls visit(slot) for primitives nearest box first; visit returns the squared distance in the
 /// tree's frame beyond which nothing matters any more.
@@ -84,6 +89,40 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
     }
 }
 
+/// Where a segment (middle + s half) enters and leaves the children at the earliest and the latest;
+/// it misses those that it leaves before it enters them.
+struct Passage {
+    std::array<float, Node::kWidth> enter, leave;
+};
+
+/// Source      slabs [Kay, Kajiya 1986].
+inline Passage pass(const Node& node, const TreeSegment& in_tree) {
+    const TreeSegment segment{node.frame.point_from_tree(in_tree.middle),
+                              node.frame.vector_from_tree(in_tree.half), in_tree.margin};
+    // Rounding of a quotient of about 1, times a few; what larger ones lose changes nothing.
+    constexpr float kRounding = 0x1p-20F;
+    Passage passage;
+    passage.enter.fill(-1);
+    passage.leave.fill(1);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float m = segment.middle[k], e = segment.half[k], inverse = 1 / e;
+        const bool up = !std::signbit(e); // of zeros too: their inverse has it
+        const float* near = up ? node.lower[k] : node.upper[k];
+        const float* far = up ? node.upper[k] : node.lower[k];
+        const float to_near = up ? m + segment.margin : m - segment.margin,
+                    to_far = up ? m - segment.margin : m + segment.margin;
+        // Along an axis the quotient is infinite, or not a number on a face: then min and max keep
+        // what they had.
+        for (std::size_t i = 0; i < Node::kWidth; ++i) {
+            passage.enter[i] = std::max(passage.enter[i], (near[i] - to_near) * inverse);
+            passage.leave[i] = std::min(passage.leave[i], (far[i] - to_far) * inverse);
+        }
+    }
+    for (std::size_t i = 0; i < Node::kWidth; ++i)
+        passage.enter[i] -= kRounding, passage.leave[i] += kRounding;
+    return passage;
+}
+
 } // namespace traverse_one
 
 template <typename Visit>
@@ -128,6 +167,39 @@ void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Vis
         return hits;
     };
     traverse_one::descend(tree, test, visit);
+}
+
+template <typename Visit>
+void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit) {
+    struct Entry {
+        float enter = -1;
+        NodeRef ref;
+    };
+    if (tree.empty())
+        return;
+    float bound = 1;
+    boost::container::small_vector<Entry, 128> pending{{-1, NodeRef::node(0)}};
+    while (!pending.empty()) {
+        const Entry entry = pending.back();
+        pending.pop_back();
+        if (entry.enter > bound)
+            continue;
+        if (entry.ref.is_leaf()) {
+            for (std::uint32_t slot = entry.ref.first();
+                 slot < entry.ref.first() + entry.ref.count(); ++slot)
+                bound = visit(slot);
+            continue;
+        }
+        const Node& node = tree.nodes[entry.ref.index()];
+        const traverse_one::Passage passage = traverse_one::pass(node, segment);
+        // What is entered first is to be taken first: last on the stack.
+        const auto first = static_cast<std::ptrdiff_t>(pending.size());
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
+            if (passage.enter[i] <= std::min(passage.leave[i], bound))
+                pending.push_back({passage.enter[i], node.child[i]});
+        std::sort(pending.begin() + first, pending.end(),
+                  [](const Entry& a, const Entry& b) { return a.enter > b.enter; });
+    }
 }
 
 template <typename Visit>

@@ -1,3 +1,4 @@
+#include "geometry/point_triangle_distance.h"
 #include "tests/support/body.h"
 
 #include <gtest/gtest.h>

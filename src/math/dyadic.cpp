@@ -1,0 +1,57 @@
+#include "math/dyadic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace abut {
+
+Dyadic::Dyadic(double value) {
+    int exponent = 0;
+    auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+    if (mantissa == 0)
+        return;
+    exponent_ = exponent - 53;
+    for (; mantissa % 2 == 0; mantissa /= 2)
+        ++exponent_;
+    mantissa_ = mantissa;
+}
+
+Dyadic operator+(const Dyadic& a, const Dyadic& b) {
+    if (a.sign() == 0 || b.sign() == 0)
+        return a.sign() == 0 ? b : a;
+    const int exponent = std::min(a.exponent_, b.exponent_);
+    return {a.over(exponent) + b.over(exponent), exponent};
+}
+
+Dyadic operator-(const Dyadic& a) {
+    return {-a.mantissa_, a.exponent_};
+}
+
+Dyadic operator-(const Dyadic& a, const Dyadic& b) {
+    return a + -b;
+}
+
+Dyadic operator*(const Dyadic& a, const Dyadic& b) {
+    return {a.mantissa_ * b.mantissa_, a.exponent_ + b.exponent_};
+}
+
+double quotient(const Dyadic& a, const Dyadic& b) {
+    if (a.sign() == 0)
+        return 0;
+    Dyadic::Integer numerator = abs(a.mantissa_), denominator = abs(b.mantissa_);
+    int exponent = a.exponent_ - b.exponent_;
+    // An integer quotient of 64 bits or one more; its last bit is below half a double's.
+    const int shift = 64 + static_cast<int>(msb(denominator)) - static_cast<int>(msb(numerator));
+    if (shift > 0)
+        numerator <<= shift;
+    else
+        denominator <<= -shift;
+    exponent -= shift;
+    Dyadic::Integer ratio = numerator / denominator;
+    const double magnitude = std::ldexp(
+        static_cast<double>(static_cast<std::uint64_t>(Dyadic::Integer(ratio >> 1))), exponent + 1);
+    return a.sign() == b.sign() ? magnitude : -magnitude;
+}
+
+} // namespace abut

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "math/vector.h"
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace abut {
+
+/// An integer times a power of two: sums, differences and products of finite doubles, exactly. For
+/// what a filter could not decide; no faster than it needs to be.
+class Dyadic {
+public:
+    Dyadic() = default;
+    Dyadic(double value); // NOLINT: a double is one; formulas read as they do for doubles
+
+    [[nodiscard]] int sign() const { return mantissa_.sign(); }
+
+    friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
+    friend Dyadic operator-(const Dyadic& a, const Dyadic& b);
+    friend Dyadic operator-(const Dyadic& a);
+    friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
+
+    /// a / b, b not zero.
+    /// Accuracy    within one unit in the last place.
+    friend double quotient(const Dyadic& a, const Dyadic& b);
+
+private:
+    using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+                                                  boost::multiprecision::et_off>;
+    Dyadic(Integer mantissa, int exponent) : mantissa_(std::move(mantissa)), exponent_(exponent) {}
+    /// The mantissa over a smaller power of two.
+    [[nodiscard]] Integer over(int exponent) const { return mantissa_ << (exponent_ - exponent); }
+
+    Integer mantissa_;
+    int exponent_ = 0;
+};
+
+/// A vector of them.
+struct DyadicVec3 {
+    Dyadic x, y, z;
+    DyadicVec3() = default;
+    DyadicVec3(Dyadic a, Dyadic b, Dyadic c) : x(std::move(a)), y(std::move(b)), z(std::move(c)) {}
+    explicit DyadicVec3(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
+};
+
+inline DyadicVec3 operator-(const DyadicVec3& a, const DyadicVec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Dyadic dot(const DyadicVec3& a, const DyadicVec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline DyadicVec3 cross(const DyadicVec3& a, const DyadicVec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+} // namespace abut

@@ -1,0 +1,94 @@
+#include "rigid/placed_model.h"
+
+#include "geometry/triangle_triangle_intersect.h"
+
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+std::array<float, 3> to_float(const Vec3& p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+/// The range of s in [0, 1] in which p + s d may lie within `half` of the origin on every axis.
+std::pair<double, double> clip_to_cube(const Vec3& p, const Vec3& d, double half) {
+    double begin = 0, end = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double c = component(p, axis), e = component(d, axis);
+        if (e == 0) {
+            if (std::abs(c) > half)
+                end = -1;
+            continue;
+        }
+        const double s = (-half - c) / e, t = (half - c) / e;
+        begin = std::max(begin, std::min(s, t)), end = std::min(end, std::max(s, t));
+    }
+    return {begin, end};
+}
+
+} // namespace
+
+PlacedModel::PlacedModel(const Model& model, const Transform& world_from_model)
+    : model_(model), world_(world_from_model) {
+    require_finite(world_from_model, "transform");
+    if (make_frame())
+        return;
+    // The same positions by the same formula; identity then leaves them as they are.
+    Mesh mesh = model.mesh();
+    for (Vec3& p : mesh.positions)
+        p = apply(world_, p);
+    model_ = Model(std::move(mesh));
+    world_ = {};
+    make_frame();
+}
+
+bool PlacedModel::make_frame() {
+    // Beyond, cubes of what the inverse is made of leave the range of doubles; or one direction is
+    // so much shorter than another that rounding swamps it.
+    constexpr double kLeastStretch = 0x1p-300, kMostStretch = 0x1p300, kLeastRatio = 0x1p-30;
+    world_from_tree_ = compose(world_, model().model_from_tree());
+    tree_from_world_ = inverse(world_from_tree_);
+    least_stretch_ = abut::least_stretch(world_from_tree_);
+    most_stretch_ = abut::most_stretch(world_from_tree_);
+    half_ = 0;
+    if (!model().tree().empty())
+        for (std::size_t k = 0; k < 3; ++k)
+            half_ = std::max({half_, std::abs(double{model().tree().bounds.lower[k]}),
+                              std::abs(double{model().tree().bounds.upper[k]})});
+    reach_ = most_stretch_ * 2 * half_;
+    world_extent_ = magnitude(middle()) + reach_;
+    return model().tree().empty() ||
+           (least_stretch_ > kLeastStretch && most_stretch_ < kMostStretch &&
+            least_stretch_ > kLeastRatio * most_stretch_ && margin(0) < 1e18);
+}
+
+std::optional<ClippedSegment> PlacedModel::tree_segment(const Vec3& from, const Vec3& to,
+                                                        double error) const {
+    const double margin = this->margin(magnitude(from) + magnitude(to)) + error / least_stretch_;
+    // Off by more than the model's size: all of it may be met, and squares must stay finite.
+    if (!(margin <= half_))
+        return ClippedSegment{{{}, {}, round_up(2 * half_)}, 0, 1};
+    const Vec3 p = apply(tree_from_world_, from), d = apply(tree_from_world_, to) - p;
+    const auto [begin, end] = clip_to_cube(p, d, half_ + 2 * margin);
+    if (!(begin <= end))
+        return std::nullopt;
+    const Vec3 q = p + begin * d, r = p + end * d;
+    return ClippedSegment{
+        {to_float(0.5 * (q + r)), to_float(0.5 * (r - q)), round_up(margin)}, begin, end};
+}
+
+std::optional<std::uint32_t> PlacedModel::triangle_at(const Vec3& point) const {
+    const Triangle as_triangle{point, point, point};
+    std::optional<std::uint32_t> least;
+    for_each_overlap({point, point}, [&](std::uint32_t slot) {
+        const std::uint32_t triangle = model().triangle_at(slot);
+        if ((!least || triangle < *least) &&
+            triangle_triangle_intersect(as_triangle, world_slot(slot)) != TriangleContact::none)
+            least = triangle;
+    });
+    return least;
+}
+
+} // namespace abut
