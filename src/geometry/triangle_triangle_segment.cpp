@@ -9,7 +9,6 @@
 #include <boost/container/static_vector.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
-#include <span>
 #include <tuple>
 
 namespace abut {
@@ -138,16 +137,18 @@ int common_axis(const Corners& a, const Corners& b) {
 
 /// Around their middle, counter-clockwise as the axis sees it, or (turn = -1) clockwise.
 void sort_around(Intersection& result, int axis, int turn) {
-    const auto corners = std::span(result.corners).first(result.count);
     Vec3 middle;
-    for (const Vec3& p : corners)
-        middle = middle + (1.0 / result.count) * p;
-    const auto angle = [&](const Vec3& p) {
-        const Vec3 d = p - middle;
-        return turn * std::atan2(component(d, (axis + 2) % 3), component(d, (axis + 1) % 3));
-    };
-    std::sort(corners.begin(), corners.end(),
-              [&](const Vec3& p, const Vec3& q) { return angle(p) < angle(q); });
+    for (std::uint32_t i = 0; i < result.count; ++i)
+        middle = middle + (1.0 / result.count) * result.corners[i];
+    std::array<double, 6> angle{};
+    for (std::uint32_t i = 0; i < result.count; ++i) {
+        const Vec3 d = result.corners[i] - middle;
+        angle[i] = turn * std::atan2(component(d, (axis + 2) % 3), component(d, (axis + 1) % 3));
+        for (std::uint32_t j = i; j > 0 && angle[j] < angle[j - 1]; --j) {
+            std::swap(angle[j], angle[j - 1]);
+            std::swap(result.corners[j], result.corners[j - 1]);
+        }
+    }
 }
 
 /// Every corner of the common polygon is a corner of one in the other, or a proper crossing of two
