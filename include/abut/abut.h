@@ -5,6 +5,7 @@
 #include <abut/error.h>
 #include <abut/mesh.h>
 #include <abut/model.h>
+#include <abut/penetration.h>
 #include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>

@@ -109,23 +109,29 @@ bool PlacedSolid::winds_around(const Vec3& point) const {
     return std::abs(std::abs(winding_number(model_.mesh(), local)) - 1) <= kWindingRounding;
 }
 
-PlacedSolid::Nearest PlacedSolid::nearest(const Vec3& point, double bound) const {
+PlacedSolid::Nearest PlacedSolid::nearest(const Vec3& point, const NearestSearch& search) const {
     Nearest best;
-    double best_sq = bound * bound;
-    const auto tree_bound_sq = [&] {
-        const double d = std::sqrt(best_sq) / least_stretch_;
-        return round_up(d * d * (1 + 0x1p-20));
+    double best_sq = search.bound * search.bound;
+    float tree_bound_sq = 0; // negative: near enough
+    const auto narrow = [&](double distance) {
+        const double d = distance / ((1 + search.slack) * least_stretch_);
+        tree_bound_sq = distance <= search.enough ? -1 : round_up(d * d * (1 + 0x1p-20));
     };
-    for_each_near(model_.tree(), to_float(apply(tree_from_world_, point)),
-                  static_cast<float>(margin_), tree_bound_sq(), [&](std::uint32_t slot) {
-                      const Triangle t = model_.world_triangle(slot, world_);
-                      const ClosestPoints c = point_triangle_distance(point, t);
-                      if (c.distance_sq < best_sq) {
-                          best_sq = c.distance_sq;
-                          best = {std::sqrt(c.distance_sq), c.b, slot};
-                      }
-                      return tree_bound_sq();
-                  });
+    const auto visit = [&](std::uint32_t slot) {
+        const ClosestPoints c = point_triangle_distance(point, world_slot(slot));
+        if (c.distance_sq < best_sq) {
+            best_sq = c.distance_sq;
+            best = {std::sqrt(c.distance_sq), c.b, slot};
+            narrow(best.distance);
+        }
+        return tree_bound_sq;
+    };
+    narrow(search.bound);
+    if (search.seed != nullptr)
+        visit(*search.seed);
+    if (tree_bound_sq >= 0)
+        for_each_near(model_.tree(), to_float(apply(tree_from_world_, point)),
+                      static_cast<float>(margin_), tree_bound_sq, visit);
     return best;
 }
 
