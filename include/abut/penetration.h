@@ -25,7 +25,9 @@ struct ContactRegion {
     /// nearer to this region than to any other. Between open shells: see Depth::depth.
     double depth = 0;
     double depth_at_most = 0; ///< no such point lies deeper: proven
-    Vec3 point_a, point_b;    ///< on the surfaces, world frame, `depth` apart
+    /// On the surfaces, world frame; `depth` apart with a solid, else (open shells, or depth 0) a
+    /// common point.
+    Vec3 point_a, point_b;
     Vec3 direction;           ///< unit vector in which b moves to get out there; zero if depth is
 };
 

@@ -14,7 +14,7 @@ struct LocalPenetration {
     double at_most = 0; ///< no deeper than this, proven
     Vec3 point_a, point_b;
     Vec3 direction; ///< unit vector along which b moves to get out at point_a; zero if the depth is
-    TrianglePair triangles; ///< that hold the points
+    TrianglePair triangles{}; ///< that hold the points
 };
 
 /// Local penetration depth.

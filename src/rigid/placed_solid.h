@@ -21,6 +21,12 @@ public:
     [[nodiscard]] const Model& public_model() const { return public_model_; }
     [[nodiscard]] const ModelData& model() const { return model_; }
     [[nodiscard]] const Transform& world() const { return world_; }
+    /// The transform with a translation added.
+    [[nodiscard]] Transform world_moved(const Vec3& shift) const {
+        Transform moved = world_;
+        moved.m[9] += shift.x, moved.m[10] += shift.y, moved.m[11] += shift.z;
+        return moved;
+    }
     /// No two points of the model are farther apart.
     [[nodiscard]] double world_size() const { return 2 * reach_; }
     [[nodiscard]] const Solid& solid() const { return solid_; }
