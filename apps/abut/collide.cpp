@@ -11,27 +11,42 @@ namespace {
 struct CollideArguments {
     TwoModelsOptions models;
     bool all = false;
+    bool segments = false;
     std::string fail_on;
 };
+
+nlohmann::ordered_json describe(const Intersection& shared) {
+    nlohmann::ordered_json points = nlohmann::ordered_json::array();
+    for (std::uint32_t i = 0; i < shared.count; ++i)
+        points.push_back(to_json(shared.corners.at(i)));
+    return points;
+}
 
 int run(const CollideArguments& arguments, const CommonOptions& common) {
     const TwoModels models = load(arguments.models, common);
     const Stopwatch watch;
     const Contacts contacts =
         collide(models.a, models.world_from_a, models.b, models.world_from_b,
-                {.mode = arguments.all ? ContactMode::all : ContactMode::first});
+                {.mode = arguments.all ? ContactMode::all : ContactMode::first,
+                 .segments = arguments.segments});
     const double seconds = watch.seconds();
 
     if (common.json) {
         nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
         for (const TrianglePair& pair : contacts.pairs)
             pairs.push_back({pair.a, pair.b});
-        nlohmann::ordered_json answer = describe(arguments.models);
+        nlohmann::ordered_json answer = abut::command::describe(arguments.models);
         answer["contact"] = contacts.any();
         answer["all"] = arguments.all;
         answer["triangle_pairs"] = std::move(pairs);
+        if (arguments.segments) {
+            nlohmann::ordered_json segments = nlohmann::ordered_json::array();
+            for (const Intersection& shared : contacts.segments)
+                segments.push_back(describe(shared));
+            answer["segments"] = std::move(segments);
+        }
         answer["status"] = to_string(contacts.status);
-        answer["counters"] = describe(contacts.counters);
+        answer["counters"] = abut::command::describe(contacts.counters);
         answer["seconds"] = describe_seconds(models, seconds);
         print(dump(answer));
     } else if (!common.quiet) {
@@ -59,6 +74,8 @@ Subcommand add_collide(CLI::App& root, CommonOptions& common) {
         add_subcommand(root, common, "collide", "Do the surfaces of two models share a point?");
     add_two_models(*app, arguments->models);
     app->add_flag("--all", arguments->all, "List every pair of triangles that meet");
+    app->add_flag("--segments", arguments->segments,
+                  "With --json: also the points that each pair shares");
     app->add_option("--fail-on", arguments->fail_on, "Exit with status 1 on 'contact'")
         ->check(CLI::IsMember({"contact"}));
     return {app, [arguments, &common] { return run(*arguments, common); }};

@@ -9,6 +9,7 @@ Subcommand add_info(CLI::App& root, CommonOptions& common);
 Subcommand add_collide(CLI::App& root, CommonOptions& common);
 Subcommand add_distance(CLI::App& root, CommonOptions& common);
 Subcommand add_within(CLI::App& root, CommonOptions& common);
+Subcommand add_penetration(CLI::App& root, CommonOptions& common);
 Subcommand add_clash(CLI::App& root, CommonOptions& common);
 Subcommand add_scene(CLI::App& root, CommonOptions& common);
 
