@@ -30,7 +30,7 @@ struct Piece {
     double at_most = kInfinity; ///< no point of the piece is deeper
     NodeRef box;                ///< none: the piece is a triangle
     std::uint32_t slot = 0;     ///< of that triangle
-    Triangle corners;
+    boost::container::static_vector<Vec3, 8> corners;
     Vec3 middle;
     double radius = 0; ///< of a ball around the middle that holds the piece
     Sample sample;     ///< at the middle if sampled, else at that of an enclosing piece
@@ -49,7 +49,7 @@ public:
     DeepestPoint run(std::span<const std::uint32_t> starts) {
         for (const std::uint32_t triangle : starts)
             for (const Vec3& corner : surface_.world_triangle(triangle))
-                try_point(corner, triangle);
+                try_point(corner, triangle, nullptr);
         if (!surface_.model().tree().empty() && !solid_.model().tree().empty())
             add_box(NodeRef::node(0), surface_.model().tree().bounds, {});
         while (!pieces_.empty() && !finished(pieces_.top().at_most)) {
@@ -105,6 +105,10 @@ private:
         piece.box = ref;
         piece.radius = surface_.most_stretch() * length(upper - middle) * (1 + 0x1p-20);
         piece.middle = apply(surface_.world_from_tree(), middle);
+        for (unsigned i = 0; i < 8; ++i)
+            piece.corners.push_back(apply(surface_.world_from_tree(),
+                                          {i & 1U ? upper.x : lower.x, i & 2U ? upper.y : lower.y,
+                                           i & 4U ? upper.z : lower.z}));
         piece.sample = known;
         add(piece);
     }
@@ -144,7 +148,7 @@ private:
     }
 
     void bisect(const Piece& parent) {
-        const Triangle& t = parent.corners;
+        const auto& t = parent.corners;
         std::size_t longest = 0;
         for (std::size_t i = 1; i < 3; ++i)
             if (length_sq(t[(i + 1) % 3] - t[i]) > length_sq(t[(longest + 1) % 3] - t[longest]))
@@ -158,7 +162,7 @@ private:
     void add_triangle(const Triangle& t, std::uint32_t slot, const Sample& known) {
         Piece piece;
         piece.slot = slot;
-        piece.corners = t;
+        piece.corners.assign(t.begin(), t.end());
         piece.middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
         for (const Vec3& corner : t)
             piece.radius = std::max(piece.radius, length(corner - piece.middle));
@@ -193,14 +197,14 @@ private:
         const double across = s.inside ? kInfinity : reach - s.at_least;
         if (across <= 0)
             return 0;
+        const double limit = std::min(across, s.at_most + reach);
+        if (limit <= best_.depth)
+            return limit;
         const Triangle face = solid_.world_slot(s.slot);
         double convex = 0;
-        if (piece.box.is_none())
-            for (const Vec3& corner : piece.corners)
-                convex = std::max(convex, point_triangle_distance(corner, face).distance_sq);
-        else
-            convex = kInfinity;
-        return std::min({across, s.at_most + reach, std::sqrt(convex) * kSafe});
+        for (const Vec3& corner : piece.corners)
+            convex = std::max(convex, point_triangle_distance(corner, face).distance_sq);
+        return std::min(limit, std::sqrt(convex) * kSafe);
     }
 
     // ---- points
@@ -244,9 +248,9 @@ private:
     void try_points(const Piece& piece) {
         if (piece.box.is_none()) {
             const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
-            try_point(piece.middle, triangle);
+            try_point(piece.middle, triangle, &piece.sample.slot);
             for (const Vec3& corner : piece.corners) // depth is often greatest at a corner
-                try_point(corner, triangle);
+                try_point(corner, triangle, &piece.sample.slot);
             return;
         }
         NodeRef ref = piece.box;
@@ -254,16 +258,17 @@ private:
             ref = surface_.model().tree().nodes[ref.index()].child[0];
         if (const std::uint32_t triangle = surface_.model().triangle_at(ref.first());
             part_.takes(triangle))
-            try_point(surface_.world_slot(ref.first())[0], triangle);
+            try_point(surface_.world_slot(ref.first())[0], triangle, &piece.sample.slot);
     }
 
-    void try_point(const Vec3& point, std::uint32_t triangle) {
+    /// `seed`: a slot of the solid that is likely near, or null.
+    void try_point(const Vec3& point, std::uint32_t triangle, const std::uint32_t* seed) {
         // A point of a face that lies in the surface is inside or outside by rounding alone.
         const double rounding =
             16 * 0x1p-53 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z));
         const double beyond = std::max(best_.depth, rounding);
         const PlacedSolid::Nearest nearest =
-            solid_.nearest(point, {.bound = kInfinity, .enough = beyond});
+            solid_.nearest(point, {.enough = beyond, .seed = seed});
         if (nearest.distance <= beyond || !part_.takes(triangle) || !part_.may_hold(point, 0) ||
             !solid_.contains_off_surface(point))
             return;

@@ -59,7 +59,7 @@ TEST_F(TwoModelsTest, CollideSaysNoAndYes) {
 
 TEST_F(TwoModelsTest, CollideListsWhereEachPairMeets) {
     const Outcome outcome =
-        ask("collide", {"--pose-b", "0.5,0.2,0.3,1,0,0,0", "--json", "--all", "--segments"});
+        ask("collide", {"--pose-b", "0.5,0.21,0.34,1,0,0,0", "--json", "--all", "--segments"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto answer = outcome.json();
     ASSERT_EQ(answer["segments"].size(), answer["triangle_pairs"].size());
