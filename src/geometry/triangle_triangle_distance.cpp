@@ -21,14 +21,6 @@ ClosestPoints swapped(const ClosestPoints& c) {
     return {c.distance_sq, c.b, c.a};
 }
 
-/// `a` is p, `b` lies on the segment.
-ClosestPoints point_segment_distance(const Vec3& p, const Vec3& q0, const Vec3& q1) {
-    const Vec3 v = q1 - q0, r = q0 - p;
-    const double vv = length_sq(v);
-    const double t = vv > 0 ? clamp01(-dot(r, v) / vv) : 0;
-    return {length_sq(r + t * v), p, q0 + t * v};
-}
-
 /// Foot of p on the plane of t, if it lies within t, and the vector to it.
 struct Foot {
     bool within = false;
@@ -84,9 +76,9 @@ ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec
 }
 
 ClosestPoints point_triangle_distance(const Vec3& p, const Triangle& t) {
-    ClosestPoints best = point_segment_distance(p, t[0], t[1]);
-    keep_nearer(best, point_segment_distance(p, t[1], t[2]));
-    keep_nearer(best, point_segment_distance(p, t[2], t[0]));
+    ClosestPoints best = segment_segment_distance(p, p, t[0], t[1]);
+    keep_nearer(best, segment_segment_distance(p, p, t[1], t[2]));
+    keep_nearer(best, segment_segment_distance(p, p, t[2], t[0]));
     if (const Foot foot = foot_within(p, t); foot.within)
         keep_nearer(best, {length_sq(foot.gap), p, foot.point});
     return best;

@@ -264,6 +264,53 @@ TEST(Penetration, RegionDepthsAgainstSampling) {
     EXPECT_GT(several, 15);
 }
 
+/// Sheets, soups, cracks, zero-area and doubled triangles, needles; mirrored, stretched, far away.
+TEST(Penetration, DirtyMeshes) {
+    Random random(3207);
+    const auto make = [&](int kind) {
+        Mesh torus = torus_mesh(1, 0.35, 14, 8);
+        switch (kind) {
+        case 0: // a crack
+            torus.triangles.pop_back();
+            return torus;
+        case 1:
+            return grid_mesh(8, 8, false, false, [](double u, double v) {
+                return Vec3{2 * u - 1, 2 * v - 1, 0.3 * std::sin(6 * u)};
+            });
+        case 2:
+            return soup_mesh(random, 60, 0.7, 0.3);
+        case 3:
+            return with_degenerates(random, torus, 10);
+        case 4: // each triangle twice
+            return joined(torus, torus);
+        default: // needles
+            return transformed(torus, scaling(1, 1, 1e-6));
+        }
+    };
+    int deep = 0, no_solid = 0;
+    for (int i = 0; i < 150; ++i) {
+        const Model a(make(i % 6)), b(make(random.integer(0, 5)));
+        const Vec3 far = random.chance(0.3) ? Vec3{1e5, -1e5, 1e5} : Vec3{};
+        const double stretch = random.chance(0.3) ? -1.5 : 1;
+        const Transform world_a = moved(random.pose(0.5), far),
+                        world_b = compose(moved(random.pose(0.5), far), scaling(stretch, 1, 1));
+        const Depth d = penetration(a, world_a, b, world_b);
+        const bool meet = collide(a, world_a, b, world_b).any();
+        ASSERT_TRUE(d.interpenetrate || !meet || d.regions.front().touching) << i;
+        ASSERT_FALSE(collide(a, world_a, b, moved(world_b, d.separation)).any()) << i;
+        ASSERT_TRUE(meet || d.interpenetrate || d.regions.empty());
+        ASSERT_LE(d.depth, length(d.separation) * (1 + 1e-9)) << i;
+        std::size_t pairs = 0;
+        for (const ContactRegion& r : d.regions)
+            pairs += r.pairs.size();
+        ASSERT_EQ(pairs, collide(a, world_a, b, world_b, {.mode = ContactMode::all}).pairs.size());
+        deep += d.interpenetrate ? 1 : 0;
+        no_solid += d.interpenetrate && !examine_solid(a.mesh()).solid ? 1 : 0;
+    }
+    EXPECT_GT(deep, 100);
+    EXPECT_GT(no_solid, 30);
+}
+
 /// Coarse solids on a grid: faces, edges and corners coincide in every way.
 TEST(Penetration, BoxesOnAGrid) {
     Random random(3206);
