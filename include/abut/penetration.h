@@ -28,7 +28,7 @@ struct ContactRegion {
     /// On the surfaces, world frame; `depth` apart with a solid, else (open shells, or depth 0) a
     /// common point.
     Vec3 point_a, point_b;
-    Vec3 direction;           ///< unit vector in which b moves to get out there; zero if depth is
+    Vec3 direction; ///< unit vector in which b moves to get out there; zero if depth is
 };
 
 struct Depth {

@@ -3,8 +3,8 @@
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
 #include "rigid/contacts.h"
-#include "rigid/meeting.h"
 #include "rigid/local_penetration.h"
+#include "rigid/meeting.h"
 
 #include <algorithm>
 #include <limits>

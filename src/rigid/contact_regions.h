@@ -53,7 +53,7 @@ private:
     /// Some consecutive pieces of one region's curve.
     struct Chunk {
         Box3 box;
-        std::uint32_t region, first, count;
+        std::uint32_t region = 0, first = 0, count = 0;
     };
     [[nodiscard]] double nearest_sq(const Chunk& chunk, const Vec3& point, double bound_sq) const;
 
