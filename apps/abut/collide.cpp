@@ -13,11 +13,20 @@ struct CollideArguments {
     TwoModelsOptions models;
     PosesOption poses;
     bool all = false;
+    bool segments = false;
     std::string fail_on;
 };
 
 CollideOptions options_of(const CollideArguments& arguments) {
-    return {.mode = arguments.all ? ContactMode::all : ContactMode::first};
+    return {.mode = arguments.all ? ContactMode::all : ContactMode::first,
+            .segments = arguments.segments};
+}
+
+nlohmann::ordered_json to_json(const Intersection& shared) {
+    nlohmann::ordered_json points = nlohmann::ordered_json::array();
+    for (std::uint32_t i = 0; i < shared.count; ++i)
+        points.push_back(command::to_json(shared.corners.at(i)));
+    return points;
 }
 
 void add_answer(const CollideArguments& arguments, const Contacts& contacts,
@@ -28,6 +37,12 @@ void add_answer(const CollideArguments& arguments, const Contacts& contacts,
     answer["contact"] = contacts.any();
     answer["all"] = arguments.all;
     answer["triangle_pairs"] = std::move(pairs);
+    if (arguments.segments) {
+        nlohmann::ordered_json segments = nlohmann::ordered_json::array();
+        for (const Intersection& shared : contacts.segments)
+            segments.push_back(to_json(shared));
+        answer["segments"] = std::move(segments);
+    }
     answer["status"] = to_string(contacts.status);
     answer["counters"] = describe(contacts.counters);
 }
@@ -97,6 +112,8 @@ Subcommand add_collide(CLI::App& root, CommonOptions& common) {
     add_two_models(*app, arguments->models);
     add_poses(*app, arguments->poses);
     app->add_flag("--all", arguments->all, "List every pair of triangles that meet");
+    app->add_flag("--segments", arguments->segments,
+                  "With --json: also the points that each pair shares");
     app->add_option("--fail-on", arguments->fail_on, "Exit with status 1 on 'contact'")
         ->check(CLI::IsMember({"contact"}));
     return {app, [arguments, &common] {

@@ -14,6 +14,7 @@ Subcommand add_nearest(CLI::App& root, CommonOptions& common);
 Subcommand add_ray(CLI::App& root, CommonOptions& common);
 Subcommand add_overlap(CLI::App& root, CommonOptions& common);
 Subcommand add_contains(CLI::App& root, CommonOptions& common);
+Subcommand add_penetration(CLI::App& root, CommonOptions& common);
 Subcommand add_clash(CLI::App& root, CommonOptions& common);
 Subcommand add_scene(CLI::App& root, CommonOptions& common);
 

@@ -7,6 +7,7 @@
 #include <abut/mesh.h>
 #include <abut/model.h>
 #include <abut/motion.h>
+#include <abut/penetration.h>
 #include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>

@@ -45,10 +45,15 @@ enum class ContactMode : std::uint8_t {
 struct CollideOptions {
     ContactMode mode = ContactMode::first;
     Workspace* workspace = nullptr; ///< for a first contact
+    bool segments = false;          ///< also where each pair meets
 };
 
 struct Contacts {
     std::vector<TrianglePair> pairs; ///< sorted
+    /// If asked for: what the triangles of pairs[i] share. A segment runs along n_a x n_b (n: the
+    /// normal that sees the triangle's corners counter-clockwise); of coplanar triangles it is the
+    /// common polygon, counter-clockwise about n_a. Corners are placed to 2^-36 of their edge.
+    std::vector<Intersection> segments;
     Status status = Status::exact;
     Counters counters;
     /// True if the surfaces share at least one point. Touching counts.

@@ -50,6 +50,12 @@ struct Transform {
     friend bool operator==(const Transform&, const Transform&) = default;
 };
 
+/// The points that two triangles share: corners of a convex polygon, in order.
+struct Intersection {
+    std::array<Vec3, 6> corners;
+    std::uint32_t count = 0; ///< 1: a point; 2: a segment; 3 to 6: coplanar triangles
+};
+
 /// What a result claims of its numbers.
 enum class Status : std::uint8_t {
     exact,      ///< the answer for the given positions, numbers to double rounding

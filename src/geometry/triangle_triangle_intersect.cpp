@@ -1,74 +1,15 @@
 #include "geometry/triangle_triangle_intersect.h"
 
+#include "geometry/triangle_planes.h"
 #include "math/predicates.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <tuple>
 
 namespace abut {
 
 namespace {
 
-using Signs = std::array<int, 3>;
-
-/// Sides of the plane of `plane` that the vertices of t lie on. One normal serves all three
-/// filters.
-Signs plane_sides(const Triangle& plane, const Triangle& t) {
-    const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0];
-    const Vec3 n = cross(u, v);
-    const auto largest = [](const Vec3& p) {
-        return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    };
-    const double edge = std::max(largest(u), largest(v));
-    Signs signs{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 w = t[i] - plane[0];
-        const double side = dot(n, w), reach = largest(w);
-        // The bound of triangle_block.cpp, Sides; underflow included.
-        const double bound = 32 * 0x1p-53 * edge * edge * reach + 0x1p-1000 * (reach + 1);
-        signs[i] = side > bound    ? 1
-                   : side < -bound ? -1
-                                   : orient3d(plane[0], plane[1], plane[2], t[i]);
-    }
-    return signs;
-}
-
-bool strictly_one_side(const Signs& s) {
-    return s[0] != 0 && s[0] == s[1] && s[1] == s[2];
-}
-bool all_zero(const Signs& s) {
-    return s[0] == 0 && s[1] == 0 && s[2] == 0;
-}
-bool straddles(const Signs& s) {
-    return (s[0] > 0 || s[1] > 0 || s[2] > 0) && (s[0] < 0 || s[1] < 0 || s[2] < 0);
-}
-
-/// A triangle cut by a plane: both edges from the apex meet the plane.
-struct Cut {
-    const Vec3 *apex, *left, *right; ///< in the triangle's own cyclic order
-    int side;                        ///< of the apex as seen from the base: +1 or -1
-};
-
-Cut cut(const Triangle& t, const Signs& s) {
-    // The apex is a vertex whose sign the others lack, they not being on opposite sides themselves.
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        if (s[i] != s[j] && s[i] != s[k] && s[j] * s[k] >= 0)
-            return {&t[i], &t[j], &t[k], s[i] != 0 ? s[i] : -(s[j] + s[k])};
-    }
-    return {}; // not reached: the signs are neither all equal nor all zero
-}
-
-/// A collinear triangle's end points: of points on one line, the least and the greatest.
-std::array<Vec3, 2> end_points(const Triangle& t) {
-    const auto less = [](const Vec3& p, const Vec3& q) {
-        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-    };
-    const auto [least, greatest] = std::minmax({t[0], t[1], t[2]}, less);
-    return {least, greatest};
-}
+using namespace triangle_planes;
 
 bool segments_intersect_2d(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, int axis) {
     const int pqr = orient2d(p, q, r, axis), pqs = orient2d(p, q, s, axis);
@@ -173,20 +114,12 @@ TriangleContact triangle_triangle_intersect(const Triangle& a, const Triangle& b
         return meet ? TriangleContact::touch : TriangleContact::none;
     }
 
-    // Both planes cut both triangles: compare their intervals on the common line, directed along
-    // n_a x n_b. There, the edge from a's apex comes before the edge from b's apex if
-    //     side_a side_b orient3d(apex_a, end_a, apex_b, end_b) > 0,
-    // and the cyclic order of each triangle tells which of its two edges comes first.
-    const Cut ca = cut(a, a_sides), cb = cut(b, b_sides);
-    const Vec3 &a_first = ca.side > 0 ? *ca.right : *ca.left,
-               &a_last = ca.side > 0 ? *ca.left : *ca.right;
-    const Vec3 &b_first = cb.side > 0 ? *cb.left : *cb.right,
-               &b_last = cb.side > 0 ? *cb.right : *cb.left;
-    const int sides = ca.side * cb.side;
-    const int a_before_b = sides * orient3d(*ca.apex, a_last, *cb.apex, b_first);
+    // Both planes cut both triangles: compare their intervals on the common line.
+    const LineIntervals line = line_intervals(a, a_sides, b, b_sides);
+    const int a_before_b = line.before(line.a_last, line.b_first);
     if (a_before_b > 0)
         return TriangleContact::none;
-    const int a_to_b = sides * orient3d(*ca.apex, a_first, *cb.apex, b_last);
+    const int a_to_b = line.before(line.a_first, line.b_last);
     if (a_to_b < 0)
         return TriangleContact::none;
     const bool cross = a_before_b < 0 && a_to_b > 0 && straddles(a_sides) && straddles(b_sides);

@@ -3,8 +3,8 @@
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_penetration.h"
 #include "rigid/contacts.h"
+#include "rigid/local_penetration.h"
 #include "rigid/meeting.h"
-#include "rigid/penetration.h"
 
 #include <algorithm>
 #include <limits>
@@ -79,7 +79,7 @@ Clash classify_meeting(const ClashPart& a, const ClashPart& b, std::vector<Conta
     if (meeting.parting != Vec3{})
         clash.direction = meeting.parting;
     if (meeting.interpenetrate) {
-        PenetrationOptions options;
+        DepthSearch options;
         options.threshold = touch;
         const LocalPenetration p = penetration_depth(solid_a, solid_b, contacts, options);
         // Not proven shallow enough: hard.

@@ -19,7 +19,7 @@ struct ClashPart {
 /// In          clearance, touch: metres, not negative.
 /// Accuracy    whether surfaces meet, whether they cross, containment: exact (see each); the
 ///             distance of parts that do not meet: to double rounding; of a `hard` clash: a depth
-///             that is reached, and the largest to 1 % or as far as 200 points a direction tell.
+///             that is reached, and the largest to 1 % or as far as 1,000 samples tell.
 std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, double clearance,
                                    double touch);
 

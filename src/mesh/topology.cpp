@@ -75,7 +75,7 @@ bool is_closed(const Topology& topology) {
     return true;
 }
 
-std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Topology& topology) {
+std::vector<std::uint32_t> vertex_components(const Mesh& mesh, const Topology& topology) {
     std::vector<std::uint32_t> parent(mesh.positions.size());
     std::iota(parent.begin(), parent.end(), 0U);
     const auto root = [&](std::uint32_t v) {
@@ -86,10 +86,18 @@ std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Top
     for (const auto& t : mesh.triangles)
         for (std::size_t k = 1; k < 3; ++k)
             parent[root(topology.vertex_of[t[k]])] = root(topology.vertex_of[t[0]]);
+    std::vector<std::uint32_t> result(mesh.positions.size());
+    for (std::uint32_t v = 0; v < result.size(); ++v)
+        result[v] = root(topology.vertex_of[v]);
+    return result;
+}
+
+std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Topology& topology) {
+    const std::vector<std::uint32_t> component = vertex_components(mesh, topology);
     std::vector<bool> seen(mesh.positions.size());
     std::vector<std::uint32_t> result;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const std::uint32_t r = root(topology.vertex_of[mesh.triangles[i][0]]);
+        const std::uint32_t r = component[mesh.triangles[i][0]];
         if (!seen[r])
             result.push_back(i);
         seen[r] = true;

@@ -36,6 +36,9 @@ Topology make_topology(const Mesh& mesh);
 /// Every edge is used by exactly two triangles, and there is an edge.
 bool is_closed(const Topology& topology);
 
+/// For each mesh vertex a number that vertices connected by triangles share.
+std::vector<std::uint32_t> vertex_components(const Mesh& mesh, const Topology& topology);
+
 /// One triangle of each set of triangles that merged vertices connect.
 std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Topology& topology);
 

@@ -1,3 +1,4 @@
+#include "geometry/triangle_triangle_segment.h"
 #include "math/predicates.h"
 #include "rigid/contacts.h"
 
@@ -54,6 +55,16 @@ std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Cou
     return std::move(finder.contacts);
 }
 
+Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles) {
+    const auto corners = [](const ModelData& model, const Transform& world, std::uint32_t i) {
+        const auto& t = model.mesh().triangles[i];
+        const auto& p = model.mesh().positions;
+        return Triangle{apply(world, p[t[0]]), apply(world, p[t[1]]), apply(world, p[t[2]])};
+    };
+    return triangle_triangle_segment(corners(pair.a(), pair.world_from_a(), triangles.a),
+                                     corners(pair.b(), pair.world_from_b(), triangles.b));
+}
+
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options) {
     Contacts result;
@@ -68,6 +79,9 @@ Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
     std::sort(result.pairs.begin(), result.pairs.end());
     if (workspace != nullptr && result.any())
         *workspace = {true, result.pairs[0]};
+    if (options.segments)
+        for (const TrianglePair& triangles : result.pairs)
+            result.segments.push_back(common_points(pair, triangles));
     return result;
 }
 

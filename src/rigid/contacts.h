@@ -19,4 +19,7 @@ struct Contact {
 /// asked.
 std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters);
 
+/// What the two triangles share.
+Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles);
+
 } // namespace abut

@@ -50,10 +50,8 @@ std::vector<Vec3> directions(const PlacedSolid& a, const PlacedSolid& b,
 }
 
 bool parted(const PlacedSolid& a, const PlacedSolid& b, const Vec3& shift) {
-    Transform moved = b.world();
-    moved.m[9] += shift.x, moved.m[10] += shift.y, moved.m[11] += shift.z;
     Counters unused;
-    const PlacedPair pair(a.public_model(), a.world(), b.public_model(), moved);
+    const PlacedPair pair(a.public_model(), a.world(), b.public_model(), b.world_moved(shift));
     return find_contacts(pair, ContactMode::first, unused).empty();
 }
 

@@ -73,17 +73,28 @@ bool PlacedSolid::winds_around(const Vec3& point) const {
     return std::abs(std::abs(winding_number(model().mesh(), local)) - 1) <= kWindingRounding;
 }
 
-PlacedSolid::Nearest PlacedSolid::nearest(const Vec3& point, double bound) const {
+PlacedSolid::Nearest PlacedSolid::nearest(const Vec3& point, const NearestSearch& search) const {
     Nearest best;
-    double best_sq = bound * bound;
-    for_each_near(point, best_sq, [&](std::uint32_t slot) {
+    double best_sq = search.bound * search.bound;
+    // What matters from now on; negative: near enough.
+    const auto bound_sq = [&](double distance) {
+        const double d = distance / (1 + search.slack);
+        return distance <= search.enough ? -1 : d * d;
+    };
+    double next_sq = bound_sq(search.bound);
+    const auto visit = [&](std::uint32_t slot) {
         const ClosestPoints c = point_triangle_distance(point, world_slot(slot));
         if (c.distance_sq < best_sq) {
             best_sq = c.distance_sq;
             best = {std::sqrt(c.distance_sq), c.b, slot};
+            next_sq = bound_sq(best.distance);
         }
-        return best_sq;
-    });
+        return next_sq;
+    };
+    if (search.seed != nullptr)
+        visit(*search.seed);
+    if (next_sq >= 0)
+        for_each_near(point, next_sq, visit);
     return best;
 }
 

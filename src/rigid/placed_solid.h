@@ -15,6 +15,12 @@ public:
     /// Errors      as PlacedModel.
     PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model);
 
+    /// The transform with a translation added.
+    [[nodiscard]] Transform world_moved(const Vec3& shift) const {
+        Transform moved = world();
+        moved.m[9] += shift.x, moved.m[10] += shift.y, moved.m[11] += shift.z;
+        return moved;
+    }
     [[nodiscard]] const Solid& solid() const { return solid_; }
     /// Whether world() turns left hands into right ones.
     [[nodiscard]] bool mirrored() const { return mirrored_; }
@@ -40,8 +46,17 @@ public:
         Vec3 point;
         std::uint32_t slot = 0;
     };
+    struct NearestSearch {
+        double bound = std::numeric_limits<double>::infinity(); ///< nothing farther matters
+        double enough = 0;                   ///< a point no farther than this ends the search
+        double slack = 0;                    ///< the distance may be this much too large, relative
+        const std::uint32_t* seed = nullptr; ///< a slot that is likely near
+    };
     /// The surface's nearest point, if it is nearer than the bound.
-    [[nodiscard]] Nearest nearest(const Vec3& point, double bound) const;
+    [[nodiscard]] Nearest nearest(const Vec3& point, const NearestSearch& search) const;
+    [[nodiscard]] Nearest nearest(const Vec3& point, double bound) const {
+        return nearest(point, NearestSearch{.bound = bound});
+    }
 
 private:
     /// Parity of the crossings; false in `clear` if the ray meets an edge or a vertex and the count

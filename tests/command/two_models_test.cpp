@@ -57,6 +57,58 @@ TEST_F(TwoModelsTest, CollideSaysNoAndYes) {
     EXPECT_GT(all.json()["triangle_pairs"].size(), 1U);
 }
 
+TEST_F(TwoModelsTest, CollideListsWhereEachPairMeets) {
+    const Outcome outcome =
+        ask("collide", {"--pose-b", "0.5,0.21,0.34,1,0,0,0", "--json", "--all", "--segments"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto answer = outcome.json();
+    ASSERT_EQ(answer["segments"].size(), answer["triangle_pairs"].size());
+    for (const auto& segment : answer["segments"]) {
+        ASSERT_EQ(segment.size(), 2U);
+        EXPECT_EQ(segment[0].size(), 3U);
+    }
+    EXPECT_FALSE(ask("collide", {"--json"}).json().contains("segments"));
+}
+
+TEST_F(TwoModelsTest, PenetrationSaysHowDeepAndWhichWayIsOut) {
+    const Outcome outcome = ask("penetration", {"--pose-b", "0.9,0.2,0.3,1,0,0,0", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto answer = outcome.json();
+    EXPECT_EQ(answer["interpenetrate"], true);
+    EXPECT_NEAR(answer["depth"], 0.1, 1e-3);
+    EXPECT_NEAR(answer["separation"][0], 0.1, 1e-3);
+    ASSERT_EQ(answer["regions"].size(), 1U);
+    EXPECT_NEAR(answer["regions"][0]["area"], std::hypot(0.56, 0.1 * 0.7, 0.1 * 0.8), 1e-12);
+    for (const char* key : {"a", "b", "depth_at_most", "direction", "point_a", "point_b", "status",
+                            "counters", "seconds"})
+        EXPECT_TRUE(answer.contains(key)) << key;
+    for (const char* key : {"touching", "normal", "depth", "depth_at_most", "direction", "point_a",
+                            "point_b", "triangle_pairs"})
+        EXPECT_TRUE(answer["regions"][0].contains(key)) << key;
+
+    // Where it says, the command finds no contact.
+    const auto& s = answer["separation"];
+    const std::string pose = std::to_string(0.9 + s[0].get<double>()) + "," +
+                             std::to_string(0.2 + s[1].get<double>()) + "," +
+                             std::to_string(0.3 + s[2].get<double>()) + ",1,0,0,0";
+    EXPECT_EQ(ask("collide", {"--pose-b", pose}).out, "no contact\n");
+}
+
+TEST_F(TwoModelsTest, PenetrationOfModelsApartAndTouching) {
+    const Outcome apart = ask("penetration", {"--pose-b", "9,0,0,1,0,0,0", "--json"});
+    ASSERT_EQ(apart.status, 0) << apart.err;
+    EXPECT_EQ(apart.json()["interpenetrate"], false);
+    EXPECT_TRUE(apart.json()["regions"].empty());
+    EXPECT_EQ(ask("penetration", {"--pose-b", "9,0,0,1,0,0,0"}).out, "apart\n");
+    EXPECT_EQ(ask("penetration", {"--pose-b", "1,0,0,1,0,0,0"}).out.rfind("touching\n", 0), 0U);
+    const std::vector<std::string> fail{"--fail-on", "penetration", "--quiet", "--no-separation"};
+    EXPECT_EQ(ask("penetration", fail).status, 1);
+    auto touching = fail;
+    touching.insert(touching.end(), {"--pose-b", "1,0,0,1,0,0,0"});
+    EXPECT_EQ(ask("penetration", touching).status, 0);
+    EXPECT_EQ(ask("penetration", {"--accuracy", "-1"}).status, 2);
+}
+
 TEST_F(TwoModelsTest, WithinIncludesItsBound) {
     for (const auto& [tolerance, near] : {std::pair{"0.499", false}, {"0.5", true}, {"2", true}}) {
         const Outcome outcome =

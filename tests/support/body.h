@@ -2,7 +2,7 @@
 
 #include "rigid/contacts.h"
 #include "rigid/meeting.h"
-#include "rigid/penetration.h"
+#include "rigid/local_penetration.h"
 #include "rigid/placed_solid.h"
 #include "tests/support/shapes.h"
 
@@ -28,7 +28,7 @@ struct Outcome {
     LocalPenetration depth{}; ///< asked for only if so
 };
 
-inline Outcome meeting(const Body& a, const Body& b, const PenetrationOptions& options = {}) {
+inline Outcome meeting(const Body& a, const Body& b, const DepthSearch& options = {}) {
     Outcome m;
     Counters counters;
     m.contacts = find_contacts(PlacedPair(a.model, a.placed.world(), b.model, b.placed.world()),

@@ -193,7 +193,7 @@ TEST(PenetrationDepth, SphereInSphere) {
 TEST(PenetrationDepth, TheThresholdIsDecided) {
     const Body a(box_mesh({0, 0, 0}, {1, 1, 1})), b(box_mesh({0.99, 0.1, 0.1}, {2, 0.9, 0.9}));
     for (const double threshold : {0.005, 0.0099, 0.0101, 0.02}) {
-        PenetrationOptions options;
+        DepthSearch options;
         options.threshold = threshold;
         const Outcome m = meeting(a, b, options);
         ASSERT_TRUE(m.go_in);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rigid/contacts.h"
+#include "rigid/deepest_point.h"
 #include "rigid/placed_solid.h"
 
 #include <span>
@@ -13,16 +14,7 @@ struct LocalPenetration {
     double at_most = 0; ///< no deeper than this, proven
     Vec3 point_a, point_b;
     Vec3 direction; ///< unit vector along which b moves to get out at point_a; zero if the depth is
-};
-
-struct PenetrationOptions {
-    /// The comparison that matters: the search goes on until the depth is known to be above it or
-    /// not.
-    double threshold = 0;
-    /// Relative width that [depth, at_most] should have.
-    double relative_accuracy = 0.01;
-    /// Evaluated points, at most: for the accuracy, and for the comparison.
-    int accuracy_budget = 200, threshold_budget = 20000;
+    TrianglePair triangles{}; ///< that hold the points
 };
 
 /// Local penetration depth.
@@ -31,13 +23,17 @@ struct PenetrationOptions {
 /// solid's surface (of two solids, the larger of both ways). Between open surfaces: the largest,
 /// over the crossing triangle pairs, of the shortest translation that separates the two triangles.
 ///
+/// In          all contacts, or those of a region and the part of the surfaces that is its own.
 /// Accuracy    with a solid, `depth` is reached at point_a and point_b to rounding, and
 ///             [depth, at_most] encloses the true value; else it is the definition's value at a
 ///             common point.
-/// Source      branch and bound; the bound over a piece is the largest distance of its corners to
-///             one triangle of the solid (distance to a convex set is convex).
+LocalPenetration local_penetration(const PlacedSolid& a, const PlacedSolid& b,
+                                   std::span<const Contact> contacts, const DepthSearch& options,
+                                   const SurfacePart& part_a = {}, const SurfacePart& part_b = {});
+
+/// The same for whole models; where the surfaces give no depth although the models are locked into
+/// each other (coplanar faces only), the shortest translation found that parts them.
 LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
-                                   std::span<const Contact> contacts,
-                                   const PenetrationOptions& options);
+                                   std::span<const Contact> contacts, const DepthSearch& options);
 
 } // namespace abut

@@ -1,0 +1,68 @@
+#include "rigid/signed_gap.h"
+
+#include "geometry/triangle_triangle_distance.h"
+#include "rigid/containment.h"
+#include "rigid/local_penetration.h"
+#include "rigid/meeting.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace abut {
+
+namespace {
+
+Gap common_point(const PlacedSolid& a, const PlacedSolid& b, const TrianglePair& pair) {
+    const ClosestPoints common =
+        triangle_triangle_distance(a.world_triangle(pair.a), b.world_triangle(pair.b));
+    Gap gap;
+    gap.distance = 0;
+    gap.point_a = common.a, gap.point_b = common.b;
+    gap.triangle_a = pair.a, gap.triangle_b = pair.b;
+    return gap;
+}
+
+Gap minus_depth(const LocalPenetration& p) {
+    Gap gap;
+    gap.distance = -p.depth;
+    gap.point_a = p.point_a, gap.point_b = p.point_b;
+    gap.triangle_a = p.triangles.a, gap.triangle_b = p.triangles.b;
+    gap.status = p.at_most > p.depth ? Status::bound_only : Status::exact;
+    return gap;
+}
+
+} // namespace
+
+Gap signed_gap(const Model& a, const Solid& solid_a, const Transform& world_from_a, const Model& b,
+               const Solid& solid_b, const Transform& world_from_b, double relative_accuracy) {
+    constexpr double kNoBound = std::numeric_limits<double>::infinity();
+    const PlacedPair pair(a, world_from_a, b, world_from_b);
+    const bool flattened =
+        pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b;
+    if (flattened ||
+        (!solid_a.solid && !solid_b.solid && !collide(a, world_from_a, b, world_from_b).any()))
+        return distance(pair, kNoBound);
+
+    Counters counters;
+    std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
+    std::sort(contacts.begin(), contacts.end(),
+              [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
+    const PlacedSolid placed_a(a, solid_a, world_from_a), placed_b(b, solid_b, world_from_b);
+    const bool contained = contacts.empty() && (any_component_inside(placed_a, placed_b) ||
+                                                any_component_inside(placed_b, placed_a));
+    if (contacts.empty() && !contained)
+        return distance(pair, kNoBound);
+
+    Gap gap;
+    LocalPenetration p;
+    if (contained || examine_meeting(placed_a, placed_b, contacts).interpenetrate) {
+        DepthSearch search;
+        search.relative_accuracy = relative_accuracy;
+        p = local_penetration(placed_a, placed_b, contacts, search);
+    }
+    gap = p.depth > 0 ? minus_depth(p) : common_point(placed_a, placed_b, contacts.front().pair);
+    gap.counters = counters;
+    return gap;
+}
+
+} // namespace abut
