@@ -72,20 +72,15 @@ struct Contacts {
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options = {});
 
-/// The part of a triangle that a point lies on.
-enum class FeatureKind : std::uint8_t { vertex, edge, face };
-struct Feature {
-    FeatureKind kind = FeatureKind::face;
-    std::uint8_t index = 0; ///< vertex k; or the edge from vertex k to the next; 0 for the face
-    friend bool operator==(const Feature&, const Feature&) = default;
-};
-
 /// A pair of closest points.
 struct Gap {
     double distance = std::numeric_limits<double>::infinity(); ///< 0 if the surfaces meet
     double at_least = 0; ///< no two points are closer: proven; the distance itself if that is exact
     Vec3 point_a, point_b; ///< on the surfaces, world frame
     std::uint32_t triangle_a = 0, triangle_b = 0;
+    /// What the points lie on: a triangle's vertex i, its edge from vertex i to the next, its face.
+    Feature feature_a = Feature::face, feature_b = Feature::face;
+    std::uint8_t index_a = 0, index_b = 0; ///< that i
     /// converged: within the errors allowed; bound_only: `distance` is the `upper_bound` given, and
     /// no pair is closer.
     Status status = Status::exact;

@@ -22,9 +22,6 @@
 /// segments or points that they are.
 namespace abut {
 
-/// The part of a triangle that a point of it belongs to.
-enum class Feature : std::uint8_t { vertex, edge, face };
-
 // ------------------------------------------------------------------------------ nearest point ---
 
 struct NearestOptions {

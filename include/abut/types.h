@@ -56,6 +56,9 @@ struct Intersection {
     std::uint32_t count = 0; ///< 1: a point; 2: a segment; 3 to 6: coplanar triangles
 };
 
+/// The part of a triangle that a point of it belongs to.
+enum class Feature : std::uint8_t { vertex, edge, face };
+
 /// What a result claims of its numbers.
 enum class Status : std::uint8_t {
     exact,      ///< the answer for the given positions, numbers to double rounding

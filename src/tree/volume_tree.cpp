@@ -98,7 +98,7 @@ std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tre
     case Volume::aabb:
         return nullptr;
     case Volume::sphere:
-        return build<Sphere>(kind, tree, triangles, margin);
+        return build<BoundingSphere>(kind, tree, triangles, margin);
     case Volume::kdop14:
         return build<Kdop14>(kind, tree, triangles, margin);
     case Volume::kdop18:

@@ -15,7 +15,7 @@ namespace abut {
 /// The volumes of one kind over one tree. Immutable once built.
 class VolumeTree {
 public:
-    using Layer = std::variant<VolumeLayer<Sphere>, VolumeLayer<Pss>, VolumeLayer<Lss>,
+    using Layer = std::variant<VolumeLayer<BoundingSphere>, VolumeLayer<Pss>, VolumeLayer<Lss>,
                                VolumeLayer<Rss>, VolumeLayer<Obb>, VolumeLayer<Kdop14>,
                                VolumeLayer<Kdop18>, VolumeLayer<Kdop26>>;
 

@@ -20,7 +20,7 @@ struct OneToMany {
 
 /// Run-time dispatch names functions, not templates: one takes all kinds.
 using AnyOneToMany =
-    std::variant<OneToMany<Sphere>, OneToMany<Pss>, OneToMany<Lss>, OneToMany<Rss>, OneToMany<Obb>,
+    std::variant<OneToMany<BoundingSphere>, OneToMany<Pss>, OneToMany<Lss>, OneToMany<Rss>, OneToMany<Obb>,
                  OneToMany<Kdop14>, OneToMany<Kdop18>, OneToMany<Kdop26>>;
 
 } // namespace abut
@@ -87,7 +87,7 @@ bool may_overlap(const V& a, const V& b, const typename V::Map& map) {
     template float distance_lower_bound(const V&, const V&, const V::Map&);                        \
     template bool may_overlap(const V&, const V&, const V::Map&)
 
-ABUT_INSTANTIATE_BOUNDS(Sphere);
+ABUT_INSTANTIATE_BOUNDS(BoundingSphere);
 ABUT_INSTANTIATE_BOUNDS(Pss);
 ABUT_INSTANTIATE_BOUNDS(Lss);
 ABUT_INSTANTIATE_BOUNDS(Rss);

@@ -92,7 +92,7 @@ std::vector<Vec3> extreme_vertices(std::span<const Triangle> triangles) {
 
 } // namespace
 
-Sphere Sphere::fit(std::span<const Triangle> triangles, double margin) {
+BoundingSphere BoundingSphere::fit(std::span<const Triangle> triangles, double margin) {
     Ball ball = smallest_ball(extreme_vertices(triangles), {}).ball();
     for (const Triangle& t : triangles)
         for (const Vec3& p : t) {
@@ -104,7 +104,7 @@ Sphere Sphere::fit(std::span<const Triangle> triangles, double margin) {
             }
         }
     // Whatever was rounded until here, the distance from the centre as it is stored counts.
-    Sphere sphere;
+    BoundingSphere sphere;
     sphere.centre = to_float(ball.centre);
     double radius = 0;
     for (const Triangle& t : triangles)
@@ -114,13 +114,13 @@ Sphere Sphere::fit(std::span<const Triangle> triangles, double margin) {
     return sphere;
 }
 
-Sphere Sphere::merge(const Sphere& a, const Sphere& b) {
+BoundingSphere BoundingSphere::merge(const BoundingSphere& a, const BoundingSphere& b) {
     const Vec3 ca = to_double(a.centre), cb = to_double(b.centre);
     const double apart = length(cb - ca);
     // Ends of both balls on the line through the centres, from a's.
     const double low = std::min(-double{a.radius}, apart - b.radius),
                  high = std::max(double{a.radius}, apart + b.radius);
-    Sphere sphere;
+    BoundingSphere sphere;
     sphere.centre = to_float(apart > 0 ? ca + (0.5 * (low + high) / apart) * (cb - ca) : ca);
     const Vec3 c = to_double(sphere.centre);
     sphere.radius = round_up(std::max(length(ca - c) + a.radius, length(cb - c) + b.radius) *

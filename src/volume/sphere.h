@@ -5,18 +5,18 @@
 namespace abut {
 
 /// A ball: the same volume as a point swept sphere, fitted as small as can be.
-struct Sphere : Pss {
-    Sphere() = default;
-    explicit Sphere(const Pss& ball) : Pss(ball) {}
+struct BoundingSphere : Pss {
+    BoundingSphere() = default;
+    explicit BoundingSphere(const Pss& ball) : Pss(ball) {}
 
     /// In          at least one triangle, finite; each coordinate may be off by `margin`.
     /// Accuracy    encloses the triangles; the radius is within a few percent of the least.
     /// Source      the exact ball [Welzl 1991] of the vertices that are extreme along 13 directions
     ///             [Larsson 2008], then grown as [Ritter 1990].
-    static Sphere fit(std::span<const Triangle> triangles, double margin = 0);
+    static BoundingSphere fit(std::span<const Triangle> triangles, double margin = 0);
 
     /// The smallest ball around both, to rounding.
-    static Sphere merge(const Sphere& a, const Sphere& b);
+    static BoundingSphere merge(const BoundingSphere& a, const BoundingSphere& b);
 };
 
 } // namespace abut

@@ -169,7 +169,7 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<SweptSphere<n>>& bloc
     return separation_of_cores(d, block.row, lane, one);
 }
 template <class D>
-HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Sphere>& block, std::size_t lane,
+HWY_INLINE Separation<D> separation(D d, const VolumeBlock<BoundingSphere>& block, std::size_t lane,
                                     const SweptSphereImage<0>& one) {
     return separation_of_cores(d, block.row, lane, one);
 }

@@ -15,7 +15,7 @@ namespace {
 template <typename V>
 class VolumeBound : public testing::Test {};
 
-using Volumes = testing::Types<Sphere, Pss, Lss, Rss, Obb, Kdop14, Kdop18, Kdop26>;
+using Volumes = testing::Types<BoundingSphere, Pss, Lss, Rss, Obb, Kdop14, Kdop18, Kdop26>;
 TYPED_TEST_SUITE(VolumeBound, Volumes);
 
 std::vector<Triangle> moved(std::vector<Triangle> triangles, const Transform& t) {

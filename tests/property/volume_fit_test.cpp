@@ -10,7 +10,7 @@ namespace {
 template <typename V>
 class VolumeFit : public testing::Test {};
 
-using Volumes = testing::Types<Sphere, Pss, Lss, Rss, Obb, Kdop14, Kdop18, Kdop26>;
+using Volumes = testing::Types<BoundingSphere, Pss, Lss, Rss, Obb, Kdop14, Kdop18, Kdop26>;
 TYPED_TEST_SUITE(VolumeFit, Volumes);
 
 template <typename V>
@@ -126,7 +126,7 @@ void expect_merge_encloses_volumes(double radius_of(const V&)) {
 }
 TEST(VolumeMerge, EnclosesTheVolumesThemselves) {
     expect_merge_encloses_volumes<Obb>([](const Obb&) { return 0.0; });
-    expect_merge_encloses_volumes<Sphere>([](const Sphere& s) { return double{s.radius}; });
+    expect_merge_encloses_volumes<BoundingSphere>([](const BoundingSphere& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Pss>([](const Pss& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Lss>([](const Lss& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Rss>([](const Rss& s) { return double{s.radius}; });
@@ -190,15 +190,15 @@ TEST(VolumeFit, SpheresAreNearlySmallest) {
                 p = centre + radius * random.direction();
             triangles.push_back(t);
         }
-        worst = std::max(worst, Sphere::fit(triangles).radius / radius);
+        worst = std::max(worst, BoundingSphere::fit(triangles).radius / radius);
     }
     EXPECT_LT(worst, 1.02);
     // Three vertices of an obtuse triangle: the longest side is the diameter.
     const std::vector<Triangle> obtuse{{Vec3{-1, 0, 0}, Vec3{1, 0, 0}, Vec3{0.1, 0.2, 0}}};
-    EXPECT_NEAR(Sphere::fit(obtuse).radius, 1, 1e-6);
+    EXPECT_NEAR(BoundingSphere::fit(obtuse).radius, 1, 1e-6);
     const std::vector<Triangle> even{
         {Vec3{1, 0, 0}, Vec3{-0.5, std::sqrt(0.75), 0}, Vec3{-0.5, -std::sqrt(0.75), 0}}};
-    EXPECT_NEAR(Sphere::fit(even).radius, 1, 1e-6);
+    EXPECT_NEAR(BoundingSphere::fit(even).radius, 1, 1e-6);
 }
 
 TEST(VolumeFit, FlatAndThinSetsHaveThinVolumes) {

@@ -34,7 +34,7 @@ TEST(Volumes, OfABox) {
     EXPECT_NEAR(obb.half[2], 1, kFloatRounding);
     EXPECT_NEAR(std::abs(obb.axis[0][0]), 1, kFloatRounding);
 
-    EXPECT_NEAR(Sphere::fit(box).radius, std::sqrt(21), 1e-5);
+    EXPECT_NEAR(BoundingSphere::fit(box).radius, std::sqrt(21), 1e-5);
     EXPECT_NEAR(Pss::fit(box).radius, std::sqrt(21), 1e-5);
 
     const Rss rss = Rss::fit(box);
@@ -82,7 +82,7 @@ TEST(Volumes, GapsAlongAnAxisAndAcrossACorner) {
     const Kdop18 kdop = Kdop18::fit(box);
     EXPECT_NEAR(gap(kdop, shift(5, 6, 2)), 5, 1e-4);
     EXPECT_NEAR(gap(kdop, shift(5, 5, 0)), 3 * std::sqrt(2), 1e-4);
-    const Sphere sphere = Sphere::fit(box);
+    const BoundingSphere sphere = BoundingSphere::fit(box);
     EXPECT_NEAR(gap(sphere, shift(5, 0, 0)), 5 - 2 * std::sqrt(3), 1e-4);
     EXPECT_EQ(gap(sphere, shift(3, 0, 0)), 0);
 
