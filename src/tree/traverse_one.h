@@ -101,7 +101,7 @@ inline Passage pass(const Node& node, const TreeSegment& in_tree) {
                               node.frame.vector_from_tree(in_tree.half), in_tree.margin};
     // Rounding of a quotient of about 1, times a few; what larger ones lose changes nothing.
     constexpr float kRounding = 0x1p-20F;
-    Passage passage;
+    Passage passage{};
     passage.enter.fill(-1);
     passage.leave.fill(1);
     for (std::size_t k = 0; k < 3; ++k) {
