@@ -93,6 +93,10 @@ struct DistanceOptions {
     double upper_bound = std::numeric_limits<double>::infinity();
     /// What the distance may exceed the true one by: this length, or this share of the result.
     double absolute_error = 0, relative_error = 0;
+    /// Negative where the models go into each other or one lies in the other: minus the depth, as
+    /// abut/penetration.h defines it, reached at the points (bound_only: it may be larger). The
+    /// errors allowed and the bound are for models apart.
+    bool signed_distance = false;
     Workspace* workspace = nullptr;
 };
 

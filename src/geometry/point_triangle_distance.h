@@ -1,5 +1,7 @@
 #pragma once
 
+#include <abut/types.h>
+
 #include "math/vector.h"
 
 #include <array>
@@ -7,10 +9,17 @@
 
 namespace abut {
 
-/// Two points and their squared distance.
+/// What a point lies on: vertex i of a triangle, its edge from vertex i to the next, or its face.
+struct TriangleFeature {
+    Feature kind = Feature::face;
+    std::uint8_t index = 0;
+};
+
+/// Two points and their squared distance; of triangles, also what the points lie on.
 struct ClosestPoints {
     double distance_sq = 0;
     Vec3 a, b;
+    TriangleFeature on_a{}, on_b{};
 };
 
 /// Foot of a point on the plane of a triangle, if it lies within the triangle.

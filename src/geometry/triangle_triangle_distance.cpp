@@ -18,7 +18,44 @@ void keep_nearer(ClosestPoints& best, const ClosestPoints& c) {
 }
 
 ClosestPoints swapped(const ClosestPoints& c) {
-    return {c.distance_sq, c.b, c.a};
+    return {c.distance_sq, c.b, c.a, c.on_b, c.on_a};
+}
+
+TriangleFeature vertex(std::size_t i) {
+    return {Feature::vertex, static_cast<std::uint8_t>(i)};
+}
+TriangleFeature edge(std::size_t i) {
+    return {Feature::edge, static_cast<std::uint8_t>(i)};
+}
+/// At parameter s of the edge from vertex i.
+TriangleFeature on_edge(std::size_t i, double s) {
+    return s <= 0 ? vertex(i) : s >= 1 ? vertex((i + 1) % 3) : edge(i);
+}
+
+/// Closest points of two segments by their parameters.
+struct SegmentPoints {
+    double s = 0, t = 0, distance_sq = 0;
+};
+
+SegmentPoints closest_parameters(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
+    const Vec3 u = p1 - p0, v = q1 - q0, r = q0 - p0;
+    const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
+    const Vec3 n = cross(u, v);
+    const double nn = length_sq(n);
+    // Lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s for that t.
+    double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
+    const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
+    s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;
+    return {s, t, length_sq(r - s * u + t * v)};
+}
+
+/// Of edge i of a and j of b.
+ClosestPoints edge_edge_distance(const Triangle& a, std::size_t i, const Triangle& b,
+                                 std::size_t j) {
+    const Vec3 &p0 = a[i], &p1 = a[(i + 1) % 3], &q0 = b[j], &q1 = b[(j + 1) % 3];
+    const SegmentPoints c = closest_parameters(p0, p1, q0, q1);
+    return {c.distance_sq, p0 + c.s * (p1 - p0), q0 + c.t * (q1 - q0), on_edge(i, c.s),
+            on_edge(j, c.t)};
 }
 
 /// Where the segment p q pierces t, if its ends lie on both sides.
@@ -37,36 +74,31 @@ bool pierce(const Vec3& p, const Vec3& q, const Triangle& t, Vec3& point) {
 
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1) {
-    const Vec3 u = p1 - p0, v = q1 - q0, r = q0 - p0;
-    const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
-    const Vec3 n = cross(u, v);
-    const double nn = length_sq(n);
-    // Lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s for that t.
-    double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
-    const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
-    s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;
-    const Vec3 gap = r - s * u + t * v;
-    return {length_sq(gap), p0 + s * u, q0 + t * v};
+    const SegmentPoints c = closest_parameters(p0, p1, q0, q1);
+    return {c.distance_sq, p0 + c.s * (p1 - p0), q0 + c.t * (q1 - q0)};
 }
 
 ClosestPoints triangle_triangle_distance(const Triangle& a, const Triangle& b) {
-    ClosestPoints best = segment_segment_distance(a[0], a[1], b[0], b[1]);
+    ClosestPoints best = edge_edge_distance(a, 0, b, 0);
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
-            keep_nearer(best, segment_segment_distance(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
+            keep_nearer(best, edge_edge_distance(a, i, b, j));
     for (std::size_t i = 0; i < 3; ++i) {
         if (const TriangleFoot foot = foot_within(a[i], b); foot.within)
-            keep_nearer(best, {length_sq(foot.gap), a[i], foot.point});
+            keep_nearer(best, {length_sq(foot.gap), a[i], foot.point, vertex(i), {}});
         if (const TriangleFoot foot = foot_within(b[i], a); foot.within)
-            keep_nearer(best, swapped({length_sq(foot.gap), b[i], foot.point}));
+            keep_nearer(best, swapped({length_sq(foot.gap), b[i], foot.point, vertex(i), {}}));
     }
     // Rounded signs alone would let needles cross that are apart.
     if (best.distance_sq == 0 || triangle_triangle_intersect(a, b) == TriangleContact::none)
         return best;
     Vec3 point;
-    for (std::size_t i = 0; i < 3; ++i)
-        if (pierce(a[i], a[(i + 1) % 3], b, point) || pierce(b[i], b[(i + 1) % 3], a, point))
-            return {0, point, point};
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (pierce(a[i], a[(i + 1) % 3], b, point))
+            return {0, point, point, edge(i), {}};
+        if (pierce(b[i], b[(i + 1) % 3], a, point))
+            return {0, point, point, {}, edge(i)};
+    }
     return best;
 }
 

@@ -6,6 +6,7 @@
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
 #include "rigid/placed_pair.h"
+#include "rigid/signed_gap.h"
 
 #include <algorithm>
 #include <array>
@@ -111,6 +112,8 @@ public:
                      : std::max(std::sqrt(points.distance_sq), std::numeric_limits<double>::min());
         gap.point_a = points.a, gap.point_b = points.b;
         gap.triangle_a = best_.indices.a, gap.triangle_b = best_.indices.b;
+        gap.feature_a = points.on_a.kind, gap.index_a = points.on_a.index;
+        gap.feature_b = points.on_b.kind, gap.index_b = points.on_b.index;
     }
 
 private:
@@ -187,6 +190,8 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
     require_bound(options.upper_bound, "distance bound");
     require_bound(options.absolute_error, "absolute error");
     require_bound(options.relative_error, "relative error");
+    if (options.signed_distance)
+        return signed_gap(a, world_from_a, b, world_from_b, options);
     return distance(PlacedPair(a, world_from_a, b, world_from_b), options);
 }
 

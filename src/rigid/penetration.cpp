@@ -162,8 +162,8 @@ Depth penetration(const Model& a, const Transform& world_from_a, const Model& b,
         return penetration(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options);
     Counters counters;
     std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
-    const Solid solid_a = examine_solid(a.mesh()), solid_b = examine_solid(b.mesh());
-    const PlacedSolid placed_a(a, solid_a, world_from_a), placed_b(b, solid_b, world_from_b);
+    const PlacedSolid placed_a(a, a.data().solid(), world_from_a),
+        placed_b(b, b.data().solid(), world_from_b);
     DepthSearch search;
     search.relative_accuracy = options.relative_accuracy;
     const bool meet = !contacts.empty();

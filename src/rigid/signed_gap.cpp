@@ -6,7 +6,6 @@
 #include "rigid/meeting.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace abut {
 
@@ -19,12 +18,15 @@ Gap common_point(const PlacedSolid& a, const PlacedSolid& b, const TrianglePair&
     gap.distance = 0;
     gap.point_a = common.a, gap.point_b = common.b;
     gap.triangle_a = pair.a, gap.triangle_b = pair.b;
+    gap.feature_a = common.on_a.kind, gap.index_a = common.on_a.index;
+    gap.feature_b = common.on_b.kind, gap.index_b = common.on_b.index;
     return gap;
 }
 
 Gap minus_depth(const LocalPenetration& p) {
     Gap gap;
     gap.distance = -p.depth;
+    gap.at_least = -p.at_most;
     gap.point_a = p.point_a, gap.point_b = p.point_b;
     gap.triangle_a = p.triangles.a, gap.triangle_b = p.triangles.b;
     gap.status = p.at_most > p.depth ? Status::bound_only : Status::exact;
@@ -33,25 +35,25 @@ Gap minus_depth(const LocalPenetration& p) {
 
 } // namespace
 
-Gap signed_gap(const Model& a, const Solid& solid_a, const Transform& world_from_a, const Model& b,
-               const Solid& solid_b, const Transform& world_from_b, double relative_accuracy) {
-    constexpr double kNoBound = std::numeric_limits<double>::infinity();
+Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
+               const Transform& world_from_b, const DistanceOptions& apart,
+               double relative_accuracy) {
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     const bool flattened =
         pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b;
-    if (flattened ||
-        (!solid_a.solid && !solid_b.solid && !collide(a, world_from_a, b, world_from_b).any()))
-        return distance(pair, kNoBound);
+    if (flattened)
+        return distance(pair, apart);
 
     Counters counters;
     std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
-    const PlacedSolid placed_a(a, solid_a, world_from_a), placed_b(b, solid_b, world_from_b);
+    const PlacedSolid placed_a(a, a.data().solid(), world_from_a),
+        placed_b(b, b.data().solid(), world_from_b);
     const bool contained = contacts.empty() && (any_component_inside(placed_a, placed_b) ||
                                                 any_component_inside(placed_b, placed_a));
     if (contacts.empty() && !contained)
-        return distance(pair, kNoBound);
+        return distance(pair, apart);
 
     Gap gap;
     LocalPenetration p;

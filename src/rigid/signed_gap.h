@@ -3,8 +3,6 @@
 #include <abut/model.h>
 #include <abut/rigid.h>
 
-#include "rigid/solid.h"
-
 namespace abut {
 
 /// Distance of two models, negative where they go into each other: a signed distance for solids.
@@ -13,7 +11,7 @@ namespace abut {
 /// either surface inside the other, a solid, the largest distance to its surface; so also where one
 /// lies inside the other without contact. The points and triangles are those that realise it.
 ///
-/// In/out      two models and what they are; returns the gap, `distance` negative inside.
+/// In/out      `apart`: for models that are; returns the gap, `distance` negative inside.
 /// Degenerate  open shells contain nothing: where they cross, minus the depth of triangles as
 ///             Depth::depth defines it, the points being one common point. Solids that coincide or
 ///             overlap in faces only: 0, like touching. Flattened models contain nothing either.
@@ -22,8 +20,8 @@ namespace abut {
 ///             search's budget ends.
 /// Cost        a distance query where the models are apart, plus one point-in-solid test each way;
 ///             else that of local_penetration.
-Gap signed_gap(const Model& a, const Solid& solid_a, const Transform& world_from_a, const Model& b,
-               const Solid& solid_b, const Transform& world_from_b,
+Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
+               const Transform& world_from_b, const DistanceOptions& apart = {},
                double relative_accuracy = 0.01);
 
 } // namespace abut

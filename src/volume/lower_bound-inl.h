@@ -40,7 +40,8 @@ HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBlock<SweptSphere<n>>& bloc
     return ball_around_core<D, n>(d, block.row, lane);
 }
 template <class D>
-HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBlock<BoundingSphere>& block, std::size_t lane) {
+HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBlock<BoundingSphere>& block,
+                                    std::size_t lane) {
     return ball_around_core<D, 0>(d, block.row, lane);
 }
 template <class D>

@@ -20,8 +20,8 @@ struct OneToMany {
 
 /// Run-time dispatch names functions, not templates: one takes all kinds.
 using AnyOneToMany =
-    std::variant<OneToMany<BoundingSphere>, OneToMany<Pss>, OneToMany<Lss>, OneToMany<Rss>, OneToMany<Obb>,
-                 OneToMany<Kdop14>, OneToMany<Kdop18>, OneToMany<Kdop26>>;
+    std::variant<OneToMany<BoundingSphere>, OneToMany<Pss>, OneToMany<Lss>, OneToMany<Rss>,
+                 OneToMany<Obb>, OneToMany<Kdop14>, OneToMany<Kdop18>, OneToMany<Kdop26>>;
 
 } // namespace abut
 #endif

@@ -9,7 +9,7 @@ namespace abut::test {
 namespace {
 
 Gap gap(const Body& a, const Body& b, const Transform& world_b, double accuracy = 0.01) {
-    return signed_gap(a.model, a.solid, {}, b.model, b.solid, world_b, accuracy);
+    return signed_gap(a.model, {}, b.model, world_b, {}, accuracy);
 }
 
 TEST(SignedGap, ByHand) {
