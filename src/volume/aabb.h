@@ -3,20 +3,16 @@
 #include "math/vector.h"
 
 #include <array>
-#include <cmath>
 #include <limits>
 
 namespace abut {
 
 /// The float next below or equal, next above or equal.
-inline float round_down(double v) {
-    const auto f = static_cast<float>(v);
-    return f <= v ? f : std::nextafterf(f, -std::numeric_limits<float>::infinity());
-}
-inline float round_up(double v) {
-    const auto f = static_cast<float>(v);
-    return f >= v ? f : std::nextafterf(f, std::numeric_limits<float>::infinity());
-}
+///
+/// Not inline: where g++ 12 vectorises several of them side by side, it compares the numbers before
+/// they are rounded.
+float round_down(double v);
+float round_up(double v);
 
 /// Axis-aligned box in single precision that encloses what it was fitted to: every bound is rounded
 /// outward.

@@ -78,8 +78,8 @@ TEST(MotionBounds, Boxes) {
         const MovingPair pair = moving_pair(a, motion_a, b, motion_b);
         const double begin = random.chance(0.3) ? 0 : random.uniform(0, 1);
         const Moment moment(pair, begin);
-        const MovingBox box_a = box_of_a(pair, moment, root_box(a.data().tree())),
-                        box_b = box_of_b(pair, moment, root_box(b.data().tree()));
+        const MovingBox box_a = box_of_a(pair, moment, root_box(a.data().tree(), pair.a.scale)),
+                        box_b = box_of_b(pair, moment, root_box(b.data().tree(), pair.b.scale));
         const double enough = random.chance(0.5) ? 0.1 : 1;
         check(a, motion_a, b, motion_b, begin,
               free_time(pair, moment, box_a, box_b, enough, 1 - begin), tally);

@@ -2,6 +2,7 @@
 
 #include <abut/penetration.h>
 
+#include "geometry/triangle_triangle_distance.h"
 #include "rigid/contact_regions.h"
 #include "tests/support/body.h"
 #include "tests/support/random.h"
@@ -184,8 +185,8 @@ TEST(Penetration, DepthAgainstSampling) {
 TEST(Penetration, RegionsAgainstTheCurve) {
     int several = 0, pairs = 0;
     for_each_pair(3204, 100, [&](Random&, const Pair& p) {
-        const Contacts c =
-            collide(p.a.model, p.world_a, p.b.model, p.world_b, {ContactMode::all, true});
+        const Contacts c = collide(p.a.model, p.world_a, p.b.model, p.world_b,
+                                   {.mode = ContactMode::all, .segments = true});
         std::vector<std::size_t> label(c.pairs.size());
         std::iota(label.begin(), label.end(), 0U);
         std::map<std::tuple<double, double, double>, std::size_t> first;
@@ -223,8 +224,8 @@ TEST(Penetration, RegionsAgainstTheCurve) {
 TEST(Penetration, RegionDepthsAgainstSampling) {
     int several = 0;
     for_each_pair(3205, 80, [&](Random& random, const Pair& p) {
-        const Contacts c =
-            collide(p.a.model, p.world_a, p.b.model, p.world_b, {ContactMode::all, true});
+        const Contacts c = collide(p.a.model, p.world_a, p.b.model, p.world_b,
+                                   {.mode = ContactMode::all, .segments = true});
         const Depth d =
             penetration(p.a.model, p.world_a, p.b.model, p.world_b, {.separation = false});
         if (d.regions.size() < 2 || d.regions.back().pairs.empty())

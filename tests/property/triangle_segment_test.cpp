@@ -153,7 +153,8 @@ TEST(Collide, SegmentsOfSolidsFormClosedCurves) {
         const Model a(torus_mesh(1, 0.4, 24, 14)),
             b(i % 2 == 0 ? sphere_mesh(0.9, 20, 11) : torus_mesh(0.8, 0.5, 19, 13));
         const Transform world_a = random.pose(0.5), world_b = random.pose(0.9);
-        const Contacts c = collide(a, world_a, b, world_b, {ContactMode::all, true});
+        const Contacts c =
+            collide(a, world_a, b, world_b, {.mode = ContactMode::all, .segments = true});
         if (!c.any())
             continue;
         ++curves;

@@ -88,8 +88,8 @@ TEST(TriangleSegment, AlmostCoplanar) {
 
 TEST(Collide, SegmentsComeWithThePairs) {
     const Model box(box_mesh({0, 0, 0}, {1, 1, 1}));
-    const Contacts c =
-        collide(box, Pose{}, box, translation(0.5, 0.2, 0.3), {ContactMode::all, true});
+    const Contacts c = collide(box, Pose{}, box, translation(0.5, 0.2, 0.3),
+                               {.mode = ContactMode::all, .segments = true});
     ASSERT_EQ(c.segments.size(), c.pairs.size());
     double length_in_face = 0; // x = 1 is cut along two sides, 0.8 and 0.7
     for (const Intersection& s : c.segments) {
@@ -99,9 +99,8 @@ TEST(Collide, SegmentsComeWithThePairs) {
     }
     EXPECT_NEAR(length_in_face, 1.5, 1e-14);
     EXPECT_TRUE(collide(box, Pose{}, box, translation(0.5, 0.25, 0.25)).segments.empty());
-    EXPECT_EQ(
-        collide(box, Pose{}, box, translation(0, 0, 1), {ContactMode::first, true}).segments.size(),
-        1U);
+    EXPECT_EQ(collide(box, Pose{}, box, translation(0, 0, 1), {.segments = true}).segments.size(),
+              1U);
 }
 
 } // namespace

@@ -1,0 +1,16 @@
+#include "volume/aabb.h"
+
+#include <cmath>
+
+namespace abut {
+
+float round_down(double v) {
+    const auto f = static_cast<float>(v);
+    return f <= v ? f : std::nextafterf(f, -std::numeric_limits<float>::infinity());
+}
+float round_up(double v) {
+    const auto f = static_cast<float>(v);
+    return f >= v ? f : std::nextafterf(f, std::numeric_limits<float>::infinity());
+}
+
+} // namespace abut
