@@ -52,15 +52,9 @@ struct NodePair {
     FrameMap p_from_q, q_from_p;
     Covector n_p{}, n_q{}; ///< the direction, from a to b
 
-    HWY_INLINE NodePair(const PairFrame& frame, const Node& p, const Node& q, const Covector* n_a) {
+    HWY_INLINE NodePair(const PairFrame& frame, const Node& p, const Node& q) {
         between_nodes(frame.a_from_b, p, q, p_from_q);
         between_nodes(frame.b_from_a, q, p, q_from_p);
-        if (n_a == nullptr)
-            return;
-        n_p = p.frame.vector_from_tree(*n_a);
-        for (std::size_t i = 0; i < 3; ++i)
-            n_q[i] = p_from_q.linear[0][i] * n_p[0] + p_from_q.linear[1][i] * n_p[1] +
-                     p_from_q.linear[2][i] * n_p[2];
     }
 };
 

@@ -56,7 +56,7 @@ double reach_between(const Tree& a, const Tree& b, const Transform& a_from_b) {
 PairFrame make_pair_frame(const Tree& a, const Transform& world_from_a, const Tree& b,
                           const Transform& world_from_b) {
     PairFrame frame;
-    frame.world_from_a = world_from_a;
+    frame.world_from_a = world_from_a, frame.world_from_b = world_from_b;
     const Transform a_from_b = compose(inverse(world_from_a), world_from_b);
     const Transform b_from_a = compose(inverse(world_from_b), world_from_a);
     const double world_size =

@@ -52,7 +52,7 @@ struct TreeMap {
 /// Two trees under their transforms: what a traversal of the pair needs to know.
 struct PairFrame {
     TreeMap a_from_b, b_from_a;
-    Transform world_from_a{};
+    Transform world_from_a{}, world_from_b{};
     float reach_sq = 0; ///< no two points of the trees are farther apart, squared, in the world
     bool valid = false; ///< false: a transform is singular and has no frame to compare in
 };

@@ -277,7 +277,11 @@ private:
                       b = traverse_pair::ref_of(t_.b, pair.b);
         const Node& p = t_.a.nodes[a.is_leaf() ? pair.a / Node::kWidth : a.index()];
         const Node& q = t_.b.nodes[b.is_leaf() ? pair.b / Node::kWidth : b.index()];
-        const NodePair nodes(t_.frame, p, q, has_direction_ ? &direction_ : nullptr);
+        NodePair nodes(t_.frame, p, q);
+        if (has_direction_) {
+            nodes.n_p = p.frame.vector_from_tree(direction_a_);
+            nodes.n_q = q.frame.vector_from_tree(direction_b_);
+        }
         if (a.is_leaf() && b.is_leaf())
             return visit(nodes, a, b);
         if (a.is_leaf())
@@ -397,16 +401,23 @@ private:
         return true;
     }
 
-    /// A vector of a's frame has length n . L v along the direction n of the world.
     void take_direction() {
         const Vec3 n = visitor_.direction();
         if (n == Vec3{})
             return;
-        const auto& m = t_.frame.world_from_a.m;
-        constexpr double kBelowOne = 1 - 0x1p-20;
-        for (std::size_t i = 0; i < 3; ++i)
-            direction_[i] = static_cast<float>(
-                kBelowOne * (n.x * m[3 * i] + n.y * m[3 * i + 1] + n.z * m[3 * i + 2]));
+        // A vector v of a tree's frame has length n . L v along the direction n of the world, L the
+        // linear part of its transform.
+        const auto seen_in = [&](const Transform& world) {
+            constexpr double kBelowOne = 1 - 0x1p-20;
+            Covector seen{};
+            for (std::size_t i = 0; i < 3; ++i)
+                seen[i] = static_cast<float>(
+                    kBelowOne *
+                    (n.x * world.m[3 * i] + n.y * world.m[3 * i + 1] + n.z * world.m[3 * i + 2]));
+            return seen;
+        };
+        direction_a_ = seen_in(t_.frame.world_from_a);
+        direction_b_ = seen_in(t_.frame.world_from_b);
         has_direction_ = true;
     }
 
@@ -415,7 +426,7 @@ private:
     float bound_sq_;
     Verdict verdict_ = Verdict::done;
     BoxPairs found_;
-    Covector direction_{};
+    Covector direction_a_{}, direction_b_{};
     bool has_direction_ = false;
 };
 

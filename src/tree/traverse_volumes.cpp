@@ -154,7 +154,7 @@ private:
     }
     Verdict visit(NodeRef a, const Node& p, NodeRef b, const Node& q) {
         pair_.primitive_tests += a.count() * b.count();
-        const NodePair nodes(pair_.frame, p, q, nullptr);
+        const NodePair nodes(pair_.frame, p, q);
         const LeafPairs pairs =
             compare_leaves(pair_.a, a, pair_.b, b, nodes, contacts_only_, bound_sq_);
         if (pairs.any() == 0)
