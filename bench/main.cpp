@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     rigid_suite->add_option("--only", rigid.only, "Cases whose name has this in it");
     rigid_suite->add_flag("--alone", rigid.alone, "Without peers");
+    rigid_suite->add_flag("--volumes", rigid.volumes, "Also with every kind of bounding volume");
     rigid_suite->add_option("--seed", rigid.seed, "Of the poses");
     rigid_suite->callback([&] {
         if (rigid.files.size() % 2 != 0)

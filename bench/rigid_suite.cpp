@@ -62,9 +62,12 @@ struct Answer {
 
 class RigidSuite {
 public:
-    RigidSuite(const RigidSuiteOptions& options, const RigidScene& scene, Report& report)
-        : options_(options), scene_(scene), report_(report), a_(scene.a), b_(scene.b) {
-        if (options.alone)
+    /// Without peers where one kind of volume is to be compared with the others.
+    RigidSuite(const RigidSuiteOptions& options, const RigidScene& scene, Report& report,
+               Volume volume, bool alone)
+        : options_(options), scene_(scene), report_(report), volume_(volume),
+          a_(scene.a, {.volume = volume}), b_(scene.b, {.volume = volume}) {
+        if (alone)
             return;
         peers_ = make_fcl_peers(scene.a, scene.b);
         fcl_ = peers_.size();
@@ -82,7 +85,7 @@ public:
     }
 
 private:
-    Answer ours(const Case& c, const PosedPair& poses) {
+    Answer ours(const Case& c, const PosedPair& poses, Workspace* workspace) {
         switch (c.query) {
         case RigidQuery::first_contact:
         case RigidQuery::all_contacts: {
@@ -92,7 +95,7 @@ private:
             return {static_cast<double>(contacts.pairs.size()), contacts.counters};
         }
         case RigidQuery::distance: {
-            const Gap gap = distance(a_, poses.a, b_, poses.b);
+            const Gap gap = distance(a_, poses.a, b_, poses.b, {.workspace = workspace});
             return {gap.distance, gap.counters};
         }
         default:
@@ -146,20 +149,29 @@ private:
         PoseTimes our_times(poses.size()), their_times(poses.size());
         std::vector<Answer> our_answers(poses.size());
         std::vector<double> their_answers(poses.size());
+        // In turn, some poses each: either finds its own data in the caches, as its user would.
+        constexpr std::size_t kBlock = kPathSteps;
         for (int round = 0; round < options_.rounds; ++round)
-            for (std::size_t i = 0; i < poses.size(); ++i) {
-                const double start = wall_seconds();
-                our_answers[i] = ours(c, poses[i]);
-                our_times.add(i, wall_seconds() - start);
-                if (peer == nullptr)
-                    continue;
-                peer->place(poses[i]);
-                const double between = wall_seconds();
-                their_answers[i] = peer->run(c.query, poses[i], c.tolerance);
-                their_times.add(i, wall_seconds() - between);
+            for (std::size_t first = 0; first < poses.size(); first += kBlock) {
+                const std::size_t end = std::min(first + kBlock, poses.size());
+                Workspace workspace;
+                for (std::size_t i = first; i < end; ++i) {
+                    const double start = wall_seconds();
+                    our_answers[i] =
+                        ours(c, poses[i], c.regime == Regime::path ? &workspace : nullptr);
+                    our_times.add(i, wall_seconds() - start);
+                }
+                for (std::size_t i = first; i < end && peer != nullptr; ++i) {
+                    peer->place(poses[i]);
+                    const double start = wall_seconds();
+                    their_answers[i] = peer->run(c.query, poses[i], c.tolerance);
+                    their_times.add(i, wall_seconds() - start);
+                }
             }
 
-        Row row{scene_.name + ", " + c.name, our_times.median_us(), {}, {}, "us", 1, {}};
+        const std::string volume =
+            volume_ == Volume::automatic ? "" : fmt::format(", {}", to_string(volume_));
+        Row row{scene_.name + ", " + c.name + volume, our_times.median_us(), {}, {}, "us", 1, {}};
         if (peer != nullptr)
             row.peer = peer->name(), row.theirs = their_times.median_us();
         std::vector<double> volumes, primitives, values;
@@ -190,12 +202,16 @@ private:
     const RigidSuiteOptions& options_;
     const RigidScene& scene_;
     Report& report_;
+    Volume volume_;
     Model a_, b_;
     std::vector<std::unique_ptr<RigidPeer>> peers_;
     std::size_t fcl_ = 0; ///< the first so many peers are FCL
 };
 
-void run_build(const std::string& name, const Mesh& mesh, int rounds, Report& report) {
+/// Against the peers where the volume is ours to choose.
+void run_build(const std::string& name, const Mesh& mesh, int rounds, Volume volume,
+               Report& report) {
+    const bool alone = volume != Volume::automatic;
     set_threads(1);
     std::vector<double> ours, embree, fcl;
     std::size_t bytes = 0;
@@ -203,9 +219,11 @@ void run_build(const std::string& name, const Mesh& mesh, int rounds, Report& re
     for (int round = 0; round < rounds; ++round) {
         Mesh copy = mesh;
         const double start = thread_seconds();
-        const Model model(std::move(copy));
+        const Model model(std::move(copy), {.volume = volume});
         ours.push_back(1e3 * (thread_seconds() - start));
         bytes = model.bytes();
+        if (alone)
+            continue;
         if (const auto seconds = embree_build_seconds(mesh))
             embree.push_back(1e3 * *seconds);
         if (round < 1)
@@ -214,7 +232,8 @@ void run_build(const std::string& name, const Mesh& mesh, int rounds, Report& re
     }
     set_threads(0);
     const auto triangles = static_cast<double>(mesh.triangles.size());
-    Row row{fmt::format("{} ({} triangles), build", name, mesh.triangles.size()),
+    Row row{fmt::format("{} ({} triangles), build{}", name, mesh.triangles.size(),
+                        alone ? fmt::format(", {}", to_string(volume)) : ""),
             median(ours),
             {},
             {},
@@ -228,7 +247,8 @@ void run_build(const std::string& name, const Mesh& mesh, int rounds, Report& re
     }
     if (!fcl.empty()) {
         row.peer = "FCL OBBRSS", row.theirs = median(fcl);
-        row.counters["FCL's bytes a triangle"] = fcl_bytes / triangles;
+        if (fcl_bytes > 0)
+            row.counters["FCL's bytes a triangle"] = fcl_bytes / triangles;
     }
     if (!fcl.empty() || embree.empty())
         report.rows.push_back(row);
@@ -243,10 +263,17 @@ Report run_rigid_suite(const RigidSuiteOptions& options) {
         const RigidScene scene = make_rigid_scene(name_a + " / " + name_b, std::move(a),
                                                   std::move(b), options.poses, options.seed);
         if (options.only.empty() || options.only == "build") {
-            run_build(name_a, scene.a, options.rounds, report);
-            run_build(name_b, scene.b, options.rounds, report);
+            run_build(name_a, scene.a, options.rounds, Volume::automatic, report);
+            run_build(name_b, scene.b, options.rounds, Volume::automatic, report);
         }
-        RigidSuite(options, scene, report).run();
+        RigidSuite(options, scene, report, Volume::automatic, options.alone).run();
+        if (options.volumes)
+            for (const Volume volume : kVolumes) {
+                if (volume == Volume::automatic)
+                    continue;
+                run_build(name_a, scene.a, 1, volume, report);
+                RigidSuite(options, scene, report, volume, true).run();
+            }
     };
     const auto stem = [](const std::string& file) {
         return std::filesystem::path(file).stem().string();

@@ -35,8 +35,9 @@ struct RigidSuiteOptions {
     std::vector<std::uint32_t> generated; ///< triangles of each model of a generated pair
     std::size_t poses = 500;              ///< in each regime
     int rounds = 3;
-    bool alone = false; ///< without peers
-    std::string only;   ///< run the cases whose name has this in it
+    bool alone = false;   ///< without peers
+    bool volumes = false; ///< also with every other kind of bounding volume
+    std::string only;     ///< run the cases whose name has this in it
     std::uint64_t seed = 1;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace abut {
@@ -18,5 +19,12 @@ enum class Volume : std::uint8_t {
     lss,       ///< line segment swept by a sphere
     rss,       ///< rectangle swept by a sphere
 };
+
+/// All of them.
+inline constexpr std::array kVolumes{
+    Volume::automatic, Volume::aabb, Volume::sphere, Volume::kdop14, Volume::kdop18,
+    Volume::kdop26,    Volume::obb,  Volume::pss,    Volume::lss,    Volume::rss};
+/// The enumerator's name.
+const char* to_string(Volume volume);
 
 } // namespace abut

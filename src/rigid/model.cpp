@@ -83,4 +83,10 @@ std::size_t Model::bytes() const noexcept {
     return data_->bytes();
 }
 
+const char* to_string(Volume volume) {
+    constexpr std::array kNames{"automatic", "aabb", "sphere", "kdop14", "kdop18",
+                                "kdop26",    "obb",  "pss",    "lss",    "rss"};
+    return kNames.at(static_cast<std::size_t>(volume));
+}
+
 } // namespace abut
