@@ -78,10 +78,10 @@ HWY_INLINE hn::Vec<D> spread_b(D d, const float (&v)[kLanes], std::size_t lane) 
 HWY_INLINE void turn(const TriangleLeaf& b, const LeafPlacement& to_a, TriangleLeaf& turned) {
     for (std::size_t v = 0; v < 3; ++v)
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto& m = to_a.linear[axis];
+            const auto& m = to_a.linear;
             for (std::size_t j = 0; j < kLanes; ++j)
-                turned.v[v][axis][j] = m[0] * b.v[v][0][j] + m[1] * b.v[v][1][j] +
-                                       m[2] * b.v[v][2][j] + to_a.translation[axis];
+                turned.v[v][axis][j] = m[0][axis] * b.v[v][0][j] + m[1][axis] * b.v[v][1][j] +
+                                       m[2][axis] * b.v[v][2][j] + to_a.translation[axis];
         }
 }
 

@@ -14,9 +14,10 @@ struct alignas(16) TriangleLeaf {
 };
 
 /// How two leaves lie to each other.
-struct LeafPlacement {
-    std::array<std::array<float, 4>, 3> linear{}; ///< [row][column]: takes b's points to a's frame
-    std::array<float, 3> translation{};
+struct alignas(16) LeafPlacement {
+    /// Takes b's points to a's frame: [column][row], padded to four.
+    std::array<std::array<float, 4>, 3> linear{};
+    std::array<float, 4> translation{};
     float margin = 0; ///< what the difference of two coordinates may be off by, on each axis
 };
 

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
+#include <deque>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 
 #undef HWY_TARGET_INCLUDE
@@ -209,9 +210,7 @@ public:
             tree_.bounds.lower[axis] = all.bounds.lower.v[axis];
             tree_.bounds.upper[axis] = all.bounds.upper.v[axis];
         }
-        // Every node has two children at least, so there are fewer nodes than primitives.
-        nodes_.resize(std::max<std::size_t>(1, size - 1));
-        build_node(next_node_++, all);
+        build_node(*claim_node().node, all);
         lay_out();
     }
 
@@ -288,7 +287,18 @@ private:
         return halves;
     }
 
-    void build_node(std::uint32_t index, const Range& range) {
+    /// A node that stays where it is, whatever other threads claim.
+    struct Claim {
+        std::uint32_t index;
+        Node* node;
+    };
+    Claim claim_node() {
+        const std::scoped_lock lock(claiming_);
+        nodes_.emplace_back();
+        return {static_cast<std::uint32_t>(nodes_.size() - 1), &nodes_.back()};
+    }
+
+    void build_node(Node& node, const Range& range) {
         // Open the child of largest area until the node is full or nothing is left to open: leaves,
         // or what makes a node of full leaves.
         const std::uint32_t opened = range.size() > kBottomSize ? kBottomSize : kLeafSize;
@@ -307,8 +317,7 @@ private:
             children[count++] = halves[1];
         }
 
-        Node& node = nodes_[index];
-        std::array<std::uint32_t, Node::kWidth> below{};
+        std::array<Node*, Node::kWidth> below{};
         for (std::size_t i = 0; i < Node::kWidth; ++i) {
             const Range child = i < count ? children[i] : Range{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -319,20 +328,22 @@ private:
                 node.child[i] = NodeRef::none();
             else if (child.size() <= kLeafSize)
                 node.child[i] = NodeRef::leaf(child.begin, child.size());
-            else
-                node.child[i] =
-                    NodeRef::node(below[i] = next_node_.fetch_add(1, std::memory_order_relaxed));
+            else {
+                const Claim claim = claim_node();
+                node.child[i] = NodeRef::node(claim.index);
+                below[i] = claim.node;
+            }
         }
         parallel_for(count, range.size() >= kParallelSplit ? 1 : count, [&](std::size_t i) {
-            if (below[i] != 0)
-                build_node(below[i], children[i]);
+            if (below[i] != nullptr)
+                build_node(*below[i], children[i]);
         });
     }
 
     /// Nodes depth first, whatever order the threads made them in; a leaf's slots from a multiple
     /// of its size.
     void lay_out() {
-        tree_.nodes.reserve(next_node_);
+        tree_.nodes.reserve(nodes_.size());
         tree_.order.reserve(primitives_.size() + primitives_.size() / 8);
         copy(0);
         tree_.order.shrink_to_fit();
@@ -358,8 +369,8 @@ private:
 
     std::vector<Primitive>& primitives_;
     Tree& tree_;
-    std::vector<Node> nodes_;
-    std::atomic<std::uint32_t> next_node_{0};
+    std::deque<Node> nodes_; ///< in the order in which threads came to them
+    std::mutex claiming_;
 };
 
 void build(std::vector<Primitive>& primitives, Tree& tree) {

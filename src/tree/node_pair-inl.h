@@ -16,32 +16,51 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
+namespace hn = hwy::HWY_NAMESPACE;
+using Row = hn::CappedTag<float, 4>;
+
+/// x v0 + y v1 + z v2, and t besides; all of four floats.
+HWY_INLINE void combine(const float* v0, const float* v1, const float* v2, float x, float y,
+                        float z, const float* t, float* result) {
+    const Row d;
+    for (std::size_t i = 0; i < 4; i += hn::Lanes(d)) {
+        auto sum = hn::Mul(hn::Set(d, x), hn::Load(d, v0 + i));
+        if (t != nullptr)
+            sum = hn::Add(sum, hn::LoadU(d, t + i));
+        sum = hn::MulAdd(hn::Set(d, y), hn::Load(d, v1 + i), sum);
+        sum = hn::MulAdd(hn::Set(d, z), hn::Load(d, v2 + i), sum);
+        hn::Store(sum, d, result + i);
+    }
+}
+
 // x_to = A_to (M (A_from^T x_from + o_from) + t - o_to), A the nodes' rotations. What the origins
 // cancel is computed in double, so that the error is relative to the nodes and their distance.
 HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& from,
                               FrameMap& map) {
-    float turned[3][4]; // M A_from^T
+    const auto& turn = to.frame.turn;
+    HWY_ALIGN float turned[3][4]; // the columns of A_to M
+    for (std::size_t k = 0; k < 3; ++k)
+        combine(turn[0].data(), turn[1].data(), turn[2].data(), trees.linear[0][k],
+                trees.linear[1][k], trees.linear[2][k], nullptr, turned[k]);
+    const Row d;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto& t = from.frame.turn;
+        combine(turned[0], turned[1], turned[2], t[0][k], t[1][k], t[2][k], nullptr,
+                map.linear[k].data());
+        for (std::size_t i = 0; i < 4; i += hn::Lanes(d))
+            hn::Store(hn::Abs(hn::Load(d, map.linear[k].data() + i)), d,
+                      map.magnitude[k].data() + i);
+    }
+    const auto& m = trees.to_from;
+    const double x = from.frame.origin[0], y = from.frame.origin[1], z = from.frame.origin[2];
+    float between[3];
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 4; ++k)
-            turned[i][k] = trees.linear[i][0] * from.frame.turn[0][k] +
-                           trees.linear[i][1] * from.frame.turn[1][k] +
-                           trees.linear[i][2] * from.frame.turn[2][k];
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 4; ++k) {
-            map.linear[i][k] = to.frame.turn[0][i] * turned[0][k] +
-                               to.frame.turn[1][i] * turned[1][k] +
-                               to.frame.turn[2][i] * turned[2][k];
-            map.magnitude[i][k] = std::abs(map.linear[i][k]);
-        }
-    const auto& m = trees.to_from.m;
-    const std::array<double, 3> o{from.frame.origin[0], from.frame.origin[1], from.frame.origin[2]};
-    float d[3];
-    for (std::size_t i = 0; i < 3; ++i)
-        d[i] = static_cast<float>(m[i] * o[0] + m[3 + i] * o[1] + m[6 + i] * o[2] + m[9 + i] -
-                                  double{to.frame.origin[i]});
-    map.translation = to.frame.vector_from_tree({d[0], d[1], d[2]});
+        between[i] = static_cast<float>(m[0][i] * x + m[1][i] * y + m[2][i] * z + m[3][i] -
+                                        double{to.frame.origin[i]});
+    combine(turn[0].data(), turn[1].data(), turn[2].data(), between[0], between[1], between[2],
+            nullptr, map.translation.data());
     const float size = to.reach + 2 * trees.row_sum * from.reach +
-                       2 * (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]));
+                       2 * (std::abs(between[0]) + std::abs(between[1]) + std::abs(between[2]));
     map.margin = 24 * 0x1p-24F * size + trees.margin;
     map.stretch_sq = trees.stretch_sq;
     map.most_stretch_sq = trees.most_stretch_sq;

@@ -30,10 +30,12 @@ double translation_reach(const Transform& t) {
 /// `world_size` bounds all world coordinates in play.
 TreeMap make_map(const Transform& to_from, const Transform& world_from_to, double world_size) {
     TreeMap map;
-    map.to_from = to_from;
-    for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t row = 0; row < 3; ++row) {
+        for (std::size_t column = 0; column < 4; ++column)
+            map.to_from[column][row] = to_from.m[3 * column + row];
         for (std::size_t column = 0; column < 3; ++column)
             map.linear[row][column] = static_cast<float>(to_from.m[3 * column + row]);
+    }
     map.row_sum = round_up(largest_row_sum(to_from));
     // The composed transforms and the positions in the world and in the trees' frames, as if all
     // error fell on one axis.

@@ -16,19 +16,6 @@ struct FrameMap : LeafPlacement {
     float stretch_sq = 0; ///< a squared gap in the target frame is at least this times larger in
                           ///< the world (or equal)
     float most_stretch_sq = 0; ///< and at most this times
-
-    [[nodiscard]] std::array<float, 3> point(const std::array<float, 3>& p) const {
-        std::array<float, 3> r{};
-        for (std::size_t i = 0; i < 3; ++i)
-            r[i] = linear[i][0] * p[0] + linear[i][1] * p[1] + linear[i][2] * p[2] + translation[i];
-        return r;
-    }
-    [[nodiscard]] std::array<float, 3> half_extents(const std::array<float, 3>& h) const {
-        std::array<float, 3> r{};
-        for (std::size_t i = 0; i < 3; ++i)
-            r[i] = magnitude[i][0] * h[0] + magnitude[i][1] * h[1] + magnitude[i][2] * h[2];
-        return r;
-    }
 };
 
 /// A direction as seen in a frame: its product with a vector there is the vector's length along it
@@ -41,7 +28,8 @@ inline float reach_along(const Covector& n, const std::array<float, 3>& half) {
 
 /// The map between two trees' frames.
 struct TreeMap {
-    Transform to_from{};
+    /// [column][row], padded to four; the last column is the translation.
+    std::array<std::array<double, 4>, 4> to_from{};
     std::array<std::array<float, 3>, 3> linear{}; ///< of to_from: [row][column]
     float margin = 0;     ///< rounding of double precision, on each axis of the target
     float row_sum = 0;    ///< largest sum of a row's magnitudes

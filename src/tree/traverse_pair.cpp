@@ -59,7 +59,6 @@ struct MiddleBox {
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using traverse_pair::BoxPair;
 using traverse_pair::BoxPairs;
 using traverse_pair::MiddleBox;
@@ -106,8 +105,11 @@ HWY_INLINE void bound_children(const Node& node, const MiddleBox& box, const Com
                                float bound_sq, Bounds& bounds) {
     const D d;
     const FrameMap &to_node = compare.to_node, &to_box = compare.to_box;
-    const std::array<float, 3> c_node = to_node.point(box.centre),
-                               h_node = to_node.half_extents(box.half);
+    HWY_ALIGN float c_node[4], h_node[4];
+    combine(to_node.linear[0].data(), to_node.linear[1].data(), to_node.linear[2].data(),
+            box.centre[0], box.centre[1], box.centre[2], to_node.translation.data(), c_node);
+    combine(to_node.magnitude[0].data(), to_node.magnitude[1].data(), to_node.magnitude[2].data(),
+            box.half[0], box.half[1], box.half[2], nullptr, h_node);
     const auto zero = hn::Zero(d), half = hn::Set(d, 0.5F);
     const auto margin_node = hn::Set(d, to_node.margin), margin_box = hn::Set(d, to_box.margin);
     for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
@@ -156,8 +158,9 @@ HWY_INLINE void bound_children(const Node& node, const MiddleBox& box, const Com
         gap_sq = zero;
         largest_gap = hn::Set(d, hwy::LowestValue<float>());
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto& m = to_box.linear[i];
-            const auto& a = to_box.magnitude[i];
+            const float m[] = {to_box.linear[0][i], to_box.linear[1][i], to_box.linear[2][i]};
+            const float a[] = {to_box.magnitude[0][i], to_box.magnitude[1][i],
+                               to_box.magnitude[2][i]};
             const auto c_box =
                 hn::MulAdd(hn::Set(d, m[0]), centre[0],
                            hn::MulAdd(hn::Set(d, m[1]), centre[1],

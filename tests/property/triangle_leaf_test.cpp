@@ -35,7 +35,7 @@ struct Leaves {
         double reach = scale;
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t k = 0; k < 3; ++k)
-                placement.linear[i][k] = static_cast<float>(a_from_b.m[3 * k + i]);
+                placement.linear[k][i] = static_cast<float>(a_from_b.m[3 * k + i]);
             placement.translation[i] = static_cast<float>(a_from_b.m[9 + i]);
             reach += std::abs(a_from_b.m[9 + i]);
         }
