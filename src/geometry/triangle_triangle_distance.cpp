@@ -49,13 +49,18 @@ SegmentPoints closest_parameters(const Vec3& p0, const Vec3& p1, const Vec3& q0,
     return {s, t, length_sq(r - s * u + t * v)};
 }
 
+/// Its ends are met exactly.
+Vec3 point_of_segment(const Vec3& p, const Vec3& q, double s) {
+    return s >= 1 ? q : p + s * (q - p);
+}
+
 /// Of edge i of a and j of b.
 ClosestPoints edge_edge_distance(const Triangle& a, std::size_t i, const Triangle& b,
                                  std::size_t j) {
     const Vec3 &p0 = a[i], &p1 = a[(i + 1) % 3], &q0 = b[j], &q1 = b[(j + 1) % 3];
     const SegmentPoints c = closest_parameters(p0, p1, q0, q1);
-    return {c.distance_sq, p0 + c.s * (p1 - p0), q0 + c.t * (q1 - q0), on_edge(i, c.s),
-            on_edge(j, c.t)};
+    return {c.distance_sq, point_of_segment(p0, p1, c.s), point_of_segment(q0, q1, c.t),
+            on_edge(i, c.s), on_edge(j, c.t)};
 }
 
 /// Where the segment p q pierces t, if its ends lie on both sides.
@@ -75,7 +80,7 @@ bool pierce(const Vec3& p, const Vec3& q, const Triangle& t, Vec3& point) {
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1) {
     const SegmentPoints c = closest_parameters(p0, p1, q0, q1);
-    return {c.distance_sq, p0 + c.s * (p1 - p0), q0 + c.t * (q1 - q0)};
+    return {c.distance_sq, point_of_segment(p0, p1, c.s), point_of_segment(q0, q1, c.t)};
 }
 
 ClosestPoints triangle_triangle_distance(const Triangle& a, const Triangle& b) {

@@ -72,13 +72,13 @@ Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
     Workspace* const workspace = options.mode == ContactMode::first ? options.workspace : nullptr;
     if (workspace != nullptr && workspace->used && still_meet(pair, workspace->last)) {
         result.pairs.push_back(workspace->last);
-        return result;
+    } else {
+        for (const Contact& c : find_contacts(pair, options.mode, result.counters))
+            result.pairs.push_back(c.pair);
+        std::sort(result.pairs.begin(), result.pairs.end());
+        if (workspace != nullptr && result.any())
+            *workspace = {true, result.pairs[0]};
     }
-    for (const Contact& c : find_contacts(pair, options.mode, result.counters))
-        result.pairs.push_back(c.pair);
-    std::sort(result.pairs.begin(), result.pairs.end());
-    if (workspace != nullptr && result.any())
-        *workspace = {true, result.pairs[0]};
     if (options.segments)
         for (const TrianglePair& triangles : result.pairs)
             result.segments.push_back(common_points(pair, triangles));

@@ -198,6 +198,8 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
             const Transform& world_from_b, double tolerance, Workspace* workspace) {
     require_bound(tolerance, "tolerance");
+    if (tolerance == 0) // whether they meet is exact, a distance is not
+        return collide(a, world_from_a, b, world_from_b, {.workspace = workspace}).any();
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     NearestPairFinder finder(pair, tolerance, true);
     if (workspace != nullptr && workspace->used && finder.begin_with(workspace->last))

@@ -8,8 +8,11 @@
 #include "tree/traverse_volumes.h"
 
 #include <gtest/gtest.h>
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace abut::test {
 namespace {
@@ -20,25 +23,26 @@ constexpr std::array kKinds{Volume::sphere, Volume::kdop14, Volume::kdop18, Volu
 /// Triangles with a tree in their own frame.
 struct Primitives {
     std::vector<Triangle> triangles;
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::uint32_t, 3>> indices;
     Tree tree;
 
     Primitives(Random& random, int count, const Vec3& middle, double scale) {
-        std::vector<Aabb> boxes;
         for (int i = 0; i < count; ++i) {
             const Vec3 p = middle + random.in_cube(scale);
-            const double size = scale * std::pow(10, random.uniform(-3, -0.5));
+            const double size = scale * std::pow(10, random.uniform(-2.5, 0));
             triangles.push_back({p, p + random.in_cube(size), p + random.in_cube(size)});
             if (i % 10 == 0)
                 triangles.back()[2] = triangles.back()[i % 20 == 0 ? 0 : 1];
-            Box3 box;
-            for (const Vec3& v : triangles.back())
-                extend(box, v);
-            boxes.emplace_back(box);
+            const auto first = static_cast<std::uint32_t>(positions.size());
+            positions.insert(positions.end(), triangles.back().begin(), triangles.back().end());
+            indices.push_back({first, first + 1, first + 2});
         }
-        tree = build_tree(boxes);
+        tree = build_tree(mesh());
     }
+    [[nodiscard]] TreeMesh mesh() const { return {positions, indices}; }
     [[nodiscard]] std::unique_ptr<const VolumeTree> volumes(Volume kind) const {
-        return build_volume_tree(kind, tree, triangles, 0);
+        return build_volume_tree(kind, tree, mesh());
     }
     [[nodiscard]] std::vector<Triangle> placed(const Transform& world) const {
         std::vector<Triangle> result = triangles;
@@ -49,18 +53,34 @@ struct Primitives {
     }
 };
 
+/// Calls body(i, j) with the primitives of each pair of a set of LeafPairs.
+template <typename Body>
+void for_each_primitive_pair(const Tree& a, NodeRef leaf_a, const Tree& b, NodeRef leaf_b,
+                             std::uint32_t pairs, const Body& body) {
+    for (std::uint32_t i = 0; i < TriangleLeaf::kLanes; ++i)
+        for (std::uint32_t j = 0; j < TriangleLeaf::kLanes; ++j)
+            if ((pairs >> (TriangleLeaf::kLanes * i + j) & 1U) != 0) {
+                ASSERT_LT(i, leaf_a.count());
+                ASSERT_LT(j, leaf_b.count());
+                body(a.order[leaf_a.first() + i], b.order[leaf_b.first() + j]);
+            }
+}
+
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 class Recorder : public LeafPairVisitor {
 public:
     Recorder(const Tree& a, const Tree& b, double bound_sq) : a_(a), b_(b), bound_sq_(bound_sq) {}
-    double visit(NodeRef leaf_a, NodeRef leaf_b) override {
-        for (std::uint32_t i = 0; i < leaf_a.count(); ++i)
-            for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
-                seen.emplace(a_.order[leaf_a.first() + i], b_.order[leaf_b.first() + j]);
+    double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) override {
+        EXPECT_NE(pairs.any(), 0U);
+        const auto add_to = [](Pairs& set) {
+            return [&set](std::uint32_t i, std::uint32_t j) { set.emplace(i, j); };
+        };
+        for_each_primitive_pair(a_, leaf_a, b_, leaf_b, pairs.any(), add_to(seen));
+        for_each_primitive_pair(a_, leaf_a, b_, leaf_b, pairs.cross, add_to(cross));
         return bound_sq_;
     }
-    Pairs seen;
+    Pairs seen, cross;
 
 private:
     const Tree& a_;
@@ -68,20 +88,34 @@ private:
     double bound_sq_;
 };
 
+Box3 box_of(const Triangle& t) {
+    Box3 box;
+    for (const Vec3& p : t)
+        extend(box, p);
+    return box;
+}
+
+/// Pairs that share a point, and how.
+std::map<std::pair<std::uint32_t, std::uint32_t>, TriangleContact>
+contacts_of(const std::vector<Triangle>& a, const std::vector<Triangle>& b) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, TriangleContact> contacts;
+    for (std::uint32_t i = 0; i < a.size(); ++i)
+        for (std::uint32_t j = 0; j < b.size(); ++j)
+            if (overlap(box_of(a[i]), box_of(b[j])))
+                if (const auto kind = triangle_triangle_intersect(a[i], b[j]);
+                    kind != TriangleContact::none)
+                    contacts[{i, j}] = kind;
+    return contacts;
+}
+
 /// Pairs whose distance is at most the bound.
-Pairs near_pairs(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double bound) {
+Pairs near_pairs_of(const std::vector<Triangle>& a, const std::vector<Triangle>& b, double bound) {
     Pairs pairs;
     for (std::uint32_t i = 0; i < a.size(); ++i)
-        for (std::uint32_t j = 0; j < b.size(); ++j) {
-            Box3 box_a, box_b;
-            for (std::size_t k = 0; k < 3; ++k)
-                extend(box_a, a[i][k]), extend(box_b, b[j][k]);
-            if (!overlap(box_a, box_b, bound))
-                continue;
-            if (triangle_triangle_intersect(a[i], b[j]) != TriangleContact::none ||
+        for (std::uint32_t j = 0; j < b.size(); ++j)
+            if (overlap(box_of(a[i]), box_of(b[j]), bound) &&
                 triangle_triangle_distance(a[i], b[j]).distance_sq <= bound * bound)
                 pairs.emplace(i, j);
-        }
     return pairs;
 }
 
@@ -126,39 +160,77 @@ struct Scene {
     }
 };
 
+/// All that a traversal of a scene by one kind of volume refers to.
+struct Placed {
+    std::unique_ptr<const VolumeTree> a, b;
+    PairFrame boxes;
+    VolumeFrame volumes;
+
+    Placed(const Scene& s, Volume kind)
+        : a(s.a.volumes(kind)), b(s.b.volumes(kind)),
+          boxes(make_pair_frame(s.a.tree, s.world_a, s.b.tree, s.world_b)),
+          volumes(make_volume_frame(*a, s.world_a, *b, s.world_b)) {}
+};
+
 class TraverseVolumes : public testing::TestWithParam<Kind> {};
 
 TEST_P(TraverseVolumes, VisitsEveryPairWithinTheBound) {
     const Kind& kind = GetParam();
     Random random(1301);
-    std::size_t within = 0, visited = 0, total = 0;
-    for (int round = 0; round < 5; ++round) {
-        const Scene s(random, kind, 150);
-        for (const double bound : {0.0, 0.01 * kind.size, 0.2 * kind.size}) {
-            const Pairs truth = near_pairs(s.placed_a, s.placed_b, bound);
-            for (const Volume volume : kKinds) {
-                SCOPED_TRACE(testing::Message() << "volume " << int(volume) << " bound " << bound);
-                const auto va = s.a.volumes(volume), vb = s.b.volumes(volume);
-                const VolumeFrame frame = make_volume_frame(*va, s.world_a, *vb, s.world_b);
-                ASSERT_TRUE(frame.valid);
-                for_each_simd_target([&](const std::string& target) {
-                    VolumeTraversal depth{s.a.tree, *va, s.b.tree, *vb, frame, bound * bound},
-                        best = depth;
-                    Recorder in_depth(s.a.tree, s.b.tree, bound * bound),
-                        nearest_first(s.a.tree, s.b.tree, bound * bound);
-                    EXPECT_EQ(traverse_depth_first(depth, in_depth), Verdict::done);
-                    EXPECT_EQ(traverse_best_first(best, nearest_first), Verdict::done);
-                    ASSERT_EQ(in_depth.seen, nearest_first.seen) << target;
-                    ASSERT_EQ(depth.volume_tests, best.volume_tests);
-                    for (const auto& pair : truth)
-                        ASSERT_TRUE(in_depth.seen.contains(pair)) << target;
-                    within += truth.size();
-                    visited += in_depth.seen.size();
+    std::size_t met = 0, crossed = 0, within = 0, accepted = 0, visited = 0, total = 0;
+    for (int round = 0; round < 4; ++round) {
+        const Scene s(random, kind, 100);
+        const auto contacts = contacts_of(s.placed_a, s.placed_b);
+        const std::array bounds{0.0, 0.01 * kind.size, 0.2 * kind.size, 10 * kind.size};
+        std::array<Pairs, bounds.size()> truth;
+        for (std::size_t i = 0; i < bounds.size(); ++i)
+            truth[i] = near_pairs_of(s.placed_a, s.placed_b, bounds[i]);
+        for (const Volume volume : kKinds) {
+            const Placed placed(s, volume);
+            ASSERT_TRUE(placed.volumes.valid);
+            for_each_simd_target([&](const std::string& target) {
+                SCOPED_TRACE(testing::Message() << "volume " << int(volume) << ' ' << target);
+                PairTraversal pair{s.a.tree, s.b.tree, placed.boxes};
+                const VolumeTraversal t{pair, *placed.a, *placed.b, placed.volumes};
+                Recorder touched(s.a.tree, s.b.tree, 0);
+                EXPECT_EQ(traverse_contacts(t, touched), Verdict::done);
+                for (const auto& [triangles, how] : contacts)
+                    ASSERT_TRUE(touched.seen.contains(triangles));
+                for (const auto& triangles : touched.cross) {
+                    ASSERT_TRUE(contacts.contains(triangles));
+                    ASSERT_EQ(contacts.at(triangles), TriangleContact::cross);
+                }
+                met += contacts.size(), crossed += touched.cross.size();
+                for (std::size_t i = 0; i < bounds.size(); ++i) {
+                    const double bound_sq = bounds[i] * bounds[i];
+                    Recorder in_depth(s.a.tree, s.b.tree, bound_sq),
+                        nearest_first(s.a.tree, s.b.tree, bound_sq);
+                    pair.bound_sq = bound_sq;
+                    const Verdict verdict = traverse_within(t, in_depth);
+                    EXPECT_EQ(traverse_nearest(t, nearest_first), Verdict::done);
+                    for (const auto& triangles : truth[i]) {
+                        ASSERT_TRUE(nearest_first.seen.contains(triangles));
+                        ASSERT_TRUE(verdict != Verdict::done || in_depth.seen.contains(triangles));
+                    }
+                    if (verdict == Verdict::accepted) {
+                        ++accepted;
+                        ASSERT_FALSE(truth[i].empty());
+                    }
+                    if (bounds[i] > kind.size) // all pairs
+                        continue;
+                    EXPECT_EQ(traverse_nearest(t, nearest_first), Verdict::done);
+                    for (const auto& triangles : truth[i])
+                        ASSERT_TRUE(nearest_first.seen.contains(triangles));
+                    within += truth[i].size();
+                    visited += nearest_first.seen.size();
                     total += s.a.triangles.size() * s.b.triangles.size();
-                });
-            }
+                }
+            });
         }
     }
+    EXPECT_GT(met, 300U);
+    EXPECT_GT(crossed, met / 2);
+    EXPECT_GT(accepted, 0U);
     EXPECT_GT(within, 1000U);
     EXPECT_LT(visited, total / 2);
 }
@@ -175,14 +247,15 @@ INSTANTIATE_TEST_SUITE_P(
 class Nearest : public LeafPairVisitor {
 public:
     Nearest(const Scene& scene, bool stop_at_first) : s_(scene), stop_(stop_at_first) {}
-    double visit(NodeRef leaf_a, NodeRef leaf_b) override {
+    double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) override {
         ++visits;
-        for (std::uint32_t i = 0; i < leaf_a.count(); ++i)
-            for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
-                best_sq = std::min(best_sq, triangle_triangle_distance(
-                                                s_.placed_a[s_.a.tree.order[leaf_a.first() + i]],
-                                                s_.placed_b[s_.b.tree.order[leaf_b.first() + j]])
-                                                .distance_sq);
+        for_each_primitive_pair(
+            s_.a.tree, leaf_a, s_.b.tree, leaf_b, pairs.any(),
+            [&](std::uint32_t i, std::uint32_t j) {
+                best_sq = std::min(
+                    best_sq,
+                    triangle_triangle_distance(s_.placed_a[i], s_.placed_b[j]).distance_sq);
+            });
         return stop_ ? -1 : best_sq;
     }
     double best_sq = HUGE_VAL;
@@ -193,6 +266,14 @@ private:
     bool stop_;
 };
 
+double distance_sq_of(const Scene& s) {
+    double least = HUGE_VAL;
+    for (const Triangle& t : s.placed_a)
+        for (const Triangle& u : s.placed_b)
+            least = std::min(least, triangle_triangle_distance(t, u).distance_sq);
+    return least;
+}
+
 TEST(TraverseVolumes, FindsTheNearestPair) {
     Random random(1302);
     std::array<int, kKinds.size()> visits{};
@@ -200,23 +281,20 @@ TEST(TraverseVolumes, FindsTheNearestPair) {
         Scene s(random, {"rigid", 10, 1, 0, false}, 120);
         Scene::put(s.world_b, s.offset_b, apply(s.world_a, s.offset_a) + 4 * random.direction());
         s.placed_b = s.b.placed(s.world_b);
-        double expected = HUGE_VAL;
-        for (const Triangle& t : s.placed_a)
-            for (const Triangle& u : s.placed_b)
-                expected = std::min(expected, triangle_triangle_distance(t, u).distance_sq);
+        const double expected = distance_sq_of(s);
         for (std::size_t k = 0; k < kKinds.size(); ++k) {
-            const auto va = s.a.volumes(kKinds[k]), vb = s.b.volumes(kKinds[k]);
-            const VolumeFrame frame = make_volume_frame(*va, s.world_a, *vb, s.world_b);
-            VolumeTraversal t{s.a.tree, *va, s.b.tree, *vb, frame, HUGE_VAL};
+            const Placed placed(s, kKinds[k]);
+            PairTraversal pair{s.a.tree, s.b.tree, placed.boxes, HUGE_VAL};
+            const VolumeTraversal t{pair, *placed.a, *placed.b, placed.volumes};
             Nearest nearest(s, false);
-            EXPECT_EQ(traverse_best_first(t, nearest), Verdict::done);
+            EXPECT_EQ(traverse_nearest(t, nearest), Verdict::done);
             ASSERT_EQ(nearest.best_sq, expected);
             visits[k] += nearest.visits;
-            EXPECT_GT(t.volume_tests, 0U);
+            EXPECT_GT(pair.volume_tests, 0U);
+            EXPECT_GT(pair.primitive_tests, 0U);
 
             Nearest first(s, true);
-            VolumeTraversal stopped{s.a.tree, *va, s.b.tree, *vb, frame, HUGE_VAL};
-            EXPECT_EQ(traverse_depth_first(stopped, first), Verdict::stopped);
+            EXPECT_EQ(traverse_nearest(t, first), Verdict::stopped);
             EXPECT_EQ(first.visits, 1);
         }
     }
@@ -226,7 +304,7 @@ TEST(TraverseVolumes, FindsTheNearestPair) {
     }
 }
 
-TEST(TraverseVolumes, AcceptsEarlyOnlyWhatIsWithinTheBound) {
+TEST(TraverseVolumes, AcceptsOnlyWhatIsWithinTheBound) {
     Random random(1303);
     int accepted = 0, done = 0;
     for (int round = 0; round < 60; ++round) {
@@ -234,23 +312,20 @@ TEST(TraverseVolumes, AcceptsEarlyOnlyWhatIsWithinTheBound) {
         Scene::put(s.world_b, s.offset_b,
                    apply(s.world_a, s.offset_a) + random.uniform(0, 6) * random.direction());
         s.placed_b = s.b.placed(s.world_b);
-        double distance_sq = HUGE_VAL;
-        for (const Triangle& t : s.placed_a)
-            for (const Triangle& u : s.placed_b)
-                distance_sq = std::min(distance_sq, triangle_triangle_distance(t, u).distance_sq);
+        const double distance_sq = distance_sq_of(s);
         const double bound_sq = distance_sq * std::pow(random.uniform(0.5, 12), 2);
         for (const Volume volume : kKinds) {
-            const auto va = s.a.volumes(volume), vb = s.b.volumes(volume);
-            const VolumeFrame frame = make_volume_frame(*va, s.world_a, *vb, s.world_b);
-            VolumeTraversal t{s.a.tree, *va, s.b.tree, *vb, frame, bound_sq};
-            t.accept_early = true;
+            const Placed placed(s, volume);
+            PairTraversal pair{s.a.tree, s.b.tree, placed.boxes, bound_sq};
             Recorder recorder(s.a.tree, s.b.tree, bound_sq);
-            const Verdict verdict = traverse_depth_first(t, recorder);
+            const Verdict verdict =
+                traverse_within({pair, *placed.a, *placed.b, placed.volumes}, recorder);
             if (verdict == Verdict::accepted) {
                 ++accepted;
                 ASSERT_LE(distance_sq, bound_sq);
             } else {
                 ASSERT_EQ(verdict, Verdict::done);
+                ASSERT_TRUE(distance_sq > bound_sq || !recorder.seen.empty());
                 ++done;
             }
         }
@@ -265,7 +340,7 @@ TEST(TraverseVolumes, WhatHasNoVolumes) {
     const Primitives a(random, 20, {}, 1);
     EXPECT_EQ(a.volumes(Volume::aabb), nullptr);
     EXPECT_EQ(a.volumes(Volume::automatic), nullptr);
-    EXPECT_EQ(build_volume_tree(Volume::obb, Tree(), {}, 0), nullptr);
+    EXPECT_EQ(build_volume_tree(Volume::obb, Tree(), {}), nullptr);
     const auto obb = a.volumes(Volume::obb), rss = a.volumes(Volume::rss);
     EXPECT_EQ(obb->kind(), Volume::obb);
     EXPECT_EQ(obb->bytes(), a.tree.nodes.size() * 15 * 8 * sizeof(float));
@@ -277,25 +352,25 @@ TEST(TraverseVolumes, WhatHasNoVolumes) {
 
 TEST(TraverseVolumes, OneTriangleEach) {
     Random random(1305);
-    int near = 0;
+    int near = 0, far = 0;
     for (int i = 0; i < 300; ++i) {
         const Primitives a(random, 1, {}, 1), b(random, 1, {}, 1);
         const Transform world = random.pose(1);
-        const Triangle &s = a.triangles[0], t = b.placed(world)[0];
-        const double distance_sq = triangle_triangle_distance(s, t).distance_sq;
+        const double distance_sq =
+            triangle_triangle_distance(a.triangles[0], b.placed(world)[0]).distance_sq;
+        const PairFrame boxes = make_pair_frame(a.tree, {}, b.tree, world);
         for (const Volume volume : kKinds) {
             const auto va = a.volumes(volume), vb = b.volumes(volume);
             const VolumeFrame frame = make_volume_frame(*va, {}, *vb, world);
-            VolumeTraversal traversal{a.tree, *va, b.tree, *vb, frame, 1};
+            PairTraversal pair{a.tree, b.tree, boxes, 1};
             Recorder recorder(a.tree, b.tree, 1);
-            EXPECT_EQ(traverse_depth_first(traversal, recorder), Verdict::done);
-            if (distance_sq <= 1) {
-                ++near;
-                ASSERT_EQ(recorder.seen.size(), 1U);
-            }
+            EXPECT_EQ(traverse_nearest({pair, *va, *vb, frame}, recorder), Verdict::done);
+            (recorder.seen.empty() ? far : near) += 1;
+            ASSERT_TRUE(distance_sq > 1 || recorder.seen.size() == 1);
         }
     }
     EXPECT_GT(near, 300);
+    EXPECT_GT(far, 300);
 }
 
 } // namespace
