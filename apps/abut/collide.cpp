@@ -111,6 +111,7 @@ Subcommand add_collide(CLI::App& root, CommonOptions& common) {
         add_subcommand(root, common, "collide", "Do the surfaces of two models share a point?");
     add_two_models(*app, arguments->models);
     add_poses(*app, arguments->poses);
+    add_volume(*app, arguments->models);
     app->add_flag("--all", arguments->all, "List every pair of triangles that meet");
     app->add_flag("--segments", arguments->segments,
                   "With --json: also the points that each pair shares");

@@ -150,6 +150,10 @@ nlohmann::ordered_json to_json(const Vec3& v) {
     return {v.x, v.y, v.z};
 }
 
+const char* to_string(Feature feature) {
+    return feature == Feature::vertex ? "vertex" : feature == Feature::edge ? "edge" : "face";
+}
+
 std::string dump(const nlohmann::ordered_json& value) {
     return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -82,6 +82,8 @@ std::string grouped(std::uint64_t value);
 /// [x, y, z]
 nlohmann::ordered_json to_json(const Vec3& v);
 
+const char* to_string(Feature feature);
+
 /// One line of JSON text; bytes that are no UTF-8 (in file names) are replaced.
 std::string dump(const nlohmann::ordered_json& value);
 

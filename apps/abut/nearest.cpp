@@ -16,10 +16,6 @@ struct NearestArguments {
     bool with_sign = false;
 };
 
-const char* to_string(Feature feature) {
-    return feature == Feature::vertex ? "vertex" : feature == Feature::edge ? "edge" : "face";
-}
-
 int run(const NearestArguments& arguments, const CommonOptions& common) {
     const std::vector<Vec3> points = load(arguments.points);
     const OneModel model = load(arguments.model, common);

@@ -6,6 +6,7 @@
 #include "interrupt.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -14,6 +15,33 @@
 #include <vector>
 
 namespace abut::command {
+
+namespace {
+
+struct NamedVolume {
+    const char* name;
+    Volume volume;
+};
+
+constexpr std::array<NamedVolume, 10> kVolumes{{{"automatic", Volume::automatic},
+                                                {"aabb", Volume::aabb},
+                                                {"sphere", Volume::sphere},
+                                                {"kdop14", Volume::kdop14},
+                                                {"kdop18", Volume::kdop18},
+                                                {"kdop26", Volume::kdop26},
+                                                {"obb", Volume::obb},
+                                                {"pss", Volume::pss},
+                                                {"lss", Volume::lss},
+                                                {"rss", Volume::rss}}};
+
+/// In          a name of kVolumes.
+Volume parse_volume(const std::string& name) {
+    return std::find_if(kVolumes.begin(), kVolumes.end(),
+                        [&](const NamedVolume& named) { return name == named.name; })
+        ->volume;
+}
+
+} // namespace
 
 void add_two_models(CLI::App& app, TwoModelsOptions& options) {
     app.add_option("A", options.files[0], "First model")->required();
@@ -24,6 +52,16 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
     app.add_option("--pose-b", options.poses[1], fmt::format("Pose of B: {}", kForm))
         ->check(not_empty("POSE"));
     add_unit_option(app, options.unit);
+}
+
+void add_volume(CLI::App& app, TwoModelsOptions& options) {
+    std::vector<std::string> names;
+    for (const NamedVolume& named : kVolumes)
+        names.emplace_back(named.name);
+    app.add_option("--volume", options.volume,
+                   "Kind of the bounding volumes; the answer does not depend on it")
+        ->check(CLI::IsMember(names))
+        ->capture_default_str();
 }
 
 Pose parse_pose(const std::string& option, const std::string& text) {
@@ -58,8 +96,9 @@ TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
     const double seconds_import = import_watch.seconds();
 
     const Stopwatch build_watch;
-    Model a(std::move(meshes[0]));
-    Model b(std::move(meshes[1]));
+    const ModelOptions build{.volume = parse_volume(options.volume)};
+    Model a(std::move(meshes[0]), build);
+    Model b(std::move(meshes[1]), build);
     return {std::move(a), std::move(b),   world_from_a,
             world_from_b, seconds_import, build_watch.seconds()};
 }

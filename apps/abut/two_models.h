@@ -18,6 +18,7 @@ struct TwoModelsOptions {
     std::array<std::string, 2> files;
     std::array<std::string, 2> poses; ///< as given; empty: identity
     double unit = 0;
+    std::string volume = "automatic";
 };
 
 /// --poses FILE: many poses of B in one run.
@@ -42,6 +43,9 @@ struct TwoModels {
 
 /// Declares A, B, --pose-a, --pose-b and --unit.
 void add_two_models(CLI::App& app, TwoModelsOptions& options);
+
+/// Declares --volume: the kind of bounding volume that both models are built with.
+void add_volume(CLI::App& app, TwoModelsOptions& options);
 
 /// "x,y,z,qw,qx,qy,qz": translation, then a quaternion of any length but zero.
 ///

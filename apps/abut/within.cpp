@@ -68,6 +68,7 @@ Subcommand add_within(CLI::App& root, CommonOptions& common) {
                                    "Are two models at most a tolerance apart, or in contact?");
     add_two_models(*app, arguments->models);
     add_poses(*app, arguments->poses);
+    add_volume(*app, arguments->models);
     app->add_option("--tolerance", arguments->tolerance, "Distance in metres")
         ->required()
         ->check(not_negative());

@@ -41,6 +41,10 @@ struct ReadOptions {
 /// Reads a model: glTF/GLB, OBJ, PLY, STL, OFF, FBX, COLLADA; IFC 2x3 and 4 where Node.js is
 /// installed.
 ///
+/// Vertices of a mesh at equal positions (-0 equals 0) are joined and come in the order of
+/// their first occurrence; one that no triangle uses is kept. Triangles are kept
+/// all, in the file's order; polygons are cut.
+///
 /// Third-party readers run in a process of their own, so that a crash in one is an Error here.
 ///
 /// Errors      Error, naming the file: file_not_found, unreadable, malformed, unsupported, bad_mesh

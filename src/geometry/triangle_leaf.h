@@ -14,9 +14,9 @@ struct alignas(16) TriangleLeaf {
 };
 
 /// How two leaves lie to each other.
-struct alignas(16) LeafPlacement {
+struct LeafPlacement {
     /// Takes b's points to a's frame: [column][row], padded to four.
-    std::array<std::array<float, 4>, 3> linear{};
+    alignas(16) std::array<std::array<float, 4>, 3> linear{};
     std::array<float, 4> translation{};
     float margin = 0; ///< what the difference of two coordinates may be off by, on each axis
 };

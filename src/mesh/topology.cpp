@@ -3,11 +3,12 @@
 #include <abut/error.h>
 
 #include "math/vector.h"
+#include "mesh/equal_positions.h"
 
 #include <algorithm>
 #include <numeric>
 #include <string>
-#include <tuple>
+#include <utility>
 
 namespace abut {
 
@@ -17,20 +18,42 @@ bool same_edge(const HalfEdge& a, const HalfEdge& b) {
     return a.lower() == b.lower() && a.upper() == b.upper();
 }
 
-std::vector<std::uint32_t> merge_equal_positions(const Mesh& mesh) {
-    const auto& positions = mesh.positions;
-    std::vector<std::uint32_t> sorted(positions.size());
-    std::iota(sorted.begin(), sorted.end(), 0U);
-    std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const Vec3 &p = positions[i], &q = positions[j];
-        return std::tie(p.x, p.y, p.z, i) < std::tie(q.x, q.y, q.z, j);
-    });
-    std::vector<std::uint32_t> vertex_of(positions.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-        vertex_of[sorted[i]] = i > 0 && positions[sorted[i]] == positions[sorted[i - 1]]
-                                   ? vertex_of[sorted[i - 1]]
-                                   : sorted[i];
-    return vertex_of;
+/// Visits the sides of all triangles whose merged vertices differ, in the triangles' order.
+template <typename Visit>
+void for_each_half_edge(const Mesh& mesh, const std::vector<std::uint32_t>& vertex_of,
+                        const Visit& visit) {
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& v = mesh.triangles[i];
+        const std::array<std::uint32_t, 3> m{vertex_of[v[0]], vertex_of[v[1]], vertex_of[v[2]]};
+        if (m[0] == m[1] || m[1] == m[2] || m[2] == m[0])
+            continue;
+        visit(HalfEdge{m[0], m[1], i, v[2]});
+        visit(HalfEdge{m[1], m[2], i, v[0]});
+        visit(HalfEdge{m[2], m[0], i, v[1]});
+    }
+}
+
+/// By lower vertex, upper vertex, triangle. Counting gives each lower vertex its range; the few
+/// half-edges in there are sorted.
+std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh,
+                                        const std::vector<std::uint32_t>& vertex_of) {
+    std::vector<std::size_t> end_of(vertex_of.size() + 1);
+    for_each_half_edge(mesh, vertex_of, [&](const HalfEdge& e) { ++end_of[e.lower() + 1]; });
+    std::partial_sum(end_of.begin(), end_of.end(), end_of.begin());
+    std::vector<HalfEdge> sorted(end_of.back());
+    // Where a range begins, until its half-edges move that to where it ends.
+    for_each_half_edge(mesh, vertex_of,
+                       [&](const HalfEdge& e) { sorted[end_of[e.lower()]++] = e; });
+    std::size_t begin = 0;
+    for (const std::size_t end : end_of) {
+        std::sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin),
+                  sorted.begin() + static_cast<std::ptrdiff_t>(end),
+                  [](const HalfEdge& a, const HalfEdge& b) {
+                      return std::pair(a.upper(), a.triangle) < std::pair(b.upper(), b.triangle);
+                  });
+        begin = end;
+    }
+    return sorted;
 }
 
 } // namespace
@@ -47,21 +70,8 @@ std::span<const HalfEdge> Topology::edge(std::uint32_t v, std::uint32_t w) const
 
 Topology make_topology(const Mesh& mesh) {
     Topology t;
-    t.vertex_of = merge_equal_positions(mesh);
-    t.half_edges.reserve(3 * mesh.triangles.size());
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto& v = mesh.triangles[i];
-        const std::array<std::uint32_t, 3> m{t.vertex_of[v[0]], t.vertex_of[v[1]],
-                                             t.vertex_of[v[2]]};
-        if (m[0] == m[1] || m[1] == m[2] || m[2] == m[0])
-            continue;
-        for (std::size_t k = 0; k < 3; ++k)
-            t.half_edges.push_back({m[k], m[(k + 1) % 3], i, v[(k + 2) % 3]});
-    }
-    std::sort(t.half_edges.begin(), t.half_edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tuple(a.lower(), a.upper(), a.triangle) <
-               std::tuple(b.lower(), b.upper(), b.triangle);
-    });
+    t.vertex_of = first_equal_positions(std::span(mesh.positions));
+    t.half_edges = sorted_half_edges(mesh, t.vertex_of);
     return t;
 }
 
@@ -76,20 +86,22 @@ bool is_closed(const Topology& topology) {
 }
 
 std::vector<std::uint32_t> vertex_components(const Mesh& mesh, const Topology& topology) {
-    std::vector<std::uint32_t> parent(mesh.positions.size());
-    std::iota(parent.begin(), parent.end(), 0U);
+    // Trees whose parents have lower numbers: then one pass upwards finds all roots.
+    std::vector<std::uint32_t> parent = topology.vertex_of;
     const auto root = [&](std::uint32_t v) {
         while (parent[v] != v)
             v = parent[v] = parent[parent[v]];
         return v;
     };
-    for (const auto& t : mesh.triangles)
-        for (std::size_t k = 1; k < 3; ++k)
-            parent[root(topology.vertex_of[t[k]])] = root(topology.vertex_of[t[0]]);
-    std::vector<std::uint32_t> result(mesh.positions.size());
-    for (std::uint32_t v = 0; v < result.size(); ++v)
-        result[v] = root(topology.vertex_of[v]);
-    return result;
+    for (const auto& t : mesh.triangles) {
+        const std::array<std::uint32_t, 3> r{root(t[0]), root(t[1]), root(t[2])};
+        const std::uint32_t lowest = std::min({r[0], r[1], r[2]});
+        for (const std::uint32_t other : r)
+            parent[other] = lowest;
+    }
+    for (std::uint32_t& p : parent)
+        p = parent[p];
+    return parent;
 }
 
 std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Topology& topology) {

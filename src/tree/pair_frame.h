@@ -12,7 +12,7 @@ namespace abut {
 /// How the boxes of one node's frame appear in another's, in single precision, with what that may
 /// be off by: a gap is real beyond the margin.
 struct FrameMap : LeafPlacement {
-    std::array<std::array<float, 4>, 3> magnitude{}; ///< |linear|, for half extents
+    alignas(16) std::array<std::array<float, 4>, 3> magnitude{}; ///< |linear|, for half extents
     float stretch_sq = 0; ///< a squared gap in the target frame is at least this times larger in
                           ///< the world (or equal)
     float most_stretch_sq = 0; ///< and at most this times

@@ -3,7 +3,9 @@
 #include "tests/command/run_command.h"
 
 #include <cmath>
+#include <cstdint>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace abut::test {
 namespace {
@@ -30,6 +32,103 @@ TEST_F(TwoModelsTest, DistanceUnderATranslation) {
     EXPECT_EQ(answer["a"], box_);
     for (const char* key : {"triangle_a", "triangle_b", "counters", "seconds"})
         EXPECT_TRUE(answer.contains(key)) << key;
+}
+
+TEST_F(TwoModelsTest, DistanceNamesWhatThePointsLieOn) {
+    // The corner (1, 1, 1) of A, the corner (2, 2, 2) of B.
+    const auto answer = ask("distance", {"--pose-b", "2,2,2,1,0,0,0", "--json"}).json();
+    EXPECT_EQ(answer["at_least"], answer["distance"]);
+    const Mesh box = unit_box();
+    for (const auto& [side, corner] : {std::pair{"a", Vec3{1, 1, 1}}, {"b", Vec3{0, 0, 0}}}) {
+        const auto& feature = answer[std::string("feature_") + side];
+        ASSERT_EQ(feature["kind"], "vertex");
+        const auto triangle = answer[std::string("triangle_") + side].get<std::size_t>();
+        const std::uint32_t vertex = box.triangles.at(triangle).at(feature["index"]);
+        EXPECT_EQ(box.positions.at(vertex), corner);
+    }
+}
+
+TEST_F(TwoModelsTest, DistanceWithinAnError) {
+    for (const auto& [option, error] :
+         {std::pair{"--absolute-error", "0.5"}, {"--relative-error", "0.25"}}) {
+        const auto answer = ask("distance", {"--pose-b", "3,0,0,1,0,0,0", "--json", option, error});
+        ASSERT_EQ(answer.status, 0) << answer.err;
+        EXPECT_EQ(answer.json()["status"], "converged");
+        const double distance = answer.json()["distance"];
+        const double at_least = answer.json()["at_least"];
+        EXPECT_LE(at_least, 2);
+        EXPECT_GE(distance, 2);
+        const bool absolute = option == std::string("--absolute-error");
+        EXPECT_NEAR(at_least, distance - (absolute ? 0.5 : 0.25 * distance), 1e-12);
+        EXPECT_NE(
+            ask("distance", {"--pose-b", "3,0,0,1,0,0,0", option, error}).out.find("at least"),
+            std::string::npos);
+    }
+}
+
+TEST_F(TwoModelsTest, DistanceBeyondItsBoundHasNoPoints) {
+    const std::vector<std::string> near{"--pose-b", "3,0,0,1,0,0,0", "--upper-bound", "2.5"};
+    const std::vector<std::string> far{"--pose-b", "3,0,0,1,0,0,0", "--upper-bound", "1.5"};
+    EXPECT_EQ(ask("distance", near).out.rfind("distance 2\n", 0), 0U);
+    EXPECT_EQ(ask("distance", far).out, "distance at least 1.5\n");
+    auto with_json = far;
+    with_json.emplace_back("--json");
+    const auto answer = ask("distance", with_json).json();
+    EXPECT_EQ(answer["status"], "bound_only");
+    EXPECT_EQ(answer["distance"], 1.5);
+    EXPECT_EQ(answer["at_least"], 1.5);
+    for (const char* key : {"point_a", "triangle_a", "feature_a"})
+        EXPECT_FALSE(answer.contains(key)) << key;
+}
+
+TEST_F(TwoModelsTest, SignedDistanceIsMinusTheDepth) {
+    const std::string poses =
+        folder_.write("poses.csv", "0.9,0.2,0.3,1,0,0,0\n3,0,0,1,0,0,0\n1,0,0,1,0,0,0\n");
+    const Outcome outcome = ask("distance", {"--signed", "--poses", poses, "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto answers = outcome.json()["poses"];
+    EXPECT_NEAR(answers[0]["distance"], -0.1, 1e-3);
+    EXPECT_LE(answers[0]["at_least"], answers[0]["distance"]);
+    EXPECT_TRUE(answers[0].contains("point_a"));
+    EXPECT_FALSE(answers[0].contains("feature_a"));
+    EXPECT_EQ(answers[1]["distance"], 2.0);
+    EXPECT_EQ(answers[2]["distance"], 0.0);
+    EXPECT_EQ(ask("distance", {"--poses", poses, "--json"}).json()["poses"][0]["distance"], 0.0);
+}
+
+TEST_F(TwoModelsTest, RefusesBadErrorsAndBounds) {
+    for (const char* option : {"--absolute-error", "--relative-error", "--upper-bound"})
+        for (const char* value : {"-1", "nan", "inf", "x"})
+            expect_refused(ask("distance", {option, value}), {option});
+}
+
+TEST_F(TwoModelsTest, TheVolumeChangesTheWorkAndNotTheAnswer) {
+    const std::string ball = folder_ / "ball.glb";
+    Scene scene;
+    scene.meshes = {test::ball(8)};
+    scene.parts = {part("ball", "", 0, placed(0, 0, 0))};
+    write_glb(scene, ball);
+    const auto run = [&](const std::string& verb, std::vector<std::string> options) {
+        options.insert(options.begin(),
+                       {verb, ball, ball, "--json", "--pose-b", "2.5,1,0,5,0,1,0"});
+        return run_abut(options);
+    };
+    const double distance = run("distance", {}).json()["distance"];
+    EXPECT_GT(distance, 0.5);
+    std::set<std::uint64_t> work;
+    for (const char* kind : {"automatic", "aabb", "sphere", "kdop14", "kdop18", "kdop26", "obb",
+                             "pss", "lss", "rss"}) {
+        const Outcome one = run("distance", {"--volume", kind});
+        ASSERT_EQ(one.status, 0) << one.err;
+        EXPECT_NEAR(one.json()["distance"], distance, 1e-12);
+        work.insert(one.json()["counters"]["volume_tests"].get<std::uint64_t>());
+        EXPECT_EQ(run("collide", {"--volume", kind}).json()["contact"], false);
+        EXPECT_EQ(run("within", {"--volume", kind, "--tolerance", "2"}).json()["within"], true);
+    }
+    EXPECT_GT(work.size(), 3U);
+    expect_refused(ask("distance", {"--volume", "cube"}), {"--volume", "cube"});
+    expect_refused(ask("collide", {"--volume", ""}), {"--volume"});
+    expect_refused(ask("within", {"--tolerance", "1", "--volume", "AABB"}), {"--volume", "AABB"});
 }
 
 TEST_F(TwoModelsTest, DistanceUnderARotation) {

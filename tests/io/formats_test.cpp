@@ -25,6 +25,7 @@ TEST_P(Format, GivesTheStoredPositions) {
             const auto& corner = kCorners.at(kFaces[i].at(k));
             EXPECT_EQ(triangles[i].at(k), (Vec3{corner[0], corner[1], corner[2]})) << i << ' ' << k;
         }
+    EXPECT_EQ(scene.meshes[0].positions.size(), kCorners.size()); // none is stored twice
     EXPECT_FALSE(scene.parts[0].id.empty());
     EXPECT_EQ(scene.parts[0].name, scene.parts[0].id);
 }
@@ -94,6 +95,19 @@ TEST(Formats, ZeroAreaTrianglesAreKept) {
     const std::string path = folder.file(
         "flat.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n3 0 1 3\n3 0 1 2\n3 1 1 1\n3 0 1 3\n");
     EXPECT_EQ(world_triangles(read_scene(path)).size(), 4U);
+}
+
+TEST(Formats, VerticesAtEqualPositionsAreJoinedInTheirOrder) {
+    const TemporaryFolder folder;
+    // Two triangles and one of no area; vertices 4 and 6 repeat 1 and 0 (as -0), none uses 5.
+    const Mesh mesh = read_mesh(
+        folder.file("soup.off", "OFF\n7 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n1 0 0\n7 7 7\n-0 0 -0\n"
+                                "3 6 1 2\n3 4 3 2\n3 0 6 4\n"));
+    ASSERT_EQ(mesh.positions.size(), 5U);
+    EXPECT_EQ(mesh.positions[3], (Vec3{1, 1, 0}));
+    EXPECT_EQ(mesh.positions[4], (Vec3{7, 7, 7}));
+    const std::vector<std::array<std::uint32_t, 3>> expected{{0, 1, 2}, {1, 3, 2}, {0, 0, 1}};
+    EXPECT_EQ(mesh.triangles, expected);
 }
 
 TEST(Formats, UnitScalesTheTransformAndKeepsTheMesh) {

@@ -87,9 +87,9 @@ TEST_F(Gltf, PrimitivesOfAMeshAreOneMeshAndLinesAreSkipped) {
     const Scene scene = read_scene(folder_.file("m.glb", glb(document, tetrahedron_bytes())));
     ASSERT_EQ(scene.parts.size(), 1U);
     ASSERT_EQ(scene.meshes.size(), 1U);
-    EXPECT_EQ(scene.meshes[0].positions.size(), 12U);
+    EXPECT_EQ(scene.meshes[0].positions.size(), 4U); // joined across the primitives
     ASSERT_EQ(scene.meshes[0].triangles.size(), 4U + 10U + 4U);
-    EXPECT_EQ(scene.meshes[0].triangles[14], (std::array<std::uint32_t, 3>{8, 10, 9}));
+    EXPECT_EQ(scene.meshes[0].triangles[14], kFaces[0]);
 }
 
 TEST_F(Gltf, AnUnusedMeshAndAnotherSceneAreLeftOut) {

@@ -267,7 +267,7 @@ TEST_F(Hostile, OfSeveralFilesTheFirstFaultCounts) {
     ASSERT_EQ(scenes.size(), 3U);
     EXPECT_EQ(scenes[0].file, good);
     EXPECT_EQ(scenes[1].file, folder_.path("b.off"));
-    EXPECT_EQ(scenes[2].meshes[0].positions.size(), 12U);
+    EXPECT_EQ(scenes[2].meshes[0].positions.size(), kCorners.size());
 }
 
 } // namespace

@@ -83,6 +83,7 @@ TEST_F(Ifc, House2x3) {
     EXPECT_EQ(wall.name, "South wall");
     EXPECT_EQ(wall.type, "IfcWallStandardCase");
     EXPECT_EQ(scene.meshes[wall.mesh].triangles.size(), 12U);
+    EXPECT_EQ(scene.meshes[wall.mesh].positions.size(), 8U); // none is stored twice
     // Y is up: IFC's (x, y, z) is (x, z, -y).
     expect_box(bounds_of(scene, wall), {0, 0, -0.2}, {4, 3, 0});
     // The same shape again, and with a hole: that one must not share the mesh.

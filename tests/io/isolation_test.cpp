@@ -126,7 +126,7 @@ TEST_F(Isolation, CountsAndIndicesOfAStreamAreNotTrusted) {
         fail_with_stream(changed(field, std::uint32_t{0}), ErrorCode::reader_failed);
         fail_with_stream(changed(field, ~std::uint32_t{0}), ErrorCode::reader_failed);
     }
-    const std::uint32_t vertices = 12;
+    const std::uint32_t vertices = kCorners.size();
     const std::size_t indices = mesh + 12 + std::size_t{vertices} * 12;
     fail_with_stream(changed(indices, vertices), ErrorCode::bad_mesh);
     fail_with_stream(changed(indices, scene_stream::kBadIndex), ErrorCode::bad_mesh);

@@ -26,6 +26,43 @@ class Fault extends Error {
     }
 }
 
+/**
+ * Vertices at equal positions (-0 equals 0) as one, in the order of their first occurrence: web-ifc parts vertices by
+ * their normals.
+ */
+function withJoinedVertices({positions, triangles}) {
+    const distinct = positions.map(value => value + 0); // -0 + 0 is 0
+    const words = new Uint32Array(distinct.buffer);
+    const size = 3 * distinct.BYTES_PER_ELEMENT / words.BYTES_PER_ELEMENT;
+    const vertices = positions.length / 3;
+    const table = new Int32Array(2 ** Math.ceil(Math.log2(2 * vertices + 1))).fill(-1);
+    const numberOf = new Uint32Array(vertices);
+    let count = 0;
+    const equal = (a, b) => {
+        for (let k = 0; k < size; ++k)
+            if (words[a * size + k] !== words[b * size + k])
+                return false;
+        return true;
+    };
+    for (let i = 0; i < vertices; ++i) {
+        let hash = 0;
+        for (let k = 0; k < size; ++k) {
+            hash = Math.imul(hash ^ words[i * size + k], 0x9e3779b1);
+            hash ^= hash >>> 15;
+        }
+        let place = hash & (table.length - 1);
+        while (table[place] >= 0 && !equal(table[place], i))
+            place = (place + 1) & (table.length - 1);
+        if (table[place] < 0) {
+            table[place] = count;
+            distinct.copyWithin(3 * count, 3 * i, 3 * i + 3);
+            ++count;
+        }
+        numberOf[i] = table[place];
+    }
+    return {positions: distinct.slice(0, 3 * count), triangles: triangles.map(index => numberOf[index] ?? index)};
+}
+
 class Output {
     #parts = []; // buffers, several a part
     #partCount = 0;
@@ -182,7 +219,7 @@ class Converter {
     #mesh(key, make) {
         let number = this.#meshOf.get(key);
         if (number === undefined) {
-            const {positions, triangles} = make();
+            const {positions, triangles} = withJoinedVertices(make());
             number = this.output.mesh(positions, triangles);
             this.#meshOf.set(key, number);
         }

@@ -2,6 +2,7 @@
 
 #include "io/reader/fault.h"
 #include "io/reader/gltf_tree.h"
+#include "io/reader/joined_vertices.h"
 #include "io/reader/node_parts.h"
 #include "io/reader/promise.h"
 #include "io/reader/triangulate.h"
@@ -16,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <span>
 
 namespace abut {
 
@@ -78,9 +80,11 @@ Sizes sizes_of(const aiScene& scene, const MeshList& list) {
     return sizes;
 }
 
-void write_faces(const aiMesh& mesh, std::uint32_t base, StreamWriter& writer) {
-    const auto in_mesh = [&](std::uint32_t index) {
-        return index < mesh.mNumVertices ? base + index : scene_stream::kBadIndex;
+/// number_of: the number that each of the mesh's vertices is written under.
+void write_faces(const aiMesh& mesh, std::span<const std::uint32_t> number_of,
+                 StreamWriter& writer) {
+    const auto written = [&](std::uint32_t index) {
+        return index < number_of.size() ? number_of[index] : scene_stream::kBadIndex;
     };
     std::vector<std::array<std::uint32_t, 3>> cut;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -96,21 +100,25 @@ void write_faces(const aiMesh& mesh, std::uint32_t base, StreamWriter& writer) {
             cut.resize(corners.size() - 2,
                        {scene_stream::kBadIndex, scene_stream::kBadIndex, scene_stream::kBadIndex});
         for (const auto& [a, b, c] : cut)
-            writer.triangle({in_mesh(a), in_mesh(b), in_mesh(c)});
+            writer.triangle({written(a), written(b), written(c)});
     }
 }
 
 void write_mesh(const aiScene& scene, const MeshList& list, const Sizes& sizes,
                 StreamWriter& writer) {
     static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "Assimp in single precision");
-    writer.begin_mesh(static_cast<std::uint32_t>(sizes.vertices),
-                      static_cast<std::uint32_t>(sizes.triangles));
+    std::vector<const aiMesh*> meshes;
     for (const unsigned mesh : list)
-        writer.positions(&scene.mMeshes[mesh]->mVertices->x, scene.mMeshes[mesh]->mNumVertices);
-    std::uint32_t base = 0;
-    for (const unsigned mesh : list) {
-        write_faces(*scene.mMeshes[mesh], base, writer);
-        base += scene.mMeshes[mesh]->mNumVertices;
+        meshes.push_back(scene.mMeshes[mesh]);
+    const JoinedVertices joined = join_vertices(meshes);
+    writer.begin_mesh(static_cast<std::uint32_t>(joined.positions.size()),
+                      static_cast<std::uint32_t>(sizes.triangles));
+    writer.positions(reinterpret_cast<const float*>(joined.positions.data()),
+                     joined.positions.size());
+    std::span<const std::uint32_t> rest = joined.number_of;
+    for (const aiMesh* const mesh : meshes) {
+        write_faces(*mesh, rest.first(mesh->mNumVertices), writer);
+        rest = rest.subspan(mesh->mNumVertices);
     }
 }
 
