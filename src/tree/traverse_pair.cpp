@@ -384,7 +384,7 @@ private:
     }
 
     bool visit(const NodePair& nodes, NodeRef a, NodeRef b) {
-        t_.primitive_tests += a.count() * b.count();
+        t_.primitive_tests += std::uint64_t{a.count()} * b.count();
         const LeafPairs pairs =
             compare_leaves(t_.a, a, t_.b, b, nodes, mode == Mode::contacts, bound_sq_);
         if (pairs.any() == 0)

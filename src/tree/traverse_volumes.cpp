@@ -156,7 +156,7 @@ private:
         return side.tree.nodes[name / Node::kWidth];
     }
     Verdict visit(NodeRef a, const Node& p, NodeRef b, const Node& q) {
-        pair_.primitive_tests += a.count() * b.count();
+        pair_.primitive_tests += std::uint64_t{a.count()} * b.count();
         const NodePair nodes(pair_.frame, p, q, nullptr);
         const LeafPairs pairs =
             compare_leaves(pair_.a, a, pair_.b, b, nodes, contacts_only_, bound_sq_);
