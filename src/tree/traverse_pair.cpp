@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -18,6 +19,8 @@
 namespace abut::traverse_pair {
 
 constexpr std::uint32_t kRoot = 0xffffffffU;
+/// More than underflow takes from a product. Without it, all is within a bound that is nearly 0.
+constexpr float kUnderflow = std::numeric_limits<float>::min();
 /// Where one box has so many times the surface of the other, it is opened alone.
 constexpr float kUnlike = 4;
 
@@ -114,7 +117,7 @@ HWY_INLINE void bound_children(const Node& node, const MiddleBox& box, const Com
     const auto margin_node = hn::Set(d, to_node.margin), margin_box = hn::Set(d, to_box.margin);
     for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
         V centre[3], extent[3];
-        auto gap_sq = zero, reach_sq = zero;
+        auto gap_sq = zero, reach_sq = hn::Set(d, traverse_pair::kUnderflow);
         auto largest_gap = hn::Set(d, hwy::LowestValue<float>());
         // Node frame: gap = |c - c'| - (h + h') - margin on each axis.
         for (std::size_t i = 0; i < 3; ++i) {
@@ -204,9 +207,10 @@ HWY_INLINE void bound_children(const Node& node, const MiddleBox& box, const Com
         bounds.near |= bits_of(d, near) << lane;
         if constexpr (mode == Mode::within)
             bounds.accepted |=
-                bits_of(d,
-                        hn::And(used, hn::Le(hn::Mul(reach_sq, hn::Set(d, to_node.most_stretch_sq)),
-                                             hn::Set(d, bound_sq))))
+                bits_of(d, hn::And(used,
+                                   hn::Le(hn::MulAdd(reach_sq, hn::Set(d, to_node.most_stretch_sq),
+                                                     hn::Set(d, traverse_pair::kUnderflow)),
+                                          hn::Set(d, bound_sq))))
                 << lane;
     }
 }
@@ -387,7 +391,7 @@ private:
     }
 
     bool visit(const NodePair& nodes, NodeRef a, NodeRef b) {
-        t_.primitive_tests += a.count() * b.count();
+        t_.primitive_tests += std::uint64_t{a.count()} * b.count();
         const LeafPairs pairs =
             compare_leaves(t_.a, a, t_.b, b, nodes, mode == Mode::contacts, bound_sq_);
         if (pairs.any() == 0)

@@ -6,6 +6,7 @@
 #include <bit>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -21,6 +22,8 @@
 namespace abut::traverse_volumes {
 
 constexpr std::uint32_t kRoot = 0xffffffffU;
+/// More than underflow takes from a product. Without it, all is within a bound that is nearly 0.
+constexpr float kUnderflow = std::numeric_limits<float>::min();
 
 struct VolumePair {
     std::uint32_t a, b;
@@ -153,7 +156,7 @@ private:
         return side.tree.nodes[name / Node::kWidth];
     }
     Verdict visit(NodeRef a, const Node& p, NodeRef b, const Node& q) {
-        pair_.primitive_tests += a.count() * b.count();
+        pair_.primitive_tests += std::uint64_t{a.count()} * b.count();
         const NodePair nodes(pair_.frame, p, q);
         const LeafPairs pairs =
             compare_leaves(pair_.a, a, pair_.b, b, nodes, contacts_only_, bound_sq_);
@@ -178,7 +181,10 @@ private:
         std::uint32_t deepest = Node::kWidth;
         for (std::uint32_t rest = used; rest != 0; rest &= rest - 1) {
             auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
-            if (with_upper && bounds.upper_sq[lane] * side.most_stretch_sq <= bound_sq_)
+            constexpr float kUnderflow = traverse_volumes::kUnderflow;
+            if (with_upper &&
+                (bounds.upper_sq[lane] + kUnderflow) * side.most_stretch_sq + kUnderflow <=
+                    bound_sq_)
                 return true;
             bounds.lower_sq[lane] *= side.stretch_sq;
             // A bound that is not a number keeps the child.

@@ -218,6 +218,8 @@ enum class Place {
     huge,         ///< 1e6 across
     tiny_by_transform,
     huge_by_transform,
+    minute, ///< 1e-30 across: squares underflow in single precision
+    minute_by_transform,
     unlike, ///< b is a millionth of a
 };
 
@@ -260,12 +262,16 @@ Case make_case(Random& random, Place place, Shape shape_a, Shape shape_b, double
         break;
     case Place::tiny:
     case Place::huge:
-        size = place == Place::tiny ? 1e-6 : 1e6;
+    case Place::minute:
+        size = place == Place::tiny ? 1e-6 : place == Place::huge ? 1e6 : 1e-30;
         scale_mesh(c.mesh_a, size), scale_mesh(c.mesh_b, size);
         break;
     case Place::tiny_by_transform:
     case Place::huge_by_transform:
-        size = by_transform = place == Place::tiny_by_transform ? 1e-6 : 1e6;
+    case Place::minute_by_transform:
+        size = by_transform = place == Place::tiny_by_transform   ? 1e-6
+                              : place == Place::huge_by_transform ? 1e6
+                                                                  : 1e-30;
         break;
     case Place::unlike:
         scale_mesh(c.mesh_b, 1e-6);
@@ -308,7 +314,8 @@ TEST_P(HardInputs, EqualBruteForce) {
 INSTANTIATE_TEST_SUITE_P(Places, HardInputs,
                          testing::Values(Place::near, Place::far_in_world, Place::far_in_mesh,
                                          Place::tiny, Place::huge, Place::tiny_by_transform,
-                                         Place::huge_by_transform, Place::unlike));
+                                         Place::huge_by_transform, Place::minute,
+                                         Place::minute_by_transform, Place::unlike));
 
 /// A model upon itself, and off by a few units in the last place.
 TEST(HardInputs, CoincidentModels) {

@@ -126,7 +126,8 @@ void expect_merge_encloses_volumes(double radius_of(const V&)) {
 }
 TEST(VolumeMerge, EnclosesTheVolumesThemselves) {
     expect_merge_encloses_volumes<Obb>([](const Obb&) { return 0.0; });
-    expect_merge_encloses_volumes<BoundingSphere>([](const BoundingSphere& s) { return double{s.radius}; });
+    expect_merge_encloses_volumes<BoundingSphere>(
+        [](const BoundingSphere& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Pss>([](const Pss& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Lss>([](const Lss& s) { return double{s.radius}; });
     expect_merge_encloses_volumes<Rss>([](const Rss& s) { return double{s.radius}; });
