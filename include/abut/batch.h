@@ -10,7 +10,8 @@
 
 /// Many queries of one pair of models at once: the verbs of rigid.h and motion.h for a list of
 /// placements, in parallel (`set_threads`). Each answer equals that of the single query, counters
-/// included, and stands at its placement's index.
+/// included, and stands at its placement's index. A workspace in the options is left alone: it is one
+/// thread's.
 ///
 /// Errors, of all: those of the single query, for the first placement that has one; its message
 /// begins with "placement N: ", N counted from 0.

@@ -57,19 +57,28 @@ std::vector<Result> in_parallel(std::size_t count, const Query& query) {
     return results;
 }
 
+/// A workspace is one thread's.
+template <typename Options>
+Options without_workspace(Options options) {
+    options.workspace = nullptr;
+    return options;
+}
+
 } // namespace
 
 std::vector<Contacts> collide(const Model& a, const Model& b, std::span<const Placement> placements,
                               const CollideOptions& options) {
+    const CollideOptions each = without_workspace(options);
     return in_parallel<Contacts>(placements.size(), [&](std::size_t i) {
-        return collide(a, placements[i].world_from_a, b, placements[i].world_from_b, options);
+        return collide(a, placements[i].world_from_a, b, placements[i].world_from_b, each);
     });
 }
 
 std::vector<Gap> distance(const Model& a, const Model& b, std::span<const Placement> placements,
                           const DistanceOptions& options) {
+    const DistanceOptions each = without_workspace(options);
     return in_parallel<Gap>(placements.size(), [&](std::size_t i) {
-        return distance(a, placements[i].world_from_a, b, placements[i].world_from_b, options);
+        return distance(a, placements[i].world_from_a, b, placements[i].world_from_b, each);
     });
 }
 
