@@ -134,13 +134,13 @@ TEST_P(TraversePair, VisitsEveryPairWithinTheBound) {
             EXPECT_EQ(traverse_contacts(contacts, touched), Verdict::done);
             for (std::uint32_t i = 0; i < a.triangles.size(); ++i)
                 for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {
-                    const TriangleContact kind =
+                    const TriangleContact contact =
                         contact_of(a.triangles[i], world_a, b.triangles[j], world_b);
-                    met += kind != TriangleContact::none ? 1 : 0;
-                    ASSERT_TRUE(kind == TriangleContact::none || touched.seen.contains({i, j}));
+                    met += contact != TriangleContact::none ? 1 : 0;
+                    ASSERT_TRUE(contact == TriangleContact::none || touched.seen.contains({i, j}));
                     if (touched.cross.contains({i, j})) {
                         ++crossed;
-                        ASSERT_EQ(kind, TriangleContact::cross);
+                        ASSERT_EQ(contact, TriangleContact::cross);
                     }
                 }
             for (const double bound : {0.01 * kind.size, 0.1 * kind.size, 3 * kind.size}) {
