@@ -56,6 +56,7 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
 
 void add_volume(CLI::App& app, TwoModelsOptions& options) {
     std::vector<std::string> names;
+    names.reserve(kVolumes.size());
     for (const NamedVolume& named : kVolumes)
         names.emplace_back(named.name);
     app.add_option("--volume", options.volume,

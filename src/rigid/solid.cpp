@@ -44,13 +44,13 @@ int outward_by_winding(const Mesh& mesh) {
         const Vec3 centre = (1.0 / 3) * (t[0] + t[1] + t[2]);
         // A thousandth of the triangle's size off its middle.
         const Vec3 step = (1e-3 * std::sqrt(length(n))) * normalized_or_zero(n);
-        const double over = winding_number(mesh, centre + step),
-                     under = winding_number(mesh, centre - step);
         const auto is = [](double w, double integer) {
             return std::abs(w - integer) <= kWindingRounding;
         };
-        const int here = is(over, 0) && is(under, 1) ? 1 : is(over, -1) && is(under, 0) ? -1 : 0;
-        if (here == 0 || (outward != 0 && outward != here))
+        const double over = winding_number(mesh, centre + step);
+        const int here = is(over, 0) ? 1 : is(over, -1) ? -1 : 0;
+        if (here == 0 || (outward != 0 && outward != here) ||
+            !is(winding_number(mesh, centre - step), here > 0 ? 1 : 0))
             return 0;
         outward = here;
     }
