@@ -1,8 +1,8 @@
 #pragma once
 
 #include "rigid/contacts.h"
-#include "rigid/meeting.h"
 #include "rigid/local_penetration.h"
+#include "rigid/meeting.h"
 #include "rigid/placed_solid.h"
 #include "tests/support/shapes.h"
 
