@@ -56,13 +56,7 @@ int main(int argc, char** argv) {
     rigid_suite->add_flag("--alone", rigid.alone, "Without peers");
     rigid_suite->add_flag("--volumes", rigid.volumes, "Also with every kind of bounding volume");
     rigid_suite->add_option("--seed", rigid.seed, "Of the poses");
-    rigid_suite->callback([&] {
-        if (rigid.files.size() % 2 != 0)
-            throw CLI::ValidationError("files", "two files a pair");
-        if (rigid.files.empty() && rigid.generated.empty())
-            rigid.generated = {100000, 1000000};
-        report = run_rigid_suite(rigid);
-    });
+    rigid_suite->callback([&] { report = run_rigid_suite(rigid); });
 
     ImpactSuiteOptions impact;
     CLI::App* impact_suite =

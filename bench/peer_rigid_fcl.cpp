@@ -29,9 +29,10 @@ std::shared_ptr<fcl::BVHModel<BoundingVolume>> build(const Mesh& mesh) {
 
 fcl::Transform3d placement(const Transform& t) {
     fcl::Transform3d result = fcl::Transform3d::Identity();
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            result(row, column) = t.m[static_cast<std::size_t>(3 * column + row)];
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column)
+            result(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+                t.m[3 * column + row];
     return result;
 }
 

@@ -1,3 +1,4 @@
+#include <abut/error.h>
 #include <abut/model.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>
@@ -257,6 +258,8 @@ void run_build(const std::string& name, const Mesh& mesh, int rounds, Volume vol
 } // namespace
 
 Report run_rigid_suite(const RigidSuiteOptions& options) {
+    if (options.files.size() % 2 != 0)
+        throw Error(ErrorCode::bad_argument, "an odd number of files: they come in pairs");
     Report report;
     report.suite = "rigid";
     const auto run = [&](const std::string& name_a, Mesh a, const std::string& name_b, Mesh b) {
@@ -281,7 +284,10 @@ Report run_rigid_suite(const RigidSuiteOptions& options) {
     for (std::size_t i = 0; i + 1 < options.files.size(); i += 2)
         run(stem(options.files[i]), read_mesh(options.files[i]), stem(options.files[i + 1]),
             read_mesh(options.files[i + 1]));
-    for (const std::uint32_t triangles : options.generated)
+    std::vector<std::uint32_t> generated = options.generated;
+    if (options.files.empty() && generated.empty())
+        generated = {100000, 1000000};
+    for (const std::uint32_t triangles : generated)
         run(fmt::format("boulder {}k", triangles / 1000), scenes::boulder(triangles),
             fmt::format("knot {}k", triangles / 1000), scenes::knot(triangles));
     return report;

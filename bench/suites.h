@@ -31,9 +31,10 @@ struct ImportSuiteOptions {
 Report run_import_suite(const ImportSuiteOptions& options);
 
 struct RigidSuiteOptions {
-    std::vector<std::string> files;       ///< two a pair
-    std::vector<std::uint32_t> generated; ///< triangles of each model of a generated pair
-    std::size_t poses = 500;              ///< in each regime
+    std::vector<std::string> files; ///< two a pair
+    /// Triangles of each model of a generated pair; 100,000 and 1,000,000 where nothing is given.
+    std::vector<std::uint32_t> generated;
+    std::size_t poses = 500; ///< in each regime
     int rounds = 3;
     bool alone = false;   ///< without peers
     bool volumes = false; ///< also with every other kind of bounding volume
@@ -42,7 +43,7 @@ struct RigidSuiteOptions {
 };
 
 /// Collide, distance and within on pairs of models, and their build, against FCL, CGAL and Embree.
-/// Errors      as read_mesh.
+/// Errors      as read_mesh; Error{bad_argument} for an odd number of files.
 Report run_rigid_suite(const RigidSuiteOptions& options);
 
 struct ImpactSuiteOptions {
