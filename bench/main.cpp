@@ -1,10 +1,12 @@
 #include "suites.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
-#include <fmt/format.h>
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
     using namespace abut::bench;
     CLI::App app("Measures Abut against its peers, in turn in one process", "abut-bench");
     app.require_subcommand(1);
@@ -89,8 +91,16 @@ int main(int argc, char** argv) {
         return 0;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "abut-bench: {}\n", error.what());
+        std::fprintf(stderr, "abut-bench: %s\n", error.what());
         return 2;
     }
 }

@@ -43,7 +43,7 @@ public:
     EmbreeRays& operator=(const EmbreeRays&) = delete;
 
     [[nodiscard]] double first_hit(const Ray& ray) const override {
-        RTCIntersectContext context;
+        RTCIntersectContext context{};
         rtcInitIntersectContext(&context);
         RTCRayHit r{};
         r.ray.org_x = static_cast<float>(ray.origin.x);

@@ -21,9 +21,9 @@ namespace {
 constexpr double kNear = 0.005, kFar = 0.1; ///< tolerances, in diagonals
 
 struct Case {
-    const char* name;
-    RigidQuery query;
-    Regime regime;
+    const char* name = "";
+    RigidQuery query = RigidQuery::first_contact;
+    Regime regime = Regime::deep;
     double tolerance = 0;
 };
 constexpr std::array kCases{

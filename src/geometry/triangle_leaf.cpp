@@ -216,7 +216,7 @@ HWY_INLINE Intervals<D> compare_intervals(D d, const LaneCut<D>& a, const LaneCu
 template <bool with_near, class D>
 HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const TriangleLeaf& leaf_b,
                                   const LeafPlacement& to_a, const LeafBound& bound) {
-    TriangleLeaf turned;
+    TriangleLeaf turned{};
     turn(leaf_b, to_a, turned);
     LeafPairs result;
     const auto zero = hn::Zero(d), margin = hn::Set(d, to_a.margin);
