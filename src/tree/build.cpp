@@ -67,7 +67,7 @@ using D4 = hn::CappedTag<float, 4>;
 template <typename Operation>
 Quad combine(const Quad& a, const Quad& b, const Operation& operation) {
     const D4 d;
-    Quad r;
+    Quad r{};
     for (std::size_t i = 0; i < 4; i += hn::Lanes(d))
         hn::Store(operation(hn::Load(d, a.v + i), hn::Load(d, b.v + i)), d, r.v + i);
     return r;

@@ -113,7 +113,7 @@ Aabb box_of(const Tree& tree, const NodeFrame& frame, std::uint32_t first, std::
                     d[k].v[lane] = v[k][lane] - frame.origin[k];
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const auto& turn = frame.turn;
-                Lanes x;
+                Lanes x{};
                 for (std::size_t lane = 0; lane < kLanes; ++lane)
                     x.v[lane] = turn[0][axis] * d[0].v[lane] + turn[1][axis] * d[1].v[lane] +
                                 turn[2][axis] * d[2].v[lane];

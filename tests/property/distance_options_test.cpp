@@ -285,8 +285,8 @@ TEST(DistanceOptions, FeaturesSayWhereThePointsLie) {
         const Gap swapped = distance(s.b, s.world_b, s.a, s.world_a);
         ASSERT_NEAR(swapped.distance, gap.distance, kRounding);
     }
-    constexpr auto vertex = std::size_t(Feature::vertex), edge = std::size_t(Feature::edge),
-                   face = std::size_t(Feature::face);
+    const auto vertex = std::size_t(Feature::vertex), edge = std::size_t(Feature::edge),
+               face = std::size_t(Feature::face);
     EXPECT_GT(count[vertex][vertex], 0);
     EXPECT_GT(count[vertex][face], 0);
     EXPECT_GT(count[face][vertex], 0);
