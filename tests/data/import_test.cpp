@@ -26,7 +26,7 @@ class Import : public testing::TestWithParam<Building> {};
 
 template <typename Value>
 Value value_at(const std::string& bytes, std::size_t offset) {
-    Value value;
+    Value value{};
     std::memcpy(&value, bytes.data() + offset, sizeof value);
     return value;
 }

@@ -130,7 +130,7 @@ TEST_F(Isolation, CountsAndIndicesOfAStreamAreNotTrusted) {
     const std::size_t indices = mesh + 12 + std::size_t{vertices} * 12;
     fail_with_stream(changed(indices, vertices), ErrorCode::bad_mesh);
     fail_with_stream(changed(indices, scene_stream::kBadIndex), ErrorCode::bad_mesh);
-    const std::size_t matrix = indices + 4 * 12;
+    const std::size_t matrix = indices + std::size_t{4} * 12;
     fail_with_stream(changed(matrix, std::numeric_limits<double>::quiet_NaN()),
                      ErrorCode::bad_mesh);
     fail_with_stream(changed(matrix + 96, std::uint32_t{1}), ErrorCode::reader_failed);

@@ -360,7 +360,7 @@ TEST(Rays, NoneSlipsThroughAClosedSurface) {
                 const Ray ray{o, aim - o};
                 const RayHit hit = first_hit(model, world, ray);
                 ASSERT_TRUE(hit.hit) << i;
-                if (mesh.positions.size() != 24 * 12) { // convex: nothing lies behind
+                if (mesh.positions.size() != std::size_t{24} * 12) { // convex: nothing lies behind
                     ASSERT_LE((hit.t - 1) * length(aim - o), 256 * 0x1p-53 * (length(aim) + 1));
                 }
                 ASSERT_FALSE(all_hits(model, world, ray).empty());
