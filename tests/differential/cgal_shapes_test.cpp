@@ -60,6 +60,7 @@ struct Both {
         std::vector<Triangles::const_iterator> found;
         tree.all_intersected_primitives(shape, std::back_inserter(found));
         std::vector<std::uint32_t> numbers;
+        numbers.reserve(found.size());
         for (const auto& f : found)
             numbers.push_back(static_cast<std::uint32_t>(f - triangles.begin()));
         std::sort(numbers.begin(), numbers.end());

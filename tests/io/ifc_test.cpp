@@ -9,10 +9,7 @@
 namespace abut::test {
 namespace {
 
-const std::string& folder() {
-    static const std::string path = std::string(ABUT_SOURCE_DIR) + "/tests/io/";
-    return path;
-}
+const std::string kFolder = std::string(ABUT_SOURCE_DIR) + "/tests/io/";
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
@@ -62,7 +59,7 @@ class Ifc : public testing::Test {
 protected:
     void SetUp() override {
         try {
-            (void)read_scene(folder() + "house_2x3.ifc");
+            (void)read_scene(kFolder + "house_2x3.ifc");
         } catch (const Error& error) {
             if (error.code() == ErrorCode::unsupported)
                 GTEST_SKIP() << error.what();
@@ -78,7 +75,7 @@ protected:
 };
 
 TEST_F(Ifc, House2x3) {
-    const Scene scene = read_scene(folder() + "house_2x3.ifc");
+    const Scene scene = read_scene(kFolder + "house_2x3.ifc");
     ASSERT_EQ(scene.parts.size(), 5U);
     EXPECT_EQ(scene.meshes.size(), 3U);
     const auto parts = by_id(scene);
@@ -112,7 +109,7 @@ TEST_F(Ifc, House2x3) {
 }
 
 TEST_F(Ifc, House4InMillimetresWithPartsOfTwoSolids) {
-    const Scene scene = read_scene(folder() + "house_4.ifc");
+    const Scene scene = read_scene(kFolder + "house_4.ifc");
     ASSERT_EQ(scene.parts.size(), 3U);
     EXPECT_EQ(scene.meshes.size(), 2U);
     const auto parts = by_id(scene);
@@ -132,12 +129,12 @@ TEST_F(Ifc, House4InMillimetresWithPartsOfTwoSolids) {
 TEST_F(Ifc, UnitComesOnTop) {
     ReadOptions options;
     options.unit = 1000;
-    const Scene scene = read_scene(folder() + "house_2x3.ifc", options);
+    const Scene scene = read_scene(kFolder + "house_2x3.ifc", options);
     EXPECT_NEAR(bounds_of(scene, by_id(scene).at("1WallOfTheTests0000001")).upper.x, 4000, 1e-3);
 }
 
 TEST_F(Ifc, ATruncatedFileIsRefused) {
-    const std::string content = read_bytes(folder() + "house_4.ifc");
+    const std::string content = read_bytes(kFolder + "house_4.ifc");
     const std::size_t end = content.find_last_not_of(" \n") + 1;
     for (const std::size_t size : {std::size_t{5}, std::size_t{200}, end / 2, end - 30, end - 1})
         error_of(folder_.file("cut.ifc", content.substr(0, size)), ErrorCode::malformed);
@@ -152,7 +149,7 @@ TEST_F(Ifc, OtherContentIsRefused) {
 }
 
 TEST_F(Ifc, ItsReaderIsIsolatedToo) {
-    const std::string file = folder() + "house_4.ifc";
+    const std::string file = kFolder + "house_4.ifc";
     {
         const Environment node("ABUT_NODE", folder_.script("node", "kill -SEGV $$\n"));
         EXPECT_TRUE(contains(error_of(file, ErrorCode::reader_failed), "crashed"));
@@ -170,7 +167,7 @@ TEST_F(Ifc, ItsReaderIsIsolatedToo) {
 
 TEST(IfcWithout, NodeOrWebIfcTheErrorSaysWhatToDo) {
     const TemporaryFolder folder;
-    const std::string file = folder() + "house_4.ifc";
+    const std::string file = kFolder + "house_4.ifc";
     std::filesystem::create_directories(folder.path("converter/node_modules/web-ifc"));
     (void)folder.file("converter/convert.mjs", "");
     const Environment converter("ABUT_IFC_CONVERTER", folder.path("converter"));

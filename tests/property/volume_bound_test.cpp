@@ -156,7 +156,7 @@ TYPED_TEST(VolumeBound, EightAtATimeAsOneByOne) {
             const RelativePose pose = make_relative_pose(first.a_from_b, reach, one.reach());
             const typename TypeParam::Map map(pose);
             const auto image = image_of(one, map);
-            VolumeBounds lanes, reference;
+            VolumeBounds lanes{}, reference{};
             bound_distances(block, image, lanes);
             bound_distances_reference(block, image, reference);
             const auto placed = moved(first.b, first.a_from_b);

@@ -32,7 +32,7 @@ void expect_separated(const Mesh& a, const Mesh& b, const Depth& depth) {
 }
 
 Depth ask(const Mesh& a, const Mesh& b) {
-    const Depth depth = penetration(Model(a), {}, Model(b), {});
+    Depth depth = penetration(Model(a), {}, Model(b), {});
     if (!depth.regions.empty())
         expect_separated(a, b, depth);
     else
