@@ -36,9 +36,8 @@ private:
 };
 
 bool still_meet(const PlacedPair& pair, const TrianglePair& last) {
-    return last.a < pair.a().mesh().triangles.size() && last.b < pair.b().mesh().triangles.size() &&
-           triangle_triangle_intersect(pair.a().world_mesh_triangle(last.a, pair.world_from_a()),
-                                       pair.b().world_mesh_triangle(last.b, pair.world_from_b())) !=
+    return pair.has(last) &&
+           triangle_triangle_intersect(pair.triangle_a(last.a), pair.triangle_b(last.b)) !=
                TriangleContact::none;
 }
 
@@ -56,13 +55,7 @@ std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Cou
 }
 
 Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles) {
-    const auto corners = [](const ModelData& model, const Transform& world, std::uint32_t i) {
-        const auto& t = model.mesh().triangles[i];
-        const auto& p = model.mesh().positions;
-        return Triangle{apply(world, p[t[0]]), apply(world, p[t[1]]), apply(world, p[t[2]])};
-    };
-    return triangle_triangle_segment(corners(pair.a(), pair.world_from_a(), triangles.a),
-                                     corners(pair.b(), pair.world_from_b(), triangles.b));
+    return triangle_triangle_segment(pair.triangle_a(triangles.a), pair.triangle_b(triangles.b));
 }
 
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,

@@ -72,12 +72,9 @@ public:
 
     /// Begins with a pair of triangles. Whether that answers everything.
     bool begin_with(const TrianglePair& last) {
-        if (last.a >= pair_.a().mesh().triangles.size() ||
-            last.b >= pair_.b().mesh().triangles.size())
+        if (!pair_.has(last))
             return false;
-        const Candidate candidate{pair_.a().world_mesh_triangle(last.a, pair_.world_from_a()),
-                                  pair_.b().world_mesh_triangle(last.b, pair_.world_from_b()),
-                                  last};
+        const Candidate candidate{pair_.triangle_a(last.a), pair_.triangle_b(last.b), last};
         const double sq = triangle_triangle_distance(candidate.a, candidate.b).distance_sq;
         contact_ = sq == 0 &&
                    triangle_triangle_intersect(candidate.a, candidate.b) != TriangleContact::none;

@@ -36,7 +36,8 @@ std::vector<Vec3> tree_positions(const Mesh& mesh, const Transform& model_from_t
 
 } // namespace
 
-ModelData::ModelData(Mesh mesh, const ModelOptions& options) : mesh_(std::move(mesh)) {
+ModelData::ModelData(Mesh mesh, const ModelOptions& options)
+    : mesh_(std::move(mesh)), options_(options) {
     require_valid(mesh_);
     Box3 bounds;
     for (const auto& t : mesh_.triangles)
@@ -72,6 +73,13 @@ std::size_t ModelData::bytes() const {
     return (volumes_ ? volumes_->bytes() : 0) + mesh_.positions.size() * sizeof(Vec3) +
            mesh_.triangles.size() * sizeof(mesh_.triangles[0]) + tree_.bytes() +
            vertices_.size() * sizeof(Vec3) + slots_.size() * sizeof(slots_[0]);
+}
+
+Model baked(const Model& model, const Transform& world) {
+    Mesh mesh = model.mesh();
+    for (Vec3& p : mesh.positions)
+        p = apply(world, p);
+    return Model(std::move(mesh), model.data().options());
 }
 
 Model::Model(Mesh mesh, const ModelOptions& options)

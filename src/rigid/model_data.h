@@ -25,6 +25,8 @@ public:
 
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }
+    /// What was asked for.
+    [[nodiscard]] const ModelOptions& options() const { return options_; }
     /// The volumes that were asked for in place of the tree's boxes; null if none were.
     [[nodiscard]] const VolumeTree* volumes() const { return volumes_.get(); }
     /// Rigid to rounding, and a power of two in scale: the tree is about as large as 1.
@@ -32,14 +34,13 @@ public:
     /// Mesh index of the triangle in a slot of the tree.
     [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const { return tree_.order[slot]; }
     /// World position of the triangle in a slot, by the formula of abut/types.h.
-    [[nodiscard]] Triangle world_triangle(std::uint32_t slot, const Transform& world) const {
+    [[nodiscard]] Triangle world_slot(std::uint32_t slot, const Transform& world) const {
         const auto& t = slots_[slot];
         return {apply(world, vertices_[t[0]]), apply(world, vertices_[t[1]]),
                 apply(world, vertices_[t[2]])};
     }
     /// World position of a triangle by its mesh index.
-    [[nodiscard]] Triangle world_mesh_triangle(std::uint32_t triangle,
-                                               const Transform& world) const {
+    [[nodiscard]] Triangle world_triangle(std::uint32_t triangle, const Transform& world) const {
         const auto& t = mesh_.triangles[triangle];
         return {apply(world, mesh_.positions[t[0]]), apply(world, mesh_.positions[t[1]]),
                 apply(world, mesh_.positions[t[2]])};
@@ -52,6 +53,7 @@ private:
     void sort_vertices();
 
     Mesh mesh_;
+    ModelOptions options_;
     Transform model_from_tree_;
     Tree tree_;
     std::unique_ptr<const VolumeTree> volumes_;
@@ -61,5 +63,11 @@ private:
     std::vector<std::array<std::uint32_t, 3>> slots_;
     LazySolid solid_;
 };
+
+/// A model of the same mesh and options, its positions transformed: for a transform without an
+/// inverse, under which the model itself cannot be asked.
+///
+/// Errors      Error{bad_mesh} if positions leave the range.
+Model baked(const Model& model, const Transform& world);
 
 } // namespace abut

@@ -36,10 +36,7 @@ PlacedModel::PlacedModel(const Model& model, const Transform& world_from_model)
     if (make_frame())
         return;
     // The same positions by the same formula; identity then leaves them as they are.
-    Mesh mesh = model.mesh();
-    for (Vec3& p : mesh.positions)
-        p = apply(world_, p);
-    model_ = Model(std::move(mesh));
+    model_ = baked(model, world_);
     world_ = {};
     make_frame();
 }

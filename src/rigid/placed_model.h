@@ -42,11 +42,10 @@ public:
         return apply(world_, model().mesh().positions[vertex]);
     }
     [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const {
-        const auto& t = model().mesh().triangles[triangle];
-        return {world_vertex(t[0]), world_vertex(t[1]), world_vertex(t[2])};
+        return model().world_triangle(triangle, world_);
     }
     [[nodiscard]] Triangle world_slot(std::uint32_t slot) const {
-        return model().world_triangle(slot, world_);
+        return model().world_slot(slot, world_);
     }
     [[nodiscard]] const Transform& world_from_tree() const { return world_from_tree_; }
     [[nodiscard]] const Transform& tree_from_world() const { return tree_from_world_; }

@@ -2,23 +2,6 @@
 
 namespace abut {
 
-namespace {
-
-/// The kind of volume that a model was built with, as far as a copy can tell.
-Volume kind_of(const Model& model) {
-    const VolumeTree* volumes = model.data().volumes();
-    return volumes != nullptr ? volumes->kind() : Volume::automatic;
-}
-
-Model baked(const Model& model, const Transform& world) {
-    Mesh mesh = model.mesh();
-    for (Vec3& p : mesh.positions)
-        p = apply(world, p);
-    return Model(std::move(mesh), {.volume = kind_of(model)});
-}
-
-} // namespace
-
 PlacedPair::PlacedPair(const Model& a, const Transform& world_from_a, const Model& b,
                        const Transform& world_from_b)
     : a_(a), b_(b), world_from_a_(world_from_a), world_from_b_(world_from_b) {

@@ -26,6 +26,17 @@ public:
     [[nodiscard]] const ModelData& b() const { return b_.data(); }
     [[nodiscard]] const Transform& world_from_a() const { return world_from_a_; }
     [[nodiscard]] const Transform& world_from_b() const { return world_from_b_; }
+    /// World positions of triangles by their mesh indices.
+    [[nodiscard]] Triangle triangle_a(std::uint32_t i) const {
+        return a().world_triangle(i, world_from_a_);
+    }
+    [[nodiscard]] Triangle triangle_b(std::uint32_t i) const {
+        return b().world_triangle(i, world_from_b_);
+    }
+    /// Whether both models have such triangles.
+    [[nodiscard]] bool has(const TrianglePair& pair) const {
+        return pair.a < a().mesh().triangles.size() && pair.b < b().mesh().triangles.size();
+    }
     [[nodiscard]] PairTraversal traversal(double bound_sq) const {
         return {a().tree(), b().tree(), frame_, bound_sq};
     }
@@ -56,13 +67,13 @@ public:
     }
     const Triangle& a(std::uint32_t i) {
         if ((known_a_ >> i & 1U) == 0)
-            a_[i] = pair_.a().world_triangle(first_a_ + i, pair_.world_from_a());
+            a_[i] = pair_.a().world_slot(first_a_ + i, pair_.world_from_a());
         known_a_ |= 1U << i;
         return a_[i];
     }
     const Triangle& b(std::uint32_t j) {
         if ((known_b_ >> j & 1U) == 0)
-            b_[j] = pair_.b().world_triangle(first_b_ + j, pair_.world_from_b());
+            b_[j] = pair_.b().world_slot(first_b_ + j, pair_.world_from_b());
         known_b_ |= 1U << j;
         return b_[j];
     }

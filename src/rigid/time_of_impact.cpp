@@ -44,16 +44,9 @@ struct Waiting {
     bool operator<(const Waiting& other) const { return time > other.time; }
 };
 
-/// A child is named by 8 * node + lane, the root by kRoot.
-constexpr std::uint32_t kRoot = 0xffffffffU;
-
-NodeRef ref_of(const Tree& tree, std::uint32_t name) {
-    return name == kRoot ? NodeRef::node(0)
-                         : tree.nodes[name / Node::kWidth].child[name % Node::kWidth];
-}
 TreeBox box_of(const Tree& tree, std::uint32_t name, double scale) {
-    return name == kRoot ? root_box(tree, scale)
-                         : child_box(tree.nodes[name / Node::kWidth], name % Node::kWidth, scale);
+    return name == kRootName ? root_box(tree, scale)
+                             : child_box(tree.nodes[node_of(name)], lane_of(name), scale);
 }
 
 /// Advances all pairs in the order of the times before which they cannot meet.
@@ -79,7 +72,7 @@ private:
         window_end_ = std::min(kEnd, begin + window_);
         next_begin_ = kNever;
         waiting_.clear();
-        push({begin, kRoot, kRoot, false});
+        push({begin, kRootName, kRootName, false});
         while (!waiting_.empty() && !answered_) {
             std::pop_heap(waiting_.begin(), waiting_.end());
             const Waiting next = waiting_.back();
@@ -109,8 +102,8 @@ private:
 
     /// Replaces a pair of boxes by the pairs below it.
     void open(const Waiting& pair) {
-        const NodeRef ref_a = ref_of(a_.data().tree(), pair.a),
-                      ref_b = ref_of(b_.data().tree(), pair.b);
+        const NodeRef ref_a = a_.data().tree().named(pair.a),
+                      ref_b = b_.data().tree().named(pair.b);
         const TreeBox tree_box_a = box_of(a_.data().tree(), pair.a, pair_.a.scale),
                       tree_box_b = box_of(b_.data().tree(), pair.b, pair_.b.scale);
         const double radius_a = tree_box_a.radius, radius_b = tree_box_b.radius;
@@ -131,7 +124,7 @@ private:
                                                    window_end_ - now.time, kEnd - now.time)
                                        : free_time(pair_, now, box_a, box_of_b(pair_, now, child),
                                                    window_end_ - now.time, kEnd - now.time);
-            const std::uint32_t name = index * Node::kWidth + i;
+            const std::uint32_t name = child_name(index, i);
             push({std::max(pair.time, now.time + free), open_a ? name : pair.a,
                   open_a ? pair.b : name, false});
         }
@@ -150,9 +143,9 @@ private:
         approach.fastest = pair_.speed;
         Triangle b[TriangleLeaf::kLanes];
         for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
-            b[j] = b_.data().world_triangle(leaf_b.first() + j, moment_.world_from_b);
+            b[j] = b_.data().world_slot(leaf_b.first() + j, moment_.world_from_b);
         for (std::uint32_t i = 0; i < leaf_a.count(); ++i) {
-            const Triangle a = a_.data().world_triangle(leaf_a.first() + i, moment_.world_from_a);
+            const Triangle a = a_.data().world_slot(leaf_a.first() + i, moment_.world_from_a);
             TrianglePairBlock pairs{};
             for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
                 pairs.set(j, a, b[j]);
@@ -169,10 +162,10 @@ private:
     }
 
     [[nodiscard]] Triangle triangle_a(std::uint32_t slot, double time) const {
-        return a_.data().world_triangle(slot, pair_.a.trajectory.at(time));
+        return a_.data().world_slot(slot, pair_.a.trajectory.at(time));
     }
     [[nodiscard]] Triangle triangle_b(std::uint32_t slot, double time) const {
-        return b_.data().world_triangle(slot, pair_.b.trajectory.at(time));
+        return b_.data().world_slot(slot, pair_.b.trajectory.at(time));
     }
 
     /// Measures two triangles: they are the answer, or wait for their next time.
@@ -261,14 +254,8 @@ double default_tolerance(const MovingPair& pair, const Tree& a, const Tree& b) {
 
 /// The models share a point at the start.
 Impact impact_at_start(const PlacedPair& placed, const Contact& contact) {
-    const auto triangle = [](const Mesh& mesh, std::uint32_t index, const Transform& world) {
-        const auto& t = mesh.triangles[index];
-        return Triangle{apply(world, mesh.positions[t[0]]), apply(world, mesh.positions[t[1]]),
-                        apply(world, mesh.positions[t[2]])};
-    };
-    const ClosestPoints common = triangle_triangle_distance(
-        triangle(placed.a().mesh(), contact.pair.a, placed.world_from_a()),
-        triangle(placed.b().mesh(), contact.pair.b, placed.world_from_b()));
+    const ClosestPoints common = triangle_triangle_distance(placed.triangle_a(contact.pair.a),
+                                                            placed.triangle_b(contact.pair.b));
     Impact impact;
     impact.hit = true;
     impact.time = impact.contact_time = impact.gap = 0;

@@ -1,11 +1,12 @@
 #include "rigid/tree_frame.h"
 
 #include "math/vector.h"
+#include "volume/principal_axes.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace abut {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::size_t kSamples = 256;
 
-using Axes = std::array<Vec3, 3>;
 constexpr Axes kModelAxes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
 /// Third axis from two that are at right angles to rounding; the model's axes if they are no
@@ -24,39 +24,6 @@ Axes complete(const Vec3& first, const Vec3& second) {
     const Vec3 y = normalized_or_zero(second - dot(second, x) * x);
     const Vec3 z = cross(x, y);
     return std::abs(length_sq(z) - 1) < 0x1p-40 ? Axes{x, y, z} : kModelAxes;
-}
-
-/// Eigenvectors of the covariance of the surface, every triangle weighted by its area.
-Axes principal_axes(const std::vector<Triangle>& triangles) {
-    Vec3 mean;
-    double area = 0;
-    for (const Triangle& t : triangles) {
-        const double w = length(cross(t[1] - t[0], t[2] - t[0]));
-        mean = mean + (w / 3) * (t[0] + t[1] + t[2]);
-        area += w;
-    }
-    if (!(area > 0))
-        return kModelAxes;
-    mean = (1 / area) * mean;
-    // Integral of x x^T over a triangle: (9 c c^T + p p^T + q q^T + r r^T) area / 12, c the
-    // centroid.
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const Triangle& t : triangles) {
-        const double w = length(cross(t[1] - t[0], t[2] - t[0])) / area;
-        const Vec3 c = (1.0 / 3) * (t[0] + t[1] + t[2]) - mean;
-        const auto add = [&](const Vec3& p, double s) {
-            const Eigen::Vector3d v(p.x, p.y, p.z);
-            covariance += s * w * v * v.transpose();
-        };
-        add(c, 9);
-        for (const Vec3& p : t)
-            add(p - mean, 1);
-    }
-    if (!covariance.allFinite())
-        return kModelAxes;
-    const Eigen::Matrix3d v =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
-    return complete({v(0, 2), v(1, 2), v(2, 2)}, {v(0, 1), v(1, 1), v(2, 1)});
 }
 
 /// Along the longest edge of the triangle of largest area, and along its normal.
@@ -106,7 +73,8 @@ Transform choose_tree_frame(const Mesh& mesh, const Box3& bounds) {
     }
     Axes best = kModelAxes;
     double least = summed_box_area(sample, best);
-    for (const Axes& axes : {principal_axes(sample), largest_face(sample)}) {
+    for (const Axes& axes :
+         {principal_axes(std::span<const Triangle>(sample)), largest_face(sample)}) {
         const double sum = summed_box_area(sample, axes);
         if (sum < least)
             best = axes, least = sum;

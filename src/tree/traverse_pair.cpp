@@ -13,12 +13,11 @@
 #include "simd/foreach_target.h"
 #include "tree/node_pair-inl.h"
 
-// What the targets share. A child is named by 8 * node + lane, the root by kRoot.
+// What the targets share.
 #ifndef ABUT_TREE_TRAVERSE_PAIR_ONCE
 #define ABUT_TREE_TRAVERSE_PAIR_ONCE
 namespace abut::traverse_pair {
 
-constexpr std::uint32_t kRoot = 0xffffffffU;
 /// More than underflow takes from a product. Without it, all is within a bound that is nearly 0.
 constexpr float kUnderflow = std::numeric_limits<float>::min();
 /// Where one box has so many times the surface of the other, it is opened alone.
@@ -31,17 +30,12 @@ enum class Mode : std::uint8_t {
     descent, ///< to the children whose middles are nearest
 };
 
-/// Two boxes still to be looked at.
+/// Two boxes still to be looked at, by their names.
 struct BoxPair {
     std::uint32_t a, b;
     float bound_sq; ///< lower bound of the squared distance
 };
 using BoxPairs = boost::container::small_vector<BoxPair, 256>;
-
-inline NodeRef ref_of(const Tree& tree, std::uint32_t name) {
-    return name == kRoot ? NodeRef::node(0)
-                         : tree.nodes[name / Node::kWidth].child[name % Node::kWidth];
-}
 
 /// A box by its middle and half extents, in the frame of a node.
 struct MiddleBox {
@@ -226,13 +220,13 @@ public:
     }
 
     Verdict depth_first() {
-        found_.push_back({traverse_pair::kRoot, traverse_pair::kRoot, 0});
+        found_.push_back({kRootName, kRootName, 0});
         return drain() ? Verdict::done : verdict_;
     }
 
     /// Visits one pair of leaves that seem to be near each other.
     Verdict descend() {
-        BoxPair pair{traverse_pair::kRoot, traverse_pair::kRoot, 0};
+        BoxPair pair{kRootName, kRootName, 0};
         while (true) {
             found_.clear();
             if (!step(pair))
@@ -247,7 +241,7 @@ public:
 
     Verdict nearest_first() {
         NearFirstQueue<BoxPair> pending(std::min(bound_sq_, t_.frame.reach_sq));
-        pending.push(0, {traverse_pair::kRoot, traverse_pair::kRoot, 0});
+        pending.push(0, {kRootName, kRootName, 0});
         while (!pending.empty() && !pending.all_above(bound_sq_)) {
             const BoxPair pair = pending.pop();
             if (pair.bound_sq > bound_sq_)
@@ -280,10 +274,9 @@ private:
 
     /// Looks at one pair: adds what is near below it to `found_`. False: stop, with a verdict.
     bool step(const BoxPair& pair) {
-        const NodeRef a = traverse_pair::ref_of(t_.a, pair.a),
-                      b = traverse_pair::ref_of(t_.b, pair.b);
-        const Node& p = t_.a.nodes[a.is_leaf() ? pair.a / Node::kWidth : a.index()];
-        const Node& q = t_.b.nodes[b.is_leaf() ? pair.b / Node::kWidth : b.index()];
+        const NodeRef a = t_.a.named(pair.a), b = t_.b.named(pair.b);
+        const Node& p = t_.a.nodes[a.is_leaf() ? node_of(pair.a) : a.index()];
+        const Node& q = t_.b.nodes[b.is_leaf() ? node_of(pair.b) : b.index()];
         NodePair nodes(t_.frame, p, q);
         if (has_direction_) {
             nodes.n_p = p.frame.vector_from_tree(direction_a_);
@@ -292,9 +285,9 @@ private:
         if (a.is_leaf() && b.is_leaf())
             return visit(nodes, a, b);
         if (a.is_leaf())
-            return open_b(nodes, pair.a, MiddleBox(p.box(pair.a % Node::kWidth)), b.index());
+            return open_b(nodes, pair.a, MiddleBox(p.box(lane_of(pair.a))), b.index());
         if (b.is_leaf())
-            return open_a(nodes, a.index(), pair.b, MiddleBox(q.box(pair.b % Node::kWidth)));
+            return open_a(nodes, a.index(), pair.b, MiddleBox(q.box(lane_of(pair.b))));
         const float area_a = p.bounds.half_area() * stretch_a(), area_b = q.bounds.half_area();
         if (area_a > traverse_pair::kUnlike * area_b)
             return open_a(nodes, a.index(), pair.b, MiddleBox(q.bounds));
@@ -326,7 +319,7 @@ private:
                      {nodes.p_from_q, nodes.q_from_p, nodes.n_p, nodes.n_q, 1}, bounds))
             return false;
         return add(bounds, nodes, [&](std::uint32_t lane) {
-            return BoxPair{p * 8 + lane, name_b, bounds.lower_bound_sq<mode>(lane)};
+            return BoxPair{child_name(p, lane), name_b, bounds.lower_bound_sq<mode>(lane)};
         });
     }
     bool open_b(const NodePair& nodes, std::uint32_t name_a, const MiddleBox& box_a,
@@ -336,7 +329,7 @@ private:
                      {nodes.q_from_p, nodes.p_from_q, nodes.n_q, nodes.n_p, -1}, bounds))
             return false;
         return add(bounds, nodes, [&](std::uint32_t lane) {
-            return BoxPair{name_a, q * 8 + lane, bounds.lower_bound_sq<mode>(lane)};
+            return BoxPair{name_a, child_name(q, lane), bounds.lower_bound_sq<mode>(lane)};
         });
     }
     bool open_both(const NodePair& nodes, std::uint32_t p, std::uint32_t q) {
@@ -355,11 +348,11 @@ private:
                 (deepest == Node::kWidth || of_p.gap[lane] < of_p.gap[deepest]))
                 std::swap(lane, deepest);
             if (lane != Node::kWidth &&
-                !open_b(nodes, p * 8 + lane, MiddleBox(node_p.box(lane)), q))
+                !open_b(nodes, child_name(p, lane), MiddleBox(node_p.box(lane)), q))
                 return false;
         }
         return deepest == Node::kWidth ||
-               open_b(nodes, p * 8 + deepest, MiddleBox(node_p.box(deepest)), q);
+               open_b(nodes, child_name(p, deepest), MiddleBox(node_p.box(deepest)), q);
     }
 
     /// Adds the children that are near; pairs of leaves are visited at once where order does not
@@ -381,8 +374,7 @@ private:
         if (mode != Mode::descent && (mode != Mode::nearest || has_direction_)) {
             if (pair.bound_sq > bound_sq_)
                 return true;
-            const NodeRef a = traverse_pair::ref_of(t_.a, pair.a),
-                          b = traverse_pair::ref_of(t_.b, pair.b);
+            const NodeRef a = t_.a.named(pair.a), b = t_.b.named(pair.b);
             if (a.is_leaf() && b.is_leaf())
                 return visit(nodes, a, b);
         }

@@ -15,16 +15,15 @@
 #include "tree/node_pair-inl.h"
 #include "volume/lower_bound-inl.h"
 
-// What the targets share. Two volumes still to be looked at: a child is named by 8 * node + lane,
-// the root by kRoot.
+// What the targets share.
 #ifndef ABUT_TREE_TRAVERSE_VOLUMES_ONCE
 #define ABUT_TREE_TRAVERSE_VOLUMES_ONCE
 namespace abut::traverse_volumes {
 
-constexpr std::uint32_t kRoot = 0xffffffffU;
 /// More than underflow takes from a product. Without it, all is within a bound that is nearly 0.
 constexpr float kUnderflow = std::numeric_limits<float>::min();
 
+/// Two volumes still to be looked at, by their names.
 struct VolumePair {
     std::uint32_t a, b;
     float bound_sq; ///< lower bound of the squared distance
@@ -39,13 +38,8 @@ struct Side {
     typename V::Map from_other;
     float stretch_sq, most_stretch_sq; ///< of squares, to the world
 
-    [[nodiscard]] NodeRef ref(std::uint32_t name) const {
-        return name == kRoot ? NodeRef::node(0)
-                             : tree.nodes[name / Node::kWidth].child[name % Node::kWidth];
-    }
     [[nodiscard]] V volume(std::uint32_t name) const {
-        return name == kRoot ? layer.root
-                             : layer.children[name / Node::kWidth].get(name % Node::kWidth);
+        return name == kRootName ? layer.root : layer.children[node_of(name)].get(lane_of(name));
     }
 };
 
@@ -84,7 +78,7 @@ public:
     Verdict depth_first() {
         contacts_only_ = !with_upper;
         VolumePairs pending;
-        pending.push_back({traverse_volumes::kRoot, traverse_volumes::kRoot, 0});
+        pending.push_back({kRootName, kRootName, 0});
         while (!pending.empty()) {
             const VolumePair pair = pending.back();
             pending.pop_back();
@@ -102,7 +96,7 @@ public:
         bound_all<true>(D(), root_block(), image_of(b_.layer.root, a_.from_other), bounds);
         NearFirstQueue<VolumePair> pending(
             std::min(bound_sq_, bounds.upper_sq[0] * a_.most_stretch_sq));
-        pending.push(0, {traverse_volumes::kRoot, traverse_volumes::kRoot, 0});
+        pending.push(0, {kRootName, kRootName, 0});
         VolumePairs found;
         while (!pending.empty() && !pending.all_above(bound_sq_)) {
             const VolumePair pair = pending.pop();
@@ -129,7 +123,7 @@ private:
     /// Visits the pair's leaves, or adds its children to `found`; not done: the end.
     template <bool with_upper>
     HWY_INLINE Verdict step(const VolumePair& pair, VolumePairs& found) {
-        const NodeRef ref_a = a_.ref(pair.a), ref_b = b_.ref(pair.b);
+        const NodeRef ref_a = a_.tree.named(pair.a), ref_b = b_.tree.named(pair.b);
         if (ref_a.is_leaf() && ref_b.is_leaf()) {
             return visit(ref_a, leaf_node(a_, pair.a), ref_b, leaf_node(b_, pair.b));
         }
@@ -153,7 +147,7 @@ private:
 
     /// The node that a leaf is a child of.
     static const Node& leaf_node(const Side<V>& side, std::uint32_t name) {
-        return side.tree.nodes[name / Node::kWidth];
+        return side.tree.nodes[node_of(name)];
     }
     Verdict visit(NodeRef a, const Node& p, NodeRef b, const Node& q) {
         pair_.primitive_tests += std::uint64_t{a.count()} * b.count();
@@ -193,11 +187,10 @@ private:
             if (deepest == Node::kWidth || bounds.gap[lane] < bounds.gap[deepest])
                 std::swap(lane, deepest);
             if (lane != Node::kWidth)
-                add(index * static_cast<std::uint32_t>(Node::kWidth) + lane, bounds.lower_sq[lane]);
+                add(child_name(index, lane), bounds.lower_sq[lane]);
         }
         if (deepest != Node::kWidth)
-            add(index * static_cast<std::uint32_t>(Node::kWidth) + deepest,
-                bounds.lower_sq[deepest]);
+            add(child_name(index, deepest), bounds.lower_sq[deepest]);
         return false;
     }
 

@@ -95,6 +95,19 @@ struct alignas(32) Node {
     }
 };
 
+/// A child by its node and its lane there, in one number; the root has no node above it.
+constexpr std::uint32_t kRootName = 0xffffffffU;
+constexpr std::uint32_t child_name(std::uint32_t node, std::uint32_t lane) {
+    return node * static_cast<std::uint32_t>(Node::kWidth) + lane;
+}
+/// Not of the root.
+constexpr std::uint32_t node_of(std::uint32_t name) {
+    return name / Node::kWidth;
+}
+constexpr std::uint32_t lane_of(std::uint32_t name) {
+    return name % Node::kWidth;
+}
+
 /// Bounding-volume hierarchy over boxes or triangles, eight wide. Immutable once built.
 struct Tree {
     std::vector<Node> nodes;          ///< nodes[0] is the root; empty if there is no primitive
@@ -104,6 +117,9 @@ struct Tree {
     std::vector<TriangleLeaf> leaves;
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
+    [[nodiscard]] NodeRef named(std::uint32_t name) const {
+        return name == kRootName ? NodeRef::node(0) : nodes[node_of(name)].child[lane_of(name)];
+    }
     [[nodiscard]] const TriangleLeaf& leaf(NodeRef ref) const {
         return leaves[ref.first() / TriangleLeaf::kLanes];
     }

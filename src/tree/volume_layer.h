@@ -18,10 +18,10 @@ struct VolumeLayer {
     double reach = 0;                     ///< no point of a volume is farther from the origin
 
     VolumeLayer() = default;
-    /// In          triangles: of the primitives, in the tree's frame, each coordinate off by no more
-    ///             than `margin`.
+    /// In          triangles: of the primitives, in the tree's frame. What double precision loses
+    ///             on the way there is in the frame of a pair (traverse_volumes.h).
     /// Cost        every level fits its volumes to all triangles anew; nodes in parallel.
-    VolumeLayer(const Tree& tree, std::span<const Triangle> triangles, double margin);
+    VolumeLayer(const Tree& tree, std::span<const Triangle> triangles);
 
     [[nodiscard]] std::size_t bytes() const { return children.size() * sizeof(children[0]); }
 };

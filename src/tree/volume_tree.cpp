@@ -52,22 +52,22 @@ private:
 
 template <typename V>
 std::unique_ptr<const VolumeTree> build(Volume kind, const Tree& tree,
-                                        std::span<const Triangle> triangles, double margin) {
-    return std::make_unique<VolumeTree>(kind, VolumeLayer<V>(tree, triangles, margin));
+                                        std::span<const Triangle> triangles) {
+    return std::make_unique<VolumeTree>(kind, VolumeLayer<V>(tree, triangles));
 }
 
 } // namespace
 
 template <typename V>
-VolumeLayer<V>::VolumeLayer(const Tree& tree, std::span<const Triangle> triangles, double margin)
+VolumeLayer<V>::VolumeLayer(const Tree& tree, std::span<const Triangle> triangles)
     : children(tree.nodes.size()) {
     const SubtreeRuns runs(tree, triangles);
-    root = V::fit(runs.all(), margin);
+    root = V::fit(runs.all());
     std::vector<double> reaches(tree.nodes.size());
     parallel_for(tree.nodes.size(), 16, [&](std::size_t n) {
         for (std::size_t i = 0; i < Node::kWidth; ++i)
             if (!tree.nodes[n].child[i].is_none()) {
-                const V volume = V::fit(runs.below(n, i), margin);
+                const V volume = V::fit(runs.below(n, i));
                 children[n].set(i, volume);
                 reaches[n] = std::max(reaches[n], volume.reach());
             }
@@ -92,27 +92,26 @@ std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tre
     triangles.reserve(mesh.triangles.size());
     for (const auto& t : mesh.triangles)
         triangles.push_back({mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]});
-    const double margin = 0; // what double precision loses is in the frame of a pair
     switch (kind) {
     case Volume::automatic:
     case Volume::aabb:
         return nullptr;
     case Volume::sphere:
-        return build<BoundingSphere>(kind, tree, triangles, margin);
+        return build<BoundingSphere>(kind, tree, triangles);
     case Volume::kdop14:
-        return build<Kdop14>(kind, tree, triangles, margin);
+        return build<Kdop14>(kind, tree, triangles);
     case Volume::kdop18:
-        return build<Kdop18>(kind, tree, triangles, margin);
+        return build<Kdop18>(kind, tree, triangles);
     case Volume::kdop26:
-        return build<Kdop26>(kind, tree, triangles, margin);
+        return build<Kdop26>(kind, tree, triangles);
     case Volume::obb:
-        return build<Obb>(kind, tree, triangles, margin);
+        return build<Obb>(kind, tree, triangles);
     case Volume::pss:
-        return build<Pss>(kind, tree, triangles, margin);
+        return build<Pss>(kind, tree, triangles);
     case Volume::lss:
-        return build<Lss>(kind, tree, triangles, margin);
+        return build<Lss>(kind, tree, triangles);
     case Volume::rss:
-        return build<Rss>(kind, tree, triangles, margin);
+        return build<Rss>(kind, tree, triangles);
     }
     return nullptr;
 }
