@@ -1,5 +1,7 @@
 #include "math/dyadic.h"
 
+#include "math/scaled_integers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -7,14 +9,9 @@
 namespace abut {
 
 Dyadic::Dyadic(double value) {
-    int exponent = 0;
-    auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
-    if (mantissa == 0)
-        return;
-    exponent_ = exponent - 53;
-    for (; mantissa % 2 == 0; mantissa /= 2)
-        ++exponent_;
-    mantissa_ = mantissa;
+    const Binary binary = decompose(value);
+    mantissa_ = binary.mantissa;
+    exponent_ = binary.exponent;
 }
 
 Dyadic operator+(const Dyadic& a, const Dyadic& b) {

@@ -1,0 +1,238 @@
+#include "geometry/elementary_exact.h"
+
+#include "geometry/difference_patch.h"
+#include "math/integer_polynomial.h"
+#include "math/scaled_integers.h"
+#include "math/unit_root.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+/// Cells of roots this small, 2^-44, give the time.
+constexpr unsigned kTimeLevel = 44;
+
+using PolynomialVec3 = std::array<IntegerPolynomial, 3>;
+
+IntegerPolynomial dot(const PolynomialVec3& a, const PolynomialVec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+PolynomialVec3 cross(const PolynomialVec3& a, const PolynomialVec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+PolynomialVec3 sum(const PolynomialVec3& a, const PolynomialVec3& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+/// A pair's coordinates as integers over one power of two, on which no sign depends.
+class IntegerPair {
+public:
+    explicit IntegerPair(const ElementaryPair& pair) : coordinates_(coordinates(pair)) {}
+
+    [[nodiscard]] PolynomialVec3 difference(const VertexDifference& d) const {
+        PolynomialVec3 result;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const BigInt start = get(0, d.to, axis) - get(0, d.from, axis),
+                         end = get(1, d.to, axis) - get(1, d.from, axis);
+            result[axis] = {{start, end - start, BigInt(0), BigInt(0)}};
+        }
+        return result;
+    }
+
+private:
+    static std::array<double, 24> coordinates(const ElementaryPair& pair) {
+        std::array<double, 24> c{};
+        std::size_t i = 0;
+        for (const auto* points : {&pair.start, &pair.end})
+            for (const Vec3& p : *points)
+                c[i] = p.x, c[i + 1] = p.y, c[i + 2] = p.z, i += 3;
+        return c;
+    }
+    [[nodiscard]] BigInt get(std::size_t end, std::size_t vertex, std::size_t axis) const {
+        return coordinates_.get<BigInt>(12 * end + 3 * vertex + axis);
+    }
+
+    Scaled<24> coordinates_;
+};
+
+/// The values over one power of two that makes the largest a double of full precision; their ratios
+/// are what counts.
+template <std::size_t n>
+std::array<double, n> common_scale(const std::array<BigInt, n>& values) {
+    unsigned bits = 0;
+    for (const BigInt& v : values)
+        if (!v.is_zero())
+            bits = std::max(bits, static_cast<unsigned>(msb(abs(v))) + 1);
+    const unsigned shift = bits > 62 ? bits - 62 : 0;
+    std::array<double, n> result;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto magnitude =
+            static_cast<double>(static_cast<std::uint64_t>(BigInt(abs(values[i]) >> shift)));
+        result[i] = values[i].sign() < 0 ? -magnitude : magnitude;
+    }
+    return result;
+}
+
+/// Where the origin lies in the patch.
+struct PatchPoint {
+    double x = 0, y = 0;
+    Vec3 normal; ///< of the patch, of any length; zero if it is degenerate
+    Vec3 line;   ///< then, of the line in which it lies
+};
+
+class ExactPatch {
+public:
+    explicit ExactPatch(const ElementaryPair& pair)
+        : kind_(pair.kind), corners_(patch_layout(kind_).corners) {
+        const PatchLayout layout = patch_layout(kind_);
+        const IntegerPair integers(pair);
+        const PolynomialVec3 corner = integers.difference(layout.corner),
+                             x = integers.difference(layout.side_x),
+                             y = integers.difference(layout.side_y);
+        corner_ = {corner, sum(corner, x), sum(corner, y), PolynomialVec3{}};
+        if (corners_ == 4)
+            corner_ = {corner, corner_[1], sum(corner_[1], y), corner_[2]};
+        area_ = cross(x, y);
+        coplanarity_ = dot(corner, area_);
+        for (std::size_t i = 0; i < corners_; ++i)
+            moment_[i] = cross(corner_[i], corner_[next(i)]);
+    }
+
+    [[nodiscard]] const IntegerPolynomial& coplanarity() const { return coplanarity_; }
+
+    /// Times of which the first contact is one (or it is 0), if the origin always lies in the plane
+    /// of the patch: what holds it is decided by the signs of these polynomials, and the times of
+    /// contact are a closed set.
+    [[nodiscard]] std::vector<UnitRoot> times_of_change() const {
+        std::vector<UnitRoot> times;
+        const auto add = [&](const PolynomialVec3& polynomials) {
+            for (const IntegerPolynomial& p : polynomials)
+                for (UnitRoot& root : unit_roots(p))
+                    times.push_back(std::move(root));
+        };
+        add(area_);
+        for (std::size_t i = 0; i < corners_; ++i)
+            add(corner_[i]), add(moment_[i]);
+        for (UnitRoot& time : times)
+            time.refine(kTimeLevel);
+        std::stable_sort(times.begin(), times.end(), [](const UnitRoot& a, const UnitRoot& b) {
+            return a.lower_bound() < b.lower_bound();
+        });
+        return times;
+    }
+
+    /// Where the patch holds the origin, if it does. In: the coplanarity is zero at that time.
+    [[nodiscard]] std::optional<PatchPoint> origin_at(UnitRoot& time) const {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (const int side = time.sign_of(area_[axis]); side != 0)
+                return origin_in_plane(time, axis, side);
+        return origin_in_line(time);
+    }
+
+private:
+    [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < corners_ ? i + 1 : 0; }
+
+    /// Projected along an axis that the patch's plane does not contain, the corners run around the
+    /// origin in one sense if and only if it lies within.
+    [[nodiscard]] std::optional<PatchPoint> origin_in_plane(UnitRoot& time, std::size_t axis,
+                                                            int side) const {
+        for (std::size_t i = 0; i < corners_; ++i)
+            if (time.sign_of(moment_[i][axis]) == -side)
+                return std::nullopt;
+        time.refine(kTimeLevel);
+        const auto value = [&](const IntegerPolynomial& p) { return time.value_at_left(p, 2); };
+        const auto area = common_scale<3>({value(area_[0]), value(area_[1]), value(area_[2])});
+        // Areas between the origin and two sides, as parts of the whole.
+        const auto parts = common_scale<3>(
+            {value(area_[axis]), value(moment_[corners_ - 1][axis]), value(moment_[0][axis])});
+        PatchPoint point;
+        if (parts[0] != 0)
+            point.x = parts[1] / parts[0], point.y = parts[2] / parts[0];
+        point.normal = {area[0], area[1], area[2]};
+        return point;
+    }
+
+    /// A patch in a line is what its sides cover.
+    [[nodiscard]] std::optional<PatchPoint> origin_in_line(UnitRoot& time) const {
+        for (std::size_t i = 0; i < corners_; ++i) {
+            bool holds = true;
+            for (std::size_t axis = 0; axis < 3 && holds; ++axis)
+                holds = time.sign_of(moment_[i][axis]) == 0 &&
+                        time.sign_of(corner_[i][axis]) * time.sign_of(corner_[next(i)][axis]) <= 0;
+            if (holds)
+                return point_of_side(time, i);
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] PatchPoint point_of_side(UnitRoot& time, std::size_t i) const {
+        time.refine(kTimeLevel);
+        std::array<BigInt, 6> ends;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            ends[axis] = time.value_at_left(corner_[i][axis], 1);
+            ends[3 + axis] = time.value_at_left(corner_[next(i)][axis], 1);
+        }
+        const auto e = common_scale(ends);
+        PatchPoint point;
+        point.line = {e[3] - e[0], e[4] - e[1], e[5] - e[2]};
+        std::size_t longest = 0;
+        for (std::size_t axis = 1; axis < 3; ++axis)
+            if (std::abs(e[3 + axis] - e[axis]) > std::abs(e[3 + longest] - e[longest]))
+                longest = axis;
+        const double length = e[3 + longest] - e[longest];
+        const double part = length != 0 ? std::clamp(-e[longest] / length, 0.0, 1.0) : 0;
+        const auto corners = patch_corners(kind_);
+        const auto &from = corners[i], &to = corners[next(i)];
+        point.x = (1 - part) * from[0] + part * to[0];
+        point.y = (1 - part) * from[1] + part * to[1];
+        return point;
+    }
+
+    ElementaryKind kind_;
+    std::size_t corners_;
+    std::array<PolynomialVec3, 4> corner_;
+    std::array<PolynomialVec3, 4> moment_; ///< corner x next corner
+    PolynomialVec3 area_;                  ///< side x side, not halved
+    IntegerPolynomial coplanarity_;
+};
+
+ElementaryImpact impact_at(const ElementaryPair& pair, const UnitRoot& time,
+                           const PatchPoint& point) {
+    ElementaryImpact impact;
+    impact.hit = true;
+    impact.time = time.lower_bound();
+    impact.barycentric = patch_barycentric(pair.kind, point.x, point.y);
+    impact.normal = impact_normal(pair, impact.barycentric, point.normal, point.line);
+    return impact;
+}
+
+std::vector<UnitRoot> times_to_examine(const ExactPatch& patch) {
+    if (!patch.coplanarity().is_zero())
+        return unit_roots(patch.coplanarity());
+    std::vector<UnitRoot> times = patch.times_of_change();
+    times.insert(times.begin(), UnitRoot(BigInt(0), 0));
+    return times;
+}
+
+} // namespace
+
+ElementaryImpact elementary_impact_exact(const ElementaryPair& pair) {
+    const ExactPatch patch(pair);
+    ElementaryImpact impact;
+    for (UnitRoot& time : times_to_examine(patch))
+        if (const auto point = patch.origin_at(time)) {
+            time.refine(kTimeLevel);
+            impact = impact_at(pair, time, *point);
+            break;
+        }
+    impact.decided_by = ElementaryStage::exact;
+    return impact;
+}
+
+} // namespace abut

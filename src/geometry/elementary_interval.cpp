@@ -1,0 +1,334 @@
+#include "geometry/elementary_interval.h"
+
+#include "geometry/difference_patch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace abut {
+
+namespace {
+
+constexpr double kEpsilon = 0x1p-53;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Halvings of [0, 1] after which a cell counts as one possible root, and cells looked at in all.
+constexpr int kMostLevel = 12, kMostCells = 64;
+/// The time of an impact is not certain enough in a longer interval.
+constexpr double kLongestImpact = 1e-9;
+
+double largest(const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// A vector in linear motion. Its coordinates at both ends are differences of two doubles, each
+/// rounded once.
+struct LinearVec3 {
+    Vec3 start, end;
+    double size; ///< no coordinate exceeds it
+
+    LinearVec3(const ElementaryPair& pair, const VertexDifference& d)
+        : start(pair.start[d.to] - pair.start[d.from]), end(pair.end[d.to] - pair.end[d.from]),
+          size(std::max(largest(start), largest(end))) {}
+
+    [[nodiscard]] Vec3 at(double t) const { return (1 - t) * start + t * end; }
+};
+
+/// corner + x side_x + y side_y, see difference_patch.h.
+struct RoundedPatch {
+    LinearVec3 corner, side_x, side_y;
+
+    explicit RoundedPatch(const ElementaryPair& pair)
+        : RoundedPatch(pair, patch_layout(pair.kind)) {}
+    RoundedPatch(const ElementaryPair& pair, const PatchLayout& layout)
+        : corner(pair, layout.corner), side_x(pair, layout.side_x), side_y(pair, layout.side_y) {}
+};
+
+/// A cubic over one cell [start, start + length] of times, by Bernstein coefficients.
+struct CubicCell {
+    std::array<double, 4> b;
+    double start, length;
+    int level; ///< halvings of [0, 1]
+};
+
+/// corner . (side_x x side_y): zero where the origin lies in the patch's plane.
+struct Coplanarity {
+    std::array<double, 4> b;
+    double size;  ///< of the coefficients
+    double error; ///< of each coefficient
+
+    explicit Coplanarity(const RoundedPatch& p) {
+        const Vec3 area_0 = cross(p.side_x.start, p.side_y.start),
+                   area_1 = cross(p.side_x.start, p.side_y.end) +
+                            cross(p.side_x.end, p.side_y.start), // twice the middle coefficient
+            area_2 = cross(p.side_x.end, p.side_y.end);
+        b = {dot(p.corner.start, area_0),
+             (dot(p.corner.start, area_1) + dot(p.corner.end, area_0)) / 3,
+             (dot(p.corner.end, area_1) + dot(p.corner.start, area_2)) / 3,
+             dot(p.corner.end, area_2)};
+        size = std::max({std::abs(b[0]), std::abs(b[1]), std::abs(b[2]), std::abs(b[3])});
+        // Six products of one coordinate each, 12 roundings at most: 6 * 12 eps of their size. The
+        // last term covers underflow; products near overflow leave nothing certain.
+        const double product = p.side_x.size * p.side_y.size * p.corner.size;
+        error = product < 0x1p1000 && p.side_x.size * p.side_y.size < 0x1p1000
+                    ? 80 * kEpsilon * product + 0x1p-1000 * (1 + p.corner.size)
+                    : kInfinity;
+    }
+
+    /// What the polynomial of a cell's coefficients, evaluated or not, may be off by: each halving
+    /// is three means of means, an evaluation the like with rounded weights.
+    [[nodiscard]] double error_at(int level) const {
+        return error + (8 * level + 16) * kEpsilon * size;
+    }
+};
+
+/// Value at u in [0, 1] of the cell.
+double value(const std::array<double, 4>& b, double u) {
+    const double v = 1 - u;
+    const double b01 = v * b[0] + u * b[1], b12 = v * b[1] + u * b[2], b23 = v * b[2] + u * b[3];
+    return v * (v * b01 + u * b12) + u * (v * b12 + u * b23);
+}
+
+/// A time interval that holds all zeros of the coplanarity that are near.
+struct RootInterval {
+    double start, end;
+    bool crosses; ///< the coplanarity has opposite signs at both ends, for certain
+};
+
+/// In: the coefficients do not decrease.
+RootInterval enclose_increasing(const CubicCell& cell, double error) {
+    const auto& b = cell.b;
+    const bool below = b[0]<-error, above = b[3]> error;
+    // f(u) = b0 + u (c1 + u (c2 + u c3)); Newton's method, kept between points of known sign.
+    const double c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]),
+                 c3 = b[3] - b[0] + 3 * (b[1] - b[2]);
+    double low = 0, high = 1;
+    double u = below && above ? b[0] / (b[0] - b[3]) : below ? 1 : 0, slope = 0;
+    for (int i = 0; i < 12; ++i) {
+        const double f = b[0] + u * (c1 + u * (c2 + u * c3));
+        slope = c1 + u * (2 * c2 + u * 3 * c3);
+        (f < 0 ? low : high) = u;
+        double next = u - f / slope;
+        if (!(next >= low && next <= high))
+            next = 0.5 * (low + high);
+        const double step = std::abs(next - u);
+        u = next;
+        if (step <= 0x1p-40 * u || step <= error / slope)
+            break;
+    }
+    // Out from the root until the sign is certain.
+    double start = 0, end = 1;
+    const double step = 2 * error / std::abs(slope) + 4 * kEpsilon;
+    if (below)
+        for (double width = step; width < 1; width *= 8)
+            if (const double at = u - width; at > 0 && value(b, at) < -error) {
+                start = at;
+                break;
+            }
+    if (above)
+        for (double width = step; width < 1; width *= 8)
+            if (const double at = u + width; at < 1 && value(b, at) > error) {
+                end = at;
+                break;
+            }
+    const auto time = [&](double at) { return cell.start + at * cell.length; };
+    return {std::max(0.0, time(start) - 3 * kEpsilon), std::min(1.0, time(end) + 3 * kEpsilon),
+            below && above};
+}
+
+RootInterval enclose_monotone(CubicCell cell, double error) {
+    if (cell.b[0] > cell.b[3])
+        for (double& b : cell.b)
+            b = -b;
+    return enclose_increasing(cell, error);
+}
+
+bool is_monotone(const std::array<double, 4>& b) {
+    return (b[0] <= b[1] && b[1] <= b[2] && b[2] <= b[3]) ||
+           (b[0] >= b[1] && b[1] >= b[2] && b[2] >= b[3]);
+}
+
+bool has_certain_sign(const std::array<double, 4>& b, double error) {
+    return (b[0] > error && b[1] > error && b[2] > error && b[3] > error) ||
+           (b[0] < -error && b[1] < -error && b[2] < -error && b[3] < -error);
+}
+
+std::array<CubicCell, 2> halves(const CubicCell& cell) {
+    const auto& b = cell.b;
+    const double b01 = 0.5 * (b[0] + b[1]), b12 = 0.5 * (b[1] + b[2]), b23 = 0.5 * (b[2] + b[3]);
+    const double b012 = 0.5 * (b01 + b12), b123 = 0.5 * (b12 + b23);
+    const double middle = 0.5 * (b012 + b123), length = 0.5 * cell.length;
+    return {CubicCell{{b[0], b01, b012, middle}, cell.start, length, cell.level + 1},
+            CubicCell{{middle, b123, b23, b[3]}, cell.start + length, length, cell.level + 1}};
+}
+
+/// What happens in an interval of times.
+enum class Meeting { apart, meet, unknown };
+
+struct Contact {
+    Meeting meeting = Meeting::unknown;
+    double x = 0, y = 0; ///< of the origin, about; meaningless where the patch is degenerate
+    Vec3 normal;
+};
+
+/// Twice an area as seen along a direction, and what it may be off by.
+struct Area {
+    double value, error;
+};
+
+/// Whether the patch holds the origin whenever both lie in one plane, or never does.
+///
+/// Seen along any fixed direction m, the origin lies in a patch in whose plane it is only if the
+/// corners run around it in one sense (weakly), and if they do so strictly: so signs of
+/// m . (corner x next corner) tell, for whatever m; the patch's normal tells best.
+class OriginTest {
+public:
+    OriginTest(const RoundedPatch& patch, ElementaryKind kind, const RootInterval& interval)
+        : kind_(kind) {
+        const double middle = 0.5 * (interval.start + interval.end);
+        // Rounding of ends and interpolation, and the way moved within the interval.
+        const double part = 8 * kEpsilon + 2.01 * (interval.end - interval.start);
+        corner_ = patch.corner.at(middle);
+        x_ = patch.side_x.at(middle);
+        y_ = patch.side_y.at(middle);
+        off_corner_ = part * patch.corner.size;
+        off_x_ = part * patch.side_x.size;
+        off_y_ = part * patch.side_y.size;
+    }
+
+    [[nodiscard]] Contact decide() const {
+        const Vec3 area = cross(x_, y_);
+        const double scale = largest(area);
+        // Products that lost digits to underflow, or overflowed, are left to exact arithmetic.
+        const double sizes = (largest(corner_) + off_corner_) + (largest(x_) + largest(y_));
+        if (!(scale > 0x1p-900 && sizes < 0x1p450))
+            return {};
+        Contact contact;
+        contact.normal = {area.x / scale, area.y / scale, area.z / scale};
+        const Area whole = seen(x_, off_x_, y_, off_y_, contact.normal),
+                   at_x0 = seen(y_, off_y_, corner_, off_corner_, contact.normal),
+                   at_y0 = seen(corner_, off_corner_, x_, off_x_, contact.normal);
+        contact.x = at_x0.value / whole.value;
+        contact.y = at_y0.value / whole.value;
+        contact.meeting = kind_ == ElementaryKind::vertex_face
+                              ? compare(std::array{at_x0, at_y0, rest(whole, at_x0, at_y0)})
+                              : compare(std::array{at_x0, at_y0, rest(whole, at_x0, {0, 0}),
+                                                   rest(whole, at_y0, {0, 0})});
+        return contact;
+    }
+
+    /// At most this far from the origin is the patch's point (x, y), in [0, 1] both.
+    [[nodiscard]] double distance_at_most(double x, double y) const {
+        // Coordinates instead of a length: their squares may underflow.
+        return 1.7321 * (largest(corner_ + x * x_ + y * y_) + 4 * (off_corner_ + off_x_ + off_y_));
+    }
+
+private:
+    /// m . (u x v), |m| at most 1 in each coordinate, u and v off by `off_u` and `off_v` each.
+    static Area seen(const Vec3& u, double off_u, const Vec3& v, double off_v, const Vec3& m) {
+        const double size_u = largest(u), size_v = largest(v);
+        // Six products: each off by what its factors are off by, and by 8 roundings.
+        const double off =
+            off_u * size_v + size_u * off_v + off_u * off_v + 8 * kEpsilon * size_u * size_v;
+        return {dot(m, cross(u, v)), 6.1 * off + 0x1p-900};
+    }
+    static Area rest(const Area& whole, const Area& a, const Area& b) {
+        const double sizes = std::abs(whole.value) + std::abs(a.value) + std::abs(b.value);
+        return {whole.value - (a.value + b.value),
+                whole.error + a.error + b.error + 4 * kEpsilon * sizes};
+    }
+    template <std::size_t n>
+    static Meeting compare(const std::array<Area, n>& areas) {
+        std::size_t above = 0, below = 0;
+        for (const Area& a : areas) {
+            above += a.value > a.error ? 1 : 0;
+            below += a.value < -a.error ? 1 : 0;
+        }
+        return above > 0 && below > 0     ? Meeting::apart
+               : above == n || below == n ? Meeting::meet
+                                          : Meeting::unknown;
+    }
+
+    ElementaryKind kind_;
+    Vec3 corner_, x_, y_;
+    double off_corner_, off_x_, off_y_;
+};
+
+class Search {
+public:
+    Search(const ElementaryPair& pair, double delta)
+        : pair_(pair), delta_(delta), patch_(pair), coplanarity_(patch_) {}
+
+    /// Cells of time from the earliest on; the first that may hold an impact ends the search.
+    std::optional<ElementaryImpact> run() {
+        if (!(coplanarity_.error < kInfinity))
+            return std::nullopt;
+        std::array<CubicCell, kMostLevel + 2> stack;
+        std::size_t height = 0;
+        stack[height++] = {coplanarity_.b, 0, 1, 0};
+        for (int cells = 0; height > 0; ++cells) {
+            const CubicCell cell = stack[--height];
+            const double error = coplanarity_.error_at(cell.level);
+            if (has_certain_sign(cell.b, error))
+                continue;
+            const bool monotone = is_monotone(cell.b);
+            if (!monotone && cell.level < kMostLevel && cells < kMostCells) {
+                const auto [first, second] = halves(cell);
+                stack[height++] = second;
+                stack[height++] = first;
+                continue;
+            }
+            const RootInterval interval =
+                monotone ? enclose_monotone(cell, error)
+                         : RootInterval{cell.start, cell.start + cell.length, false};
+            if (!examine(interval))
+                return std::nullopt;
+            if (impact_.hit)
+                break;
+        }
+        impact_.decided_by = ElementaryStage::interval;
+        return impact_;
+    }
+
+private:
+    /// False if it is not known what happens in the interval.
+    bool examine(const RootInterval& interval) {
+        const OriginTest test(patch_, pair_.kind, interval);
+        const Contact contact = test.decide();
+        if (contact.meeting == Meeting::apart)
+            return true;
+        const auto barycentric = patch_barycentric(pair_.kind, contact.x, contact.y);
+        const bool certain = contact.meeting == Meeting::meet && interval.crosses &&
+                             interval.end - interval.start < kLongestImpact;
+        if (!certain && !is_near(test, barycentric))
+            return false;
+        impact_.hit = true;
+        impact_.status = certain ? Status::exact : Status::bound_only;
+        impact_.time = interval.start;
+        impact_.barycentric = barycentric;
+        impact_.normal = impact_normal(pair_, barycentric, contact.normal, {});
+        return true;
+    }
+
+    [[nodiscard]] bool is_near(const OriginTest& test, const std::array<double, 3>& b) const {
+        const bool face = pair_.kind == ElementaryKind::vertex_face;
+        return delta_ > 0 &&
+               test.distance_at_most(face ? b[1] : b[0], face ? b[2] : b[1]) <= delta_;
+    }
+
+    const ElementaryPair& pair_;
+    double delta_;
+    RoundedPatch patch_;
+    Coplanarity coplanarity_;
+    ElementaryImpact impact_;
+};
+
+} // namespace
+
+std::optional<ElementaryImpact> elementary_impact_interval(const ElementaryPair& pair,
+                                                           double delta) {
+    return Search(pair, delta).run();
+}
+
+} // namespace abut
