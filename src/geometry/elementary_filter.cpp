@@ -1,5 +1,7 @@
 #include "geometry/elementary_filter.h"
 
+#include "geometry/difference_patch.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/elementary_filter.cpp"
 #include "simd/foreach_target.h"
@@ -51,6 +53,14 @@ struct Pairs {
                              hn::Load(d, rows[2] + lane)};
             }
     }
+    /// The same pair in all lanes.
+    HWY_INLINE Pairs(D d, const ElementaryPair& pair) {
+        const auto point = [&](const Vec3& v) HWY_ATTR {
+            return Vec<D>{hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+        };
+        for (std::size_t i = 0; i < 4; ++i)
+            p[i][0] = point(pair.start[i]), p[i][1] = point(pair.end[i]);
+    }
 };
 
 /// Where all of the first feature lies strictly below all of the second along some direction, at
@@ -94,39 +104,126 @@ HWY_INLINE hn::Mask<D> apart_on_diagonals(D d, const Pairs<D>& pairs) {
     return hn::Or(hn::Or(xy, hn::Or(yz, zx)), hn::Or(x_y, hn::Or(y_z, z_x)));
 }
 
-/// Where the four vertices lie in one plane at no time: the cubic corner . (side_x x side_y) (see
-/// difference_patch.h) has Bernstein coefficients of one sign.
-///
-/// With sides below X and Y and corners below C in each coordinate, the inner coefficients, three
-/// times as large here, sum 18 products, each rounded 11 times at most: off by 18 * 11 eps X Y C;
-/// the outer ones are off by less. The last term covers underflow; products near overflow leave
-/// nothing certain.
-template <bool faces, class D>
-HWY_INLINE hn::Mask<D> never_coplanar(D d, const Pairs<D>& pairs) {
-    constexpr std::size_t kFrom = faces ? 0 : 0, kCorner = faces ? 1 : 2;
+/// corner + x side_x + y side_y at both ends: see difference_patch.h.
+template <class D>
+struct Patches {
     Vec<D> corner[2], x[2], y[2];
-    for (std::size_t end = 0; end < 2; ++end) {
-        corner[end] = sub<D>(pairs.p[kCorner][end], pairs.p[kFrom][end]);
-        x[end] = sub<D>(pairs.p[faces ? 2 : 0][end], pairs.p[1][end]);
-        y[end] = sub<D>(pairs.p[3][end], pairs.p[faces ? 1 : 2][end]);
-    }
-    const Vec<D> area_0 = cross<D>(x[0], y[0]), area_2 = cross<D>(x[1], y[1]),
-                 area_1 = add<D>(cross<D>(x[0], y[1]), cross<D>(x[1], y[0]));
-    const auto b0 = dot<D>(corner[0], area_0), b3 = dot<D>(corner[1], area_2);
-    const auto b1 = hn::Add(dot<D>(corner[0], area_1), dot<D>(corner[1], area_0));
-    const auto b2 = hn::Add(dot<D>(corner[1], area_1), dot<D>(corner[0], area_2));
+    hn::Vec<D> size_c, size_x, size_y; ///< of their coordinates
+    Vec<D> area_0, area_1, area_2; ///< x x y, its Bernstein coefficients, the middle one doubled
 
-    const auto size_c = hn::Max(max_abs<D>(corner[0]), max_abs<D>(corner[1]));
-    const auto size_xy = hn::Mul(hn::Max(max_abs<D>(x[0]), max_abs<D>(x[1])),
-                                 hn::Max(max_abs<D>(y[0]), max_abs<D>(y[1])));
-    const auto product = hn::Mul(size_xy, size_c);
-    const auto bound = hn::MulAdd(hn::Set(d, 200 * 0x1p-53), product,
-                                  hn::MulAdd(hn::Set(d, 0x1p-1000), size_c, hn::Set(d, 0x1p-1000)));
-    const auto in_range =
-        hn::And(hn::Lt(product, hn::Set(d, 0x1p1000)), hn::Lt(size_xy, hn::Set(d, 0x1p1000)));
+    template <bool faces>
+    static HWY_INLINE Patches of(const Pairs<D>& pairs) {
+        constexpr PatchLayout kLayout =
+            patch_layout(faces ? ElementaryKind::vertex_face : ElementaryKind::edge_edge);
+        Patches p;
+        for (std::size_t end = 0; end < 2; ++end) {
+            const auto difference = [&](const VertexDifference& d) HWY_ATTR {
+                return sub<D>(pairs.p[d.to][end], pairs.p[d.from][end]);
+            };
+            p.corner[end] = difference(kLayout.corner);
+            p.x[end] = difference(kLayout.side_x);
+            p.y[end] = difference(kLayout.side_y);
+        }
+        p.size_c = hn::Max(max_abs<D>(p.corner[0]), max_abs<D>(p.corner[1]));
+        p.size_x = hn::Max(max_abs<D>(p.x[0]), max_abs<D>(p.x[1]));
+        p.size_y = hn::Max(max_abs<D>(p.y[0]), max_abs<D>(p.y[1]));
+        p.area_0 = cross<D>(p.x[0], p.y[0]);
+        p.area_1 = add<D>(cross<D>(p.x[0], p.y[1]), cross<D>(p.x[1], p.y[0]));
+        p.area_2 = cross<D>(p.x[1], p.y[1]);
+        return p;
+    }
+};
+
+/// Where the four vertices lie in one plane at no time: corner . (x x y) has Bernstein coefficients
+/// of one sign.
+///
+/// With coordinates below C, X and Y, the inner coefficients, three times as large here, sum 18
+/// products, each rounded 11 times at most: off by 18 * 11 eps C X Y; the outer ones are off by
+/// less. The last term covers underflow; products near overflow leave nothing certain.
+template <class D>
+HWY_INLINE hn::Mask<D> never_coplanar(D d, const Patches<D>& p) {
+    const auto b0 = dot<D>(p.corner[0], p.area_0), b3 = dot<D>(p.corner[1], p.area_2);
+    const auto b1 = hn::Add(dot<D>(p.corner[0], p.area_1), dot<D>(p.corner[1], p.area_0));
+    const auto b2 = hn::Add(dot<D>(p.corner[1], p.area_1), dot<D>(p.corner[0], p.area_2));
+
+    const auto size_xy = hn::Mul(p.size_x, p.size_y), product = hn::Mul(size_xy, p.size_c);
+    const auto tiny = hn::Set(d, 0x1p-1000), huge = hn::Set(d, 0x1p1000);
+    const auto bound =
+        hn::MulAdd(hn::Set(d, 200 * 0x1p-53), product, hn::MulAdd(tiny, p.size_c, tiny));
+    const auto in_range = hn::And(hn::Lt(product, huge), hn::Lt(size_xy, huge));
     const auto least = hn::Min(hn::Min(b0, b1), hn::Min(b2, b3)),
                most = hn::Max(hn::Max(b0, b1), hn::Max(b2, b3));
     return hn::And(in_range, hn::Or(hn::Gt(least, bound), hn::Lt(most, hn::Neg(bound))));
+}
+
+/// Bernstein coefficients of a . b, both linear, doubled.
+template <class D>
+struct Quadratic {
+    hn::Vec<D> b[3];
+
+    HWY_INLINE Quadratic(const Vec<D> (&p)[2], const Vec<D> (&q)[2]) {
+        b[0] = dot<D>(p[0], q[0]);
+        b[0] = hn::Add(b[0], b[0]);
+        b[1] = hn::Add(dot<D>(p[0], q[1]), dot<D>(p[1], q[0]));
+        b[2] = dot<D>(p[1], q[1]);
+        b[2] = hn::Add(b[2], b[2]);
+    }
+    HWY_INLINE hn::Mask<D> above(hn::Vec<D> bound) const {
+        return hn::Gt(hn::Min(b[0], hn::Min(b[1], b[2])), bound);
+    }
+    HWY_INLINE hn::Mask<D> below(hn::Vec<D> bound) const {
+        return hn::Lt(hn::Max(b[0], hn::Max(b[1], b[2])), bound);
+    }
+};
+template <class D>
+HWY_INLINE Quadratic<D> sub(Quadratic<D> a, const Quadratic<D>& b) {
+    for (std::size_t i = 0; i < 3; ++i)
+        a.b[i] = hn::Sub(a.b[i], b.b[i]);
+    return a;
+}
+
+/// Where the origin lies outside the same side of the patch whenever both are in one plane.
+///
+/// Seen along a fixed direction m, the patch has the area whole = m . (x x y), and the origin in its
+/// plane has the coordinates m . (y x corner) / whole and m . (corner x x) / whole. If the whole is
+/// positive at all times and a coordinate negative at all times, the patch never holds the
+/// origin. m is the patch's normal in the middle, its coordinates at most 1.
+///
+/// Doubled, each coefficient sums 12 products, rounded 10 times at most, and differences of three of
+/// them are taken: off by 12 * 12 eps (C X + C Y + X Y).
+template <bool faces, class D>
+HWY_INLINE hn::Mask<D> always_outside(D d, const Patches<D>& p) {
+    Vec<D> m = add<D>(add<D>(p.area_0, p.area_2), p.area_1);
+    const auto size_m = max_abs<D>(m);
+    const auto scale = hn::Div(hn::Set(d, 1.0), size_m);
+    m = {hn::Mul(m.x, scale), hn::Mul(m.y, scale), hn::Mul(m.z, scale)};
+
+    const Vec<D> m_x[2] = {cross<D>(m, p.x[0]), cross<D>(m, p.x[1])};
+    const Vec<D> m_y[2] = {cross<D>(m, p.y[0]), cross<D>(m, p.y[1])};
+    const Quadratic<D> whole(p.y, m_x), at_x(p.corner, m_y), minus_y(p.corner, m_x);
+
+    const auto sizes =
+        hn::MulAdd(p.size_c, hn::Add(p.size_x, p.size_y), hn::Mul(p.size_x, p.size_y));
+    const auto tiny = hn::Set(d, 0x1p-900), huge = hn::Set(d, 0x1p500);
+    const auto bound = hn::MulAdd(hn::Set(d, 160 * 0x1p-53), sizes, tiny);
+    const auto coordinates = hn::Max(p.size_c, hn::Max(p.size_x, p.size_y));
+    const auto in_range = hn::And(hn::Gt(size_m, tiny), hn::Lt(coordinates, huge));
+
+    auto outside = hn::Or(at_x.below(hn::Neg(bound)), minus_y.above(bound));
+    // 1 - x and 1 - y, or 1 - x - y, times the whole.
+    const Quadratic<D> not_x = sub<D>(whole, at_x);
+    if constexpr (faces) {
+        Quadratic<D> rest = not_x;
+        for (std::size_t i = 0; i < 3; ++i)
+            rest.b[i] = hn::Add(rest.b[i], minus_y.b[i]);
+        outside = hn::Or(outside, rest.below(hn::Neg(bound)));
+    } else {
+        Quadratic<D> not_y = whole;
+        for (std::size_t i = 0; i < 3; ++i)
+            not_y.b[i] = hn::Add(not_y.b[i], minus_y.b[i]);
+        outside = hn::Or(outside, hn::Or(not_x.below(hn::Neg(bound)), not_y.below(hn::Neg(bound))));
+    }
+    return hn::And(in_range, hn::And(whole.above(bound), outside));
 }
 
 template <bool faces, class D>
@@ -134,10 +231,14 @@ HWY_INLINE hn::Mask<D> proven_apart(D d, const Pairs<D>& pairs) {
     auto result = apart_on_axes<faces>(d, pairs);
     if (hn::AllTrue(d, result))
         return result;
-    result = hn::Or(result, never_coplanar<faces>(d, pairs));
+    result = hn::Or(result, apart_on_diagonals<faces>(d, pairs));
     if (hn::AllTrue(d, result))
         return result;
-    return hn::Or(result, apart_on_diagonals<faces>(d, pairs));
+    const auto patches = Patches<D>::template of<faces>(pairs);
+    result = hn::Or(result, never_coplanar(d, patches));
+    if (hn::AllTrue(d, result))
+        return result;
+    return hn::Or(result, always_outside<faces>(d, patches));
 }
 
 template <bool faces, class D>
@@ -159,7 +260,14 @@ std::uint32_t possible_simd(const ElementaryBlock& block, bool faces) {
     return faces ? possible_with<true>(BlockLanes(), block)
                  : possible_with<false>(BlockLanes(), block);
 }
-std::uint32_t possible_one(const ElementaryBlock& block, bool faces) {
+bool possible_single(const ElementaryPair& pair) {
+    const OneLane d;
+    const Pairs<OneLane> pairs(d, pair);
+    return hn::AllFalse(d, pair.kind == ElementaryKind::vertex_face
+                               ? proven_apart<true>(d, pairs)
+                               : proven_apart<false>(d, pairs));
+}
+std::uint32_t possible_reference(const ElementaryBlock& block, bool faces) {
     return faces ? possible_with<true>(OneLane(), block) : possible_with<false>(OneLane(), block);
 }
 
@@ -170,12 +278,16 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(possible_simd);
+HWY_EXPORT(possible_single);
 
 std::uint32_t possible_impacts(const ElementaryBlock& block, ElementaryKind kind) {
     return HWY_DYNAMIC_DISPATCH(possible_simd)(block, kind == ElementaryKind::vertex_face);
 }
+bool possible_impact(const ElementaryPair& pair) {
+    return HWY_DYNAMIC_DISPATCH(possible_single)(pair);
+}
 std::uint32_t possible_impacts_reference(const ElementaryBlock& block, ElementaryKind kind) {
-    return HWY_STATIC_DISPATCH(possible_one)(block, kind == ElementaryKind::vertex_face);
+    return HWY_STATIC_DISPATCH(possible_reference)(block, kind == ElementaryKind::vertex_face);
 }
 
 } // namespace abut

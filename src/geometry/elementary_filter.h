@@ -40,7 +40,10 @@ private:
 ///             Tong 2010], differs: with a bound of rounding.
 std::uint32_t possible_impacts(const ElementaryBlock& block, ElementaryKind kind);
 
-/// The same with one lane: the reference for every SIMD target.
+/// The same of one pair, with the same answer.
+bool possible_impact(const ElementaryPair& pair);
+
+/// The same as for a block with one lane at a time: the reference for every SIMD target.
 std::uint32_t possible_impacts_reference(const ElementaryBlock& block, ElementaryKind kind);
 
 } // namespace abut

@@ -1,11 +1,13 @@
 #include "geometry/elementary_interval.h"
 
 #include "geometry/difference_patch.h"
+#include "math/predicates.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace abut {
 
@@ -90,58 +92,79 @@ double value(const std::array<double, 4>& b, double u) {
     return v * (v * b01 + u * b12) + u * (v * b12 + u * b23);
 }
 
-/// A time interval that holds all zeros of the coplanarity that are near.
+/// A time interval, and what is known of the coplanarity in it.
 struct RootInterval {
     double start, end;
-    bool crosses; ///< the coplanarity has opposite signs at both ends, for certain
+    std::optional<int> sign_start, sign_end; ///< at both ends; nothing where it is not certain
+    bool monotone;                           ///< for certain
+
+    [[nodiscard]] bool has_root() const {
+        return sign_start && sign_end && *sign_start * *sign_end <= 0;
+    }
+    [[nodiscard]] bool has_none() const {
+        return monotone && sign_start && sign_end && *sign_start * *sign_end > 0;
+    }
+};
+
+/// Where f(u) = b0 + u (c1 + u (c2 + u c3)) is zero, about: Newton's method, kept between points of
+/// known sign. In: f does not decrease; `u` to start from.
+struct RootOfIncreasing {
+    double u, slope;
+
+    RootOfIncreasing(const std::array<double, 4>& b, double u0, double error) : u(u0) {
+        const double c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]),
+                     c3 = b[3] - b[0] + 3 * (b[1] - b[2]);
+        double low = 0, high = 1;
+        for (int i = 0; i < 12; ++i) {
+            const double f = b[0] + u * (c1 + u * (c2 + u * c3));
+            slope = c1 + u * (2 * c2 + u * (3 * c3));
+            (f < 0 ? low : high) = u;
+            double next = u - f / slope;
+            if (!(next >= low && next <= high))
+                next = 0.5 * (low + high);
+            const double step = std::abs(next - u);
+            u = next;
+            if (step <= 0x1p-40 * u || step * slope <= error)
+                break;
+        }
+    }
 };
 
 /// In: the coefficients do not decrease.
 RootInterval enclose_increasing(const CubicCell& cell, double error) {
     const auto& b = cell.b;
     const bool below = b[0]<-error, above = b[3]> error;
-    // f(u) = b0 + u (c1 + u (c2 + u c3)); Newton's method, kept between points of known sign.
-    const double c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]),
-                 c3 = b[3] - b[0] + 3 * (b[1] - b[2]);
-    double low = 0, high = 1;
-    double u = below && above ? b[0] / (b[0] - b[3]) : below ? 1 : 0, slope = 0;
-    for (int i = 0; i < 12; ++i) {
-        const double f = b[0] + u * (c1 + u * (c2 + u * c3));
-        slope = c1 + u * (2 * c2 + u * 3 * c3);
-        (f < 0 ? low : high) = u;
-        double next = u - f / slope;
-        if (!(next >= low && next <= high))
-            next = 0.5 * (low + high);
-        const double step = std::abs(next - u);
-        u = next;
-        if (step <= 0x1p-40 * u || step <= error / slope)
-            break;
-    }
+    const RootOfIncreasing root(b, below && above ? b[0] / (b[0] - b[3]) : below ? 1 : 0, error);
     // Out from the root until the sign is certain.
     double start = 0, end = 1;
-    const double step = 2 * error / std::abs(slope) + 4 * kEpsilon;
-    if (below)
-        for (double width = step; width < 1; width *= 8)
-            if (const double at = u - width; at > 0 && value(b, at) < -error) {
-                start = at;
-                break;
-            }
-    if (above)
-        for (double width = step; width < 1; width *= 8)
-            if (const double at = u + width; at < 1 && value(b, at) > error) {
-                end = at;
-                break;
-            }
-    const auto time = [&](double at) { return cell.start + at * cell.length; };
+    const double step = 2 * error / std::abs(root.slope) + 4 * kEpsilon;
+    for (double width = step; below && width < root.u; width *= 8)
+        if (value(b, root.u - width) < -error) {
+            start = root.u - width;
+            break;
+        }
+    for (double width = step; above && width < 1 - root.u; width *= 8)
+        if (value(b, root.u + width) > error) {
+            end = root.u + width;
+            break;
+        }
+    const auto time = [&](double u) { return cell.start + u * cell.length; };
+    const double least = 2 * error;
     return {std::max(0.0, time(start) - 3 * kEpsilon), std::min(1.0, time(end) + 3 * kEpsilon),
-            below && above};
+            below ? std::optional(-1) : std::nullopt, above ? std::optional(1) : std::nullopt,
+            b[1] - b[0] > least && b[2] - b[1] > least && b[3] - b[2] > least};
 }
 
 RootInterval enclose_monotone(CubicCell cell, double error) {
-    if (cell.b[0] > cell.b[3])
-        for (double& b : cell.b)
-            b = -b;
-    return enclose_increasing(cell, error);
+    if (cell.b[0] <= cell.b[3])
+        return enclose_increasing(cell, error);
+    for (double& b : cell.b)
+        b = -b;
+    RootInterval interval = enclose_increasing(cell, error);
+    for (auto* sign : {&interval.sign_start, &interval.sign_end})
+        if (*sign)
+            *sign = -**sign;
+    return interval;
 }
 
 bool is_monotone(const std::array<double, 4>& b) {
@@ -279,10 +302,9 @@ public:
                 stack[height++] = first;
                 continue;
             }
-            const RootInterval interval =
-                monotone ? enclose_monotone(cell, error)
-                         : RootInterval{cell.start, cell.start + cell.length, false};
-            if (!examine(interval))
+            if (!examine(monotone ? enclose_monotone(cell, error)
+                                  : RootInterval{cell.start, cell.start + cell.length, std::nullopt,
+                                                 std::nullopt, false}))
                 return std::nullopt;
             if (impact_.hit)
                 break;
@@ -293,13 +315,17 @@ public:
 
 private:
     /// False if it is not known what happens in the interval.
-    bool examine(const RootInterval& interval) {
+    bool examine(RootInterval interval) {
         const OriginTest test(patch_, pair_.kind, interval);
         const Contact contact = test.decide();
         if (contact.meeting == Meeting::apart)
             return true;
+        if (contact.meeting == Meeting::meet)
+            add_signs_of_ends(interval);
+        if (interval.has_none())
+            return true;
         const auto barycentric = patch_barycentric(pair_.kind, contact.x, contact.y);
-        const bool certain = contact.meeting == Meeting::meet && interval.crosses &&
+        const bool certain = contact.meeting == Meeting::meet && interval.has_root() &&
                              interval.end - interval.start < kLongestImpact;
         if (!certain && !is_near(test, barycentric))
             return false;
@@ -309,6 +335,18 @@ private:
         impact_.barycentric = barycentric;
         impact_.normal = impact_normal(pair_, barycentric, contact.normal, {});
         return true;
+    }
+
+    /// Features that touch at the start or the end are common: an exact sign there spares the rest
+    /// of exact arithmetic.
+    void add_signs_of_ends(RootInterval& interval) const {
+        const auto sign = [](const std::array<Vec3, 4>& p) {
+            return orient3d(p[0], p[1], p[2], p[3]);
+        };
+        if (!interval.sign_start && interval.start == 0)
+            interval.sign_start = sign(pair_.start);
+        if (!interval.sign_end && interval.end == 1)
+            interval.sign_end = sign(pair_.end);
     }
 
     [[nodiscard]] bool is_near(const OriginTest& test, const std::array<double, 3>& b) const {
