@@ -45,8 +45,8 @@ struct ElementaryImpact {
     /// Whether the closed features share a point at some time in [0, 1]. Touching counts.
     bool hit = false;
     ElementaryStage decided_by = ElementaryStage::filter;
-    /// exact: `hit` is right. bound_only: the features are at most delta apart shortly after `time`,
-    /// and whether they touch was not decided.
+    /// exact: `hit` is right. bound_only: at `time` the features are at most delta apart, and whether
+    /// they touch was not decided.
     Status status = Status::exact;
     /// In [0, 1]. Never later than the first time at which they share a point; less than 1e-9
     /// before it where `status` is exact. 1 where there is no hit.

@@ -17,6 +17,8 @@ constexpr double kEpsilon = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Halvings of [0, 1] after which a cell counts as one possible root, and cells looked at in all.
 constexpr int kMostLevel = 12, kMostCells = 64;
+/// Newton's method takes some five steps, and one a bit at a double root.
+constexpr int kMostSteps = 32;
 /// The time of an impact is not certain enough in a longer interval.
 constexpr double kLongestImpact = 1e-9;
 
@@ -78,11 +80,14 @@ struct Coplanarity {
                     : kInfinity;
     }
 
-    /// What the polynomial of a cell's coefficients, evaluated or not, may be off by: each halving
-    /// is three means of means, an evaluation the like with rounded weights.
+    /// What the polynomial of a cell's coefficients, evaluated and made monotone or not, may be off
+    /// by: each halving is three means of means, an evaluation the like with rounded weights, and a
+    /// coefficient is raised by three slacks at most.
     [[nodiscard]] double error_at(int level) const {
-        return error + (8 * level + 16) * kEpsilon * size;
+        return error + (8 * level + 16) * kEpsilon * size + 3 * slack();
     }
+    /// A coefficient that falls by less counts as one that does not.
+    [[nodiscard]] double slack() const { return 8 * kEpsilon * size; }
 };
 
 /// Value at u in [0, 1] of the cell.
@@ -106,17 +111,18 @@ struct RootInterval {
     }
 };
 
-/// Where f(u) = b0 + u (c1 + u (c2 + u c3)) is zero, about: Newton's method, kept between points of
-/// known sign. In: f does not decrease; `u` to start from.
-struct RootOfIncreasing {
-    double u, slope;
+/// Where f(u) = b0 + u (c1 + u (c2 + u c3)) has the value `level`, about: Newton's method, kept
+/// between points of known sign. In: f increases from below the level to above it.
+struct PointOfLevel {
+    double u, slope = 0;
 
-    RootOfIncreasing(const std::array<double, 4>& b, double u0, double error) : u(u0) {
-        const double c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]),
+    PointOfLevel(const std::array<double, 4>& b, double level, double error)
+        : u((b[0] - level) / (b[0] - b[3])) {
+        const double c0 = b[0] - level, c1 = 3 * (b[1] - b[0]), c2 = 3 * (b[2] - 2 * b[1] + b[0]),
                      c3 = b[3] - b[0] + 3 * (b[1] - b[2]);
         double low = 0, high = 1;
-        for (int i = 0; i < 12; ++i) {
-            const double f = b[0] + u * (c1 + u * (c2 + u * c3));
+        for (int i = 0; i < kMostSteps; ++i) {
+            const double f = c0 + u * (c1 + u * (c2 + u * c3));
             slope = c1 + u * (2 * c2 + u * (3 * c3));
             (f < 0 ? low : high) = u;
             double next = u - f / slope;
@@ -134,20 +140,19 @@ struct RootOfIncreasing {
 RootInterval enclose_increasing(const CubicCell& cell, double error) {
     const auto& b = cell.b;
     const bool below = b[0]<-error, above = b[3]> error;
-    const RootOfIncreasing root(b, below && above ? b[0] / (b[0] - b[3]) : below ? 1 : 0, error);
-    // Out from the root until the sign is certain.
     double start = 0, end = 1;
-    const double step = 2 * error / std::abs(root.slope) + 4 * kEpsilon;
-    for (double width = step; below && width < root.u; width *= 8)
-        if (value(b, root.u - width) < -error) {
-            start = root.u - width;
-            break;
-        }
-    for (double width = step; above && width < 1 - root.u; width *= 8)
-        if (value(b, root.u + width) > error) {
-            end = root.u + width;
-            break;
-        }
+    if (below || above) {
+        // Where a zero may lie at an end, its neighbourhood ends where the sign becomes certain.
+        const double level = below && above ? 0 : below ? -2 * error : 2 * error;
+        const PointOfLevel point(b, level, error);
+        const double step = 2 * error / std::abs(point.slope) + 4 * kEpsilon;
+        for (double width = step; below && start == 0 && width < point.u; width *= 8)
+            if (value(b, point.u - width) < -error)
+                start = point.u - width;
+        for (double width = step; above && end == 1 && width < 1 - point.u; width *= 8)
+            if (value(b, point.u + width) > error)
+                end = point.u + width;
+    }
     const auto time = [&](double u) { return cell.start + u * cell.length; };
     const double least = 2 * error;
     return {std::max(0.0, time(start) - 3 * kEpsilon), std::min(1.0, time(end) + 3 * kEpsilon),
@@ -155,21 +160,25 @@ RootInterval enclose_increasing(const CubicCell& cell, double error) {
             b[1] - b[0] > least && b[2] - b[1] > least && b[3] - b[2] > least};
 }
 
+/// In: the coefficients do not increase, or do not decrease, but for a slack.
 RootInterval enclose_monotone(CubicCell cell, double error) {
-    if (cell.b[0] <= cell.b[3])
-        return enclose_increasing(cell, error);
-    for (double& b : cell.b)
-        b = -b;
+    auto& b = cell.b;
+    const bool increases = b[0] <= b[3];
+    if (!increases)
+        for (double& each : b)
+            each = -each;
+    for (std::size_t i = 1; i < 4; ++i)
+        b[i] = std::max(b[i], b[i - 1]);
     RootInterval interval = enclose_increasing(cell, error);
     for (auto* sign : {&interval.sign_start, &interval.sign_end})
-        if (*sign)
+        if (*sign && !increases)
             *sign = -**sign;
     return interval;
 }
 
-bool is_monotone(const std::array<double, 4>& b) {
-    return (b[0] <= b[1] && b[1] <= b[2] && b[2] <= b[3]) ||
-           (b[0] >= b[1] && b[1] >= b[2] && b[2] >= b[3]);
+bool is_monotone(const std::array<double, 4>& b, double slack) {
+    return (b[0] <= b[1] + slack && b[1] <= b[2] + slack && b[2] <= b[3] + slack) ||
+           (b[0] >= b[1] - slack && b[1] >= b[2] - slack && b[2] >= b[3] - slack);
 }
 
 bool has_certain_sign(const std::array<double, 4>& b, double error) {
@@ -241,10 +250,11 @@ public:
         return contact;
     }
 
-    /// At most this far from the origin is the patch's point (x, y), in [0, 1] both.
+    /// At most this far from the origin is the patch's point (x, y), in [0, 1] both, at any time in
+    /// the interval.
     [[nodiscard]] double distance_at_most(double x, double y) const {
         // Coordinates instead of a length: their squares may underflow.
-        return 1.7321 * (largest(corner_ + x * x_ + y * y_) + 4 * (off_corner_ + off_x_ + off_y_));
+        return 1.7321 * (largest(corner_ + x * x_ + y * y_) + 2 * (off_corner_ + off_x_ + off_y_));
     }
 
 private:
@@ -275,7 +285,7 @@ private:
 
     ElementaryKind kind_;
     Vec3 corner_, x_, y_;
-    double off_corner_, off_x_, off_y_;
+    double off_corner_, off_x_, off_y_; ///< what coordinates may be off by at any time in it
 };
 
 class Search {
@@ -295,7 +305,7 @@ public:
             const double error = coplanarity_.error_at(cell.level);
             if (has_certain_sign(cell.b, error))
                 continue;
-            const bool monotone = is_monotone(cell.b);
+            const bool monotone = is_monotone(cell.b, coplanarity_.slack());
             if (!monotone && cell.level < kMostLevel && cells < kMostCells) {
                 const auto [first, second] = halves(cell);
                 stack[height++] = second;
