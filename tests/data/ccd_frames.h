@@ -1,0 +1,35 @@
+#pragma once
+
+#include <abut/elementary_impact.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace abut::test {
+
+/// A pair of frames of ../shared/data/ccd and its features, numbered as IDS.md there says.
+class CcdFrames {
+public:
+    /// In: paths of binary PLY files of floats.
+    CcdFrames(const std::string& start, const std::string& end);
+
+    [[nodiscard]] ElementaryPair vertex_face(std::size_t vertex, std::size_t face) const;
+    [[nodiscard]] ElementaryPair edge_edge(std::size_t a, std::size_t b) const;
+
+    struct Truth {
+        std::vector<ElementaryPair> pairs;
+        std::vector<bool> collides;
+    };
+    /// The pairs of box ids in STEM-pairs.json and their answers in STEM-collides.json.
+    [[nodiscard]] Truth read_truth(const std::string& stem, ElementaryKind kind) const;
+
+private:
+    std::vector<Vec3> start_, end_;
+    std::vector<std::array<std::uint32_t, 3>> faces_;
+    std::vector<std::array<std::uint32_t, 2>> edges_;
+};
+
+} // namespace abut::test
