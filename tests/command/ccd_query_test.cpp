@@ -84,8 +84,8 @@ TEST_F(CcdQueryCommand, TruthInAFileOfItsOwn) {
 
 TEST_F(CcdQueryCommand, ConservativeReportsWhatIsNear) {
     // An edge whose end passes another edge 2^-60 beside it.
-    const std::string moving = "1,1152921504606846976,0,1,HEIGHT,1\n1,1,0,1,HEIGHT,1\n",
-                      fixed = "0,1,-1,1,0,1\n0,1,1,1,0,1\n";
+    const std::string moving = "1,1152921504606846976,0,1,HEIGHT,1\n1,1,3,1,HEIGHT,1\n",
+                      fixed = "-3,1,1,1,0,1\n3,1,-1,1,0,1\n";
     const auto at = [&](const std::string& height) {
         std::string text = moving;
         for (std::size_t i = 0; (i = text.find("HEIGHT")) != std::string::npos;)
