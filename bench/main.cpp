@@ -72,6 +72,18 @@ int run(int argc, char** argv) {
     impact_suite->add_option("--peer-limit", impact.peer_limit, "Seconds a row; 0 leaves FCL out")
         ->check(CLI::NonNegativeNumber);
     impact_suite->callback([&] { report = run_impact_suite(impact); });
+
+    CcdSuiteOptions ccd;
+    CLI::App* ccd_suite = app.add_subcommand(
+        "ccd", "Elementary tests of continuous collision, against FCL's cubic solver");
+    ccd_suite->add_option("files", ccd.files, "Files of queries (CSV)");
+    ccd_suite->add_option("--pairs", ccd.pairs, "Generated pairs of each case")
+        ->check(CLI::Range(1, 1000000));
+    ccd_suite->add_option("--rounds", ccd.rounds, "Passes; medians are taken")
+        ->check(CLI::Range(1, 1000));
+    ccd_suite->add_option("--seed", ccd.seed, "Of the generated pairs");
+    ccd_suite->callback([&] { report = run_ccd_suite(ccd); });
+
     ShapesSuiteOptions shapes;
     CLI::App* shapes_suite =
         app.add_subcommand("shapes", "One model and rays, points: against Embree and CGAL");

@@ -58,6 +58,18 @@ struct ImpactSuiteOptions {
 /// advancement.
 /// Errors      as read_scene; Error{bad_argument} for an odd number of files.
 Report run_impact_suite(const ImpactSuiteOptions& options);
+
+struct CcdSuiteOptions {
+    std::vector<std::string> files; ///< of queries (see read_elementary_queries)
+    std::size_t pairs = 2000;       ///< of each generated case
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
+
+/// Elementary tests of continuous collision, by kind and truth, against FCL's cubic solver.
+/// Errors      as read_elementary_queries.
+Report run_ccd_suite(const CcdSuiteOptions& options);
+
 struct ShapesSuiteOptions {
     std::string file; ///< empty: a generated model
     std::uint32_t triangles = 100000;
