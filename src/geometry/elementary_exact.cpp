@@ -61,24 +61,6 @@ private:
     Scaled<24> coordinates_;
 };
 
-/// The values over one power of two that makes the largest a double of full precision; their ratios
-/// are what counts.
-template <std::size_t n>
-std::array<double, n> common_scale(const std::array<BigInt, n>& values) {
-    unsigned bits = 0;
-    for (const BigInt& v : values)
-        if (!v.is_zero())
-            bits = std::max(bits, static_cast<unsigned>(msb(abs(v))) + 1);
-    const unsigned shift = bits > 62 ? bits - 62 : 0;
-    std::array<double, n> result;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto magnitude =
-            static_cast<double>(static_cast<std::uint64_t>(BigInt(abs(values[i]) >> shift)));
-        result[i] = values[i].sign() < 0 ? -magnitude : magnitude;
-    }
-    return result;
-}
-
 /// Where the origin lies in the patch.
 struct PatchPoint {
     double x = 0, y = 0;
@@ -100,8 +82,6 @@ public:
             corner_ = {corner, corner_[1], sum(corner_[1], y), corner_[2]};
         area_ = cross(x, y);
         coplanarity_ = dot(corner, area_);
-        for (std::size_t i = 0; i < corners_; ++i)
-            moment_[i] = cross(corner_[i], corner_[next(i)]);
     }
 
     [[nodiscard]] const IntegerPolynomial& coplanarity() const { return coplanarity_; }
@@ -118,7 +98,7 @@ public:
         };
         add(area_);
         for (std::size_t i = 0; i < corners_; ++i)
-            add(corner_[i]), add(moment_[i]);
+            add(corner_[i]), add({moment(i, 0), moment(i, 1), moment(i, 2)});
         for (UnitRoot& time : times)
             time.refine(kTimeLevel);
         std::stable_sort(times.begin(), times.end(), [](const UnitRoot& a, const UnitRoot& b) {
@@ -138,19 +118,29 @@ public:
 private:
     [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < corners_ ? i + 1 : 0; }
 
+    /// A coordinate of corner x next corner.
+    [[nodiscard]] IntegerPolynomial moment(std::size_t i, std::size_t axis) const {
+        const auto &p = corner_[i], &q = corner_[next(i)];
+        const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
+        return p[y] * q[z] - p[z] * q[y];
+    }
+
     /// Projected along an axis that the patch's plane does not contain, the corners run around the
     /// origin in one sense if and only if it lies within.
     [[nodiscard]] std::optional<PatchPoint> origin_in_plane(UnitRoot& time, std::size_t axis,
                                                             int side) const {
-        for (std::size_t i = 0; i < corners_; ++i)
-            if (time.sign_of(moment_[i][axis]) == -side)
+        std::array<IntegerPolynomial, 4> moments;
+        for (std::size_t i = 0; i < corners_; ++i) {
+            moments[i] = moment(i, axis);
+            if (time.sign_of(moments[i]) == -side)
                 return std::nullopt;
+        }
         time.refine(kTimeLevel);
         const auto value = [&](const IntegerPolynomial& p) { return time.value_at_left(p, 2); };
         const auto area = common_scale<3>({value(area_[0]), value(area_[1]), value(area_[2])});
         // Areas between the origin and two sides, as parts of the whole.
-        const auto parts = common_scale<3>(
-            {value(area_[axis]), value(moment_[corners_ - 1][axis]), value(moment_[0][axis])});
+        const auto parts =
+            common_scale<3>({value(area_[axis]), value(moments[corners_ - 1]), value(moments[0])});
         PatchPoint point;
         if (parts[0] != 0)
             point.x = parts[1] / parts[0], point.y = parts[2] / parts[0];
@@ -163,7 +153,7 @@ private:
         for (std::size_t i = 0; i < corners_; ++i) {
             bool holds = true;
             for (std::size_t axis = 0; axis < 3 && holds; ++axis)
-                holds = time.sign_of(moment_[i][axis]) == 0 &&
+                holds = time.sign_of(moment(i, axis)) == 0 &&
                         time.sign_of(corner_[i][axis]) * time.sign_of(corner_[next(i)][axis]) <= 0;
             if (holds)
                 return point_of_side(time, i);
@@ -197,8 +187,7 @@ private:
     ElementaryKind kind_;
     std::size_t corners_;
     std::array<PolynomialVec3, 4> corner_;
-    std::array<PolynomialVec3, 4> moment_; ///< corner x next corner
-    PolynomialVec3 area_;                  ///< side x side, not halved
+    PolynomialVec3 area_; ///< side x side, not halved
     IntegerPolynomial coplanarity_;
 };
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 
 namespace abut {
 
@@ -47,5 +50,23 @@ int sign_variations(const IntegerPolynomial& p);
 
 /// The sign that p has on all of [0, 1] as its Bernstein coefficients tell; 0 if they do not tell.
 int certain_sign(const IntegerPolynomial& p);
+
+/// The values over one power of two that makes the largest a double of full precision; their ratios
+/// are what counts.
+template <std::size_t n>
+std::array<double, n> common_scale(const std::array<BigInt, n>& values) {
+    unsigned bits = 0;
+    for (const BigInt& v : values)
+        if (!v.is_zero())
+            bits = std::max(bits, static_cast<unsigned>(msb(abs(v))) + 1);
+    const unsigned shift = bits > 62 ? bits - 62 : 0;
+    std::array<double, n> result;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto magnitude =
+            static_cast<double>(static_cast<std::uint64_t>(BigInt(abs(values[i]) >> shift)));
+        result[i] = values[i].sign() < 0 ? -magnitude : magnitude;
+    }
+    return result;
+}
 
 } // namespace abut

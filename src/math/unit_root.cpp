@@ -9,9 +9,8 @@ namespace abut {
 
 namespace {
 
-/// A common divisor is expensive, and needed only where the sign may be zero: a few halvings tell
-/// most signs sooner.
-constexpr int kHalvingsFirst = 6;
+/// Cells of this size tell most signs that are not zero.
+constexpr unsigned kFirstLevel = 40;
 
 /// 2^degree p(u / 2): the left half of a cell.
 IntegerPolynomial left_half(IntegerPolynomial p) {
@@ -27,6 +26,18 @@ IntegerPolynomial shifted_by_one(IntegerPolynomial p) {
         for (std::size_t i = 3; i-- > first;)
             p.c[i] += p.c[i + 1];
     return p;
+}
+
+/// Where p has its zero, about. In: p has one in (0, 1) and changes its sign there.
+double zero_of(const IntegerPolynomial& p) {
+    const auto c = common_scale(p.c);
+    double low = 0, high = 1;
+    for (int i = 0; i < 48; ++i) {
+        const double u = 0.5 * (low + high);
+        const double value = c[0] + u * (c[1] + u * (c[2] + u * c[3]));
+        ((value < 0) == (c[0] < 0) ? low : high) = u;
+    }
+    return 0.5 * (low + high);
 }
 
 /// p / u. In: p(0) = 0.
@@ -81,27 +92,49 @@ void UnitRoot::halve() {
         local_ = shifted_by_one(std::move(local_));
 }
 
+bool UnitRoot::jump(unsigned halvings) {
+    const BigInt cell(
+        static_cast<std::uint64_t>(std::ldexp(zero_of(local_), static_cast<int>(halvings))));
+    IntegerPolynomial local = restricted(local_, cell, halvings);
+    const int left = local.c[0].sign();
+    if (left * local.sign_at_one() > 0 || local.sign_at_one() == 0)
+        return false;
+    dyadic_ = left == 0;
+    local_ = std::move(local);
+    index_ = (index_ << halvings) + cell;
+    level_ += halvings;
+    return true;
+}
+
 void UnitRoot::refine(unsigned level) {
-    while (level_ < level)
-        halve();
+    constexpr unsigned kLongest = 40, kShortest = 5;
+    unsigned longest = kLongest;
+    while (level_ < level) {
+        const unsigned halvings = std::min(level - level_, longest);
+        if (dyadic_ || halvings < kShortest)
+            halve();
+        else if (!jump(halvings))
+            longest = halvings / 2;
+    }
 }
 
 int UnitRoot::sign_of(const IntegerPolynomial& p) {
-    for (int i = 0;; ++i) {
+    if (p.degree() < 1)
+        return p.c[0].sign();
+    refine(kFirstLevel);
+    for (bool may_be_zero = true;; may_be_zero = false) {
         const IntegerPolynomial here = restricted(p, index_, level_);
         if (dyadic_)
             return here.c[0].sign();
         if (const int sign = certain_sign(here); sign != 0)
             return sign;
-        if (i == kHalvingsFirst) {
-            if (p.is_zero())
-                return 0;
+        if (may_be_zero) {
             // The divisor's roots are roots of the square-free polynomial: one in this cell or none.
             const IntegerPolynomial common = common_divisor(square_free_, p);
             if (sign_variations(restricted(common, index_, level_)) % 2 == 1)
                 return 0;
         }
-        halve();
+        refine(2 * level_);
     }
 }
 

@@ -20,10 +20,10 @@ public:
     /// left end.
     UnitRoot(IntegerPolynomial square_free, IntegerPolynomial local, BigInt index, unsigned level);
 
-    /// Sign of p at the root: exact. Halves the cell as far as that takes.
+    /// Sign of p at the root: exact. Refines the cell as far as that takes.
     int sign_of(const IntegerPolynomial& p);
 
-    /// Halves the cell until it is as small as 2^-level.
+    /// Makes the cell as small as 2^-level.
     void refine(unsigned level);
 
     /// The cell's left end, rounded down if it has more than 53 bits: not above the root.
@@ -33,6 +33,9 @@ public:
 
 private:
     void halve();
+    /// Halves so many times at once, to where double precision sees the root; false, and nothing
+    /// done, if it is not there.
+    bool jump(unsigned halvings);
 
     IntegerPolynomial square_free_, local_;
     BigInt index_;
