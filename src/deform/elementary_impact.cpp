@@ -2,6 +2,8 @@
 #include <abut/error.h>
 
 #include "core/parallel.h"
+#include "geometry/difference_patch.h"
+#include "geometry/elementary_crossing.h"
 #include "geometry/elementary_exact.h"
 #include "geometry/elementary_filter.h"
 #include "geometry/elementary_interval.h"
@@ -30,14 +32,51 @@ void require_valid(const ElementaryOptions& options) {
         throw Error(ErrorCode::bad_argument, "delta must be a finite number of at least 0");
 }
 
-/// What the filter has left.
+ElementaryImpact impact_of(const ElementaryPair& pair, const CrossingBlock& crossings,
+                           std::size_t lane) {
+    ElementaryImpact impact;
+    impact.decided_by = ElementaryStage::interval;
+    if ((crossings.meet >> lane & 1) == 0)
+        return impact;
+    impact.hit = true;
+    impact.time = crossings.time[lane];
+    impact.barycentric = patch_barycentric(pair.kind, crossings.x[lane], crossings.y[lane]);
+    impact.normal = impact_normal(
+        pair, impact.barycentric,
+        {crossings.normal[0][lane], crossings.normal[1][lane], crossings.normal[2][lane]}, {});
+    return impact;
+}
+
+/// What filter and crossings have left.
 ElementaryImpact decide(const ElementaryPair& pair, const ElementaryOptions& options) {
     if (const auto impact = elementary_impact_interval(pair, options.delta))
         return *impact;
     return elementary_impact_exact(pair);
 }
 
-/// Gathers pairs of one kind until a pass of the filter is full.
+/// Pairs of one kind, gathered until a pass over a block is full.
+struct Gathered {
+    ElementaryBlock block;
+    std::array<std::size_t, ElementaryBlock::kLanes> members{};
+    std::size_t count = 0;
+
+    /// True if it is full now.
+    bool add(std::size_t index, const ElementaryPair& pair) {
+        block.set(count, pair);
+        members[count++] = index;
+        return count == ElementaryBlock::kLanes;
+    }
+    /// Lanes beyond are left from earlier passes.
+    [[nodiscard]] std::uint32_t used() const { return (1U << count) - 1; }
+};
+
+template <typename Visit>
+void for_each_bit(std::uint32_t bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1)
+        visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// Takes pairs of one kind through the stages: those that one has left wait for the next.
 class Batch {
 public:
     Batch(ElementaryKind kind, std::span<const ElementaryPair> pairs,
@@ -45,29 +84,41 @@ public:
         : kind_(kind), pairs_(pairs), options_(options), impacts_(impacts) {}
 
     void add(std::size_t pair) {
-        block_.set(count_, pairs_[pair]);
-        members_[count_++] = pair;
-        if (count_ == ElementaryBlock::kLanes)
-            flush();
+        if (candidates_.add(pair, pairs_[pair]))
+            filter();
     }
-    /// Lanes that are left from earlier passes are not looked at.
-    void flush() {
-        std::uint32_t possible = possible_impacts(block_, kind_) & ((1U << count_) - 1);
-        for (; possible != 0; possible &= possible - 1) {
-            const std::size_t i = members_[static_cast<std::size_t>(std::countr_zero(possible))];
-            impacts_[i] = decide(pairs_[i], options_);
-        }
-        count_ = 0;
+    void finish() {
+        filter();
+        cross();
     }
 
 private:
+    void filter() {
+        for_each_bit(possible_impacts(candidates_.block, kind_) & candidates_.used(),
+                     [&](std::size_t lane) {
+                         const std::size_t pair = candidates_.members[lane];
+                         if (possible_.add(pair, pairs_[pair]))
+                             cross();
+                     });
+        candidates_.count = 0;
+    }
+    void cross() {
+        decide_crossings(possible_.block, kind_, crossings_);
+        const std::uint32_t decided = crossings_.apart | crossings_.meet;
+        for_each_bit(possible_.used(), [&](std::size_t lane) {
+            const std::size_t i = possible_.members[lane];
+            impacts_[i] = (decided >> lane & 1) != 0 ? impact_of(pairs_[i], crossings_, lane)
+                                                     : decide(pairs_[i], options_);
+        });
+        possible_.count = 0;
+    }
+
     ElementaryKind kind_;
     std::span<const ElementaryPair> pairs_;
     const ElementaryOptions& options_;
     std::span<ElementaryImpact> impacts_;
-    ElementaryBlock block_;
-    std::array<std::size_t, ElementaryBlock::kLanes> members_{};
-    std::size_t count_ = 0;
+    Gathered candidates_, possible_;
+    CrossingBlock crossings_;
 };
 
 } // namespace
@@ -76,7 +127,12 @@ ElementaryImpact elementary_impact(const ElementaryPair& pair, const ElementaryO
     require_valid(options);
     if (!is_finite(pair))
         throw Error(ErrorCode::bad_argument, "a coordinate is not finite");
-    return possible_impact(pair) ? decide(pair, options) : ElementaryImpact{};
+    if (!possible_impact(pair))
+        return {};
+    CrossingBlock crossing;
+    decide_crossing(pair, crossing);
+    return (crossing.apart | crossing.meet) != 0 ? impact_of(pair, crossing, 0)
+                                                 : decide(pair, options);
 }
 
 std::vector<ElementaryImpact> elementary_impacts(std::span<const ElementaryPair> pairs,
@@ -96,8 +152,8 @@ std::vector<ElementaryImpact> elementary_impacts(std::span<const ElementaryPair>
                           end = std::min(begin + kPairsOfTask, pairs.size());
         for (std::size_t i = begin; i < end; ++i)
             (pairs[i].kind == ElementaryKind::vertex_face ? faces : edges).add(i);
-        faces.flush();
-        edges.flush();
+        faces.finish();
+        edges.finish();
     });
     return impacts;
 }

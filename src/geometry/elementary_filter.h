@@ -2,31 +2,11 @@
 
 #include <abut/elementary_impact.h>
 
-#include <cstddef>
+#include "geometry/elementary_block.h"
+
 #include <cstdint>
 
 namespace abut {
-
-/// Eight elementary pairs of one kind, lane by lane: what one pass of the filter reads. Lanes that
-/// are not set hold points at the origin.
-struct alignas(64) ElementaryBlock {
-    static constexpr std::size_t kLanes = 8;
-    double v[4][2][3][kLanes] = {}; ///< [vertex][0: start, 1: end][axis][lane]
-
-    void set(std::size_t lane, const ElementaryPair& pair) {
-        for (std::size_t i = 0; i < 4; ++i) {
-            set(v[i][0], lane, pair.start[i]);
-            set(v[i][1], lane, pair.end[i]);
-        }
-    }
-
-private:
-    static void set(double (&rows)[3][kLanes], std::size_t lane, const Vec3& p) {
-        rows[0][lane] = p.x;
-        rows[1][lane] = p.y;
-        rows[2][lane] = p.z;
-    }
-};
 
 /// The lanes whose features may share a point: a bit each. A lane without a bit is proven apart for
 /// all times in [0, 1].

@@ -5,6 +5,7 @@
 #include <abut/elementary_impact.h>
 #include <abut/progress.h>
 
+#include "geometry/elementary_crossing.h"
 #include "geometry/elementary_exact.h"
 #include "geometry/elementary_filter.h"
 #include "geometry/elementary_interval.h"
@@ -200,6 +201,54 @@ TEST(ElementaryImpact, TheFilterOnEverySimdTarget) {
     });
 }
 
+TEST(ElementaryImpact, CrossingsOnEverySimdTarget) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(709);
+        int cases = 0, decided = 0, meet = 0, different = 0;
+        for (int i = 0; i < many(3000) && !HasFatalFailure(); ++i) {
+            const ElementaryKind kind = any_kind(random);
+            ElementaryBlock block;
+            std::array<ElementaryPair, ElementaryBlock::kLanes> pairs;
+            for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+                pairs.at(lane) = any_pair(random);
+                pairs.at(lane).kind = kind;
+                block.set(lane, pairs.at(lane));
+            }
+            CrossingBlock crossings, reference, single;
+            decide_crossings(block, kind, crossings);
+            decide_crossings_reference(block, kind, reference);
+            for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+                const ElementaryPair& pair = pairs.at(lane);
+                const bool meets = (crossings.meet >> lane & 1) != 0,
+                           apart = (crossings.apart >> lane & 1) != 0;
+                decide_crossing(pair, single);
+                ASSERT_EQ(meets, single.meet != 0) << pair;
+                ASSERT_EQ(apart, single.apart != 0) << pair;
+                ++cases;
+                decided += meets || apart ? 1 : 0;
+                meet += meets ? 1 : 0;
+                different += ((reference.meet ^ crossings.meet) >> lane & 1) != 0 ? 1 : 0;
+                if (!meets && !apart)
+                    continue;
+                ASSERT_FALSE(meets && apart) << pair;
+                const ElementaryImpact exact = elementary_impact_exact(pair);
+                ASSERT_EQ(exact.hit, meets) << pair;
+                if (!meets)
+                    continue;
+                ASSERT_EQ(crossings.time[lane], single.time[0]) << pair;
+                ASSERT_LE(crossings.time[lane], exact.time + 0x1p-44) << pair;
+                ASSERT_GE(crossings.time[lane], exact.time - 1e-9) << pair;
+            }
+        }
+        std::cout << target << ": " << cases << " cases, " << decided << " decided, of them "
+                  << meet << " meet; " << different << " not as the reference\n";
+        EXPECT_GT(decided, cases / 4);
+        EXPECT_GT(meet, cases / 8);
+        EXPECT_LT(different, cases / 500);
+    });
+}
+
 TEST(ElementaryImpact, ManyAtOnceAreAsOneByOne) {
     Random random(706);
     std::vector<ElementaryPair> pairs;
@@ -212,10 +261,10 @@ TEST(ElementaryImpact, ManyAtOnceAreAsOneByOne) {
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             const ElementaryImpact one = elementary_impact(pairs[i], {.delta = delta});
             ASSERT_EQ(impacts[i].hit, one.hit) << pairs[i];
-            EXPECT_EQ(impacts[i].time, one.time);
-            EXPECT_EQ(impacts[i].normal, one.normal);
-            EXPECT_EQ(impacts[i].barycentric, one.barycentric);
-            EXPECT_EQ(impacts[i].decided_by, one.decided_by);
+            ASSERT_EQ(impacts[i].time, one.time) << pairs[i];
+            ASSERT_EQ(impacts[i].normal, one.normal) << pairs[i];
+            ASSERT_EQ(impacts[i].barycentric, one.barycentric) << pairs[i];
+            ASSERT_EQ(impacts[i].decided_by, one.decided_by) << pairs[i];
             hits += one.hit ? 1 : 0;
         }
         EXPECT_GT(hits, 1000);

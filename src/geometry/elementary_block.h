@@ -1,0 +1,30 @@
+#pragma once
+
+#include <abut/elementary_impact.h>
+
+#include <cstddef>
+
+namespace abut {
+
+/// Eight elementary pairs of one kind, lane by lane: what one pass of the filter reads. Lanes that
+/// are not set hold points at the origin.
+struct alignas(64) ElementaryBlock {
+    static constexpr std::size_t kLanes = 8;
+    double v[4][2][3][kLanes] = {}; ///< [vertex][0: start, 1: end][axis][lane]
+
+    void set(std::size_t lane, const ElementaryPair& pair) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            set(v[i][0], lane, pair.start[i]);
+            set(v[i][1], lane, pair.end[i]);
+        }
+    }
+
+private:
+    static void set(double (&rows)[3][kLanes], std::size_t lane, const Vec3& p) {
+        rows[0][lane] = p.x;
+        rows[1][lane] = p.y;
+        rows[2][lane] = p.z;
+    }
+};
+
+} // namespace abut
