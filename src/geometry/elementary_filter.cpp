@@ -75,76 +75,6 @@ HWY_INLINE hn::Mask<D> never_coplanar(D d, const Patches<D>& p) {
     return hn::And(in_range, hn::Or(hn::Gt(least, bound), hn::Lt(most, hn::Neg(bound))));
 }
 
-/// Bernstein coefficients of a . b, both linear, doubled.
-template <class D>
-struct Quadratic {
-    hn::Vec<D> b[3];
-
-    HWY_INLINE Quadratic(const Vec<D> (&p)[2], const Vec<D> (&q)[2]) {
-        b[0] = dot<D>(p[0], q[0]);
-        b[0] = hn::Add(b[0], b[0]);
-        b[1] = hn::Add(dot<D>(p[0], q[1]), dot<D>(p[1], q[0]));
-        b[2] = dot<D>(p[1], q[1]);
-        b[2] = hn::Add(b[2], b[2]);
-    }
-    HWY_INLINE hn::Mask<D> above(hn::Vec<D> bound) const {
-        return hn::Gt(hn::Min(b[0], hn::Min(b[1], b[2])), bound);
-    }
-    HWY_INLINE hn::Mask<D> below(hn::Vec<D> bound) const {
-        return hn::Lt(hn::Max(b[0], hn::Max(b[1], b[2])), bound);
-    }
-};
-template <class D>
-HWY_INLINE Quadratic<D> sub(Quadratic<D> a, const Quadratic<D>& b) {
-    for (std::size_t i = 0; i < 3; ++i)
-        a.b[i] = hn::Sub(a.b[i], b.b[i]);
-    return a;
-}
-
-/// Where the origin lies outside the same side of the patch whenever both are in one plane.
-///
-/// Seen along a fixed direction m, the patch has the area whole = m . (x x y), and the origin in its
-/// plane has the coordinates m . (y x corner) / whole and m . (corner x x) / whole. If the whole is
-/// positive at all times and a coordinate negative at all times, the patch never holds the
-/// origin. m is the patch's normal in the middle, its coordinates at most 1.
-///
-/// Doubled, each coefficient sums 12 products, rounded 10 times at most, and differences of three of
-/// them are taken: off by 12 * 12 eps (C X + C Y + X Y).
-template <bool faces, class D>
-HWY_INLINE hn::Mask<D> always_outside(D d, const Patches<D>& p) {
-    Vec<D> m = add<D>(add<D>(p.area_0, p.area_2), p.area_1);
-    const auto size_m = max_abs<D>(m);
-    const auto scale = hn::Div(hn::Set(d, 1.0), size_m);
-    m = {hn::Mul(m.x, scale), hn::Mul(m.y, scale), hn::Mul(m.z, scale)};
-
-    const Vec<D> m_x[2] = {cross<D>(m, p.x[0]), cross<D>(m, p.x[1])};
-    const Vec<D> m_y[2] = {cross<D>(m, p.y[0]), cross<D>(m, p.y[1])};
-    const Quadratic<D> whole(p.y, m_x), at_x(p.corner, m_y), minus_y(p.corner, m_x);
-
-    const auto sizes =
-        hn::MulAdd(p.size_c, hn::Add(p.size_x, p.size_y), hn::Mul(p.size_x, p.size_y));
-    const auto tiny = hn::Set(d, 0x1p-900), huge = hn::Set(d, 0x1p500);
-    const auto bound = hn::MulAdd(hn::Set(d, 160 * 0x1p-53), sizes, tiny);
-    const auto coordinates = hn::Max(p.size_c, hn::Max(p.size_x, p.size_y));
-    const auto in_range = hn::And(hn::Gt(size_m, tiny), hn::Lt(coordinates, huge));
-
-    auto outside = hn::Or(at_x.below(hn::Neg(bound)), minus_y.above(bound));
-    // 1 - x and 1 - y, or 1 - x - y, times the whole.
-    const Quadratic<D> not_x = sub<D>(whole, at_x);
-    if constexpr (faces) {
-        Quadratic<D> rest = not_x;
-        for (std::size_t i = 0; i < 3; ++i)
-            rest.b[i] = hn::Add(rest.b[i], minus_y.b[i]);
-        outside = hn::Or(outside, rest.below(hn::Neg(bound)));
-    } else {
-        Quadratic<D> not_y = whole;
-        for (std::size_t i = 0; i < 3; ++i)
-            not_y.b[i] = hn::Add(not_y.b[i], minus_y.b[i]);
-        outside = hn::Or(outside, hn::Or(not_x.below(hn::Neg(bound)), not_y.below(hn::Neg(bound))));
-    }
-    return hn::And(in_range, hn::And(whole.above(bound), outside));
-}
-
 template <bool faces, class D>
 HWY_INLINE hn::Mask<D> proven_apart(D d, const Pairs<D>& pairs) {
     auto result = apart_on_axes<faces>(d, pairs);
@@ -153,11 +83,7 @@ HWY_INLINE hn::Mask<D> proven_apart(D d, const Pairs<D>& pairs) {
     result = hn::Or(result, apart_on_diagonals<faces>(d, pairs));
     if (hn::AllTrue(d, result))
         return result;
-    const auto patches = Patches<D>::template of<faces>(pairs);
-    result = hn::Or(result, never_coplanar(d, patches));
-    if (hn::AllTrue(d, result))
-        return result;
-    return hn::Or(result, always_outside<faces>(d, patches));
+    return hn::Or(result, never_coplanar(d, Patches<D>::template of<faces>(pairs)));
 }
 
 template <bool faces, class D>
