@@ -103,9 +103,10 @@ std::vector<Case> generated_cases(const CcdSuiteOptions& options) {
     return cases;
 }
 
-/// The queries of all files, by kind and truth.
+/// The queries of all files, by kind and truth, and the contacts of both kinds.
 std::vector<Case> file_cases(const std::vector<std::string>& files) {
     std::array<Case, 4> cases;
+    Case contacts{"queries, all contacts", {}, {}};
     for (const std::string& file : files) {
         const ElementaryQueries queries = read_elementary_queries(file);
         for (std::size_t i = 0; i < queries.truth.size(); ++i) {
@@ -115,14 +116,19 @@ std::vector<Case> file_cases(const std::vector<std::string>& files) {
                 cases.at((pair.kind == ElementaryKind::vertex_face ? 0 : 2) + (truth ? 0 : 1));
             c.name =
                 fmt::format("queries, {}, {}", name_of(pair.kind), truth ? "contacts" : "misses");
-            c.pairs.push_back(pair);
-            c.truth.push_back(truth);
+            for (Case* each : {&c, truth ? &contacts : nullptr})
+                if (each != nullptr) {
+                    each->pairs.push_back(pair);
+                    each->truth.push_back(truth);
+                }
         }
     }
     std::vector<Case> result;
     for (Case& c : cases)
         if (!c.pairs.empty())
             result.push_back(std::move(c));
+    if (!contacts.pairs.empty())
+        result.push_back(std::move(contacts));
     return result;
 }
 

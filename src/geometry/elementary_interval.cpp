@@ -58,7 +58,7 @@ struct CubicCell {
 
 /// corner . (side_x x side_y): zero where the origin lies in the patch's plane.
 struct Coplanarity {
-    std::array<double, 4> b;
+    std::array<double, 4> b{};
     double size;  ///< of the coefficients
     double error; ///< of each coefficient
 
@@ -297,7 +297,7 @@ public:
     std::optional<ElementaryImpact> run() {
         if (!(coplanarity_.error < kInfinity))
             return std::nullopt;
-        std::array<CubicCell, kMostLevel + 2> stack;
+        std::array<CubicCell, kMostLevel + 2> stack{};
         std::size_t height = 0;
         stack[height++] = {coplanarity_.b, 0, 1, 0};
         for (int cells = 0; height > 0; ++cells) {

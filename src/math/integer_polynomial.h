@@ -60,7 +60,7 @@ std::array<double, n> common_scale(const std::array<BigInt, n>& values) {
         if (!v.is_zero())
             bits = std::max(bits, static_cast<unsigned>(msb(abs(v))) + 1);
     const unsigned shift = bits > 62 ? bits - 62 : 0;
-    std::array<double, n> result;
+    std::array<double, n> result{};
     for (std::size_t i = 0; i < n; ++i) {
         const auto magnitude =
             static_cast<double>(static_cast<std::uint64_t>(BigInt(abs(values[i]) >> shift)));

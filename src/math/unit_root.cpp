@@ -57,12 +57,12 @@ struct Isolation {
         }
         const int variations = sign_variations(local);
         if (variations == 1)
-            roots.emplace_back(square_free, std::move(local), index, level);
-        if (variations <= 1)
-            return;
-        const IntegerPolynomial left = left_half(std::move(local));
-        in_cell(left, 2 * index, level + 1);
-        in_cell(shifted_by_one(left), 2 * index + 1, level + 1);
+            roots.emplace_back(square_free, local, index, level);
+        if (variations > 1) {
+            const IntegerPolynomial left = left_half(local);
+            in_cell(left, 2 * index, level + 1);
+            in_cell(shifted_by_one(left), 2 * index + 1, level + 1);
+        }
     }
 };
 
