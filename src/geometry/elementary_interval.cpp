@@ -330,8 +330,7 @@ private:
         const Contact contact = test.decide();
         if (contact.meeting == Meeting::apart)
             return true;
-        if (contact.meeting == Meeting::meet)
-            add_signs_of_ends(interval);
+        add_signs_of_ends(interval);
         if (interval.has_none())
             return true;
         const auto barycentric = patch_barycentric(pair_.kind, contact.x, contact.y);

@@ -16,6 +16,7 @@
 #include "tests/support/random.h"
 #include "tests/support/simd_targets.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <gtest/gtest.h>
 
@@ -251,9 +252,8 @@ TEST(ElementaryImpact, CrossingsOnEverySimdTarget) {
 
 TEST(ElementaryImpact, ManyAtOnceAreAsOneByOne) {
     Random random(706);
-    std::vector<ElementaryPair> pairs;
-    for (int i = 0; i < 5003; ++i)
-        pairs.push_back(any_pair(random));
+    std::vector<ElementaryPair> pairs(5003);
+    std::generate(pairs.begin(), pairs.end(), [&] { return any_pair(random); });
     for (const double delta : {0.0, 1e-3}) {
         const auto impacts = elementary_impacts(pairs, {.delta = delta});
         ASSERT_EQ(impacts.size(), pairs.size());
