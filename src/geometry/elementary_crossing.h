@@ -26,7 +26,7 @@ struct CrossingBlock {
 ///
 /// In          finite coordinates of any size; the kind of all lanes.
 /// Accuracy    certified, with or without fused operations.
-/// Cost        some 15 ns a pair (AVX-512, a full block).
+/// Cost        some 15 to 25 ns a pair (AVX-512, a full block).
 /// Source      see docs/elementary-tests.md.
 void decide_crossings(const ElementaryBlock& block, ElementaryKind kind, CrossingBlock& result);
 

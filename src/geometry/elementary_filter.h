@@ -14,7 +14,7 @@ namespace abut {
 /// In          finite coordinates of any size; the kind of all lanes.
 /// Accuracy    certified: nothing is lost to rounding, overflow or underflow, with or without fused
 ///             operations.
-/// Cost        some 2 ns a pair where boxes tell, 6 ns else (AVX-512, a full block).
+/// Cost        some 8 ns a pair (AVX-512, a full block).
 /// Source      separating directions that hold at both ends, and so, the motion being linear,
 ///             always; signs of the Bernstein coefficients of the coplanarity cubic [Tang, Manocha,
 ///             Tong 2010], differs: with a bound of rounding.

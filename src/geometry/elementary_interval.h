@@ -14,7 +14,7 @@ namespace abut {
 ///             undecided.
 /// Accuracy    certified: a result is right, its time never later than the first impact and less
 ///             than 1e-9 before it (where its status is exact).
-/// Cost        some 50 ns where the cubic has no root, 150 ns where it has one.
+/// Cost        some 250 ns.
 /// Source      see docs/elementary-tests.md.
 std::optional<ElementaryImpact> elementary_impact_interval(const ElementaryPair& pair,
                                                            double delta);
