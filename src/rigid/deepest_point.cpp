@@ -40,7 +40,6 @@ struct Piece {
     double radius = 0; ///< of a ball around the middle that holds the piece
     Sample sample;     ///< at the middle if sampled, else at that of an enclosing piece
     bool sampled = false;
-    bool whole = false; ///< a triangle as it was clipped
     /// Slots of the solid, of the last samples of this piece and those around it.
     boost::container::static_vector<std::uint32_t, kFaces> faces;
     bool operator<(const Piece& other) const { return at_most < other.at_most; }
@@ -155,7 +154,7 @@ private:
             add_triangle({apply(solid_.world_from_tree(), polygon[0]),
                           apply(solid_.world_from_tree(), polygon[i - 1]),
                           apply(solid_.world_from_tree(), polygon[i])},
-                         slot, parent, true);
+                         slot, parent);
     }
 
     /// Source: [Sutherland, Hodgman 1974].
@@ -187,13 +186,12 @@ private:
                 longest = i;
         const Vec3 &p = t[longest], &q = t[(longest + 1) % 3], &r = t[(longest + 2) % 3];
         const Vec3 m = 0.5 * (p + q);
-        add_triangle({p, m, r}, parent.slot, parent, false);
-        add_triangle({m, q, r}, parent.slot, parent, false);
+        add_triangle({p, m, r}, parent.slot, parent);
+        add_triangle({m, q, r}, parent.slot, parent);
     }
 
-    void add_triangle(const Triangle& t, std::uint32_t slot, const Piece& parent, bool whole) {
+    void add_triangle(const Triangle& t, std::uint32_t slot, const Piece& parent) {
         Piece piece;
-        piece.whole = whole;
         piece.slot = slot;
         piece.corners.assign(t.begin(), t.end());
         piece.middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
@@ -313,14 +311,14 @@ private:
 
     // ---- points of the surface, for a depth that is reached
 
-    /// The sample of a piece of a triangle, and at first its corners: depth is often greatest there.
+    /// The sample of a piece of a triangle; its corners, if that is deeper than what was known.
     void try_points(const Piece& piece, const PlacedSolid::Nearest& nearest) {
         const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
-        if (nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle))
-            take(piece.middle, triangle, nearest);
-        if (piece.whole)
-            for (const Vec3& corner : piece.corners)
-                try_point(corner, triangle, &nearest.slot);
+        if (!(nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle)))
+            return;
+        take(piece.middle, triangle, nearest);
+        for (const Vec3& corner : piece.corners) // depth is often greatest at a corner
+            try_point(corner, triangle, &nearest.slot);
     }
 
     /// A vertex in a box.
