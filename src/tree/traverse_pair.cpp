@@ -225,10 +225,22 @@ private:
             const std::uint32_t name_x = child_name(x.index, i), name_y = child_name(y.index, j);
             *next = {y_is_a ? name_y : name_x, y_is_a ? name_x : name_y, pairs.value[i][j]};
             deepest = next->bound_sq < deepest->bound_sq ? next : deepest;
+            prefetch(x.node.child[i], y_is_a ? t_.b : t_.a);
+            prefetch(y.node.child[j], y_is_a ? t_.a : t_.b);
         }
         // The pair that overlaps deepest goes last, and so comes next: a contact is likeliest there.
         if (test == BoxTest::overlap && count > 0)
             std::swap(*deepest, found_.back());
+    }
+
+    /// Calls the node into the caches: it is looked at soon, but not next.
+    static void prefetch(NodeRef ref, const Tree& tree) {
+        constexpr std::size_t kLine = 64;
+        if (ref.is_leaf())
+            return;
+        const auto* node = reinterpret_cast<const unsigned char*>(&tree.nodes[ref.index()]);
+        for (std::size_t i = 0; i < sizeof(Node); i += kLine)
+            hwy::Prefetch(node + i);
     }
 
     bool visit(const NodePair& nodes, NodeRef a, NodeRef b) {
