@@ -5,43 +5,10 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/triangle_leaf.cpp"
 #include "simd/foreach_target.h"
-#include "math/lanes-inl.h"
+#include "geometry/leaf_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
-
-constexpr std::size_t kLanes = TriangleLeaf::kLanes;
-constexpr std::size_t kPairs = kLanes * kLanes;
-
-/// The sixteen pairs of two leaves side by side: lane 4 i + j holds triangle i of a and j of b.
-template <class D>
-HWY_INLINE hn::Vec<D> spread_a(D d, const float (&v)[kLanes], std::size_t lane) {
-    if constexpr (hn::MaxLanes(D()) < kLanes) {
-        return hn::Set(d, v[lane / kLanes]);
-    } else {
-        alignas(64) static constexpr std::int32_t kRow[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1,
-                                                                  2, 2, 2, 2, 3, 3, 3, 3};
-        return hn::TableLookupLanes(hn::LoadDup128(d, v), hn::SetTableIndices(d, kRow + lane));
-    }
-}
-template <class D>
-HWY_INLINE hn::Vec<D> spread_b(D d, const float (&v)[kLanes], std::size_t lane) {
-    if constexpr (hn::MaxLanes(D()) < kLanes)
-        return hn::Set(d, v[lane % kLanes]);
-    else
-        return hn::LoadDup128(d, v);
-}
-
-/// b's triangles in a's frame.
-HWY_INLINE void turn(const TriangleLeaf& b, const LeafPlacement& to_a, TriangleLeaf& turned) {
-    for (std::size_t v = 0; v < 3; ++v)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto& m = to_a.linear;
-            for (std::size_t j = 0; j < kLanes; ++j)
-                turned.v[v][axis][j] = m[0][axis] * b.v[v][0][j] + m[1][axis] * b.v[v][1][j] +
-                                       m[2][axis] * b.v[v][2][j] + to_a.translation[axis];
-        }
-}
 
 /// Determinants of three edges, and what each may be off by.
 ///
@@ -165,17 +132,13 @@ template <bool with_near, class D>
 HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const TriangleLeaf& leaf_b,
                                   const LeafPlacement& to_a, const LeafBound& bound) {
     TriangleLeaf turned{};
-    turn(leaf_b, to_a, turned);
+    turn_leaf(leaf_b, to_a, turned);
     LeafPairs result;
     const auto zero = hn::Zero(d), margin = hn::Set(d, to_a.margin);
     const auto e = hn::Add(margin, margin);
     for (std::size_t lane = 0; lane < kPairs; lane += hn::Lanes(d)) {
         Lanes3<D> a[3], b[3];
-        for (std::size_t v = 0; v < 3; ++v) {
-            const auto &p = leaf_a.v[v], &q = turned.v[v];
-            a[v] = {spread_a(d, p[0], lane), spread_a(d, p[1], lane), spread_a(d, p[2], lane)};
-            b[v] = {spread_b(d, q[0], lane), spread_b(d, q[1], lane), spread_b(d, q[2], lane)};
-        }
+        load_pairs(d, leaf_a, turned, lane, a, b);
         // A gap is real beyond the margin.
         const auto gap = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
             const auto apart = hn::Max(hn::Sub(min3(p0, p1, p2), max3(q0, q1, q2)),
