@@ -46,12 +46,12 @@ struct MiddleBoxes {
 
 /// The children of one node of a pair, in its own frame and in that of the other.
 struct Siblings {
-    MiddleBoxes own, seen;
+    MiddleBoxes own{}, seen{};
     /// n . (what of the child is farthest along the direction n), in world units, the direction
     /// turned towards the other node: no gap along it is smaller than minus both.
-    HWY_ALIGN float advance[Node::kWidth];
-    std::uint32_t used = 0;                    ///< lanes with a child
-    float margin, stretch_sq, most_stretch_sq; ///< of distances in its own frame
+    HWY_ALIGN float advance[Node::kWidth] = {};
+    std::uint32_t used = 0;                                ///< lanes with a child
+    float margin = 0, stretch_sq = 0, most_stretch_sq = 0; ///< of distances in its own frame
 };
 
 /// The children that are leaves; unused lanes count as such.
