@@ -3,8 +3,9 @@
 #include "measure.h"
 
 #ifdef ABUT_BENCH_FCL
+#include "fcl_model.h"
+
 #include <algorithm>
-#include <fcl/fcl.h>
 #include <fmt/format.h>
 #endif
 
@@ -21,36 +22,16 @@ struct Volume {
     Geometry tree;
 };
 
-template <class BoundingVolume>
-Geometry build(const Mesh& mesh) {
-    std::vector<fcl::Vector3d> vertices;
-    std::vector<fcl::Triangle> triangles;
-    for (const Vec3& p : mesh.positions)
-        vertices.emplace_back(p.x, p.y, p.z);
-    for (const auto& t : mesh.triangles)
-        triangles.emplace_back(t[0], t[1], t[2]);
-    auto model = std::make_shared<fcl::BVHModel<BoundingVolume>>();
-    model->beginModel();
-    model->addSubModel(vertices, triangles);
-    model->endModel();
-    return model;
-}
-
 class FclInstancesImpl final : public FclInstances {
 public:
     FclInstancesImpl(const ClashScene& scene, double clearance) {
-        for (const Transform& t : scene.placements) {
-            fcl::Transform3d placement = fcl::Transform3d::Identity();
-            for (int row = 0; row < 3; ++row)
-                for (int column = 0; column < 4; ++column)
-                    placement(row, column) = t.m[static_cast<std::size_t>(3 * column + row)];
-            placements_.push_back(placement);
-        }
-        const std::vector<Volume> volumes{{"OBBRSS", build<fcl::OBBRSSd>(scene.part)},
-                                          {"RSS", build<fcl::RSSd>(scene.part)},
-                                          {"kIOS", build<fcl::kIOSd>(scene.part)},
-                                          {"OBB", build<fcl::OBBd>(scene.part)},
-                                          {"AABB", build<fcl::AABBd>(scene.part)}};
+        for (const Transform& t : scene.placements)
+            placements_.push_back(fcl_transform(t));
+        const std::vector<Volume> volumes{{"OBBRSS", fcl_model<fcl::OBBRSSd>(scene.part)},
+                                          {"RSS", fcl_model<fcl::RSSd>(scene.part)},
+                                          {"kIOS", fcl_model<fcl::kIOSd>(scene.part)},
+                                          {"OBB", fcl_model<fcl::OBBd>(scene.part)},
+                                          {"AABB", fcl_model<fcl::AABBd>(scene.part)}};
         choose(
             scene, volumes, [&](auto a, auto b) { (void)collide(a, b); }, collider_, "collide");
         // FCL has no distance between OBB hierarchies.

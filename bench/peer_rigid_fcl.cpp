@@ -2,7 +2,8 @@
 #include "peer_rigid.h"
 
 #ifdef ABUT_BENCH_FCL
-#include <fcl/fcl.h>
+#include "fcl_model.h"
+
 #include <fmt/format.h>
 #endif
 
@@ -11,30 +12,6 @@ namespace abut::bench {
 #ifdef ABUT_BENCH_FCL
 
 namespace {
-
-template <class BoundingVolume>
-std::shared_ptr<fcl::BVHModel<BoundingVolume>> build(const Mesh& mesh) {
-    std::vector<fcl::Vector3d> vertices;
-    std::vector<fcl::Triangle> triangles;
-    for (const Vec3& p : mesh.positions)
-        vertices.emplace_back(p.x, p.y, p.z);
-    for (const auto& t : mesh.triangles)
-        triangles.emplace_back(t[0], t[1], t[2]);
-    auto model = std::make_shared<fcl::BVHModel<BoundingVolume>>();
-    model->beginModel();
-    model->addSubModel(vertices, triangles);
-    model->endModel();
-    return model;
-}
-
-fcl::Transform3d placement(const Transform& t) {
-    fcl::Transform3d result = fcl::Transform3d::Identity();
-    for (std::size_t row = 0; row < 3; ++row)
-        for (std::size_t column = 0; column < 4; ++column)
-            result(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
-                t.m[3 * column + row];
-    return result;
-}
 
 class FclPeer final : public RigidPeer {
 public:
@@ -50,7 +27,7 @@ public:
         return measures_ || query == RigidQuery::first_contact || query == RigidQuery::all_contacts;
     }
     void place(const PosedPair& poses) override {
-        world_from_a_ = placement(poses.a), world_from_b_ = placement(poses.b);
+        world_from_a_ = fcl_transform(poses.a), world_from_b_ = fcl_transform(poses.b);
     }
     double run(RigidQuery query, const PosedPair& /*poses*/, double tolerance) override {
         if (query == RigidQuery::first_contact || query == RigidQuery::all_contacts) {
@@ -79,7 +56,8 @@ private:
 
 template <class BoundingVolume>
 std::unique_ptr<RigidPeer> make_peer(const std::string& volume, const Mesh& a, const Mesh& b) {
-    return std::make_unique<FclPeer>(volume, build<BoundingVolume>(a), build<BoundingVolume>(b));
+    return std::make_unique<FclPeer>(volume, fcl_model<BoundingVolume>(a),
+                                     fcl_model<BoundingVolume>(b));
 }
 
 } // namespace
@@ -95,7 +73,7 @@ std::vector<std::unique_ptr<RigidPeer>> make_fcl_peers(const Mesh& a, const Mesh
 
 std::optional<FclBuild> fcl_build(const Mesh& mesh) {
     const double start = thread_seconds();
-    const auto model = build<fcl::OBBRSSd>(mesh);
+    const auto model = fcl_model<fcl::OBBRSSd>(mesh);
     const double seconds = thread_seconds() - start;
     return FclBuild{seconds, static_cast<double>(model->memUsage(0))};
 }

@@ -13,12 +13,19 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
+#include <numeric>
 
 namespace abut::bench {
 
 namespace {
 
 constexpr double kNear = 0.005, kFar = 0.1; ///< tolerances, in diagonals
+/// For each of FCL's volumes, to find the best: some take seconds a pose.
+constexpr double kSampleSeconds = 2;
+
+double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 struct Case {
     const char* name = "";
@@ -114,18 +121,19 @@ private:
             RigidPeer& peer = *peers_[i];
             if (!peer.answers(c.query))
                 continue;
+            std::vector<double> seconds;
             const std::size_t sample = std::min<std::size_t>(poses.size(), 25);
-            PoseTimes times(sample);
-            for (std::size_t k = 0; k < sample; ++k) {
+            for (std::size_t k = 0; k < sample && sum(seconds) < kSampleSeconds; ++k) {
                 const PosedPair& posed = poses[k * poses.size() / sample];
                 peer.place(posed);
                 const double start = wall_seconds();
                 peer.run(c.query, posed, c.tolerance);
-                times.add(k, wall_seconds() - start);
+                seconds.push_back(wall_seconds() - start);
             }
-            line += fmt::format(" {} {:.3g}", peer.name(), times.median_us());
-            if (best == nullptr || times.median_us() < least)
-                best = &peer, least = times.median_us();
+            const double us = 1e6 * median(seconds);
+            line += fmt::format(" {} {:.3g}", peer.name(), us);
+            if (best == nullptr || us < least)
+                best = &peer, least = us;
         }
         if (best != nullptr)
             report_.notes.push_back(line);

@@ -55,6 +55,11 @@ void add_unit_option(CLI::App& app, double& unit) {
         ->check(positive());
 }
 
+void add_fail_on(CLI::App& app, std::string& fail_on, const std::string& problem) {
+    app.add_option("--fail-on", fail_on, fmt::format("Exit with status 1 on '{}'", problem))
+        ->check(CLI::IsMember({problem}));
+}
+
 std::optional<double> parse_number(std::string_view text) {
     // from_chars takes no leading plus sign, which people write in front of coordinates.
     if (text.size() > 1 && text[0] == '+' && text[1] != '-')

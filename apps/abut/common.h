@@ -42,6 +42,9 @@ CLI::App* add_subcommand(CLI::App& root, CommonOptions& common, const std::strin
 /// Declares --unit; 0 stays where it is not given.
 void add_unit_option(CLI::App& app, double& unit);
 
+/// Declares --fail-on, which takes one word, the problem; empty where it is not given.
+void add_fail_on(CLI::App& app, std::string& fail_on, const std::string& problem);
+
 /// The whole text as one finite number.
 std::optional<double> parse_number(std::string_view text);
 

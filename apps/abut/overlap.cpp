@@ -94,8 +94,7 @@ Subcommand add_overlap(CLI::App& root, CommonOptions& common) {
         ->needs(box)
         ->check(not_empty("POSE"));
     app->add_flag("--all", arguments->all, "List every triangle that meets it");
-    app->add_option("--fail-on", arguments->fail_on, "Exit with status 1 on 'overlap'")
-        ->check(CLI::IsMember({"overlap"}));
+    add_fail_on(*app, arguments->fail_on, "overlap");
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

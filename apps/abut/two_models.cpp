@@ -151,6 +151,13 @@ nlohmann::ordered_json describe(const Counters& counters) {
             {"exact_tests", counters.exact_tests}};
 }
 
+nlohmann::ordered_json to_json(const std::vector<TrianglePair>& pairs) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const TrianglePair& pair : pairs)
+        json.push_back({pair.a, pair.b});
+    return json;
+}
+
 nlohmann::ordered_json describe_seconds(const TwoModels& models, double query) {
     return {{"import", models.seconds_import}, {"build", models.seconds_build}, {"query", query}};
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What collide, distance and within share: two models, each under its pose.
+/// Two models, each under its pose: options, reading, parts of the answer.
 namespace abut::command {
 
 struct TwoModelsOptions {
@@ -61,6 +61,8 @@ std::vector<Placement> placements(const TwoModels& models, const std::vector<Pos
 /// {a, b}: the beginning of each JSON answer.
 nlohmann::ordered_json describe(const TwoModelsOptions& options);
 nlohmann::ordered_json describe(const Counters& counters);
+/// [[a, b], ...]
+nlohmann::ordered_json to_json(const std::vector<TrianglePair>& pairs);
 /// {import, build, query}
 nlohmann::ordered_json describe_seconds(const TwoModels& models, double query);
 const char* to_string(Status status);

@@ -1,7 +1,6 @@
 #include "commands.h"
-#include "two_models.h"
+#include "pair_query.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -9,75 +8,44 @@ namespace abut::command {
 
 namespace {
 
-struct WithinArguments {
-    TwoModelsOptions models;
+struct WithinQuery : PairQuery {
     PosesOption poses;
     double tolerance = 0;
-    std::string fail_on;
+
+    [[nodiscard]] bool ask(const TwoModels& m) const {
+        return within(m.a, m.world_from_a, m.b, m.world_from_b, tolerance);
+    }
+    [[nodiscard]] std::vector<bool> ask(const TwoModels& m,
+                                        const std::vector<Placement>& placements) const {
+        return within(m.a, m.b, placements, tolerance);
+    }
+    [[nodiscard]] nlohmann::ordered_json question() const {
+        nlohmann::ordered_json json = PairQuery::question();
+        json["tolerance"] = tolerance;
+        return json;
+    }
+    static void add_answer(bool near, nlohmann::ordered_json& json) { json["within"] = near; }
+    [[nodiscard]] std::string in_words(bool near) const {
+        return fmt::format("{} {}\n", near ? "within" : "farther than", tolerance);
+    }
+    static std::string in_a_line(bool near) { return near ? "within\n" : "farther\n"; }
+    static bool is_problem(bool near) { return near; }
 };
-
-int run_many(const WithinArguments& arguments, const CommonOptions& common) {
-    const std::vector<Pose> poses = read_poses(arguments.poses.file);
-    const TwoModels models = load(arguments.models, common);
-    const Stopwatch watch;
-    const std::vector<bool> near =
-        within(models.a, models.b, placements(models, poses), arguments.tolerance);
-    const double seconds = watch.seconds();
-    if (common.json) {
-        nlohmann::ordered_json answer = describe(arguments.models);
-        answer["tolerance"] = arguments.tolerance;
-        answer["poses"] = nlohmann::ordered_json::array();
-        for (const bool each : near)
-            answer["poses"].push_back({{"within", each}});
-        answer["seconds"] = describe_seconds(models, seconds);
-        print(dump(answer));
-    } else if (!common.quiet) {
-        std::string text;
-        for (const bool each : near)
-            text += each ? "within\n" : "farther\n";
-        print(text);
-    }
-    const bool any = std::find(near.begin(), near.end(), true) != near.end();
-    return any && !arguments.fail_on.empty() ? kExitProblem : kExitDone;
-}
-
-int run(const WithinArguments& arguments, const CommonOptions& common) {
-    const TwoModels models = load(arguments.models, common);
-    const Stopwatch watch;
-    const bool near =
-        within(models.a, models.world_from_a, models.b, models.world_from_b, arguments.tolerance);
-    const double seconds = watch.seconds();
-
-    if (common.json) {
-        nlohmann::ordered_json answer = describe(arguments.models);
-        answer["tolerance"] = arguments.tolerance;
-        answer["within"] = near;
-        answer["seconds"] = describe_seconds(models, seconds);
-        print(dump(answer));
-    } else if (!common.quiet) {
-        print(fmt::format("{} {}\n", near ? "within" : "farther than", arguments.tolerance));
-    }
-    return near && !arguments.fail_on.empty() ? kExitProblem : kExitDone;
-}
 
 } // namespace
 
 Subcommand add_within(CLI::App& root, CommonOptions& common) {
-    auto arguments = std::make_shared<WithinArguments>();
+    auto query = std::make_shared<WithinQuery>();
     CLI::App* app = add_subcommand(root, common, "within",
                                    "Are two models at most a tolerance apart, or in contact?");
-    add_two_models(*app, arguments->models);
-    add_poses(*app, arguments->poses);
-    add_volume(*app, arguments->models);
-    app->add_option("--tolerance", arguments->tolerance, "Distance in metres")
+    add_two_models(*app, query->models);
+    add_poses(*app, query->poses);
+    add_volume(*app, query->models);
+    app->add_option("--tolerance", query->tolerance, "Distance in metres")
         ->required()
         ->check(not_negative());
-    app->add_option("--fail-on", arguments->fail_on, "Exit with status 1 on 'within'")
-        ->check(CLI::IsMember({"within"}));
-    return {app, [arguments, &common] {
-                return arguments->poses.file.empty() ? run(*arguments, common)
-                                                     : run_many(*arguments, common);
-            }};
+    add_fail_on(*app, query->fail_on, "within");
+    return {app, [query, &common] { return run_one_or_many(*query, common); }};
 }
 
 } // namespace abut::command

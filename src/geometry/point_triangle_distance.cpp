@@ -13,12 +13,12 @@ TriangleFoot foot_within(const Vec3& p, const Triangle& t) {
     const Vec3& origin = t[k];
     const Vec3 u = t[(k + 1) % 3] - origin, v = t[(k + 2) % 3] - origin, w = p - origin;
     const Vec3 n = cross(u, v);
-    const double nn = length_sq(n);
-    if (!(nn > 0))
+    const double nn = length_sq(n), along = dot(cross(u, w), n);
+    if (!(nn > 0 && along >= 0 && along <= nn))
         return {};
     // h = (u x w) . n / n.n, and the best g for that h: what h is off by, g makes up for.
-    const double h = dot(cross(u, w), n) / nn, g = dot(w - h * v, u) / length_sq(u);
-    if (!(g >= 0 && h >= 0 && g + h <= 1))
+    const double h = along / nn, g = dot(w - h * v, u) / length_sq(u);
+    if (!(g >= 0 && g + h <= 1))
         return {};
     const Vec3 foot = g * u + h * v;
     TriangleFoot result{true, origin + foot, w - foot, {}};
@@ -38,9 +38,10 @@ NearestOnTriangle nearest_on_triangle(const Vec3& p, const Triangle& t) {
     for (std::uint8_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1U) % 3;
         const Vec3 edge = t[j] - t[i];
-        const double s = dot(w[i], edge) / length_sq(edge);
-        if (!(s > 0 && s < 1)) // a point's edge has no direction: not a number
+        const double along = dot(w[i], edge), all = length_sq(edge);
+        if (!(along > 0 && along < all))
             continue;
+        const double s = along / all;
         if (const double sq = length_sq(w[i] - s * edge); sq < best.distance_sq) {
             best = {sq, t[i] + s * edge, {}, 1, i};
             best.weights[i] = 1 - s, best.weights[j] = s;

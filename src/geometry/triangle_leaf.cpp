@@ -5,85 +5,10 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/triangle_leaf.cpp"
 #include "simd/foreach_target.h"
-#include "simd/simd.h"
+#include "geometry/leaf_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr std::size_t kLanes = TriangleLeaf::kLanes;
-constexpr std::size_t kPairs = kLanes * kLanes;
-
-/// Three lanes-wide coordinates.
-template <class D>
-struct Vec {
-    using V = hn::Vec<D>;
-    V x, y, z;
-};
-
-template <class D>
-HWY_INLINE Vec<D> sub(const Vec<D>& a, const Vec<D>& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-template <class D>
-HWY_INLINE hn::Vec<D> dot(const Vec<D>& a, const Vec<D>& b) {
-    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-template <class D>
-HWY_INLINE Vec<D> cross(const Vec<D>& a, const Vec<D>& b) {
-    return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-            hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-template <class D>
-HWY_INLINE hn::Vec<D> max_abs(const Vec<D>& a) {
-    return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
-}
-template <class V>
-HWY_INLINE V min3(V a, V b, V c) {
-    return hn::Min(a, hn::Min(b, c));
-}
-template <class V>
-HWY_INLINE V max3(V a, V b, V c) {
-    return hn::Max(a, hn::Max(b, c));
-}
-template <class D>
-HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, mask, bits);
-    return (static_cast<std::uint32_t>(bits[0]) | static_cast<std::uint32_t>(bits[1]) << 8) &
-           ((1U << hn::MaxLanes(d)) - 1);
-}
-
-/// The sixteen pairs of two leaves side by side: lane 4 i + j holds triangle i of a and j of b.
-template <class D>
-HWY_INLINE hn::Vec<D> spread_a(D d, const float (&v)[kLanes], std::size_t lane) {
-    if constexpr (hn::MaxLanes(D()) < kLanes) {
-        return hn::Set(d, v[lane / kLanes]);
-    } else {
-        alignas(64) static constexpr std::int32_t kRow[kPairs] = {0, 0, 0, 0, 1, 1, 1, 1,
-                                                                  2, 2, 2, 2, 3, 3, 3, 3};
-        return hn::TableLookupLanes(hn::LoadDup128(d, v), hn::SetTableIndices(d, kRow + lane));
-    }
-}
-template <class D>
-HWY_INLINE hn::Vec<D> spread_b(D d, const float (&v)[kLanes], std::size_t lane) {
-    if constexpr (hn::MaxLanes(D()) < kLanes)
-        return hn::Set(d, v[lane % kLanes]);
-    else
-        return hn::LoadDup128(d, v);
-}
-
-/// b's triangles in a's frame.
-HWY_INLINE void turn(const TriangleLeaf& b, const LeafPlacement& to_a, TriangleLeaf& turned) {
-    for (std::size_t v = 0; v < 3; ++v)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto& m = to_a.linear;
-            for (std::size_t j = 0; j < kLanes; ++j)
-                turned.v[v][axis][j] = m[0][axis] * b.v[v][0][j] + m[1][axis] * b.v[v][1][j] +
-                                       m[2][axis] * b.v[v][2][j] + to_a.translation[axis];
-        }
-}
 
 /// Determinants of three edges, and what each may be off by.
 ///
@@ -118,20 +43,18 @@ struct Sides {
 /// A triangle's plane: its normal, a bound of its edges, and at most its squared length.
 template <class D>
 struct Plane {
-    Vec<D> origin, n;
+    Lanes3<D> origin, n;
     hn::Vec<D> edge;
 
-    HWY_INLINE Plane(const Vec<D> (&t)[3]) : origin(t[0]) {
-        const Vec<D> u = sub<D>(t[1], t[0]), v = sub<D>(t[2], t[0]);
-        n = cross<D>(u, v);
-        edge = hn::Max(max_abs<D>(u), max_abs<D>(v));
+    HWY_INLINE Plane(const Lanes3<D> (&t)[3]) : origin(t[0]) {
+        const Lanes3<D> u = sub(t[1], t[0]), v = sub(t[2], t[0]);
+        n = cross(u, v);
+        edge = hn::Max(max_abs(u), max_abs(v));
     }
-    HWY_INLINE Sides<D> sides(D d, const Vec<D> (&q)[3], hn::Vec<D> e) const {
-        const Vec<D> w0 = sub<D>(q[0], origin), w1 = sub<D>(q[1], origin),
-                     w2 = sub<D>(q[2], origin);
-        const auto reach = max3(max_abs<D>(w0), max_abs<D>(w1), max_abs<D>(w2));
-        return {{dot<D>(n, w0), dot<D>(n, w1), dot<D>(n, w2)},
-                determinant_bound(d, edge, reach, e)};
+    HWY_INLINE Sides<D> sides(D d, const Lanes3<D> (&q)[3], hn::Vec<D> e) const {
+        const Lanes3<D> w0 = sub(q[0], origin), w1 = sub(q[1], origin), w2 = sub(q[2], origin);
+        const auto reach = max3(max_abs(w0), max_abs(w1), max_abs(w2));
+        return {{dot(n, w0), dot(n, w1), dot(n, w2)}, determinant_bound(d, edge, reach, e)};
     }
     /// (|n| + |dn|)^2 <= 1.004 n.n + 257 dn.dn, each coordinate of dn below 2 e (2 U + e) + 8 eps
     /// U^2.
@@ -140,7 +63,7 @@ struct Plane {
         const auto dn = hn::MulAdd(hn::Mul(two, e), hn::MulAdd(two, edge, e),
                                    hn::Mul(hn::Set(d, 8 * 0x1p-24F), hn::Mul(edge, edge)));
         return hn::MulAdd(
-            hn::Set(d, 1.004F), dot<D>(n, n),
+            hn::Set(d, 1.004F), dot(n, n),
             hn::MulAdd(hn::Set(d, 3 * 257.0F), hn::Mul(dn, dn), hn::Set(d, 0x1p-100F)));
     }
 };
@@ -149,38 +72,30 @@ struct Plane {
 /// one. In lanes where a side is not certain, no vertex is taken for anything.
 template <class D>
 struct LaneCut {
-    Vec<D> apex, first, last; ///< the edges from the apex, as the line of both planes meets them
+    Lanes3<D> apex, first, last; ///< the edges from the apex, as the line of both planes meets them
     hn::Mask<D> apex_over, certain;
 };
 
 /// `forward`: whether the edge to the next vertex comes last if the apex is over the plane, as for
 /// the first triangle (see triangle_triangle_intersect).
 template <class D>
-HWY_INLINE LaneCut<D> cut(D d, const Vec<D> (&t)[3], const Sides<D>& side, bool forward) {
+HWY_INLINE LaneCut<D> cut(D d, const Lanes3<D> (&t)[3], const Sides<D>& side, bool forward) {
     const auto zero = hn::Zero(d);
     const auto over0 = hn::Gt(side.s[0], zero), over1 = hn::Gt(side.s[1], zero),
                over2 = hn::Gt(side.s[2], zero);
     const auto alone1 = hn::AndNot(hn::Xor(over0, over2), hn::Xor(over0, over1));
     const auto alone2 = hn::AndNot(hn::Xor(over0, over1), hn::Xor(over0, over2));
-    const auto pick = [&](const Vec<D>& x_0, const Vec<D>& x_1, const Vec<D>& x_2) HWY_ATTR {
-        const auto each = [&](auto x0, auto x1, auto x2) HWY_ATTR {
-            return hn::IfThenElse(alone1, x1, hn::IfThenElse(alone2, x2, x0));
-        };
-        return Vec<D>{each(x_0.x, x_1.x, x_2.x), each(x_0.y, x_1.y, x_2.y),
-                      each(x_0.z, x_1.z, x_2.z)};
-    };
-    const auto choose = [&](hn::Mask<D> m, const Vec<D>& yes, const Vec<D>& no) HWY_ATTR {
-        return Vec<D>{hn::IfThenElse(m, yes.x, no.x), hn::IfThenElse(m, yes.y, no.y),
-                      hn::IfThenElse(m, yes.z, no.z)};
+    const auto pick = [&](const Lanes3<D>& x0, const Lanes3<D>& x1, const Lanes3<D>& x2) HWY_ATTR {
+        return if_then_else(alone1, x1, if_then_else(alone2, x2, x0));
     };
     LaneCut<D> c;
     c.apex = pick(t[0], t[1], t[2]);
-    const Vec<D> left = pick(t[1], t[2], t[0]), right = pick(t[2], t[0], t[1]);
+    const Lanes3<D> left = pick(t[1], t[2], t[0]), right = pick(t[2], t[0], t[1]);
     c.apex_over = hn::Or(hn::And(alone1, over1),
                          hn::Or(hn::And(alone2, over2), hn::AndNot(hn::Or(alone1, alone2), over0)));
     const auto left_last = forward ? c.apex_over : hn::Not(c.apex_over);
-    c.first = choose(left_last, right, left);
-    c.last = choose(left_last, left, right);
+    c.first = if_then_else(left_last, right, left);
+    c.last = if_then_else(left_last, left, right);
     c.certain =
         hn::Gt(min3(hn::Abs(side.s[0]), hn::Abs(side.s[1]), hn::Abs(side.s[2])), side.bound);
     return c;
@@ -197,11 +112,11 @@ template <class D>
 HWY_INLINE Intervals<D> compare_intervals(D d, const LaneCut<D>& a, const LaneCut<D>& b,
                                           hn::Vec<D> e) {
     const auto same = hn::Not(hn::Xor(a.apex_over, b.apex_over));
-    const auto order = [&](const Vec<D>& end_a, const Vec<D>& end_b, hn::Vec<D>& bound) HWY_ATTR {
-        const Vec<D> u = sub<D>(end_a, a.apex), v = sub<D>(b.apex, a.apex),
-                     w = sub<D>(end_b, a.apex);
-        bound = determinant_bound(d, hn::Max(max_abs<D>(u), max_abs<D>(v)), max_abs<D>(w), e);
-        const auto det = dot<D>(cross<D>(u, v), w);
+    const auto order = [&](const Lanes3<D>& end_a, const Lanes3<D>& end_b,
+                           hn::Vec<D>& bound) HWY_ATTR {
+        const Lanes3<D> u = sub(end_a, a.apex), v = sub(b.apex, a.apex), w = sub(end_b, a.apex);
+        bound = determinant_bound(d, hn::Max(max_abs(u), max_abs(v)), max_abs(w), e);
+        const auto det = dot(cross(u, v), w);
         return hn::IfThenElse(same, det, hn::Neg(det));
     };
     hn::Vec<D> bound_1, bound_2;
@@ -217,36 +132,31 @@ template <bool with_near, class D>
 HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const TriangleLeaf& leaf_b,
                                   const LeafPlacement& to_a, const LeafBound& bound) {
     TriangleLeaf turned{};
-    turn(leaf_b, to_a, turned);
+    turn_leaf(leaf_b, to_a, turned);
     LeafPairs result;
     const auto zero = hn::Zero(d), margin = hn::Set(d, to_a.margin);
     const auto e = hn::Add(margin, margin);
     for (std::size_t lane = 0; lane < kPairs; lane += hn::Lanes(d)) {
-        Vec<D> a[3], b[3];
-        for (std::size_t v = 0; v < 3; ++v) {
-            const auto &p = leaf_a.v[v], &q = turned.v[v];
-            a[v] = {spread_a(d, p[0], lane), spread_a(d, p[1], lane), spread_a(d, p[2], lane)};
-            b[v] = {spread_b(d, q[0], lane), spread_b(d, q[1], lane), spread_b(d, q[2], lane)};
-        }
+        Lanes3<D> a[3], b[3];
+        load_pairs(d, leaf_a, turned, lane, a, b);
         // A gap is real beyond the margin.
         const auto gap = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
             const auto apart = hn::Max(hn::Sub(min3(p0, p1, p2), max3(q0, q1, q2)),
                                        hn::Sub(min3(q0, q1, q2), max3(p0, p1, p2)));
             return hn::Max(zero, hn::Sub(apart, margin));
         };
-        const Vec<D> g{gap(a[0].x, a[1].x, a[2].x, b[0].x, b[1].x, b[2].x),
-                       gap(a[0].y, a[1].y, a[2].y, b[0].y, b[1].y, b[2].y),
-                       gap(a[0].z, a[1].z, a[2].z, b[0].z, b[1].z, b[2].z)};
+        const Lanes3<D> g{gap(a[0].x, a[1].x, a[2].x, b[0].x, b[1].x, b[2].x),
+                          gap(a[0].y, a[1].y, a[2].y, b[0].y, b[1].y, b[2].y),
+                          gap(a[0].z, a[1].z, a[2].z, b[0].z, b[1].z, b[2].z)};
         auto meet = hn::Le(max3(g.x, g.y, g.z), zero);
         auto near = meet;
         if constexpr (with_near) {
             // Squares, sums and products are rounded: by less than this together.
             const auto bound_sq = hn::Set(d, bound.bound_sq * (1 + 0x1p-18F));
-            near = hn::Not(hn::Gt(dot<D>(g, g), bound_sq));
-            const Vec<D> n{hn::Set(d, bound.direction[0]), hn::Set(d, bound.direction[1]),
-                           hn::Set(d, bound.direction[2])};
-            const auto along = hn::Sub(min3(dot<D>(n, b[0]), dot<D>(n, b[1]), dot<D>(n, b[2])),
-                                       max3(dot<D>(n, a[0]), dot<D>(n, a[1]), dot<D>(n, a[2])));
+            near = hn::Not(hn::Gt(dot(g, g), bound_sq));
+            const Lanes3<D> n = set3(d, bound.direction);
+            const auto along = hn::Sub(min3(dot(n, b[0]), dot(n, b[1]), dot(n, b[2])),
+                                       max3(dot(n, a[0]), dot(n, a[1]), dot(n, a[2])));
             const auto sizes = hn::Add(hn::Abs(n.x), hn::Add(hn::Abs(n.y), hn::Abs(n.z)));
             const auto certain = hn::Max(zero, hn::NegMulAdd(sizes, hn::Add(e, margin), along));
             near = hn::AndNot(

@@ -14,6 +14,9 @@ namespace abut {
 
 namespace {
 
+/// Of either surface, at most, for the depth: docs/clash.md says how near that comes.
+constexpr int kSamples = 200;
+
 bool less(const Vec3& p, const Vec3& q) {
     return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
@@ -81,6 +84,7 @@ Clash classify_meeting(const ClashPart& a, const ClashPart& b, std::vector<Conta
     if (meeting.interpenetrate) {
         DepthSearch options;
         options.threshold = touch;
+        options.accuracy_budget = kSamples;
         const LocalPenetration p = penetration_depth(solid_a, solid_b, contacts, options);
         // Not proven shallow enough: hard.
         clash.kind = touch == 0 || p.at_most > touch ? ClashKind::hard : ClashKind::touch;

@@ -9,38 +9,6 @@
 
 namespace abut {
 
-namespace {
-
-struct Stretches {
-    double least, most;
-};
-
-Stretches stretches(const Transform& t) {
-    const auto& m = t.m;
-    const std::array<Vec3, 3> c{Vec3{m[0], m[1], m[2]}, Vec3{m[3], m[4], m[5]},
-                                Vec3{m[6], m[7], m[8]}};
-    const double xx = length_sq(c[0]), yy = length_sq(c[1]), zz = length_sq(c[2]);
-    const double xy = dot(c[0], c[1]), yz = dot(c[1], c[2]), zx = dot(c[2], c[0]);
-    // Every eigenvalue of L^T L lies in a disc around a diagonal entry.
-    const double rx = std::abs(xy) + std::abs(zx), ry = std::abs(xy) + std::abs(yz),
-                 rz = std::abs(yz) + std::abs(zx);
-    double least = std::min({xx - rx, yy - ry, zz - rz}),
-           most = std::max({xx + rx, yy + ry, zz + rz});
-    if (least < (1 - 1e-5) * most) {
-        Eigen::Matrix3d gram;
-        gram << xx, xy, zx, xy, yy, yz, zx, yz, zz;
-        const Eigen::Vector3d values =
-            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly)
-                .eigenvalues();
-        most = std::min(most, values[2]);
-        least = values[0] - 1e-14 * most; // the solver is exact to a few roundings of the largest
-    }
-    constexpr double kRounding = 1e-14;
-    return {least > 0 ? std::sqrt(least) * (1 - kRounding) : 0, std::sqrt(most) * (1 + kRounding)};
-}
-
-} // namespace
-
 Transform::Transform(const Pose& pose) {
     double w = pose.rotation[0], x = pose.rotation[1], y = pose.rotation[2], z = pose.rotation[3];
     // Scaled by the largest first: no square of a valid quaternion over- or underflows.
@@ -79,11 +47,28 @@ Transform inverse(const Transform& t) {
     return r;
 }
 
-double least_stretch(const Transform& t) {
-    return stretches(t).least;
-}
-double most_stretch(const Transform& t) {
-    return stretches(t).most;
+Stretch stretch_of(const Transform& t) {
+    const auto& m = t.m;
+    const std::array<Vec3, 3> c{Vec3{m[0], m[1], m[2]}, Vec3{m[3], m[4], m[5]},
+                                Vec3{m[6], m[7], m[8]}};
+    const double xx = length_sq(c[0]), yy = length_sq(c[1]), zz = length_sq(c[2]);
+    const double xy = dot(c[0], c[1]), yz = dot(c[1], c[2]), zx = dot(c[2], c[0]);
+    // Every eigenvalue of L^T L lies in a disc around a diagonal entry.
+    const double rx = std::abs(xy) + std::abs(zx), ry = std::abs(xy) + std::abs(yz),
+                 rz = std::abs(yz) + std::abs(zx);
+    double least = std::min({xx - rx, yy - ry, zz - rz}),
+           most = std::max({xx + rx, yy + ry, zz + rz});
+    if (least < (1 - 1e-5) * most) {
+        Eigen::Matrix3d gram;
+        gram << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+        const Eigen::Vector3d values =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly)
+                .eigenvalues();
+        most = std::min(most, values[2]);
+        least = values[0] - 1e-14 * most; // the solver is exact to a few roundings of the largest
+    }
+    constexpr double kRounding = 1e-14;
+    return {least > 0 ? std::sqrt(least) * (1 - kRounding) : 0, std::sqrt(most) * (1 + kRounding)};
 }
 
 void require_finite(const Transform& t, const char* what) {

@@ -27,14 +27,15 @@ Transform compose(const Transform& a, const Transform& b);
 /// Inverse, rounded; a singular map gives entries that are not finite.
 Transform inverse(const Transform& t);
 
-/// Bounds of |L v| over all unit vectors v, L the linear part: |L v| >= least_stretch, |L v| <=
-/// most_stretch.
-///
+/// Bounds of |L v| over all unit vectors v, L the linear part of a transform.
+struct Stretch {
+    double least = 0, most = 0;
+};
+
 /// Accuracy    proven bounds, within 1e-5 of the singular values; 0 for a singular map.
 /// Source      Gershgorin discs of L^T L; its eigenvalues where the discs are too wide (shear,
 ///             uneven scale).
-double least_stretch(const Transform& t);
-double most_stretch(const Transform& t);
+Stretch stretch_of(const Transform& t);
 
 /// Errors      Error{bad_argument} if a value is not finite.
 void require_finite(const Transform& t, const char* what);

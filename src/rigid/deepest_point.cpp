@@ -3,6 +3,7 @@
 #include "geometry/triangle_triangle_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <limits>
@@ -15,13 +16,17 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Bounds are rounded by some units in the last place: this much outweighs that.
 constexpr double kSafe = 1 + 0x1p-40;
+/// Faces of the solid that a piece remembers.
+constexpr std::size_t kFaces = 4;
 
-/// What is known of the distance from a point to the solid's surface.
+/// A point and its distance to the solid's surface.
 struct Sample {
     Vec3 point;
-    double at_least = 0, at_most = kInfinity; ///< the distance
-    std::uint32_t slot = 0;                   ///< of the solid: a triangle `at_most` away
+    double distance = kInfinity;
+    std::uint32_t slot = 0; ///< of the solid: the nearest triangle
     bool inside = false;
+
+    [[nodiscard]] bool any() const { return distance < kInfinity; }
 };
 
 /// A part of the surface that may hold its deepest point: a box of its tree, or a piece of a
@@ -35,8 +40,29 @@ struct Piece {
     double radius = 0; ///< of a ball around the middle that holds the piece
     Sample sample;     ///< at the middle if sampled, else at that of an enclosing piece
     bool sampled = false;
+    /// Slots of the solid, of the last samples of this piece and those around it.
+    boost::container::static_vector<std::uint32_t, kFaces> faces;
     bool operator<(const Piece& other) const { return at_most < other.at_most; }
 };
+
+/// Distances of a piece's corners from a face. Distance to a convex set is convex: at any mean of
+/// the corners it is at most the mean of theirs.
+using CornerDistances = std::array<double, 8>;
+
+/// The largest that the smaller of two functions can be that are linear in the weights of n corners:
+/// at a corner, or between two where they are equal.
+double largest_of_smaller(const CornerDistances& f, const CornerDistances& g, std::size_t n) {
+    double largest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        largest = std::max(largest, std::min(f[i], g[i]));
+        for (std::size_t j = 0; f[i] > g[i] && j < n; ++j)
+            if (f[j] < g[j]) {
+                const double share = (f[i] - g[i]) / ((f[i] - g[i]) + (g[j] - f[j]));
+                largest = std::max(largest, f[i] + share * (f[j] - f[i]));
+            }
+    }
+    return largest;
+}
 
 class Search {
 public:
@@ -89,15 +115,15 @@ private:
             const std::uint32_t first = parent.box.first();
             for (std::uint32_t slot = first; slot < first + parent.box.count(); ++slot)
                 if (part_.takes(surface_.model().triangle_at(slot)))
-                    add_clipped(slot, parent.sample);
+                    add_clipped(slot, parent);
             return;
         }
         const Node& node = tree.nodes[parent.box.index()];
         for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
-            add_box(node.child[i], node.box(i), node.frame, parent.sample);
+            add_box(node.child[i], node.box(i), node.frame, parent);
     }
 
-    void add_box(NodeRef ref, const Aabb& box, const NodeFrame& frame, const Sample& known) {
+    void add_box(NodeRef ref, const Aabb& box, const NodeFrame& frame, const Piece& parent) {
         Vec3 lower{box.lower[0], box.lower[1], box.lower[2]},
             upper{box.upper[0], box.upper[1], box.upper[2]};
         // The frame's axes are at right angles to a few parts in 2^24.
@@ -115,12 +141,11 @@ private:
             piece.corners.push_back(
                 to_world({i & 1U ? upper.x : lower.x, i & 2U ? upper.y : lower.y,
                           i & 4U ? upper.z : lower.z}));
-        piece.sample = known;
-        add(piece);
+        inherit(piece, parent);
     }
 
     /// Only what lies in the solid's box can lie inside it.
-    void add_clipped(std::uint32_t slot, const Sample& known) {
+    void add_clipped(std::uint32_t slot, const Piece& parent) {
         Polygon polygon;
         for (const Vec3& p : surface_.world_slot(slot))
             polygon.push_back(apply(solid_.tree_from_world(), p));
@@ -129,7 +154,7 @@ private:
             add_triangle({apply(solid_.world_from_tree(), polygon[0]),
                           apply(solid_.world_from_tree(), polygon[i - 1]),
                           apply(solid_.world_from_tree(), polygon[i])},
-                         slot, known);
+                         slot, parent);
     }
 
     /// Source: [Sutherland, Hodgman 1974].
@@ -161,11 +186,11 @@ private:
                 longest = i;
         const Vec3 &p = t[longest], &q = t[(longest + 1) % 3], &r = t[(longest + 2) % 3];
         const Vec3 m = 0.5 * (p + q);
-        add_triangle({p, m, r}, parent.slot, parent.sample);
-        add_triangle({m, q, r}, parent.slot, parent.sample);
+        add_triangle({p, m, r}, parent.slot, parent);
+        add_triangle({m, q, r}, parent.slot, parent);
     }
 
-    void add_triangle(const Triangle& t, std::uint32_t slot, const Sample& known) {
+    void add_triangle(const Triangle& t, std::uint32_t slot, const Piece& parent) {
         Piece piece;
         piece.slot = slot;
         piece.corners.assign(t.begin(), t.end());
@@ -173,12 +198,13 @@ private:
         for (const Vec3& corner : t)
             piece.radius = std::max(piece.radius, length(corner - piece.middle));
         piece.radius *= kSafe;
-        piece.sample = known;
-        add(piece);
+        inherit(piece, parent);
     }
 
-    /// Keeps a piece unless what is known already rules it out.
-    void add(Piece& piece) {
+    /// Keeps a piece unless what is known of the piece that it is part of rules it out.
+    void inherit(Piece& piece, const Piece& parent) {
+        piece.sample = parent.sample;
+        piece.faces = parent.faces;
         piece.at_most = bound(piece);
         if (worth_keeping(piece.at_most) && part_.may_hold(piece.middle, piece.radius))
             pieces_.push(piece);
@@ -196,21 +222,34 @@ private:
     /// What the sample, at the piece's middle or farther off, says of the piece's depth.
     [[nodiscard]] double bound(const Piece& piece) const {
         const Sample& s = piece.sample;
-        if (s.at_most == kInfinity)
+        if (!s.any())
             return kInfinity;
         const double reach = (length(piece.middle - s.point) + piece.radius) * kSafe;
-        // From outside, a point is at least `at_least` away from the first one inside.
-        const double across = s.inside ? kInfinity : reach - s.at_least;
+        // From outside, a point is at least as far away from the first one inside.
+        const double across = s.inside ? kInfinity : reach - s.distance / kSafe;
         if (across <= 0)
             return 0;
-        const double limit = std::min(across, s.at_most + reach);
-        if (limit <= best_.depth)
+        const double limit = std::min(across, s.distance + reach);
+        if (limit <= wanted())
             return limit;
-        const Triangle face = solid_.world_slot(s.slot);
-        double convex = 0;
-        for (const Vec3& corner : piece.corners)
-            convex = std::max(convex, point_triangle_distance(corner, face).distance_sq);
-        return std::min(limit, std::sqrt(convex) * kSafe);
+        return std::min(limit, bound_by_faces(piece) * kSafe);
+    }
+
+    /// The least that a pair of faces allows: it is tight where the piece lies across the middle
+    /// between two.
+    [[nodiscard]] double bound_by_faces(const Piece& piece) const {
+        const std::size_t n = piece.corners.size();
+        std::array<CornerDistances, kFaces> distances{};
+        double least = kInfinity;
+        for (std::size_t k = 0; k < piece.faces.size() && least > wanted(); ++k) {
+            const Triangle face = solid_.world_slot(piece.faces[k]);
+            for (std::size_t i = 0; i < n; ++i)
+                distances[k][i] =
+                    std::sqrt(point_triangle_distance(piece.corners[i], face).distance_sq);
+            for (std::size_t other = 0; other <= k; ++other)
+                least = std::min(least, largest_of_smaller(distances[other], distances[k], n));
+        }
+        return least;
     }
 
     // ---- points
@@ -218,66 +257,97 @@ private:
     void sample(Piece piece) {
         ++evaluations_;
         const Sample known = piece.sample;
-        const double moved = length(piece.middle - known.point) * kSafe;
         // A triangle that is near enough to rule the piece out ends the search for the nearest.
-        const PlacedSolid::NearestSearch search{.bound = kInfinity,
-                                                .enough = wanted() - piece.radius,
-                                                .slack = 0.25 * options_.relative_accuracy,
-                                                .seed = known.at_most < kInfinity ? &known.slot
-                                                                                  : nullptr};
+        const PlacedSolid::NearestSearch search{.enough = wanted() - piece.radius,
+                                                .seed = known.any() ? &known.slot : nullptr};
         const PlacedSolid::Nearest nearest = solid_.nearest(piece.middle, search);
         if (nearest.distance <= search.enough) {
             // Nothing in the piece is deeper than that.
             (void)worth_keeping((nearest.distance + piece.radius) * kSafe);
             return;
         }
-        Sample& s = piece.sample;
-        s.point = piece.middle;
-        s.at_most = nearest.distance;
-        s.at_least = nearest.distance / (1 + search.slack) / kSafe;
-        s.slot = nearest.slot;
-        // Between two points nearer to each other than to the surface, nothing changes from inside
-        // to outside.
-        s.inside = known.at_most < kInfinity && moved < known.at_least
-                       ? known.inside
-                       : nearest.distance > 0 && solid_.contains_off_surface(piece.middle);
         piece.sampled = true;
+        // Whether it is inside is asked only where that matters.
+        piece.sample = {piece.middle, nearest.distance, nearest.slot, true};
+        remember(piece, nearest.slot);
         piece.at_most = std::min(piece.at_most, bound(piece));
+        if (piece.at_most > wanted()) {
+            piece.sample.inside = is_inside(piece.sample, known);
+            piece.at_most = std::min(piece.at_most, bound(piece));
+        }
         if (!worth_keeping(piece.at_most))
             return;
         pieces_.push(piece);
-        if (s.inside)
-            try_points(piece);
+        if (!piece.sample.inside)
+            return;
+        if (piece.box.is_none())
+            try_points(piece, nearest);
+        else
+            try_any_point(piece.box, nearest.slot);
     }
 
-    /// Points of the surface in the piece, for a depth that is reached.
-    void try_points(const Piece& piece) {
-        if (piece.box.is_none()) {
-            const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
-            try_point(piece.middle, triangle, &piece.sample.slot);
-            for (const Vec3& corner : piece.corners) // depth is often greatest at a corner
-                try_point(corner, triangle, &piece.sample.slot);
+    [[nodiscard]] bool is_inside(const Sample& s, const Sample& known) const {
+        if (!(s.distance > 0))
+            return false;
+        // Between two points nearer to each other than to the surface, nothing changes from inside
+        // to outside.
+        if (known.any() && length(s.point - known.point) * kSafe * kSafe < known.distance)
+            return known.inside;
+        return known.any() && known.distance > 0
+                   ? solid_.contains_off_surface(s.point, known.point, known.inside)
+                   : solid_.contains_off_surface(s.point);
+    }
+
+    /// First; the last makes room.
+    static void remember(Piece& piece, std::uint32_t slot) {
+        auto& faces = piece.faces;
+        const auto known = std::find(faces.begin(), faces.end(), slot);
+        if (known != faces.end())
+            faces.erase(known);
+        else if (faces.size() == kFaces)
+            faces.pop_back();
+        faces.insert(faces.begin(), slot);
+    }
+
+    // ---- points of the surface, for a depth that is reached
+
+    /// The sample of a piece of a triangle; its corners, if that is deeper than what was known.
+    void try_points(const Piece& piece, const PlacedSolid::Nearest& nearest) {
+        const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
+        if (!(nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle)))
             return;
-        }
-        NodeRef ref = piece.box;
-        while (!ref.is_leaf())
-            ref = surface_.model().tree().nodes[ref.index()].child[0];
-        if (const std::uint32_t triangle = surface_.model().triangle_at(ref.first());
-            part_.takes(triangle))
-            try_point(surface_.world_slot(ref.first())[0], triangle, &piece.sample.slot);
+        take(piece.middle, triangle, nearest);
+        for (const Vec3& corner : piece.corners) // depth is often greatest at a corner
+            try_point(corner, triangle, &nearest.slot);
+    }
+
+    /// A vertex in a box.
+    void try_any_point(NodeRef box, std::uint32_t seed) {
+        while (!box.is_leaf())
+            box = surface_.model().tree().nodes[box.index()].child[0];
+        try_point(surface_.world_slot(box.first())[0], surface_.model().triangle_at(box.first()),
+                  &seed);
     }
 
     /// `seed`: a slot of the solid that is likely near, or null.
     void try_point(const Vec3& point, std::uint32_t triangle, const std::uint32_t* seed) {
-        // A point of a face that lies in the surface is inside or outside by rounding alone.
-        const double rounding =
-            16 * 0x1p-53 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z));
-        const double beyond = std::max(best_.depth, rounding);
-        const PlacedSolid::Nearest nearest =
-            solid_.nearest(point, {.enough = beyond, .seed = seed});
-        if (nearest.distance <= beyond || !part_.takes(triangle) || !part_.may_hold(point, 0) ||
-            !solid_.contains_off_surface(point))
+        if (!belongs(point, triangle))
             return;
+        const double least = beyond(point);
+        const PlacedSolid::Nearest nearest = solid_.nearest(point, {.enough = least, .seed = seed});
+        if (nearest.distance > least && solid_.contains_off_surface(point))
+            take(point, triangle, nearest);
+    }
+
+    /// A point of a face that lies in the surface is inside or outside by rounding alone.
+    [[nodiscard]] double beyond(const Vec3& point) const {
+        return std::max(best_.depth,
+                        16 * 0x1p-53 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z)));
+    }
+    [[nodiscard]] bool belongs(const Vec3& point, std::uint32_t triangle) const {
+        return part_.takes(triangle) && part_.may_hold(point, 0);
+    }
+    void take(const Vec3& point, std::uint32_t triangle, const PlacedSolid::Nearest& nearest) {
         best_.depth = nearest.distance;
         best_.on_surface = point, best_.on_solid = nearest.point;
         best_.surface_triangle = triangle;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/triangle_triangle_distance.h"
-#include "rigid/moving_boxes.h"
+#include "rigid/moving_pair.h"
 
 namespace abut {
 

@@ -47,8 +47,8 @@ bool PlacedModel::make_frame() {
     constexpr double kLeastStretch = 0x1p-300, kMostStretch = 0x1p300, kLeastRatio = 0x1p-30;
     world_from_tree_ = compose(world_, model().model_from_tree());
     tree_from_world_ = inverse(world_from_tree_);
-    least_stretch_ = abut::least_stretch(world_from_tree_);
-    most_stretch_ = abut::most_stretch(world_from_tree_);
+    const auto [least, most] = stretch_of(world_from_tree_);
+    least_stretch_ = least, most_stretch_ = most;
     half_ = 0;
     if (!model().tree().empty())
         for (std::size_t k = 0; k < 3; ++k)

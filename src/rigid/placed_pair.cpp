@@ -4,13 +4,14 @@ namespace abut {
 
 PlacedPair::PlacedPair(const Model& a, const Transform& world_from_a, const Model& b,
                        const Transform& world_from_b)
-    : a_(a), b_(b), world_from_a_(world_from_a), world_from_b_(world_from_b) {
+    : a_(&a.data()), b_(&b.data()), world_from_a_(world_from_a), world_from_b_(world_from_b) {
     require_finite(world_from_a, "transform of a");
     require_finite(world_from_b, "transform of b");
     compare_frames();
-    if (!frame_.valid && !a_.data().tree().empty() && !b_.data().tree().empty()) {
+    if (!frame_.valid && !a_->tree().empty() && !b_->tree().empty()) {
         // The same positions by the same formula; identity then leaves them as they are.
-        a_ = baked(a, world_from_a), b_ = baked(b, world_from_b);
+        baked_a_ = baked(a, world_from_a), baked_b_ = baked(b, world_from_b);
+        a_ = &baked_a_->data(), b_ = &baked_b_->data();
         world_from_a_ = world_from_b_ = {};
         compare_frames();
     }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <bit>
+#include <optional>
 
 namespace abut {
 
@@ -17,13 +18,14 @@ class PlacedPair {
 public:
     /// A transform without an inverse (a flattened part) is applied to a copy of the mesh first.
     ///
+    /// In          models that outlive the pair.
     /// Errors      Error{bad_argument} if a transform is not finite; Error{bad_mesh} if such a copy
     ///             has positions out of range.
     PlacedPair(const Model& a, const Transform& world_from_a, const Model& b,
                const Transform& world_from_b);
 
-    [[nodiscard]] const ModelData& a() const { return a_.data(); }
-    [[nodiscard]] const ModelData& b() const { return b_.data(); }
+    [[nodiscard]] const ModelData& a() const { return *a_; }
+    [[nodiscard]] const ModelData& b() const { return *b_; }
     [[nodiscard]] const Transform& world_from_a() const { return world_from_a_; }
     [[nodiscard]] const Transform& world_from_b() const { return world_from_b_; }
     /// World positions of triangles by their mesh indices.
@@ -48,7 +50,8 @@ public:
 private:
     void compare_frames();
 
-    Model a_, b_;
+    const ModelData *a_, *b_;
+    std::optional<Model> baked_a_, baked_b_; ///< the copies, if there are any
     Transform world_from_a_, world_from_b_;
     PairFrame frame_;
     VolumeFrame volume_frame_; ///< valid where both have volumes of the same kind

@@ -65,6 +65,12 @@ bool PlacedSolid::contains_off_surface(const Vec3& point) const {
     return 2 * odd_rays > clear_rays;
 }
 
+bool PlacedSolid::contains_off_surface(const Vec3& point, const Vec3& known, bool inside) const {
+    bool clear = false;
+    const bool odd = solid_.closed && odd_crossings(known, point, clear);
+    return clear ? odd != inside : contains_off_surface(point);
+}
+
 bool PlacedSolid::winds_around(const Vec3& point) const {
     if (solid_.closed)
         return contains(point);

@@ -36,6 +36,9 @@ public:
     }
     /// The same for a point that is known not to lie on the surface.
     [[nodiscard]] bool contains_off_surface(const Vec3& point) const;
+    /// The same, where it is known of another point off the surface; fast where that is near.
+    [[nodiscard]] bool contains_off_surface(const Vec3& point, const Vec3& known,
+                                            bool inside) const;
 
     /// A part inside the other: for a mesh that is not closed the winding number decides (1 to
     /// rounding).

@@ -1,17 +1,18 @@
 #include <abut/error.h>
 #include <abut/motion.h>
 
-#include "geometry/triangle_pair_block.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
 #include "rigid/contacts.h"
 #include "rigid/motion_bounds.h"
-#include "rigid/moving_boxes.h"
+#include "rigid/moving_nodes.h"
+#include "rigid/moving_pair.h"
 #include "rigid/moving_triangles.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -32,31 +33,68 @@ constexpr int kMostFollowed = 4096;
 constexpr double kUndecided = 2;
 /// Radians by which both together turn within a window: bounds hold for one, and are good for
 /// turns this small.
-constexpr double kMostTurn = 0.5;
-/// A moment is used again while no point has moved farther than this share of a box's radius.
-constexpr double kStale = 0.125;
+constexpr double kMostTurn = 0.25;
+/// A window is not shorter, so that they come to an end.
+constexpr double kLeastWindow = 0x1p-20;
+/// A moment is used again while what its bounds have lost by its age is no more than this share of
+/// a box's radius.
+constexpr double kStale = 1.0 / 64;
+/// Where one box has so many times the radius of the other, it is opened alone.
+constexpr double kUnlike = 3;
+constexpr std::uint32_t kAllLanes = (1U << Node::kWidth) - 1;
 
-/// Two boxes, or two triangles, that certainly do not meet before `time`.
+/// Two boxes by their names, or two triangles by their slots, that certainly do not meet before
+/// `time`.
 struct Waiting {
-    double time = 0;
-    std::uint32_t a = 0, b = 0;
-    bool triangles = false; ///< a and b are slots of triangles; else name boxes
-    bool operator<(const Waiting& other) const { return time > other.time; }
+    double time;
+    std::uint32_t a, b;
 };
 
-TreeBox box_of(const Tree& tree, std::uint32_t name, double scale) {
-    return name == kRootName ? root_box(tree, scale)
-                             : child_box(tree.nodes[node_of(name)], lane_of(name), scale);
+/// Gives the pair of the earliest time first; of the same time, one that is deeper in the tree of
+/// a: nodes come after those above them.
+class WaitingQueue {
+public:
+    void clear() { heap_.clear(); }
+    /// Infinite if none waits.
+    [[nodiscard]] double first_time() const { return heap_.empty() ? kNever : heap_.front().time; }
+
+    void push(const Waiting& pair) {
+        heap_.push_back(pair);
+        std::push_heap(heap_.begin(), heap_.end(), Later{});
+    }
+    Waiting pop() {
+        std::pop_heap(heap_.begin(), heap_.end(), Later{});
+        const Waiting first = heap_.back();
+        heap_.pop_back();
+        return first;
+    }
+
+private:
+    struct Later {
+        bool operator()(const Waiting& x, const Waiting& y) const {
+            return x.time > y.time || (x.time == y.time && x.a < y.a);
+        }
+    };
+    std::vector<Waiting> heap_;
+};
+
+/// Half the diagonal of a box, in units of its tree.
+double radius_of(const Tree& tree, std::uint32_t name) {
+    const Aabb box = name == kRootName ? tree.bounds : tree.nodes[node_of(name)].box(lane_of(name));
+    return 0.5 *
+           length(Vec3{double{box.upper[0]} - box.lower[0], double{box.upper[1]} - box.lower[1],
+                       double{box.upper[2]} - box.lower[2]});
 }
 
 /// Advances all pairs in the order of the times before which they cannot meet.
 class ImpactSearch {
 public:
     ImpactSearch(const Model& a, const Model& b, const MovingPair& pair, double tolerance)
-        : a_(a), b_(b), pair_(pair), tolerance_(std::max(tolerance, kUndecided * pair.margin)),
-          window_(kMostTurn /
-                  (pair.a.trajectory.speed_of_rotation() + pair.b.trajectory.speed_of_rotation())) {
-    }
+        : a_(a), b_(b), pair_(pair), tree_a_(pair.a.tree), tree_b_(pair.b.tree),
+          tolerance_(std::max(tolerance, kUndecided * pair.margin)),
+          window_(std::max(kLeastWindow, kMostTurn / (pair.a.trajectory.speed_of_rotation() +
+                                                      pair.b.trajectory.speed_of_rotation()))),
+          blur_(std::min(kEnd, window_) * pair.bend + 0x1p-18 * pair.speed) {}
 
     Impact run() {
         for (double begin = 0; begin <= kEnd && !answered_; begin = next_begin_)
@@ -69,96 +107,75 @@ private:
     /// One window of time. What can only meet after it is not kept: the next window finds it again
     /// from the roots, in fewer pairs than the many small ones into which it was split here.
     void search_from(double begin) {
+        begin += pair_.free_time_of_balls(begin, kEnd - begin);
         window_end_ = std::min(kEnd, begin + window_);
-        next_begin_ = kNever;
-        waiting_.clear();
-        push({begin, kRootName, kRootName, false});
-        while (!waiting_.empty() && !answered_) {
-            std::pop_heap(waiting_.begin(), waiting_.end());
-            const Waiting next = waiting_.back();
-            waiting_.pop_back();
-            if (next.triangles)
-                advance(next);
+        next_begin_ = window_end_ < kEnd ? window_end_ : kNever;
+        boxes_.clear();
+        triangles_.clear();
+        if (begin <= window_end_)
+            boxes_.push({begin, kRootName, kRootName});
+        while (!answered_) {
+            const double box_time = boxes_.first_time(), triangle_time = triangles_.first_time();
+            if (triangle_time <= box_time && triangle_time <= window_end_)
+                advance(triangles_.pop());
+            else if (box_time <= window_end_)
+                open(boxes_.pop());
             else
-                open(next);
+                break;
         }
     }
 
-    void push(const Waiting& pair) {
-        if (pair.time <= window_end_) {
-            waiting_.push_back(pair);
-            std::push_heap(waiting_.begin(), waiting_.end());
-        } else {
-            next_begin_ = std::min(next_begin_, pair.time);
-        }
-    }
-
-    /// The moment of the time, or one before it that serves boxes of this size as well.
-    const Moment& moment_for(double time, double radius) {
-        if (moment_.time < 0 || (time - moment_.time) * pair_.speed > kStale * radius)
+    /// The time span from a pair's on, from a moment that serves boxes of this size.
+    TimeSpan span_from(double time, double radius) {
+        const double passed = time - moment_.time;
+        if (moment_.time < 0 || passed * blur_ > kStale * radius)
             moment_ = Moment(pair_, time);
-        return moment_;
+        return {moment_, time, window_end_};
     }
 
     /// Replaces a pair of boxes by the pairs below it.
     void open(const Waiting& pair) {
-        const NodeRef ref_a = a_.data().tree().named(pair.a),
-                      ref_b = b_.data().tree().named(pair.b);
-        const TreeBox tree_box_a = box_of(a_.data().tree(), pair.a, pair_.a.scale),
-                      tree_box_b = box_of(b_.data().tree(), pair.b, pair_.b.scale);
-        const double radius_a = tree_box_a.radius, radius_b = tree_box_b.radius;
-        const Moment& now = moment_for(pair.time, std::min(radius_a, radius_b));
-        const MovingBox box_a = box_of_a(pair_, now, tree_box_a),
-                        box_b = box_of_b(pair_, now, tree_box_b);
-        if (ref_a.is_leaf() && ref_b.is_leaf()) {
-            open_leaves(pair, ref_a, ref_b, box_a, box_b);
+        const NodeRef a = tree_a_.named(pair.a), b = tree_b_.named(pair.b);
+        const double radius_a = pair_.a.scale * radius_of(tree_a_, pair.a),
+                     radius_b = pair_.b.scale * radius_of(tree_b_, pair.b);
+        const TimeSpan span = span_from(pair.time, std::min(radius_a, radius_b));
+        if (a.is_leaf() && b.is_leaf()) {
+            open_leaves(pair, span);
             return;
         }
-        const bool open_a = !ref_a.is_leaf() && (ref_b.is_leaf() || radius_a > radius_b);
-        const std::uint32_t index = (open_a ? ref_a : ref_b).index();
-        const Node& node = (open_a ? a_ : b_).data().tree().nodes[index];
-        for (std::uint32_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i) {
-            ++counters_.volume_tests;
-            const TreeBox child = child_box(node, i, (open_a ? pair_.a : pair_.b).scale);
-            const double free = open_a ? free_time(pair_, now, box_of_a(pair_, now, child), box_b,
-                                                   window_end_ - now.time, kEnd - now.time)
-                                       : free_time(pair_, now, box_a, box_of_b(pair_, now, child),
-                                                   window_end_ - now.time, kEnd - now.time);
-            const std::uint32_t name = child_name(index, i);
-            push({std::max(pair.time, now.time + free), open_a ? name : pair.a,
-                  open_a ? pair.b : name, false});
+        const bool open_a = !a.is_leaf() &&
+                            (b.is_leaf() || pair.b == kRootName || radius_b < kUnlike * radius_a),
+                   open_b = !b.is_leaf() &&
+                            (a.is_leaf() || pair.a == kRootName || radius_a < kUnlike * radius_b);
+        // What is not opened is compared as the child that it is.
+        const std::uint32_t index_a = open_a ? a.index() : node_of(pair.a),
+                            index_b = open_b ? b.index() : node_of(pair.b);
+        const std::uint32_t lanes_a = open_a ? kAllLanes : 1U << lane_of(pair.a),
+                            lanes_b = open_b ? kAllLanes : 1U << lane_of(pair.b);
+        MeetingChildren found;
+        find_meeting(span, {tree_a_.nodes[index_a], lanes_a}, {tree_b_.nodes[index_b], lanes_b},
+                     found);
+        counters_.volume_tests += std::uint64_t(std::popcount(lanes_a)) * std::popcount(lanes_b);
+        for (std::uint64_t left = found.pairs; left != 0; left &= left - 1) {
+            const auto bit = static_cast<std::uint32_t>(std::countr_zero(left));
+            const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
+            boxes_.push(
+                {span.at(found.share[i][j]), child_name(index_a, i), child_name(index_b, j)});
         }
     }
 
-    void open_leaves(const Waiting& pair, NodeRef leaf_a, NodeRef leaf_b, const MovingBox& box_a,
-                     const MovingBox& box_b) {
-        // No direction is known yet: the approach is bounded by the speed in any.
-        const double rate_a = pair_.a.trajectory.speed_of_rotation(),
-                     rate_b = pair_.b.trajectory.speed_of_rotation();
-        Approach approach;
-        approach.closing =
-            length(box_b.velocity - box_a.velocity) + rate_a * box_a.radius + rate_b * box_b.radius;
-        approach.bend = rate_a * rate_a * (box_a.centre_arm + box_a.radius) +
-                        rate_b * rate_b * (box_b.centre_arm + box_b.radius);
-        approach.fastest = pair_.speed;
-        Triangle b[TriangleLeaf::kLanes];
-        for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
-            b[j] = b_.data().world_slot(leaf_b.first() + j, moment_.world_from_b);
-        for (std::uint32_t i = 0; i < leaf_a.count(); ++i) {
-            const Triangle a = a_.data().world_slot(leaf_a.first() + i, moment_.world_from_a);
-            TrianglePairBlock pairs{};
-            for (std::uint32_t j = 0; j < leaf_b.count(); ++j)
-                pairs.set(j, a, b[j]);
-            // None cross: nothing has met before now.
-            double squares[TrianglePairBlock::kLanes];
-            distance_sq(pairs, squares);
+    void open_leaves(const Waiting& pair, const TimeSpan& span) {
+        const NodeRef leaf_a = tree_a_.named(pair.a), leaf_b = tree_b_.named(pair.b);
+        MeetingTriangles found;
+        find_meeting(span, tree_a_.nodes[node_of(pair.a)], tree_a_.leaf(leaf_a),
+                     tree_b_.nodes[node_of(pair.b)], tree_b_.leaf(leaf_b), found);
+        for (std::uint32_t i = 0; i < leaf_a.count(); ++i)
             for (std::uint32_t j = 0; j < leaf_b.count(); ++j) {
                 ++counters_.primitive_tests;
-                approach.gap = std::sqrt(squares[j]) - pair_.margin;
-                push({std::max(pair.time, moment_.time + free_time(approach)), leaf_a.first() + i,
-                      leaf_b.first() + j, true});
+                if ((found.pairs >> (TriangleLeaf::kLanes * i + j) & 1U) != 0)
+                    triangles_.push(
+                        {span.at(found.share[i][j]), leaf_a.first() + i, leaf_b.first() + j});
             }
-        }
     }
 
     [[nodiscard]] Triangle triangle_a(std::uint32_t slot, double time) const {
@@ -176,7 +193,9 @@ private:
         const double gap = std::sqrt(closest.distance_sq);
         if (gap <= tolerance_ && decide(pair, closest, gap))
             return;
-        push({pair.time + free_time(pair_, pair.time, a, b, closest), pair.a, pair.b, true});
+        const double next = pair.time + free_time(pair_, pair.time, a, b, closest);
+        if (next <= window_end_)
+            triangles_.push({next, pair.a, pair.b});
     }
 
     /// Whether two triangles within the tolerance end the search: they will meet, or nobody knows.
@@ -235,12 +254,16 @@ private:
     const Model& a_;
     const Model& b_;
     const MovingPair& pair_;
+    const Tree &tree_a_, &tree_b_;
     double tolerance_;
-    double window_;         ///< length of a window
+    double window_; ///< length of a window
+    /// Speed at which the bounds of a moment become worse: rotation within a window, and roundings
+    /// of single precision.
+    double blur_;
     double window_end_ = 0; ///< of the present one
     double next_begin_ = 0; ///< no pair that was left out can meet before this time
     bool answered_ = false;
-    std::vector<Waiting> waiting_; ///< a heap, the earliest first
+    WaitingQueue boxes_, triangles_;
     Moment moment_;
     int followed_ = 0;
     Counters counters_;
@@ -249,7 +272,7 @@ private:
 
 double default_tolerance(const MovingPair& pair, const Tree& a, const Tree& b) {
     return kTolerance * 2 *
-           std::max(root_box(a, pair.a.scale).radius, root_box(b, pair.b.scale).radius);
+           std::max(pair.a.scale * radius_of(a, kRootName), pair.b.scale * radius_of(b, kRootName));
 }
 
 /// The models share a point at the start.

@@ -9,4 +9,5 @@
 // include.
 
 // No include guard: Highway sets its macros anew for each target.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>

@@ -51,12 +51,18 @@ HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& 
             hn::Store(hn::Abs(hn::Load(d, map.linear[k].data() + i)), d,
                       map.magnitude[k].data() + i);
     }
-    const auto& m = trees.to_from;
-    const double x = from.frame.origin[0], y = from.frame.origin[1], z = from.frame.origin[2];
+    const hn::CappedTag<double, 4> d2;
+    HWY_ALIGN double moved[4];
+    for (std::size_t i = 0; i < 4; i += hn::Lanes(d2)) {
+        auto sum = hn::LoadU(d2, trees.to_from[3].data() + i);
+        for (std::size_t k = 0; k < 3; ++k)
+            sum = hn::MulAdd(hn::Set(d2, double{from.frame.origin[k]}),
+                             hn::LoadU(d2, trees.to_from[k].data() + i), sum);
+        hn::Store(sum, d2, moved + i);
+    }
     float between[3];
     for (std::size_t i = 0; i < 3; ++i)
-        between[i] = static_cast<float>(m[0][i] * x + m[1][i] * y + m[2][i] * z + m[3][i] -
-                                        double{to.frame.origin[i]});
+        between[i] = static_cast<float>(moved[i] - double{to.frame.origin[i]});
     combine(turn[0].data(), turn[1].data(), turn[2].data(), between[0], between[1], between[2],
             nullptr, map.translation.data());
     const float size = to.reach + 2 * trees.row_sum * from.reach +

@@ -15,9 +15,6 @@ constexpr std::size_t kLanes = TriangleLeaf::kLanes;
 /// Above this many slots a node keeps the tree's axes: large pieces of a surface have no one
 /// direction, and every level costs a pass over the triangles.
 constexpr std::uint32_t kMostSlots = 2048;
-/// Own axes must make the children's boxes smaller by this: they cost a product of matrices for
-/// each pair of nodes.
-constexpr float kLeastGain = 0.9F;
 
 /// A run of leaves, with the area of their triangles and its first and second moments about the
 /// tree's origin.
@@ -216,7 +213,7 @@ private:
                 boxes[i] = box_of(tree_, own, first, end);
                 own_area += boxes[i].half_area();
             }
-            if (own_area < kLeastGain * area) {
+            if (own_area < area) {
                 set_boxes(node, own, boxes);
                 return;
             }

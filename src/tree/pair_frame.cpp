@@ -39,7 +39,7 @@ TreeMap make_map(const Transform& to_from, const Transform& world_from_to, doubl
     map.row_sum = round_up(largest_row_sum(to_from));
     // The composed transforms and the positions in the world and in the trees' frames, as if all
     // error fell on one axis.
-    const double least = least_stretch(world_from_to), most = most_stretch(world_from_to);
+    const auto [least, most] = stretch_of(world_from_to);
     map.margin = round_up(64 * 0x1p-53 * world_size / least);
     // Nodes' axes are of unit length to a few parts in 2^24; squares are summed and compared in
     // single precision too.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "geometry/point_leaf_distance.h"
 #include "tree/tree.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Vis
 template <typename Visit>
 void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 
-/// Calls visit(slot) for primitives nearest box first; visit returns the squared distance in the
+/// Calls visit(slot) for primitives, nearest first by what single precision says of their distance; visit returns the squared distance in the
 /// tree's frame beyond which nothing matters any more.
 template <typename Visit>
 void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin,
@@ -64,6 +65,45 @@ inline Aabb in_frame(const Aabb& box, const NodeFrame& frame) {
     }
     return result;
 }
+
+/// The primitives in a node's leaves that may be near a point.
+class NearPrimitives {
+public:
+    void add(const Tree& tree, NodeRef leaf, const std::array<float, 3>& point, float margin,
+             float bound_sq) {
+        float lower_sq[TriangleLeaf::kLanes] = {};
+        if (!tree.leaves.empty())
+            point_leaf_distance_sq(tree.leaf(leaf), point, margin, lower_sq);
+        for (std::uint32_t i = 0; i < leaf.count(); ++i) {
+            entries_[count_] = {lower_sq[i], leaf.first() + i};
+            count_ += lower_sq[i] <= bound_sq ? 1 : 0;
+        }
+    }
+
+    /// The one that seems nearest first. Returns the bound that the last visit returned.
+    template <typename Visit>
+    float visit_all(float bound_sq, const Visit& visit) {
+        for (std::size_t done = 0; done < count_; ++done) {
+            if (done == 0)
+                std::swap(entries_[0],
+                          *std::min_element(entries_.begin(), entries_.begin() + count_,
+                                            [](const Entry& a, const Entry& b) {
+                                                return a.distance_sq < b.distance_sq;
+                                            }));
+            if (entries_[done].distance_sq <= bound_sq)
+                bound_sq = visit(entries_[done].slot);
+        }
+        return bound_sq;
+    }
+
+private:
+    struct Entry {
+        float distance_sq;
+        std::uint32_t slot;
+    };
+    std::array<Entry, Node::kWidth * TriangleLeaf::kLanes + 1> entries_;
+    std::size_t count_ = 0;
+};
 
 /// Descends wherever `test(node)` marks a child.
 template <typename Test, typename Visit>
@@ -207,22 +247,16 @@ void for_each_near(const Tree& tree, const std::array<float, 3>& point, float ma
                    float bound_sq, const Visit& visit) {
     struct Entry {
         float distance_sq = 0;
-        NodeRef ref;
+        std::uint32_t node = 0;
         bool operator<(const Entry& other) const { return distance_sq > other.distance_sq; }
     };
     if (tree.empty())
         return;
-    boost::container::small_vector<Entry, 128> heap{{0, NodeRef::node(0)}};
+    boost::container::small_vector<Entry, 128> heap{{0, 0}};
     while (!heap.empty() && heap.front().distance_sq <= bound_sq) {
         std::pop_heap(heap.begin(), heap.end());
-        const NodeRef ref = heap.back().ref;
+        const Node& node = tree.nodes[heap.back().node];
         heap.pop_back();
-        if (ref.is_leaf()) {
-            for (std::uint32_t slot = ref.first(); slot < ref.first() + ref.count(); ++slot)
-                bound_sq = visit(slot);
-            continue;
-        }
-        const Node& node = tree.nodes[ref.index()];
         const std::array<float, 3> p = node.frame.point_from_tree(point);
         std::array<float, Node::kWidth> distance_sq{};
         for (std::size_t k = 0; k < 3; ++k)
@@ -231,11 +265,19 @@ void for_each_near(const Tree& tree, const std::array<float, 3>& point, float ma
                     0.0F, std::max(node.lower[k][i] - p[k], p[k] - node.upper[k][i]) - margin);
                 distance_sq[i] += gap * gap;
             }
-        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
-            if (distance_sq[i] <= bound_sq) {
-                heap.push_back({distance_sq[i], node.child[i]});
+        traverse_one::NearPrimitives near;
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i) {
+            const NodeRef child = node.child[i];
+            if (!(distance_sq[i] <= bound_sq))
+                continue;
+            if (child.is_leaf()) {
+                near.add(tree, child, p, margin, bound_sq);
+            } else {
+                heap.push_back({distance_sq[i], child.index()});
                 std::push_heap(heap.begin(), heap.end());
             }
+        }
+        bound_sq = near.visit_all(bound_sq, visit);
     }
 }
 

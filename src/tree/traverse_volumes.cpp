@@ -245,8 +245,8 @@ HWY_EXPORT(nearest_volumes);
 VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a,
                               const VolumeTree& b, const Transform& world_from_b) {
     VolumeFrame frame;
-    const double least_a = least_stretch(world_from_a), most_a = most_stretch(world_from_a),
-                 least_b = least_stretch(world_from_b), most_b = most_stretch(world_from_b);
+    const auto [least_a, most_a] = stretch_of(world_from_a);
+    const auto [least_b, most_b] = stretch_of(world_from_b);
     const auto origin = [](const Transform& t) { return length({t.m[9], t.m[10], t.m[11]}); };
     const double world_size =
         origin(world_from_a) + most_a * a.reach() + origin(world_from_b) + most_b * b.reach();

@@ -9,7 +9,8 @@
 #endif
 
 #include "volume/kdop.h"
-#include "volume/lanes-inl.h"
+#include "volume/lower_bound.h"
+#include "volume/separation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {

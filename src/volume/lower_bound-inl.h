@@ -10,9 +10,9 @@
 #endif
 
 #include "volume/kdop-inl.h"
-#include "volume/lanes-inl.h"
 #include "volume/lower_bound.h"
 #include "volume/obb-inl.h"
+#include "volume/separation-inl.h"
 #include "volume/swept_sphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -15,14 +15,13 @@ RelativePose make_relative_pose(const Transform& to_from, double reach_to, doubl
             pose.linear[row][column] = static_cast<float>(to_from.m[3 * column + row]);
         pose.translation[row] = static_cast<float>(to_from.m[9 + row]);
     }
-    const double most = most_stretch(to_from);
+    const auto [least, most] = stretch_of(to_from);
     const double size =
         most * reach_from + length({to_from.m[9], to_from.m[10], to_from.m[11]}) + reach_to;
     pose.most_stretch = round_up(most * (1 + 4 * 0x1p-24));
     pose.margin = round_up(64 * 0x1p-24 * size + slack);
     // Comparisons with NaN are false.
-    pose.valid = size < kLargest && most < kLargest && slack < kLargest &&
-                 least_stretch(to_from) > kLeast * most;
+    pose.valid = size < kLargest && most < kLargest && slack < kLargest && least > kLeast * most;
     return pose;
 }
 

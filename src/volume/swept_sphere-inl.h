@@ -8,7 +8,8 @@
 #define ABUT_VOLUME_SWEPT_SPHERE_INL_H
 #endif
 
-#include "volume/lanes-inl.h"
+#include "volume/lower_bound.h"
+#include "volume/separation-inl.h"
 #include "volume/sphere.h"
 #include "volume/swept_sphere.h"
 
@@ -33,11 +34,15 @@ struct Shortest {
         const auto sq = dot(v, v);
         const auto shorter = hn::Lt(sq, length_sq);
         length_sq = hn::IfThenElse(shorter, sq, length_sq);
-        vector.x = hn::IfThenElse(shorter, v.x, vector.x);
-        vector.y = hn::IfThenElse(shorter, v.y, vector.y);
-        vector.z = hn::IfThenElse(shorter, v.z, vector.z);
+        vector = if_then_else(shorter, v, vector);
     }
 };
+
+/// v, cut off at -half and half.
+template <class D>
+HWY_INLINE hn::Vec<D> clamp_to(hn::Vec<D> v, hn::Vec<D> half) {
+    return hn::Max(hn::Neg(half), hn::Min(v, half));
+}
 
 /// What segments of two given directions have in common, however they lie.
 template <class D>
@@ -138,7 +143,7 @@ HWY_INLINE Separation<D> separation_of_cores(D d, const float (*row)[VolumeBound
                                              std::size_t lane, const SweptSphereImage<n>& one) {
     Core<D, n> a, b;
     const Lanes3<D> w = sub(set3(d, one.swept.centre), load3(d, row, lane));
-    auto size = hn::Max(hn::Max(hn::Abs(w.x), hn::Abs(w.y)), hn::Abs(w.z));
+    auto size = max_abs(w);
     for (std::size_t i = 0; i < n; ++i) {
         a.direction[i] = a.dual[i] = load3(d, row + 4 + 4 * i, lane);
         a.half[i] = hn::Load(d, row[4 + 4 * i + 3] + lane);

@@ -1,6 +1,5 @@
 /// Bad input: one line that names the file and the fault, status 2, no output.
-#include "tests/command/models.h"
-#include "tests/command/run_command.h"
+#include "tests/command/box_test.h"
 
 #include <cstring>
 #include <filesystem>
@@ -10,11 +9,8 @@
 namespace abut::test {
 namespace {
 
-class BadInputTest : public ::testing::Test {
+class BadInputTest : public BoxTest {
 protected:
-    TemporaryFolder folder_;
-    std::string box_ = folder_.write("box.obj", box_obj());
-
     /// Every subcommand that reads must refuse the file by name, and leave nothing.
     void expect_all_refuse(const std::string& file) {
         SCOPED_TRACE(file);

@@ -1,17 +1,13 @@
 /// nearest, ray, overlap and contains: the unit box, answers by hand.
-#include "tests/command/models.h"
-#include "tests/command/run_command.h"
+#include "tests/command/box_test.h"
 
 #include <gtest/gtest.h>
 
 namespace abut::test {
 namespace {
 
-class OneModelTest : public ::testing::Test {
+class OneModelTest : public BoxTest {
 protected:
-    TemporaryFolder folder_;
-    std::string box_ = folder_.write("box.obj", box_obj());
-
     Outcome ask(const std::string& verb, std::vector<std::string> options) {
         options.insert(options.begin(), {verb, box_});
         return run_abut(options);

@@ -1,6 +1,5 @@
 /// time-of-impact, and --poses of collide, distance and within: unit boxes, answers by hand.
-#include "tests/command/models.h"
-#include "tests/command/run_command.h"
+#include "tests/command/box_test.h"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -8,16 +7,7 @@
 namespace abut::test {
 namespace {
 
-class TimeOfImpactCommand : public ::testing::Test {
-protected:
-    TemporaryFolder folder_;
-    std::string box_ = folder_.write("box.obj", box_obj());
-
-    Outcome ask(const std::string& verb, std::vector<std::string> options) {
-        options.insert(options.begin(), {verb, box_, box_});
-        return run_abut(options);
-    }
-};
+class TimeOfImpactCommand : public TwoBoxesTest {};
 
 TEST_F(TimeOfImpactCommand, BoxesApproach) {
     const Outcome outcome = ask(

@@ -1,6 +1,5 @@
 /// collide, distance and within: two unit boxes under poses, answers by hand.
-#include "tests/command/models.h"
-#include "tests/command/run_command.h"
+#include "tests/command/box_test.h"
 
 #include <cmath>
 #include <cstdint>
@@ -10,16 +9,7 @@
 namespace abut::test {
 namespace {
 
-class TwoModelsTest : public ::testing::Test {
-protected:
-    TemporaryFolder folder_;
-    std::string box_ = folder_.write("box.obj", box_obj());
-
-    Outcome ask(const std::string& verb, std::vector<std::string> options) {
-        options.insert(options.begin(), {verb, box_, box_});
-        return run_abut(options);
-    }
-};
+class TwoModelsTest : public TwoBoxesTest {};
 
 TEST_F(TwoModelsTest, DistanceUnderATranslation) {
     const Outcome outcome = ask("distance", {"--pose-b", "3,0,0,1,0,0,0", "--json"});

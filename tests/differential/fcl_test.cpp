@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #ifdef ABUT_HAVE_FCL
-#include <fcl/fcl.h>
+#include "bench/fcl_model.h"
 #endif
 
 namespace abut::test {
@@ -16,29 +16,8 @@ namespace {
 
 #ifdef ABUT_HAVE_FCL
 
-using FclModel = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::shared_ptr<FclModel> fcl_model(const Mesh& mesh) {
-    std::vector<fcl::Vector3d> points;
-    for (const Vec3& p : mesh.positions)
-        points.emplace_back(p.x, p.y, p.z);
-    std::vector<fcl::Triangle> triangles;
-    for (const auto& t : mesh.triangles)
-        triangles.emplace_back(t[0], t[1], t[2]);
-    auto model = std::make_shared<FclModel>();
-    model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(points.size()));
-    model->addSubModel(points, triangles);
-    model->endModel();
-    return model;
-}
-
-fcl::Transform3d fcl_transform(const Transform& t) {
-    fcl::Transform3d result = fcl::Transform3d::Identity();
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 4; ++column)
-            result.matrix()(row, column) = t.m[static_cast<std::size_t>(3 * column + row)];
-    return result;
-}
+using bench::fcl_model;
+using bench::fcl_transform;
 
 std::vector<Mesh> meshes(Random& random) {
     return {
@@ -57,7 +36,8 @@ TEST(Fcl, AgreesOnContactAndDistance) {
     for (const Mesh& mesh_a : meshes(random))
         for (const Mesh& mesh_b : meshes(random)) {
             const Model a(mesh_a), b(mesh_b);
-            const auto fcl_a = fcl_model(mesh_a), fcl_b = fcl_model(mesh_b);
+            const auto fcl_a = fcl_model<fcl::OBBRSSd>(mesh_a),
+                       fcl_b = fcl_model<fcl::OBBRSSd>(mesh_b);
             for (int i = 0; i < 40; ++i) {
                 const Transform world_a = random.pose(2);
                 Transform world_b = random.pose(0);

@@ -308,7 +308,7 @@ TEST(OrientedBoxes, EqualClippingByRationals) {
             do
                 for (double& m : t.m)
                     m = random.integer(-2, 2);
-            while (least_stretch(t) == 0);
+            while (stretch_of(t).least == 0);
             const Vec3 low = random.on_lattice(2) - Vec3{1, 1, 1};
             const OrientedBox box{{low, low + random.on_lattice(2)}, t};
             const auto planes = rational_planes(box.box, t);

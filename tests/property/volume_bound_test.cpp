@@ -73,17 +73,6 @@ std::vector<Triangle> part(Random& random, int kind, double size) {
     return triangles;
 }
 
-Transform any_pose(Random& random, bool affine) {
-    Transform t = random.pose(0);
-    if (affine) {
-        const double mirror = random.chance(0.5) ? -1 : 1;
-        t = compose(t, Transform({mirror * random.uniform(0.2, 3), random.uniform(-1, 1), 0,
-                                  random.uniform(-1, 1), random.uniform(0.2, 3), 0, 0,
-                                  random.uniform(-1, 1), random.uniform(0.2, 3), 0, 0, 0}));
-    }
-    return t;
-}
-
 /// Two parts, the second in its own frame, some of them apart and some not.
 struct Pair {
     std::vector<Triangle> a, b;
@@ -92,7 +81,7 @@ struct Pair {
     Pair(Random& random, int i, double scale, bool affine) {
         a = part(random, i, scale);
         b = part(random, i / 5, scale * std::pow(10, random.uniform(-1, 0.5)));
-        a_from_b = any_pose(random, affine);
+        a_from_b = random.linear_map(affine);
         if (affine && i % 8 == 0) // edges of a box become almost parallel, in any direction
             a_from_b = compose(
                 compose(a_from_b, Transform({1, 0, 0, 0, 1, 0, 0, 0,
@@ -364,7 +353,7 @@ TEST(VolumeBound, FifteenAxesTellEveryPairOfBoxesApart) {
         const bool affine = i % 3 == 0;
         const auto box = [&] { return Obb::fit(part(random, i, 1)); };
         const Obb a = box(), b = box();
-        Transform pose = any_pose(random, affine);
+        Transform pose = random.linear_map(affine);
         const Vec3 shift = random.in_cube(1.5);
         pose.m[9] = shift.x, pose.m[10] = shift.y, pose.m[11] = shift.z;
         const RelativePose relative = make_relative_pose(pose, a.reach(), b.reach());

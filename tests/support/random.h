@@ -1,5 +1,6 @@
 #pragma once
 
+#include "math/transform.h"
 #include "math/vector.h"
 
 #include <cmath>
@@ -58,6 +59,16 @@ public:
         const double angle = uniform(0, std::numbers::pi);
         const Vec3 q = std::sin(angle) * d;
         return {in_cube(reach), {std::cos(angle), q.x, q.y, q.z}};
+    }
+    /// A rotation; if `affine`, with scaling and shear, and half of the time a mirror.
+    Transform linear_map(bool affine) {
+        const Transform rotation = pose(0);
+        if (!affine)
+            return rotation;
+        const double mirror = chance(0.5) ? -1 : 1;
+        return compose(
+            rotation, Transform({mirror * uniform(0.2, 3), uniform(-1, 1), 0, uniform(-1, 1),
+                                 uniform(0.2, 3), 0, 0, uniform(-1, 1), uniform(0.2, 3), 0, 0, 0}));
     }
     /// The double some units in the last place away.
     double nudge(double v, int ulps) {

@@ -67,16 +67,16 @@ TEST(Transform, LargeFiniteQuaternionsAreValid) {
 }
 
 TEST(Transform, StretchOfSpecialMaps) {
-    EXPECT_NEAR(least_stretch({}), 1, 1e-12);
-    EXPECT_NEAR(most_stretch({}), 1, 1e-12);
-    EXPECT_LE(least_stretch({}), 1);
-    EXPECT_GE(most_stretch({}), 1);
+    EXPECT_NEAR(stretch_of({}).least, 1, 1e-12);
+    EXPECT_NEAR(stretch_of({}).most, 1, 1e-12);
+    EXPECT_LE(stretch_of({}).least, 1);
+    EXPECT_GE(stretch_of({}).most, 1);
     const Transform flat({1, 0, 0, 0, 2, 0, 0, 0, 0, 5, 5, 5});
-    EXPECT_EQ(least_stretch(flat), 0);
-    EXPECT_NEAR(most_stretch(flat), 2, 2e-5);
+    EXPECT_EQ(stretch_of(flat).least, 0);
+    EXPECT_NEAR(stretch_of(flat).most, 2, 2e-5);
     const Transform nothing({0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 3});
-    EXPECT_EQ(least_stretch(nothing), 0);
-    EXPECT_EQ(most_stretch(nothing), 0);
+    EXPECT_EQ(stretch_of(nothing).least, 0);
+    EXPECT_EQ(stretch_of(nothing).most, 0);
     EXPECT_FALSE(std::isfinite(inverse(flat).m[8]));
 }
 

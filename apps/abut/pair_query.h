@@ -1,0 +1,83 @@
+#pragma once
+
+#include "two_models.h"
+
+#include <algorithm>
+#include <string>
+
+/// What the questions about two models have in common: ask, print, tell the exit status.
+namespace abut::command {
+
+/// The base of a question. Each adds
+///
+///     ask(models)                the answer for the poses given
+///     add_answer(answer, json)   its fields of the JSON object
+///     in_words(answer)           its text
+///     is_problem(answer)         whether it is what --fail-on is about
+///
+/// and, if it can be asked for many poses,
+///
+///     poses                      the option --poses
+///     ask(models, placements)    the answers, in order
+///     in_a_line(answer)          the text of one of them
+struct PairQuery {
+    TwoModelsOptions models;
+    std::string fail_on; ///< empty: no answer is a problem
+
+    /// The beginning of the JSON object.
+    [[nodiscard]] nlohmann::ordered_json question() const { return describe(models); }
+    [[nodiscard]] int exit_status(bool problem) const {
+        return problem && !fail_on.empty() ? kExitProblem : kExitDone;
+    }
+};
+
+/// Asks for the poses of the command line. Returns the exit status.
+template <typename Query>
+int run(const Query& query, const CommonOptions& common) {
+    const TwoModels models = load(query.models, common);
+    const Stopwatch watch;
+    const auto answer = query.ask(models);
+    const double seconds = watch.seconds();
+    if (common.json) {
+        nlohmann::ordered_json json = query.question();
+        query.add_answer(answer, json);
+        json["seconds"] = describe_seconds(models, seconds);
+        print(dump(json));
+    } else if (!common.quiet) {
+        print(query.in_words(answer));
+    }
+    return query.exit_status(query.is_problem(answer));
+}
+
+/// Asks for each pose of the file of --poses. Returns the exit status.
+template <typename Query>
+int run_many(const Query& query, const CommonOptions& common) {
+    const std::vector<Pose> poses = read_poses(query.poses.file);
+    const TwoModels models = load(query.models, common);
+    const Stopwatch watch;
+    const auto answers = query.ask(models, placements(models, poses));
+    const double seconds = watch.seconds();
+    if (common.json) {
+        nlohmann::ordered_json json = query.question();
+        json["poses"] = nlohmann::ordered_json::array();
+        for (const auto& answer : answers)
+            query.add_answer(answer, json["poses"].emplace_back());
+        json["seconds"] = describe_seconds(models, seconds);
+        print(dump(json));
+    } else if (!common.quiet) {
+        std::string text;
+        for (const auto& answer : answers)
+            text += query.in_a_line(answer);
+        print(text);
+    }
+    return query.exit_status(std::any_of(answers.begin(), answers.end(), [&](const auto& answer) {
+        return query.is_problem(answer);
+    }));
+}
+
+template <typename Query>
+int run_one_or_many(const Query& query, const CommonOptions& common) {
+    return query.poses.file.empty() ? run(query, common) : run_many(query, common);
+}
+
+} // namespace abut::command

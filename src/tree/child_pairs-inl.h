@@ -1,0 +1,249 @@
+// The children of two nodes, each against each.
+
+// Included once for each target.
+#if defined(ABUT_TREE_CHILD_PAIRS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ABUT_TREE_CHILD_PAIRS_INL_H
+#undef ABUT_TREE_CHILD_PAIRS_INL_H
+#else
+#define ABUT_TREE_CHILD_PAIRS_INL_H
+#endif
+
+#include "math/lanes-inl.h"
+#include "tree/node_pair-inl.h"
+
+#include <limits>
+
+// What the targets share.
+#ifndef ABUT_TREE_CHILD_PAIRS_ONCE
+#define ABUT_TREE_CHILD_PAIRS_ONCE
+namespace abut {
+
+/// More than underflow takes from a product. Without it, all is within a bound that is nearly 0.
+constexpr float kUnderflow = std::numeric_limits<float>::min();
+
+/// What a pass over pairs of boxes is to find.
+enum class BoxTest : std::uint8_t {
+    overlap, ///< whether they overlap, and how deep
+    within,  ///< the lower bound of their distance, and whether all of both is within the bound
+    nearest, ///< the lower bound of their distance, also along the direction
+    middles, ///< how far their middles are from each other
+};
+
+} // namespace abut
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+/// All lanes of a node.
+using Lanes8 = hn::CappedTag<float, Node::kWidth>;
+
+/// Eight boxes by their middles and half extents: [axis][lane].
+struct MiddleBoxes {
+    HWY_ALIGN float centre[3][Node::kWidth];
+    HWY_ALIGN float half[3][Node::kWidth];
+};
+
+/// The children of one node of a pair, in its own frame and in that of the other.
+struct Siblings {
+    MiddleBoxes own{}, seen{};
+    /// n . (what of the child is farthest along the direction n), in world units, the direction
+    /// turned towards the other node: no gap along it is smaller than minus both.
+    HWY_ALIGN float advance[Node::kWidth] = {};
+    std::uint32_t used = 0;                                ///< lanes with a child
+    float margin = 0, stretch_sq = 0, most_stretch_sq = 0; ///< of distances in its own frame
+};
+
+/// The children that are leaves; unused lanes count as such.
+HWY_INLINE std::uint32_t leaf_lanes(const Node& node) {
+    std::uint32_t lanes = 0;
+    for (std::uint32_t i = 0; i < Node::kWidth; ++i)
+        lanes |= (node.child[i].is_leaf() ? 1U : 0U) << i;
+    return lanes;
+}
+
+/// The children of a node in its own frame, and in another.
+HWY_INLINE void see_children(const Node& node, const FrameMap& to_own, const FrameMap& to_other,
+                             Siblings& s) {
+    const Lanes8 d;
+    const auto half = hn::Set(d, 0.5F);
+    for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
+        hn::Vec<Lanes8> centre[3], extent[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto lower = hn::Load(d, node.lower[i] + lane),
+                       upper = hn::Load(d, node.upper[i] + lane);
+            centre[i] = hn::Mul(half, hn::Add(lower, upper));
+            extent[i] = hn::Mul(half, hn::Sub(upper, lower));
+            hn::Store(centre[i], d, s.own.centre[i] + lane);
+            hn::Store(extent[i], d, s.own.half[i] + lane);
+        }
+        // Unused lanes hold an empty box.
+        s.used |= bits_of(d, hn::Ge(extent[0], hn::Zero(d))) << lane;
+        for (std::size_t i = 0; i < 3; ++i) {
+            auto c = hn::Set(d, to_other.translation[i]);
+            auto h = hn::Zero(d);
+            for (std::size_t k = 0; k < 3; ++k) {
+                c = hn::MulAdd(hn::Set(d, to_other.linear[k][i]), centre[k], c);
+                h = hn::MulAdd(hn::Set(d, to_other.magnitude[k][i]), extent[k], h);
+            }
+            hn::Store(c, d, s.seen.centre[i] + lane);
+            hn::Store(h, d, s.seen.half[i] + lane);
+        }
+    }
+    s.margin = to_own.margin;
+    s.stretch_sq = to_own.stretch_sq;
+    s.most_stretch_sq = to_own.most_stretch_sq;
+}
+
+/// Both nodes' children.
+struct ChildPairs {
+    Siblings p, q;
+
+    HWY_INLINE ChildPairs(const NodePair& nodes, const Node& node_p, const Node& node_q) {
+        see_children(node_p, nodes.p_from_q, nodes.q_from_p, p);
+        see_children(node_q, nodes.q_from_p, nodes.p_from_q, q);
+    }
+
+    /// Measures the children along the nodes' direction.
+    HWY_INLINE void take_direction(const NodePair& nodes) {
+        // The middles of both in p's frame.
+        advance(p.own.centre, nodes.n_p, p.own.half, nodes.n_p, 1,
+                (std::abs(nodes.n_p[0]) + std::abs(nodes.n_p[1]) + std::abs(nodes.n_p[2])) *
+                    p.margin,
+                p.advance);
+        advance(q.seen.centre, nodes.n_p, q.own.half, nodes.n_q, -1, 0, q.advance);
+    }
+
+private:
+    static HWY_INLINE void advance(const float (&centre)[3][Node::kWidth], const Covector& n_centre,
+                                   const float (&extent)[3][Node::kWidth], const Covector& n_extent,
+                                   float sign, float margin, float* result) {
+        const Lanes8 d;
+        for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
+            auto sum = hn::Set(d, margin);
+            for (std::size_t i = 0; i < 3; ++i) {
+                sum =
+                    hn::MulAdd(hn::Set(d, sign * n_centre[i]), hn::Load(d, centre[i] + lane), sum);
+                sum = hn::MulAdd(hn::Set(d, std::abs(n_extent[i])), hn::Load(d, extent[i] + lane),
+                                 sum);
+            }
+            hn::Store(sum, d, result + lane);
+        }
+    }
+};
+
+/// The children of a node that may be near anything below the other, by the other's axes.
+template <BoxTest test>
+HWY_INLINE std::uint32_t near_node(const Siblings& children, const Siblings& others,
+                                   const Aabb& bounds, float bound_sq) {
+    const Lanes8 d;
+    const auto zero = hn::Zero(d), margin = hn::Set(d, others.margin);
+    std::uint32_t far = 0;
+    for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
+        auto gap_sq = zero;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto c = hn::Load(d, children.seen.centre[i] + lane),
+                       h = hn::Load(d, children.seen.half[i] + lane);
+            const auto gap = hn::Max(hn::Sub(hn::Set(d, bounds.lower[i]), hn::Add(c, h)),
+                                     hn::Sub(hn::Sub(c, h), hn::Set(d, bounds.upper[i])));
+            const auto certain = hn::Max(zero, hn::Sub(gap, margin));
+            gap_sq = test == BoxTest::overlap ? hn::Max(gap_sq, certain)
+                                              : hn::MulAdd(certain, certain, gap_sq);
+        }
+        far |= bits_of(d, test == BoxTest::overlap
+                              ? hn::Gt(gap_sq, zero)
+                              : hn::Gt(hn::Mul(gap_sq, hn::Set(d, others.stretch_sq)),
+                                       hn::Set(d, bound_sq)))
+               << lane;
+    }
+    return children.used & ~far;
+}
+
+/// One child of a node against all of the other.
+struct RowOfPairs {
+    std::uint32_t near = 0;     ///< they may be within the bound, or overlap
+    std::uint32_t accepted = 0; ///< all of both is within the bound
+};
+
+/// Gaps of one box to eight on the axes of one frame.
+template <BoxTest test>
+struct AxisGaps {
+    hn::Vec<Lanes8> gap_sq;   ///< certain, squared, summed; of an overlap: the largest gap itself
+    hn::Vec<Lanes8> reach_sq; ///< no two points are farther apart; of middles: they are
+
+    HWY_INLINE AxisGaps(Lanes8 d, const MiddleBoxes& one, std::size_t i, const MiddleBoxes& others,
+                        std::size_t lane, float margin) {
+        const auto zero = hn::Zero(d);
+        gap_sq = test == BoxTest::overlap ? hn::Set(d, hwy::LowestValue<float>()) : zero;
+        reach_sq = hn::Set(d, kUnderflow);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto apart = hn::Abs(
+                hn::Sub(hn::Load(d, others.centre[axis] + lane), hn::Set(d, one.centre[axis][i])));
+            const auto extents =
+                hn::Add(hn::Load(d, others.half[axis] + lane), hn::Set(d, one.half[axis][i]));
+            const auto gap = hn::Sub(apart, extents);
+            if constexpr (test == BoxTest::overlap) {
+                gap_sq = hn::Max(gap_sq, gap);
+            } else if constexpr (test == BoxTest::middles) {
+                reach_sq = hn::MulAdd(apart, apart, reach_sq);
+            } else {
+                const auto certain = hn::Max(zero, hn::Sub(gap, hn::Set(d, margin)));
+                gap_sq = hn::MulAdd(certain, certain, gap_sq);
+            }
+            if constexpr (test == BoxTest::within) {
+                const auto reach = hn::Add(hn::Add(apart, extents), hn::Set(d, margin));
+                reach_sq = hn::MulAdd(reach, reach, reach_sq);
+            }
+        }
+    }
+};
+
+/// Compares child i of x with all of y. `value`, of eight: the squared lower bound of the distance in
+/// the world; of an overlap: the largest gap, so that the most negative is the deepest; of middles:
+/// their squared distance. A bound that is not a number keeps the pair.
+template <BoxTest test>
+HWY_INLINE RowOfPairs compare_row(const Siblings& x, std::size_t i, const Siblings& y,
+                                  float bound_sq, float* value) {
+    const Lanes8 d;
+    RowOfPairs row;
+    for (std::size_t lane = 0; lane < Node::kWidth; lane += hn::Lanes(d)) {
+        const AxisGaps<test> in_x(d, x.own, i, y.seen, lane, x.margin);
+        if constexpr (test == BoxTest::middles) {
+            hn::Store(in_x.reach_sq, d, value + lane);
+            row.near = y.used;
+            continue;
+        }
+        const AxisGaps<test> in_y(d, x.seen, i, y.own, lane, y.margin);
+        if constexpr (test == BoxTest::overlap) {
+            const auto gap = hn::Max(hn::Sub(in_x.gap_sq, hn::Set(d, x.margin)),
+                                     hn::Sub(in_y.gap_sq, hn::Set(d, y.margin)));
+            hn::Store(gap, d, value + lane);
+            row.near |= bits_of(d, hn::Not(hn::Gt(gap, hn::Zero(d)))) << lane;
+            continue;
+        }
+        auto lower_sq = hn::Max(hn::Mul(in_x.gap_sq, hn::Set(d, x.stretch_sq)),
+                                hn::Mul(in_y.gap_sq, hn::Set(d, y.stretch_sq)));
+        if constexpr (test == BoxTest::nearest) {
+            const auto gap =
+                hn::Max(hn::Zero(d),
+                        hn::Neg(hn::Add(hn::Set(d, x.advance[i]), hn::Load(d, y.advance + lane))));
+            lower_sq = hn::Max(lower_sq, hn::Mul(gap, gap));
+        }
+        hn::Store(lower_sq, d, value + lane);
+        row.near |= bits_of(d, hn::Not(hn::Gt(lower_sq, hn::Set(d, bound_sq)))) << lane;
+        if constexpr (test == BoxTest::within)
+            row.accepted |=
+                bits_of(d, hn::Le(hn::MulAdd(in_x.reach_sq, hn::Set(d, x.most_stretch_sq),
+                                             hn::Set(d, kUnderflow)),
+                                  hn::Set(d, bound_sq)))
+                << lane;
+    }
+    row.near &= y.used;
+    row.accepted &= y.used;
+    return row;
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

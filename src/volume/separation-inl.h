@@ -1,0 +1,35 @@
+// Gaps between volumes: what their kernels return.
+
+// Included once for each target.
+#if defined(ABUT_VOLUME_SEPARATION_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ABUT_VOLUME_SEPARATION_INL_H
+#undef ABUT_VOLUME_SEPARATION_INL_H
+#else
+#define ABUT_VOLUME_SEPARATION_INL_H
+#endif
+
+#include "math/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE::volumes {
+
+/// A gap between two volumes of each lane: along one direction, and squared of several together.
+template <class D>
+struct Separation {
+    hn::Vec<D> gap;      ///< widest along a direction; margin taken off
+    hn::Vec<D> lower_sq; ///< squared distance, at least
+};
+
+/// Squares of gaps are rounded a few times.
+constexpr float kSquareRounding = 1 - 32 * 0x1p-24F;
+
+template <class D>
+HWY_INLINE hn::Vec<D> square_of_gap(D d, hn::Vec<D> gap) {
+    const auto open = hn::Max(gap, hn::Zero(d));
+    return hn::Mul(open, open);
+}
+
+} // namespace abut::HWY_NAMESPACE::volumes
+HWY_AFTER_NAMESPACE();
+
+#endif
