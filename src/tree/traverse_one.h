@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/container/small_vector.hpp>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <cstdint>
 
@@ -74,25 +75,23 @@ public:
         float lower_sq[TriangleLeaf::kLanes] = {};
         if (!tree.leaves.empty())
             point_leaf_distance_sq(tree.leaf(leaf), point, margin, lower_sq);
-        for (std::uint32_t i = 0; i < leaf.count(); ++i) {
-            entries_[count_] = {lower_sq[i], leaf.first() + i};
-            count_ += lower_sq[i] <= bound_sq ? 1 : 0;
-        }
+        for (std::uint32_t i = 0; i < leaf.count(); ++i)
+            if (lower_sq[i] <= bound_sq)
+                entries_.push_back({lower_sq[i], leaf.first() + i});
     }
 
     /// The one that seems nearest first. Returns the bound that the last visit returned.
     template <typename Visit>
     float visit_all(float bound_sq, const Visit& visit) {
-        for (std::size_t done = 0; done < count_; ++done) {
-            if (done == 0)
-                std::swap(entries_[0],
-                          *std::min_element(entries_.begin(), entries_.begin() + count_,
-                                            [](const Entry& a, const Entry& b) {
-                                                return a.distance_sq < b.distance_sq;
-                                            }));
-            if (entries_[done].distance_sq <= bound_sq)
-                bound_sq = visit(entries_[done].slot);
-        }
+        const auto nearest =
+            std::min_element(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+                return a.distance_sq < b.distance_sq;
+            });
+        if (nearest != entries_.end())
+            std::iter_swap(entries_.begin(), nearest);
+        for (const Entry& entry : entries_)
+            if (entry.distance_sq <= bound_sq)
+                bound_sq = visit(entry.slot);
         return bound_sq;
     }
 
@@ -101,8 +100,7 @@ private:
         float distance_sq;
         std::uint32_t slot;
     };
-    std::array<Entry, Node::kWidth * TriangleLeaf::kLanes + 1> entries_;
-    std::size_t count_ = 0;
+    boost::container::static_vector<Entry, Node::kWidth * TriangleLeaf::kLanes> entries_;
 };
 
 /// Descends wherever `test(node)` marks a child.
