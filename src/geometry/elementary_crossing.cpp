@@ -19,7 +19,7 @@ HWY_INLINE hn::Vec<D> blend(hn::Vec<D> one_minus_t, hn::Vec<D> t, hn::Vec<D> a, 
     return hn::MulAdd(t, b, hn::Mul(one_minus_t, a));
 }
 template <class D>
-HWY_INLINE Vec<D> blend(hn::Vec<D> one_minus_t, hn::Vec<D> t, const Vec<D> (&v)[2]) {
+HWY_INLINE Lanes3<D> blend(hn::Vec<D> one_minus_t, hn::Vec<D> t, const Lanes3<D> (&v)[2]) {
     return {blend<D>(one_minus_t, t, v[0].x, v[1].x), blend<D>(one_minus_t, t, v[0].y, v[1].y),
             blend<D>(one_minus_t, t, v[0].z, v[1].z)};
 }
@@ -126,14 +126,14 @@ HWY_INLINE Area<D> sub(D d, const Area<D>& a, const Area<D>& b) {
 /// A vector in the middle of an interval of times.
 template <class D>
 struct Middle {
-    Vec<D> v;
+    Lanes3<D> v;
     hn::Vec<D> size, off; ///< of its coordinates; what they may be off by during the interval
 };
 
 /// m . (u x v), m at most 1 in each coordinate: six products, each off by what its factors are off
 /// by, and by 8 roundings.
 template <class D>
-HWY_INLINE Area<D> seen(D d, const Middle<D>& u, const Middle<D>& v, const Vec<D>& m) {
+HWY_INLINE Area<D> seen(D d, const Middle<D>& u, const Middle<D>& v, const Lanes3<D>& m) {
     const auto sizes = hn::Mul(hn::Set(d, 8 * kEpsilon), hn::Mul(u.size, v.size));
     const auto off = hn::MulAdd(u.off, hn::Add(v.size, v.off), hn::MulAdd(u.size, v.off, sizes));
     return {dot<D>(m, cross<D>(u.v, v.v)), hn::MulAdd(hn::Set(d, 6.2), off, hn::Set(d, 0x1p-900))};
@@ -162,13 +162,13 @@ HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, Cross
     // elementary_interval.cpp.
     const auto t = hn::Mul(half, hn::Add(start, end)), s = hn::Sub(one, t);
     const auto part = hn::MulAdd(hn::Set(d, 2.01), length, hn::Set(d, 8 * kEpsilon));
-    const auto middle = [&](const Vec<D>(&v)[2], hn::Vec<D> size) HWY_ATTR {
-        const Vec<D> at = blend<D>(s, t, v);
+    const auto middle = [&](const Lanes3<D>(&v)[2], hn::Vec<D> size) HWY_ATTR {
+        const Lanes3<D> at = blend<D>(s, t, v);
         return Middle<D>{at, max_abs<D>(at), hn::Mul(part, size)};
     };
     const Middle<D> corner = middle(p.corner, p.size_c), x = middle(p.x, p.size_x),
                     y = middle(p.y, p.size_y);
-    Vec<D> m = cross<D>(x.v, y.v);
+    Lanes3<D> m = cross<D>(x.v, y.v);
     const auto size_m = max_abs<D>(m), scale = hn::Div(one, size_m);
     m = {hn::Mul(m.x, scale), hn::Mul(m.y, scale), hn::Mul(m.z, scale)};
     const auto in_range =

@@ -34,7 +34,7 @@ HWY_INLINE hn::Mask<D> apart(D /*d*/, const Pairs<D>& pairs, const Along& along)
 
 template <bool faces, class D>
 HWY_INLINE hn::Mask<D> apart_on_axes(D d, const Pairs<D>& pairs) {
-    using P = const Vec<D>&;
+    using P = const Lanes3<D>&;
     const auto x = apart<faces>(d, pairs, [](P p) HWY_ATTR { return p.x; });
     const auto y = apart<faces>(d, pairs, [](P p) HWY_ATTR { return p.y; });
     const auto z = apart<faces>(d, pairs, [](P p) HWY_ATTR { return p.z; });
@@ -43,7 +43,7 @@ HWY_INLINE hn::Mask<D> apart_on_axes(D d, const Pairs<D>& pairs) {
 
 template <bool faces, class D>
 HWY_INLINE hn::Mask<D> apart_on_diagonals(D d, const Pairs<D>& pairs) {
-    using P = const Vec<D>&;
+    using P = const Lanes3<D>&;
     const auto xy = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Add(p.x, p.y); });
     const auto yz = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Add(p.y, p.z); });
     const auto zx = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Add(p.z, p.x); });

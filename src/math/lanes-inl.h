@@ -37,6 +37,10 @@ HWY_INLINE Lanes3<D> set3(D d, const std::array<T, 3>& v) {
 }
 
 template <class D>
+HWY_INLINE Lanes3<D> add(const Lanes3<D>& a, const Lanes3<D>& b) {
+    return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+template <class D>
 HWY_INLINE Lanes3<D> sub(const Lanes3<D>& a, const Lanes3<D>& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
