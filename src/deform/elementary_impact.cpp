@@ -2,15 +2,12 @@
 #include <abut/error.h>
 
 #include "core/parallel.h"
-#include "geometry/difference_patch.h"
+#include "deform/elementary_stages.h"
 #include "geometry/elementary_crossing.h"
-#include "geometry/elementary_exact.h"
 #include "geometry/elementary_filter.h"
-#include "geometry/elementary_interval.h"
 #include "math/vector.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 
@@ -27,98 +24,16 @@ bool is_finite(const ElementaryPair& pair) {
            std::all_of(pair.end.begin(), pair.end.end(), finite);
 }
 
-void require_valid(const ElementaryOptions& options) {
-    if (!(options.delta >= 0 && std::isfinite(options.delta)))
-        throw Error(ErrorCode::bad_argument, "delta must be a finite number of at least 0");
-}
+/// The pairs of a list, by their indices.
+struct ListedPairs {
+    std::span<const ElementaryPair> pairs;
+    std::span<ElementaryImpact> impacts;
 
-ElementaryImpact impact_of(const ElementaryPair& pair, const CrossingBlock& crossings,
-                           std::size_t lane) {
-    ElementaryImpact impact;
-    impact.decided_by = ElementaryStage::interval;
-    if ((crossings.meet >> lane & 1) == 0)
-        return impact;
-    impact.hit = true;
-    impact.time = crossings.time[lane];
-    impact.barycentric = patch_barycentric(pair.kind, crossings.x[lane], crossings.y[lane]);
-    impact.normal = impact_normal(
-        pair, impact.barycentric,
-        {crossings.normal[0][lane], crossings.normal[1][lane], crossings.normal[2][lane]}, {});
-    return impact;
-}
-
-/// What filter and crossings have left.
-ElementaryImpact decide(const ElementaryPair& pair, const ElementaryOptions& options) {
-    if (const auto impact = elementary_impact_interval(pair, options.delta))
-        return *impact;
-    return elementary_impact_exact(pair);
-}
-
-/// Pairs of one kind, gathered until a pass over a block is full.
-struct Gathered {
-    ElementaryBlock block;
-    std::array<std::size_t, ElementaryBlock::kLanes> members{};
-    std::size_t count = 0;
-
-    /// True if it is full now.
-    bool add(std::size_t index, const ElementaryPair& pair) {
-        block.set(count, pair);
-        members[count++] = index;
-        return count == ElementaryBlock::kLanes;
+    void write(std::size_t i, ElementaryBlock& block, std::size_t lane) const {
+        block.set(lane, pairs[i]);
     }
-    /// Lanes beyond are left from earlier passes.
-    [[nodiscard]] std::uint32_t used() const { return (1U << count) - 1; }
-};
-
-template <typename Visit>
-void for_each_bit(std::uint32_t bits, const Visit& visit) {
-    for (; bits != 0; bits &= bits - 1)
-        visit(static_cast<std::size_t>(std::countr_zero(bits)));
-}
-
-/// Takes pairs of one kind through the stages: those that one has left wait for the next.
-class Batch {
-public:
-    Batch(ElementaryKind kind, std::span<const ElementaryPair> pairs,
-          const ElementaryOptions& options, std::span<ElementaryImpact> impacts)
-        : kind_(kind), pairs_(pairs), options_(options), impacts_(impacts) {}
-
-    void add(std::size_t pair) {
-        if (candidates_.add(pair, pairs_[pair]))
-            filter();
-    }
-    void finish() {
-        filter();
-        cross();
-    }
-
-private:
-    void filter() {
-        for_each_bit(possible_impacts(candidates_.block, kind_) & candidates_.used(),
-                     [&](std::size_t lane) {
-                         const std::size_t pair = candidates_.members[lane];
-                         if (possible_.add(pair, pairs_[pair]))
-                             cross();
-                     });
-        candidates_.count = 0;
-    }
-    void cross() {
-        decide_crossings(possible_.block, kind_, crossings_);
-        const std::uint32_t decided = crossings_.apart | crossings_.meet;
-        for_each_bit(possible_.used(), [&](std::size_t lane) {
-            const std::size_t i = possible_.members[lane];
-            impacts_[i] = (decided >> lane & 1) != 0 ? impact_of(pairs_[i], crossings_, lane)
-                                                     : decide(pairs_[i], options_);
-        });
-        possible_.count = 0;
-    }
-
-    ElementaryKind kind_;
-    std::span<const ElementaryPair> pairs_;
-    const ElementaryOptions& options_;
-    std::span<ElementaryImpact> impacts_;
-    Gathered candidates_, possible_;
-    CrossingBlock crossings_;
+    [[nodiscard]] const ElementaryPair& pair(std::size_t i) const { return pairs[i]; }
+    void take(std::size_t i, const ElementaryImpact& impact) { impacts[i] = impact; }
 };
 
 } // namespace
@@ -131,8 +46,8 @@ ElementaryImpact elementary_impact(const ElementaryPair& pair, const ElementaryO
         return {};
     CrossingBlock crossing;
     decide_crossing(pair, crossing);
-    return (crossing.apart | crossing.meet) != 0 ? impact_of(pair, crossing, 0)
-                                                 : decide(pair, options);
+    return (crossing.apart | crossing.meet) != 0 ? impact_of_crossing(pair, crossing, 0)
+                                                 : decide_singly(pair, options);
 }
 
 std::vector<ElementaryImpact> elementary_impacts(std::span<const ElementaryPair> pairs,
@@ -146,8 +61,10 @@ std::vector<ElementaryImpact> elementary_impacts(std::span<const ElementaryPair>
     std::vector<ElementaryImpact> impacts(pairs.size());
     const std::size_t tasks = (pairs.size() + kPairsOfTask - 1) / kPairsOfTask;
     parallel_for(tasks, 1, [&](std::size_t task) {
-        Batch faces(ElementaryKind::vertex_face, pairs, options, impacts),
-            edges(ElementaryKind::edge_edge, pairs, options, impacts);
+        ListedPairs source{pairs, impacts};
+        ElementaryStages<std::size_t, ListedPairs> faces(ElementaryKind::vertex_face, options,
+                                                         source),
+            edges(ElementaryKind::edge_edge, options, source);
         const std::size_t begin = task * kPairsOfTask,
                           end = std::min(begin + kPairsOfTask, pairs.size());
         for (std::size_t i = begin; i < end; ++i)

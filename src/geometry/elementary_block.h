@@ -13,10 +13,12 @@ struct alignas(64) ElementaryBlock {
     double v[4][2][3][kLanes] = {}; ///< [vertex][0: start, 1: end][axis][lane]
 
     void set(std::size_t lane, const ElementaryPair& pair) {
-        for (std::size_t i = 0; i < 4; ++i) {
-            set(v[i][0], lane, pair.start[i]);
-            set(v[i][1], lane, pair.end[i]);
-        }
+        for (std::size_t i = 0; i < 4; ++i)
+            set_vertex(lane, i, pair.start[i], pair.end[i]);
+    }
+    void set_vertex(std::size_t lane, std::size_t i, const Vec3& start, const Vec3& end) {
+        set(v[i][0], lane, start);
+        set(v[i][1], lane, end);
     }
 
 private:

@@ -1,0 +1,179 @@
+#include <abut/deformable.h>
+#include <abut/error.h>
+
+#include "core/parallel.h"
+#include "deform/deformable_data.h"
+#include "math/vector.h"
+#include "mesh/topology.h"
+#include "tree/refit.h"
+
+#include <string>
+
+namespace abut {
+
+namespace {
+
+/// The hierarchy is built anew once its nodes are this much larger, beside its leaves, than when it
+/// was built.
+constexpr double kMostLooseness = 1.3;
+
+std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, double until) {
+    std::vector<Aabb> boxes(vertices.size());
+    parallel_for(vertices.size(), 4096, [&](std::size_t i) {
+        const MovingVertex& v = vertices[i];
+        Box3 box;
+        extend(box, v.start);
+        if (until == 1) {
+            extend(box, v.end);
+            boxes[i] = Aabb(box);
+            return;
+        }
+        // Off by 2 roundings of the larger end at most; a float has room for more.
+        extend(box, (1 - until) * v.start + until * v.end);
+        const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end));
+        boxes[i] = Aabb(box, 0x1p-50 * std::max({size.x, size.y, size.z}));
+    });
+    return boxes;
+}
+
+void require_valid_positions(std::span<const Vec3> positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vec3& p = positions[i];
+        for (const double x : {p.x, p.y, p.z})
+            if (!(std::abs(x) <= kLargestCoordinate))
+                throw Error(ErrorCode::bad_mesh, "vertex " + std::to_string(i) +
+                                                     ": a coordinate is not finite or beyond 1e18");
+    }
+}
+
+} // namespace
+
+void refit(SweptTree& swept, const DeformableData& data, double until) {
+    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, until);
+    const SurfaceView surface = data.surface();
+    refit(swept.tree,
+          [&](NodeRef leaf) { return fit_leaf(swept.leaves, leaf_number(leaf), surface, boxes); });
+}
+
+void DeformableData::build() {
+    const std::vector<Aabb> boxes = vertex_boxes(vertices, 1);
+    std::vector<Aabb> triangle_boxes(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (const std::uint32_t v : triangles[i])
+            triangle_boxes[i].merge(boxes[v]);
+    swept.tree = build_tree(triangle_boxes);
+    swept.leaves = LeafFeatures(swept.tree, surface(), represented);
+    abut::refit(swept, *this, 1);
+    looseness_when_built_ = looseness();
+}
+
+void DeformableData::refit() {
+    abut::refit(swept, *this, 1);
+    if (looseness() > kMostLooseness * looseness_when_built_)
+        build();
+}
+
+/// Area of the nodes beside that of the leaves: motion makes both larger, a bad hierarchy the
+/// first alone.
+double DeformableData::looseness() const {
+    double nodes = 0, leaves = 0;
+    for (const Node& node : swept.tree.nodes)
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
+            (node.child[i].is_leaf() ? leaves : nodes) += double{node.box(i).half_area()};
+    return leaves > 0 ? nodes / leaves : 0;
+}
+
+Deformable::Deformable(const Mesh& mesh, const DeformableOptions& options)
+    : data_(std::make_unique<DeformableData>()) {
+    data_->options = options;
+    set_mesh(mesh);
+}
+Deformable::~Deformable() = default;
+Deformable::Deformable(Deformable&&) noexcept = default;
+Deformable& Deformable::operator=(Deformable&&) noexcept = default;
+
+void Deformable::set_mesh(const Mesh& mesh) {
+    require_valid(mesh);
+    DeformableData& d = *data_;
+    SurfaceFeatures features = make_surface_features(mesh.positions.size(), mesh.triangles);
+    const SurfaceView surface{mesh.positions.size(), mesh.triangles, features};
+    std::vector<Represented> represented;
+    if (d.triangles.empty()) {
+        represented = assign_features(surface, d.options.assignment);
+    } else {
+        represented.resize(mesh.triangles.size());
+        for (std::size_t i = 0; i < std::min(represented.size(), d.triangles.size()); ++i)
+            if (mesh.triangles[i] == d.triangles[i])
+                represented[i] = d.represented[i];
+        complete_assignment(surface, represented);
+    }
+    d.triangles = mesh.triangles;
+    d.features = std::move(features);
+    d.represented = std::move(represented);
+    d.vertices.resize(mesh.positions.size());
+    for (std::size_t i = 0; i < d.vertices.size(); ++i)
+        d.vertices[i] = {mesh.positions[i], mesh.positions[i]};
+    d.build();
+}
+
+void Deformable::set_motion(std::span<const Vec3> start, std::span<const Vec3> end) {
+    DeformableData& d = *data_;
+    if (start.size() != d.vertices.size() || end.size() != d.vertices.size())
+        throw Error(ErrorCode::bad_argument, std::to_string(start.size()) + " and " +
+                                                 std::to_string(end.size()) + " positions for " +
+                                                 std::to_string(d.vertices.size()) + " vertices");
+    require_valid_positions(start);
+    require_valid_positions(end);
+    for (std::size_t i = 0; i < d.vertices.size(); ++i)
+        d.vertices[i] = {start[i], end[i]};
+    d.refit();
+}
+
+void Deformable::advance(std::span<const Vec3> end) {
+    DeformableData& d = *data_;
+    if (end.size() != d.vertices.size())
+        throw Error(ErrorCode::bad_argument, std::to_string(end.size()) + " positions for " +
+                                                 std::to_string(d.vertices.size()) + " vertices");
+    require_valid_positions(end);
+    for (std::size_t i = 0; i < d.vertices.size(); ++i)
+        d.vertices[i] = {d.vertices[i].end, end[i]};
+    d.refit();
+}
+
+void Deformable::adapt(const Impacts& impacts) {
+    DeformableData& d = *data_;
+    std::vector<bool> marked(d.triangles.size());
+    std::vector<bool> edges(d.features.edges.size());
+    for (const FeatureImpact& impact : impacts.list)
+        if (impact.kind == ElementaryKind::edge_edge)
+            edges[impact.a] = edges[impact.b] = true;
+        else
+            marked[impact.b] = true;
+    for (std::size_t i = 0; i < d.triangles.size(); ++i)
+        for (const std::uint32_t edge : d.features.edges_of[i])
+            if (edge != kNoEdge && edges[edge])
+                marked[i] = true;
+    move_features_off(d.surface(), marked, d.represented);
+    d.swept.leaves = LeafFeatures(d.swept.tree, d.surface(), d.represented);
+    refit(d.swept, d, 1);
+}
+
+std::size_t Deformable::vertex_count() const noexcept {
+    return data_->vertices.size();
+}
+const std::vector<std::array<std::uint32_t, 3>>& Deformable::triangles() const noexcept {
+    return data_->triangles;
+}
+const std::vector<std::array<std::uint32_t, 2>>& Deformable::edges() const noexcept {
+    return data_->features.edges;
+}
+std::size_t Deformable::bytes() const noexcept {
+    const DeformableData& d = *data_;
+    return d.triangles.size() * sizeof(d.triangles[0]) +
+           d.features.edges.size() * sizeof(d.features.edges[0]) +
+           d.features.edges_of.size() * sizeof(d.features.edges_of[0]) + d.represented.size() +
+           d.vertices.size() * sizeof(d.vertices[0]) + d.swept.tree.bytes() +
+           d.swept.leaves.bytes();
+}
+
+} // namespace abut

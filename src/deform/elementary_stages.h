@@ -1,0 +1,100 @@
+#pragma once
+
+#include <abut/elementary_impact.h>
+
+#include "geometry/elementary_block.h"
+#include "geometry/elementary_crossing.h"
+#include "geometry/elementary_filter.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace abut {
+
+/// Errors      Error{bad_argument} as `elementary_impact` for its options.
+void require_valid(const ElementaryOptions& options);
+
+/// The answer for a lane that `decide_crossings` has decided.
+ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBlock& crossings,
+                                    std::size_t lane);
+
+/// The answer for a pair that filter and crossings have left.
+ElementaryImpact decide_singly(const ElementaryPair& pair, const ElementaryOptions& options);
+
+template <typename Visit>
+void for_each_bit(std::uint32_t bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1)
+        visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// Takes pairs of one kind through the stages, eight at once: those that one stage has left wait
+/// for the next.
+///
+/// In          Source names pairs by an Item of its own and has
+///                 void write(const Item&, ElementaryBlock&, std::size_t lane) const;
+///                 ElementaryPair pair(const Item&) const;
+///                 void take(const Item&, const ElementaryImpact&);   // not of what the filter decides
+template <typename Item, typename Source>
+class ElementaryStages {
+public:
+    ElementaryStages(ElementaryKind kind, const ElementaryOptions& options, Source& source)
+        : kind_(kind), options_(options), source_(source) {}
+
+    void add(const Item& item) {
+        if (candidates_.add(item, source_))
+            filter();
+    }
+    void finish() {
+        if (candidates_.count > 0)
+            filter();
+        if (possible_.count > 0)
+            cross();
+    }
+
+private:
+    struct Gathered {
+        ElementaryBlock block;
+        std::array<Item, ElementaryBlock::kLanes> items{};
+        std::size_t count = 0;
+
+        /// True if it is full now.
+        bool add(const Item& item, const Source& source) {
+            source.write(item, block, count);
+            items[count++] = item;
+            return count == ElementaryBlock::kLanes;
+        }
+        /// Lanes beyond are left from earlier passes.
+        [[nodiscard]] std::uint32_t used() const { return (1U << count) - 1; }
+    };
+
+    void filter() {
+        for_each_bit(possible_impacts(candidates_.block, kind_) & candidates_.used(),
+                     [&](std::size_t lane) {
+                         if (possible_.add(candidates_.items[lane], source_))
+                             cross();
+                     });
+        candidates_.count = 0;
+    }
+    void cross() {
+        decide_crossings(possible_.block, kind_, crossings_);
+        const std::uint32_t decided = crossings_.apart | crossings_.meet;
+        for_each_bit(possible_.used(), [&](std::size_t lane) {
+            const Item& item = possible_.items[lane];
+            const ElementaryPair& pair = source_.pair(item);
+            source_.take(item, (decided >> lane & 1) != 0
+                                   ? impact_of_crossing(pair, crossings_, lane)
+                                   : decide_singly(pair, options_));
+        });
+        possible_.count = 0;
+    }
+
+    ElementaryKind kind_;
+    const ElementaryOptions& options_;
+    Source& source_;
+    Gathered candidates_, possible_;
+    CrossingBlock crossings_;
+};
+
+} // namespace abut

@@ -1,0 +1,156 @@
+#include "tree/traverse_overlaps.h"
+
+#include "volume/box_run.h"
+
+#include <bit>
+#include <boost/container/small_vector.hpp>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tree/traverse_overlaps.cpp"
+#include "simd/foreach_target.h"
+#include "volume/box_lanes-inl.h"
+
+// What the targets share.
+#ifndef ABUT_TREE_TRAVERSE_OVERLAPS_ONCE
+#define ABUT_TREE_TRAVERSE_OVERLAPS_ONCE
+namespace abut::traverse_overlaps_detail {
+
+using PairStack = boost::container::small_vector<OverlapTraversal::Pair, 512>;
+
+inline Aabb box_of(const Tree& tree, std::uint32_t name) {
+    return name == kRootName ? tree.bounds : tree.nodes[node_of(name)].box(lane_of(name));
+}
+
+} // namespace abut::traverse_overlaps_detail
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+using namespace traverse_overlaps_detail; // NOLINT(google-build-using-namespace): its own
+
+/// The children of `node` that a box overlaps: a bit each.
+HWY_INLINE std::uint32_t overlapping_children(const Aabb& box, const Node& node) {
+    const hn::CappedTag<float, Node::kWidth> d;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < Node::kWidth; i += hn::Lanes(d))
+        bits |= overlap_bits(d, box, &node.lower[0][0] + i, Node::kWidth) << i;
+    return bits;
+}
+
+/// Puts the pairs of children of a pair that is not two leaves.
+class Opener {
+public:
+    Opener(const OverlapTraversal& traversal, PairStack& pairs)
+        : traversal_(traversal), pairs_(pairs) {}
+
+    void open(OverlapTraversal::Pair pair, NodeRef a, NodeRef b) {
+        if (traversal_.is_self() && pair.a == pair.b)
+            open_self(a.index());
+        else if (a.is_leaf())
+            open_b(pair.a, b.index(), 0xffU);
+        else if (b.is_leaf())
+            open_a(a.index(), pair.b);
+        else
+            for_each_child(traversal_.a, a.index(), [&](std::uint32_t name, std::uint32_t) {
+                open_b(name, b.index(), 0xffU);
+            });
+    }
+
+private:
+    /// Calls visit(name, lane).
+    template <typename Visit>
+    static void for_each_child(const Tree& tree, std::uint32_t node, const Visit& visit) {
+        for (std::uint32_t i = 0; i < Node::kWidth && !tree.nodes[node].child[i].is_none(); ++i)
+            visit(child_name(node, i), i);
+    }
+
+    void open_self(std::uint32_t node) {
+        for_each_child(traversal_.a, node, [&](std::uint32_t name, std::uint32_t lane) {
+            pairs_.push_back({name, name});
+            open_b(name, node, 0xfeU << lane);
+        });
+    }
+    /// The child against those children of a node of b that are `wanted`.
+    void open_b(std::uint32_t name, std::uint32_t node, std::uint32_t wanted) {
+        const Aabb box = inflated(box_of(traversal_.a, name), traversal_.margin);
+        std::uint32_t bits = overlapping_children(box, traversal_.b.nodes[node]) & wanted;
+        for (; bits != 0; bits &= bits - 1)
+            pairs_.push_back(
+                {name, child_name(node, static_cast<std::uint32_t>(std::countr_zero(bits)))});
+    }
+    void open_a(std::uint32_t node, std::uint32_t name) {
+        const Aabb box = inflated(box_of(traversal_.b, name), traversal_.margin);
+        std::uint32_t bits = overlapping_children(box, traversal_.a.nodes[node]);
+        for (; bits != 0; bits &= bits - 1)
+            pairs_.push_back(
+                {child_name(node, static_cast<std::uint32_t>(std::countr_zero(bits))), name});
+    }
+
+    const OverlapTraversal& traversal_;
+    PairStack& pairs_;
+};
+
+bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair start,
+                       OverlapVisitor& visitor) {
+    if (traversal.a.empty() || traversal.b.empty())
+        return true;
+    PairStack pending{start};
+    Opener opener(traversal, pending);
+    while (!pending.empty()) {
+        const OverlapTraversal::Pair pair = pending.back();
+        pending.pop_back();
+        const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);
+        if (!(a.is_leaf() && b.is_leaf()))
+            opener.open(pair, a, b);
+        else if (!visitor.visit(a, b))
+            return false;
+    }
+    return true;
+}
+
+/// Opens the pairs of one level of the trees after the other.
+void split_overlaps(const OverlapTraversal& traversal, std::size_t wanted, PairStack& pairs) {
+    for (bool opened = true; opened && pairs.size() < wanted;) {
+        opened = false;
+        PairStack next;
+        Opener opener(traversal, next);
+        for (const OverlapTraversal::Pair& pair : pairs) {
+            const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);
+            if (a.is_leaf() && b.is_leaf()) {
+                next.push_back(pair);
+                continue;
+            }
+            opener.open(pair, a, b);
+            opened = true;
+        }
+        pairs = std::move(next);
+    }
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(traverse_overlaps);
+HWY_EXPORT(split_overlaps);
+
+bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair start,
+                       OverlapVisitor& visitor) {
+    return HWY_DYNAMIC_DISPATCH(traverse_overlaps)(traversal, start, visitor);
+}
+
+std::vector<OverlapTraversal::Pair> split_overlaps(const OverlapTraversal& traversal,
+                                                   std::size_t wanted) {
+    traverse_overlaps_detail::PairStack pairs;
+    if (!traversal.a.empty() && !traversal.b.empty()) {
+        pairs.push_back({});
+        HWY_DYNAMIC_DISPATCH(split_overlaps)(traversal, wanted, pairs);
+    }
+    return {pairs.begin(), pairs.end()};
+}
+
+} // namespace abut
+#endif

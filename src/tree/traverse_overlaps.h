@@ -1,0 +1,48 @@
+#pragma once
+
+#include "tree/tree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+/// What a traversal does where the boxes of two leaves overlap.
+class OverlapVisitor {
+public:
+    OverlapVisitor() = default;
+    OverlapVisitor(const OverlapVisitor&) = delete;
+    OverlapVisitor& operator=(const OverlapVisitor&) = delete;
+    virtual ~OverlapVisitor() = default;
+
+    /// False: stop.
+    virtual bool visit(NodeRef leaf_a, NodeRef leaf_b) = 0;
+};
+
+/// Two trees, or one against itself, whose nodes all have the tree's axes. Of one tree, each
+/// unordered pair of its leaves is visited once, and each leaf with itself.
+struct OverlapTraversal {
+    const Tree& a;
+    const Tree& b;
+    float margin = 0; ///< boxes of a are widened by it
+
+    /// Two children by their names.
+    struct Pair {
+        std::uint32_t a = kRootName, b = kRootName;
+    };
+    [[nodiscard]] bool is_self() const { return &a == &b; }
+};
+
+/// Pairs of children below which all overlaps are, each in one of them; some `wanted`, if there are
+/// as many: the work of as many tasks.
+std::vector<OverlapTraversal::Pair> split_overlaps(const OverlapTraversal& traversal,
+                                                   std::size_t wanted);
+
+/// Visits the pairs of leaves below `start` whose boxes overlap. False if the visitor stopped it.
+///
+/// Cost        one SIMD pass for a box against eight; no allocation for trees of usual depth.
+bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair start,
+                       OverlapVisitor& visitor);
+
+} // namespace abut
