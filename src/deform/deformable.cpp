@@ -17,21 +17,21 @@ namespace {
 /// was built.
 constexpr double kMostLooseness = 1.3;
 
-std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, double until) {
-    std::vector<Aabb> boxes(vertices.size());
+/// What vertices move between until a time.
+std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, double until) {
+    const auto box_of = [](const Vec3& p, double margin) { return Aabb(Box3{p, p}, margin); };
+    std::vector<MovingBox> boxes(vertices.size());
     parallel_for(vertices.size(), 4096, [&](std::size_t i) {
         const MovingVertex& v = vertices[i];
-        Box3 box;
-        extend(box, v.start);
+        boxes[i].start = box_of(v.start, 0);
         if (until == 1) {
-            extend(box, v.end);
-            boxes[i] = Aabb(box);
-            return;
+            boxes[i].end = box_of(v.end, 0);
+        } else {
+            // Off by 3 roundings of the larger end at most.
+            const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end));
+            boxes[i].end = box_of((1 - until) * v.start + until * v.end,
+                                  0x1p-50 * std::max({size.x, size.y, size.z}));
         }
-        // Off by 2 roundings of the larger end at most; a float has room for more.
-        extend(box, (1 - until) * v.start + until * v.end);
-        const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end));
-        boxes[i] = Aabb(box, 0x1p-50 * std::max({size.x, size.y, size.z}));
     });
     return boxes;
 }
@@ -49,18 +49,19 @@ void require_valid_positions(std::span<const Vec3> positions) {
 } // namespace
 
 void refit(SweptTree& swept, const DeformableData& data, double until) {
-    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, until);
+    const std::vector<MovingBox> boxes = vertex_boxes(data.vertices, until);
     const SurfaceView surface = data.surface();
-    refit(swept.tree,
-          [&](NodeRef leaf) { return fit_leaf(swept.leaves, leaf_number(leaf), surface, boxes); });
+    refit(swept.tree, [&](NodeRef leaf) {
+        return fit_leaf(swept.leaves, leaf_number(leaf), surface, boxes).swept();
+    });
 }
 
 void DeformableData::build() {
-    const std::vector<Aabb> boxes = vertex_boxes(vertices, 1);
+    const std::vector<MovingBox> boxes = vertex_boxes(vertices, 1);
     std::vector<Aabb> triangle_boxes(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (const std::uint32_t v : triangles[i])
-            triangle_boxes[i].merge(boxes[v]);
+            triangle_boxes[i].merge(boxes[v].swept());
     swept.tree = build_tree(triangle_boxes);
     swept.leaves = LeafFeatures(swept.tree, surface(), represented);
     abut::refit(swept, *this, 1);

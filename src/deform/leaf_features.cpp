@@ -13,8 +13,8 @@ std::vector<NodeRef> leaves_of(const Tree& tree) {
     return leaves;
 }
 
-Aabb merged(const Aabb& a, const Aabb& b) {
-    Aabb box = a;
+MovingBox merged(const MovingBox& a, const MovingBox& b) {
+    MovingBox box = a;
     box.merge(b);
     return box;
 }
@@ -23,7 +23,7 @@ Aabb merged(const Aabb& a, const Aabb& b) {
 template <typename BoxOf>
 void fit(FeatureRuns& runs, std::uint32_t leaf, const BoxOf& box_of) {
     for (std::uint32_t k = 0; k < runs.count(leaf); ++k)
-        runs.set_box(leaf, k, box_of(runs.id(runs.begin(leaf) + k)));
+        runs.set_box(leaf, k, box_of(runs.ids(leaf)[k]));
 }
 
 } // namespace
@@ -48,12 +48,12 @@ LeafFeatures::LeafFeatures(const Tree& tree, const SurfaceView& surface,
         runs->allocate_boxes();
 }
 
-Aabb fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,
-              std::span<const Aabb> vertex_boxes) {
-    Aabb box;
+MovingBox fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,
+                   std::span<const MovingBox> vertex_boxes) {
+    MovingBox box;
     fit(leaves.faces, leaf, [&](std::uint32_t id) {
         const auto& [a, b, c] = surface.triangles[id];
-        const Aabb face = merged(merged(vertex_boxes[a], vertex_boxes[b]), vertex_boxes[c]);
+        const MovingBox face = merged(merged(vertex_boxes[a], vertex_boxes[b]), vertex_boxes[c]);
         box.merge(face);
         return face;
     });

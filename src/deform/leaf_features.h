@@ -2,7 +2,7 @@
 
 #include "mesh/representatives.h"
 #include "tree/tree.h"
-#include "volume/box_run.h"
+#include "volume/moving_box.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,23 +22,27 @@ public:
     void add(std::uint32_t id) { ids_.push_back(id); }
     /// What was added since the last end belongs to the next leaf.
     void end_leaf() { begin_.push_back(static_cast<std::uint32_t>(ids_.size())); }
-    void allocate_boxes() { rows_.assign(BoxRun::kRows * ids_.size() + BoxRun::kPadding, 0.0F); }
+    void allocate_boxes() {
+        rows_.assign(MovingBoxRun::kRows * ids_.size() + MovingBoxRun::kPadding, 0.0F);
+    }
 
-    [[nodiscard]] std::uint32_t begin(std::uint32_t leaf) const { return begin_[leaf]; }
     [[nodiscard]] std::uint32_t count(std::uint32_t leaf) const {
         return begin_[leaf + 1] - begin_[leaf];
     }
-    /// By its place among the features of all leaves.
-    [[nodiscard]] std::uint32_t id(std::uint32_t place) const { return ids_[place]; }
-    [[nodiscard]] BoxRun boxes(std::uint32_t leaf) const {
-        return {rows_.data() + BoxRun::kRows * begin_[leaf], count(leaf)};
+    [[nodiscard]] const std::uint32_t* ids(std::uint32_t leaf) const {
+        return ids_.data() + begin_[leaf];
     }
-    void set_box(std::uint32_t leaf, std::uint32_t k, const Aabb& box) {
-        float* row = rows_.data() + BoxRun::kRows * begin_[leaf] + k;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            row[axis * count(leaf)] = box.lower[axis];
-            row[(axis + 3) * count(leaf)] = box.upper[axis];
-        }
+    [[nodiscard]] MovingBoxRun boxes(std::uint32_t leaf) const {
+        return {rows_.data() + MovingBoxRun::kRows * begin_[leaf], count(leaf)};
+    }
+    void set_box(std::uint32_t leaf, std::uint32_t k, const MovingBox& box) {
+        float* row = rows_.data() + MovingBoxRun::kRows * begin_[leaf] + k;
+        for (const Aabb& bounds : {box.start, box.end})
+            for (const auto& side : {bounds.lower, bounds.upper})
+                for (const float bound : side) {
+                    *row = bound;
+                    row += count(leaf);
+                }
     }
     [[nodiscard]] std::size_t size() const { return ids_.size(); }
     [[nodiscard]] std::size_t bytes() const {
@@ -47,9 +51,9 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> begin_{0}; ///< leaf -> place of its first feature
+    std::vector<std::uint32_t> begin_{0}; ///< leaf -> its first feature
     std::vector<std::uint32_t> ids_;
-    std::vector<float> rows_; ///< a BoxRun for each leaf
+    std::vector<float> rows_; ///< a MovingBoxRun for each leaf
 };
 
 /// The triangles of each leaf, and the edges and vertices that they represent.
@@ -66,7 +70,7 @@ struct LeafFeatures {
 };
 
 /// Sets the boxes of a leaf's features to those of their vertices; returns that of its triangles.
-Aabb fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,
-              std::span<const Aabb> vertex_boxes);
+MovingBox fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,
+                   std::span<const MovingBox> vertex_boxes);
 
 } // namespace abut

@@ -1,6 +1,6 @@
 #include "tree/traverse_overlaps.h"
 
-#include "volume/box_run.h"
+#include "volume/moving_box.h"
 
 #include <bit>
 #include <boost/container/small_vector.hpp>
