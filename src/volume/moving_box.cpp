@@ -1,5 +1,7 @@
 #include "volume/moving_box.h"
 
+#include <limits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "volume/moving_box.cpp"
 #include "simd/foreach_target.h"
@@ -9,59 +11,55 @@ HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::CappedTag<float, 16>;
+using D = hn::CappedTag<float, 8>;
 
-/// One box of a run, its upper bounds raised and its lower bounds lowered by a margin.
-struct WidenedBox {
-    float bound[MovingBoxRun::kRows];
-
-    WidenedBox(const MovingBoxRun& run, std::uint32_t k, float margin) {
-        for (std::size_t row = 0; row < MovingBoxRun::kRows; ++row)
-            bound[row] = run.rows[row * run.count + k];
-        if (margin == 0)
-            return;
-        for (std::size_t row = 0; row < MovingBoxRun::kRows; ++row)
-            bound[row] = row / 3 % 2 == 0 ? round_down(double{bound[row]} - double{margin})
-                                          : round_up(double{bound[row]} + double{margin});
-    }
-};
-
-/// Boxes side by side, a register for each bound.
+/// Eight boxes of a run, a register for each bound.
 struct BoxLanes {
-    hn::Vec<D> bound[MovingBoxRun::kRows];
+    hn::Vec<D> lower[2][3], upper[2][3]; ///< [start, end][axis]
 
-    BoxLanes(const MovingBoxRun& run, std::uint32_t first) {
-        for (std::size_t row = 0; row < MovingBoxRun::kRows; ++row)
-            bound[row] = hn::LoadU(D(), run.rows + row * run.count + first);
+    HWY_INLINE BoxLanes(const MovingBoxRun& run, std::size_t first) {
+        const float* row = run.rows + first;
+        for (std::size_t end = 0; end < 2; ++end) {
+            for (std::size_t axis = 0; axis < 3; ++axis, row += run.count)
+                lower[end][axis] = hn::LoadU(D(), row);
+            for (std::size_t axis = 0; axis < 3; ++axis, row += run.count)
+                upper[end][axis] = hn::LoadU(D(), row);
+        }
     }
 
-    /// Bits of those that the box may meet. A difference of floats has the right sign.
-    [[nodiscard]] HWY_INLINE std::uint32_t overlap_bits(const WidenedBox& box) const {
+    /// Bits of those that may come within the margin of box k of a run. A rounded difference is
+    /// below a float only if the exact one is.
+    HWY_INLINE std::uint32_t overlap_bits(const MovingBoxRun& run, std::size_t k,
+                                          hn::Vec<D> minus_margin) const {
         const D d;
-        auto least = hn::Zero(d); // how much a pair is apart along an axis, negative
+        const float* row = run.rows + k;
+        const auto bound = [&](std::size_t end, std::size_t i) HWY_ATTR {
+            return hn::Set(d, row[(MovingBoxRun::kEnd * end + i) * run.count]);
+        };
+        auto overlap = hn::Set(d, std::numeric_limits<float>::infinity()); // least of all axes
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            constexpr std::size_t kEnd = MovingBoxRun::kEnd;
-            const auto set = [&](std::size_t row) HWY_ATTR { return hn::Set(d, box.bound[row]); };
-            const auto below = hn::Max(hn::Sub(set(axis + 3), bound[axis]),
-                                       hn::Sub(set(axis + 3 + kEnd), bound[axis + kEnd]));
-            const auto above = hn::Max(hn::Sub(bound[axis + 3], set(axis)),
-                                       hn::Sub(bound[axis + 3 + kEnd], set(axis + kEnd)));
-            least = hn::Min(least, hn::Min(below, above));
+            const auto below = hn::Max(hn::Sub(bound(0, axis + 3), lower[0][axis]),
+                                       hn::Sub(bound(1, axis + 3), lower[1][axis]));
+            const auto above = hn::Max(hn::Sub(upper[0][axis], bound(0, axis)),
+                                       hn::Sub(upper[1][axis], bound(1, axis)));
+            overlap = hn::Min(overlap, hn::Min(below, above));
         }
-        return bits_of(d, hn::Ge(least, hn::Zero(d)));
+        return bits_of(d, hn::Ge(overlap, minus_margin));
     }
 };
 
-void find_overlaps(RunOverlaps& overlaps, float margin) {
-    const MovingBoxRun &a = overlaps.a, &b = overlaps.b;
-    const auto used = static_cast<std::uint32_t>((std::uint64_t{1} << b.count) - 1);
+HWY_INLINE void find_overlaps(RunOverlaps& overlaps, float margin) {
+    const MovingBoxRun a = overlaps.a, b = overlaps.b;
+    const D d;
+    const auto minus_margin = hn::Set(d, -margin);
     for (std::uint32_t k = 0; k < a.count; ++k)
         overlaps.masks[k] = 0;
     for (std::uint32_t first = 0; first < b.count;
-         first += static_cast<std::uint32_t>(hn::Lanes(D()))) {
+         first += static_cast<std::uint32_t>(hn::Lanes(d))) {
+        const std::uint32_t used = b.count - first >= 32 ? ~0U : (1U << (b.count - first)) - 1;
         const BoxLanes lanes(b, first);
         for (std::uint32_t k = 0; k < a.count; ++k)
-            overlaps.masks[k] |= lanes.overlap_bits(WidenedBox(a, k, margin)) << first & used;
+            overlaps.masks[k] |= (lanes.overlap_bits(a, k, minus_margin) & used) << first;
     }
 }
 
