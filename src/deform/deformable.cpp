@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "deform/deformable_data.h"
+#include "deform/feature_trees.h"
 #include "math/vector.h"
 #include "mesh/topology.h"
 #include "tree/refit.h"
@@ -56,6 +57,9 @@ void refit(SweptTree& swept, const DeformableData& data, double until) {
     });
 }
 
+DeformableData::DeformableData() = default;
+DeformableData::~DeformableData() = default;
+
 void DeformableData::build() {
     const std::vector<MovingBox> boxes = vertex_boxes(vertices, 1);
     std::vector<Aabb> triangle_boxes(triangles.size());
@@ -66,10 +70,14 @@ void DeformableData::build() {
     swept.leaves = LeafFeatures(swept.tree, surface(), represented);
     abut::refit(swept, *this, 1);
     looseness_when_built_ = looseness();
+    if (options.scheme == Scheme::features)
+        feature_trees = std::make_unique<FeatureTrees>(surface(), boxes);
 }
 
 void DeformableData::refit() {
     abut::refit(swept, *this, 1);
+    if (feature_trees)
+        feature_trees->refit(surface(), vertex_boxes(vertices, 1));
     if (looseness() > kMostLooseness * looseness_when_built_)
         build();
 }
@@ -174,7 +182,7 @@ std::size_t Deformable::bytes() const noexcept {
            d.features.edges.size() * sizeof(d.features.edges[0]) +
            d.features.edges_of.size() * sizeof(d.features.edges_of[0]) + d.represented.size() +
            d.vertices.size() * sizeof(d.vertices[0]) + d.swept.tree.bytes() +
-           d.swept.leaves.bytes();
+           d.swept.leaves.bytes() + (d.feature_trees ? d.feature_trees->bytes() : 0);
 }
 
 } // namespace abut

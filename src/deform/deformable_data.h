@@ -7,10 +7,13 @@
 #include "tree/tree.h"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace abut {
+
+struct FeatureTrees;
 
 struct MovingVertex {
     Vec3 start, end;
@@ -24,12 +27,18 @@ struct SweptTree {
 
 class DeformableData {
 public:
+    DeformableData();
+    ~DeformableData();
+    DeformableData(const DeformableData&) = delete;
+    DeformableData& operator=(const DeformableData&) = delete;
+
     DeformableOptions options;
     std::vector<IndexTriangle> triangles;
     SurfaceFeatures features;
     std::vector<Represented> represented; ///< by each triangle
     std::vector<MovingVertex> vertices;
     SweptTree swept;
+    std::unique_ptr<FeatureTrees> feature_trees; ///< for Scheme::features
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
 

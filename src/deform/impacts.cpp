@@ -1,22 +1,16 @@
 #include <abut/deformable.h>
 
 #include "core/parallel.h"
+#include "deform/candidate_search.h"
 #include "deform/deformable_data.h"
 #include "deform/elementary_stages.h"
-#include "deform/feature_pairs.h"
-#include "deform/leaf_pairs.h"
-#include "tree/traverse_overlaps.h"
 
 #include <algorithm>
-#include <atomic>
 #include <tuple>
 
 namespace abut {
 
 namespace {
-
-/// Enough that the longest does not keep others waiting.
-constexpr std::size_t kTasks = 512;
 
 /// Takes candidates through the elementary tests and keeps the impacts.
 class ImpactCollector {
@@ -32,6 +26,7 @@ public:
         faces_.finish();
         edges_.finish();
     }
+    static bool is_done() { return false; }
     [[nodiscard]] Impacts& impacts() { return impacts_; }
 
     // What the stages ask for.
@@ -73,23 +68,24 @@ void sort(std::vector<FeatureImpact>& list) {
     };
     std::sort(list.begin(), list.end(),
               [&](const FeatureImpact& a, const FeatureImpact& b) { return key(a) < key(b); });
+    // Schemes without representatives find some several times.
+    list.erase(std::unique(list.begin(), list.end(),
+                           [&](const FeatureImpact& a, const FeatureImpact& b) {
+                               return key(a) == key(b);
+                           }),
+               list.end());
 }
 
 Impacts find_impacts(const DeformableData& a, const DeformableData& b,
                      const ElementaryOptions& options) {
     require_valid(options);
-    const OverlapTraversal traversal{a.swept.tree, b.swept.tree, 0};
-    const auto starts = split_overlaps(traversal, kTasks);
-    std::vector<Impacts> parts(starts.size());
-    parallel_for(starts.size(), 1, [&](std::size_t i) {
+    const CandidateSearch search(a, b, 0);
+    std::vector<Impacts> parts(search.tasks());
+    parallel_for(parts.size(), 1, [&](std::size_t i) {
         ImpactCollector collector(options);
-        FeaturePairs<ImpactCollector> pairs(a, b, collector);
-        RepresentativePairs<ImpactCollector> visitor(a.swept.leaves, b.swept.leaves, 0, pairs);
-        traverse_overlaps(traversal, starts[i], visitor);
+        search.run(i, collector, collector.impacts().counters);
         collector.finish();
         parts[i] = std::move(collector.impacts());
-        parts[i].counters.triangle_pairs = visitor.triangle_pairs();
-        parts[i].counters.candidates = pairs.counts();
     });
     Impacts impacts;
     for (const Impacts& part : parts)

@@ -2,8 +2,6 @@
 
 namespace abut {
 
-namespace {
-
 std::vector<NodeRef> leaves_of(const Tree& tree) {
     std::vector<NodeRef> leaves(tree.order.size() / TriangleLeaf::kLanes);
     for (const Node& node : tree.nodes)
@@ -12,21 +10,6 @@ std::vector<NodeRef> leaves_of(const Tree& tree) {
                 leaves[leaf_number(child)] = child;
     return leaves;
 }
-
-MovingBox merged(const MovingBox& a, const MovingBox& b) {
-    MovingBox box = a;
-    box.merge(b);
-    return box;
-}
-
-/// Gives each feature of a leaf the box that `box_of(id)` returns.
-template <typename BoxOf>
-void fit(FeatureRuns& runs, std::uint32_t leaf, const BoxOf& box_of) {
-    for (std::uint32_t k = 0; k < runs.count(leaf); ++k)
-        runs.set_box(leaf, k, box_of(runs.ids(leaf)[k]));
-}
-
-} // namespace
 
 LeafFeatures::LeafFeatures(const Tree& tree, const SurfaceView& surface,
                            std::span<const Represented> represented) {
@@ -50,19 +33,11 @@ LeafFeatures::LeafFeatures(const Tree& tree, const SurfaceView& surface,
 
 MovingBox fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,
                    std::span<const MovingBox> vertex_boxes) {
-    MovingBox box;
-    fit(leaves.faces, leaf, [&](std::uint32_t id) {
-        const auto& [a, b, c] = surface.triangles[id];
-        const MovingBox face = merged(merged(vertex_boxes[a], vertex_boxes[b]), vertex_boxes[c]);
-        box.merge(face);
-        return face;
-    });
-    fit(leaves.edges, leaf, [&](std::uint32_t id) {
-        const auto& [a, b] = surface.features.edges[id];
-        return merged(vertex_boxes[a], vertex_boxes[b]);
-    });
-    fit(leaves.vertices, leaf, [&](std::uint32_t id) { return vertex_boxes[id]; });
-    return box;
+    fit_run(leaves.edges, leaf,
+            [&](std::uint32_t id) { return box_of(surface.features.edges[id], vertex_boxes); });
+    fit_run(leaves.vertices, leaf, [&](std::uint32_t id) { return vertex_boxes[id]; });
+    return fit_run(leaves.faces, leaf,
+                   [&](std::uint32_t id) { return box_of(surface.triangles[id], vertex_boxes); });
 }
 
 } // namespace abut

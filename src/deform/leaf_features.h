@@ -4,6 +4,7 @@
 #include "tree/tree.h"
 #include "volume/moving_box.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,8 +33,8 @@ public:
     [[nodiscard]] const std::uint32_t* ids(std::uint32_t leaf) const {
         return ids_.data() + begin_[leaf];
     }
-    [[nodiscard]] MovingBoxRun boxes(std::uint32_t leaf) const {
-        return {rows_.data() + MovingBoxRun::kRows * begin_[leaf], count(leaf)};
+    [[nodiscard]] MovingBoxRun run(std::uint32_t leaf) const {
+        return {rows_.data() + MovingBoxRun::kRows * begin_[leaf], ids(leaf), count(leaf)};
     }
     void set_box(std::uint32_t leaf, std::uint32_t k, const MovingBox& box) {
         float* row = rows_.data() + MovingBoxRun::kRows * begin_[leaf] + k;
@@ -68,6 +69,31 @@ struct LeafFeatures {
         return faces.bytes() + edges.bytes() + vertices.bytes();
     }
 };
+
+/// The leaves of a tree, by their numbers.
+std::vector<NodeRef> leaves_of(const Tree& tree);
+
+/// The box of some vertices.
+template <std::size_t n>
+MovingBox box_of(const std::array<std::uint32_t, n>& vertices,
+                 std::span<const MovingBox> vertex_boxes) {
+    MovingBox box = vertex_boxes[vertices[0]];
+    for (std::size_t i = 1; i < n; ++i)
+        box.merge(vertex_boxes[vertices[i]]);
+    return box;
+}
+
+/// Gives each feature of a leaf the box that `box_of(id)` returns; returns that of all.
+template <typename BoxOf>
+MovingBox fit_run(FeatureRuns& runs, std::uint32_t leaf, const BoxOf& box_of) {
+    MovingBox all;
+    for (std::uint32_t k = 0; k < runs.count(leaf); ++k) {
+        const MovingBox box = box_of(runs.ids(leaf)[k]);
+        runs.set_box(leaf, k, box);
+        all.merge(box);
+    }
+    return all;
+}
 
 /// Sets the boxes of a leaf's features to those of their vertices; returns that of its triangles.
 MovingBox fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,

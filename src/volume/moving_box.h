@@ -3,6 +3,7 @@
 #include "volume/aabb.h"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -26,7 +27,7 @@ struct MovingBox {
     }
 };
 
-/// Some moving boxes in rows, one for each bound: rows[r * count + k] is box k's lower bound on
+/// Some things in moving boxes: their numbers, and the boxes in rows, one for each bound: rows[r * count + k] is box k's lower bound on
 /// axis r, or its upper bound on axis r - 3, at the start; rows 6 to 11 are those at the end. May
 /// be empty.
 ///
@@ -39,6 +40,7 @@ struct MovingBoxRun {
     static constexpr std::size_t kEnd = 6;
 
     const float* rows = nullptr;
+    const std::uint32_t* ids = nullptr;
     std::uint32_t count = 0;
 };
 
@@ -46,6 +48,25 @@ struct MovingBoxRun {
 struct RunOverlaps {
     MovingBoxRun a, b;
     std::array<std::uint32_t, MovingBoxRun::kMost> masks; ///< of each box of a
+
+    /// Of a run with itself: leaves each pair once, and none with itself.
+    void keep_once() {
+        for (std::uint32_t k = 0; k < a.count; ++k)
+            masks[k] &= ~0U << k << 1;
+    }
+    [[nodiscard]] std::uint32_t count() const {
+        std::uint32_t pairs = 0;
+        for (std::uint32_t k = 0; k < a.count; ++k)
+            pairs += static_cast<std::uint32_t>(std::popcount(masks[k]));
+        return pairs;
+    }
+    /// Calls visit(id of a, id of b).
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for (std::uint32_t k = 0; k < a.count; ++k)
+            for (std::uint32_t mask = masks[k]; mask != 0; mask &= mask - 1)
+                visit(a.ids[k], b.ids[std::countr_zero(mask)]);
+    }
 };
 
 /// Fills in the masks. Boxes of a are widened by `margin`.

@@ -1,0 +1,50 @@
+#include "deform/candidate_search.h"
+
+#include <abut/error.h>
+
+namespace abut {
+
+namespace {
+
+/// Enough that the longest does not keep others waiting.
+constexpr std::size_t kTasks = 512;
+
+} // namespace
+
+CandidateSearch::CandidateSearch(const DeformableData& a, const SweptTree& swept_a,
+                                 const DeformableData& b, const SweptTree& swept_b, float margin)
+    : a_(a), b_(b), swept_a_(swept_a), swept_b_(swept_b), margin_(margin) {
+    split(Between::triangles, swept_a.tree, swept_b.tree);
+}
+
+CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& b, float margin)
+    : a_(a), b_(b), swept_a_(a.swept), swept_b_(b.swept), margin_(margin),
+      scheme_(a.options.scheme) {
+    if (scheme_ != b.options.scheme)
+        throw Error(ErrorCode::bad_argument, "the surfaces have different schemes");
+    if (scheme_ == Scheme::database)
+        tested_ = std::make_unique<ConcurrentSet>();
+    if (scheme_ == Scheme::features)
+        split_features();
+    else if (a.options.culling == Culling::grid)
+        culling_ = make_grid_culling(a, b, margin);
+    else if (a.options.culling == Culling::sweep)
+        culling_ = make_sweep_culling(a, b, margin);
+    else
+        split(Between::triangles, a.swept.tree, b.swept.tree);
+}
+
+void CandidateSearch::split(Between between, const Tree& a, const Tree& b) {
+    for (const OverlapTraversal::Pair& pair : split_overlaps({a, b, margin_}, kTasks))
+        starts_.push_back({between, pair});
+}
+
+void CandidateSearch::split_features() {
+    const FeatureTrees &a = *a_.feature_trees, &b = *b_.feature_trees;
+    split(Between::edges, a.edges.tree, b.edges.tree);
+    split(Between::vertices_faces, a.vertices.tree, b.faces.tree);
+    if (&a_ != &b_)
+        split(Between::faces_vertices, a.faces.tree, b.vertices.tree);
+}
+
+} // namespace abut

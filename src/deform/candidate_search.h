@@ -1,0 +1,117 @@
+#pragma once
+
+#include "deform/feature_pairs.h"
+#include "deform/feature_trees.h"
+#include "deform/leaf_pairs.h"
+#include "deform/triangle_culling.h"
+#include "deform/triangle_pairs.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace abut {
+
+/// Finds the features of two surfaces that may come within a margin of each other, or of one
+/// surface, in the way that a scheme and a culling say. Divided into tasks, to be run in any order
+/// and from any thread.
+class CandidateSearch {
+public:
+    /// By the boxes of `swept_a` and `swept_b`, which may be others than the surfaces' own; they
+    /// must outlive this. One surface against itself if both are the same objects.
+    CandidateSearch(const DeformableData& a, const SweptTree& swept_a, const DeformableData& b,
+                    const SweptTree& swept_b, float margin);
+    /// As the first surface's options say.
+    CandidateSearch(const DeformableData& a, const DeformableData& b, float margin);
+
+    [[nodiscard]] std::size_t tasks() const {
+        return culling_ ? culling_->tasks() : starts_.size();
+    }
+    /// Hands the candidates of a task to a sink (see FeaturePairs), until that is done, and counts
+    /// them.
+    template <typename Sink>
+    void run(std::size_t task, Sink& sink, DeformableCounters& counters) const;
+
+private:
+    /// Where a task begins, in which hierarchies.
+    enum class Between : std::uint8_t { triangles, edges, vertices_faces, faces_vertices };
+    struct Start {
+        Between between = Between::triangles;
+        OverlapTraversal::Pair pair;
+    };
+    void split(Between between, const Tree& a, const Tree& b);
+    void split_features();
+
+    template <typename Sink>
+    void run_features(const Start& start, FeaturePairs<Sink>& pairs) const;
+    template <typename Visit>
+    void run_features(const FeatureTree& a, const FeatureTree& b, OverlapTraversal::Pair start,
+                      const Visit& visit) const;
+
+    const DeformableData& a_;
+    const DeformableData& b_;
+    const SweptTree& swept_a_;
+    const SweptTree& swept_b_;
+    float margin_;
+    Scheme scheme_ = Scheme::representative;
+    std::vector<Start> starts_;
+    std::unique_ptr<const TriangleCulling> culling_; ///< where triangles are not found by hierarchy
+    std::unique_ptr<ConcurrentSet> tested_;          ///< for Scheme::database
+};
+
+template <typename Sink>
+void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters& counters) const {
+    FeaturePairs<Sink> pairs(a_, b_, sink);
+    const bool represented = scheme_ == Scheme::representative || scheme_ == Scheme::markup;
+    const bool boxes = scheme_ == Scheme::representative || scheme_ == Scheme::database;
+    TrianglePairs<Sink> triangles(a_, b_, {represented, boxes, margin_, tested_.get()}, pairs);
+    if (culling_) {
+        culling_->run(task, triangles);
+        counters.triangle_pairs += triangles.count();
+    } else if (scheme_ == Scheme::features) {
+        run_features(starts_[task], pairs);
+    } else {
+        const OverlapTraversal traversal{swept_a_.tree, swept_b_.tree, margin_};
+        if (scheme_ == Scheme::representative) {
+            RepresentativePairs<Sink> visitor(swept_a_.leaves, swept_b_.leaves, margin_, pairs);
+            traverse_overlaps(traversal, starts_[task].pair, visitor);
+            counters.triangle_pairs += visitor.triangle_pairs();
+        } else {
+            LeafTrianglePairs visitor(swept_a_.leaves, swept_b_.leaves, margin_, triangles);
+            traverse_overlaps(traversal, starts_[task].pair, visitor);
+            counters.triangle_pairs += triangles.count();
+        }
+    }
+    counters.candidates.vertex_face += pairs.counts().vertex_face;
+    counters.candidates.edge_edge += pairs.counts().edge_edge;
+}
+
+template <typename Sink>
+void CandidateSearch::run_features(const Start& start, FeaturePairs<Sink>& pairs) const {
+    const FeatureTrees &a = *a_.feature_trees, &b = *b_.feature_trees;
+    const auto all = [](const FeatureCandidate&) { return true; };
+    if (start.between == Between::edges)
+        run_features(a.edges, b.edges, start.pair, [&](auto e, auto f) {
+            pairs.edges(e, f, all);
+            return !pairs.is_done();
+        });
+    else if (start.between == Between::vertices_faces)
+        run_features(a.vertices, b.faces, start.pair, [&](auto v, auto f) {
+            pairs.vertex_face(v, f, all);
+            return !pairs.is_done();
+        });
+    else
+        run_features(a.faces, b.vertices, start.pair, [&](auto f, auto v) {
+            pairs.face_vertex(f, v, all);
+            return !pairs.is_done();
+        });
+}
+
+template <typename Visit>
+void CandidateSearch::run_features(const FeatureTree& a, const FeatureTree& b,
+                                   OverlapTraversal::Pair start, const Visit& visit) const {
+    FeatureLeafPairs<Visit> visitor(a, b, margin_, visit);
+    traverse_overlaps({a.tree, b.tree, margin_}, start, visitor);
+}
+
+} // namespace abut

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "deform/feature_pairs.h"
+#include "deform/leaf_features.h"
+#include "tree/traverse_overlaps.h"
+
+#include <cstddef>
+#include <span>
+
+namespace abut {
+
+/// A hierarchy over features of one kind.
+struct FeatureTree {
+    Tree tree;
+    FeatureRuns runs;
+
+    [[nodiscard]] std::size_t bytes() const { return tree.bytes() + runs.bytes(); }
+};
+
+/// Hierarchies over a surface's faces, edges and vertices: what needs no representatives, and three
+/// times the memory.
+struct FeatureTrees {
+    FeatureTree faces, edges, vertices;
+
+    FeatureTrees(const SurfaceView& surface, std::span<const MovingBox> vertex_boxes);
+    void refit(const SurfaceView& surface, std::span<const MovingBox> vertex_boxes);
+
+    [[nodiscard]] std::size_t bytes() const {
+        return faces.bytes() + edges.bytes() + vertices.bytes();
+    }
+};
+
+/// Visits the overlaps of features in leaves of two such hierarchies: calls visit(id of a, id of
+/// b), each once.
+template <typename Visit>
+class FeatureLeafPairs final : public OverlapVisitor {
+public:
+    FeatureLeafPairs(const FeatureTree& a, const FeatureTree& b, float margin, const Visit& visit)
+        : a_(a), b_(b), margin_(margin), visit_(visit) {}
+
+    bool visit(NodeRef leaf_a, NodeRef leaf_b) override {
+        const std::uint32_t i = leaf_number(leaf_a), j = leaf_number(leaf_b);
+        RunOverlaps overlaps{a_.runs.run(i), b_.runs.run(j), {}};
+        find_overlaps({&overlaps, 1}, margin_);
+        if (&a_ == &b_ && i == j)
+            overlaps.keep_once();
+        bool more = true;
+        overlaps.for_each([&](auto a, auto b) { more = more && visit_(a, b); });
+        return more;
+    }
+
+private:
+    const FeatureTree& a_;
+    const FeatureTree& b_;
+    float margin_;
+    const Visit& visit_;
+};
+
+} // namespace abut

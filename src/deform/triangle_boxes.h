@@ -1,0 +1,57 @@
+#pragma once
+
+#include "deform/deformable_data.h"
+#include "deform/triangle_pairs.h"
+#include "math/vector.h"
+#include "volume/moving_box.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+/// A triangle's swept box.
+struct TriangleBox {
+    Aabb box;
+    std::uint32_t triangle = 0;
+    bool second = false; ///< of the second of two surfaces
+};
+
+/// Those of both surfaces, the first ones widened by `margin`; of one only, if they are the same.
+inline std::vector<TriangleBox> triangle_boxes(const DeformableData& a, const DeformableData& b,
+                                               float margin) {
+    std::vector<TriangleBox> boxes;
+    const auto add = [&](const DeformableData& surface, bool second) {
+        for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+            Box3 box;
+            for (const std::uint32_t v : surface.triangles[i]) {
+                extend(box, surface.vertices[v].start);
+                extend(box, surface.vertices[v].end);
+            }
+            boxes.push_back({inflated(Aabb(box), second ? 0 : margin), i, second});
+        }
+    };
+    add(a, false);
+    if (&a != &b)
+        add(b, true);
+    return boxes;
+}
+
+inline bool overlap(const Aabb& a, const Aabb& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (a.upper[axis] < b.lower[axis] || b.upper[axis] < a.lower[axis])
+            return false;
+    return true;
+}
+
+/// Visits two triangles if they are a pair: of one surface, or of different ones. False: enough.
+inline bool visit_pair(const TriangleBox& a, const TriangleBox& b, bool is_self,
+                       TrianglePairVisitor& visitor) {
+    if (is_self)
+        return visitor.visit(a.triangle, b.triangle);
+    if (a.second == b.second)
+        return true;
+    return a.second ? visitor.visit(b.triangle, a.triangle) : visitor.visit(a.triangle, b.triangle);
+}
+
+} // namespace abut

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "core/concurrent_set.h"
+#include "deform/feature_pairs.h"
+#include "mesh/representatives.h"
+
+#include <cstdint>
+
+namespace abut {
+
+/// Who takes pairs of triangles whose boxes overlap: of two surfaces, or of one, each once and none
+/// with itself. False: enough.
+class TrianglePairVisitor {
+public:
+    TrianglePairVisitor() = default;
+    TrianglePairVisitor(const TrianglePairVisitor&) = delete;
+    TrianglePairVisitor& operator=(const TrianglePairVisitor&) = delete;
+    virtual ~TrianglePairVisitor() = default;
+
+    virtual bool visit(std::uint32_t a, std::uint32_t b) = 0;
+};
+
+/// What becomes of a pair of triangles: which of their 15 feature pairs are candidates.
+struct SpawnRules {
+    bool represented = false;        ///< only of features that the triangles represent
+    bool boxes = false;              ///< only where the features' boxes overlap
+    float margin = 0;                ///< widens these boxes
+    ConcurrentSet* tested = nullptr; ///< only what is not in here; it goes in
+};
+
+/// Spawns the feature pairs of triangle pairs.
+template <typename Sink>
+class TrianglePairs final : public TrianglePairVisitor {
+public:
+    TrianglePairs(const DeformableData& a, const DeformableData& b, const SpawnRules& rules,
+                  FeaturePairs<Sink>& pairs)
+        : a_(a), b_(b), rules_(rules), pairs_(pairs) {}
+
+    [[nodiscard]] std::uint64_t count() const { return count_; }
+
+    bool visit(std::uint32_t a, std::uint32_t b) override {
+        ++count_;
+        const auto admits = [this](const FeatureCandidate& c) { return this->admits(c); };
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (spawns_edge(a_, a, i) && spawns_edge(b_, b, k))
+                    pairs_.edges(a_.features.edges_of[a][i], b_.features.edges_of[b][k], admits);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (spawns_vertex(a_, a, i))
+                pairs_.vertex_face(a_.triangles[a][i], b, admits);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (spawns_vertex(b_, b, i))
+                pairs_.face_vertex(a, b_.triangles[b][i], admits);
+        return !pairs_.is_done();
+    }
+
+private:
+    /// Whether a candidate keeps to the rules of boxes and of tested pairs.
+    [[nodiscard]] bool admits(const FeatureCandidate& candidate) const {
+        if (rules_.boxes && boxes_apart(candidate, double{rules_.margin}))
+            return false;
+        return rules_.tested == nullptr || rules_.tested->insert(key(candidate));
+    }
+    [[nodiscard]] bool spawns_edge(const DeformableData& of, std::uint32_t triangle,
+                                   std::size_t k) const {
+        return of.features.edges_of[triangle][k] != kNoEdge &&
+               (!rules_.represented || represents_edge(of.represented[triangle], k));
+    }
+    [[nodiscard]] bool spawns_vertex(const DeformableData& of, std::uint32_t triangle,
+                                     std::size_t k) const {
+        return !rules_.represented || represents_vertex(of.represented[triangle], k);
+    }
+    /// Features' numbers are below 3 * 2^28.
+    static std::uint64_t key(const FeatureCandidate& c) {
+        const std::uint64_t kind = c.kind == ElementaryKind::edge_edge ? 2 : c.face_first ? 1 : 0;
+        return kind << 60 | std::uint64_t{c.a} << 30 | c.b;
+    }
+
+    const DeformableData& a_;
+    const DeformableData& b_;
+    SpawnRules rules_;
+    FeaturePairs<Sink>& pairs_;
+    std::uint64_t count_ = 0;
+};
+
+} // namespace abut
