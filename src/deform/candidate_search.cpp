@@ -34,7 +34,7 @@ CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& 
         split(Between::triangles, a.swept.tree, b.swept.tree);
 }
 
-void CandidateSearch::split(Between between, const Tree& a, const Tree& b) {
+void CandidateSearch::split(Between between, const MovingTree& a, const MovingTree& b) {
     for (const OverlapTraversal::Pair& pair : split_overlaps({a, b, margin_}, kTasks))
         starts_.push_back({between, pair});
 }

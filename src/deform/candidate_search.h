@@ -39,7 +39,7 @@ private:
         Between between = Between::triangles;
         OverlapTraversal::Pair pair;
     };
-    void split(Between between, const Tree& a, const Tree& b);
+    void split(Between between, const MovingTree& a, const MovingTree& b);
     void split_features();
 
     template <typename Sink>

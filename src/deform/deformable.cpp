@@ -6,7 +6,6 @@
 #include "deform/feature_trees.h"
 #include "math/vector.h"
 #include "mesh/topology.h"
-#include "tree/refit.h"
 
 #include <string>
 
@@ -52,9 +51,8 @@ void require_valid_positions(std::span<const Vec3> positions) {
 void refit(SweptTree& swept, const DeformableData& data, double until) {
     const std::vector<MovingBox> boxes = vertex_boxes(data.vertices, until);
     const SurfaceView surface = data.surface();
-    refit(swept.tree, [&](NodeRef leaf) {
-        return fit_leaf(swept.leaves, leaf_number(leaf), surface, boxes).swept();
-    });
+    fit(swept.tree,
+        [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, surface, boxes); });
 }
 
 DeformableData::DeformableData() = default;
@@ -66,8 +64,9 @@ void DeformableData::build() {
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (const std::uint32_t v : triangles[i])
             triangle_boxes[i].merge(boxes[v].swept());
-    swept.tree = build_tree(triangle_boxes);
-    swept.leaves = LeafFeatures(swept.tree, surface(), represented);
+    const Tree shape = build_tree(triangle_boxes);
+    swept.tree = MovingTree(shape);
+    swept.leaves = LeafFeatures(shape, surface(), represented);
     abut::refit(swept, *this, 1);
     looseness_when_built_ = looseness();
     if (options.scheme == Scheme::features)
@@ -82,13 +81,14 @@ void DeformableData::refit() {
         build();
 }
 
-/// Area of the nodes beside that of the leaves: motion makes both larger, a bad hierarchy the
-/// first alone.
+/// Area of the nodes' boxes beside that of the leaves': motion makes both larger, a bad shape of the
+/// hierarchy the first alone.
 double DeformableData::looseness() const {
     double nodes = 0, leaves = 0;
-    for (const Node& node : swept.tree.nodes)
-        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
-            (node.child[i].is_leaf() ? leaves : nodes) += double{node.box(i).half_area()};
+    for (const MovingNode& node : swept.tree.nodes)
+        for (std::uint32_t i = 0; i < MovingNode::kWidth && !node.child[i].is_none(); ++i)
+            (node.child[i].is_leaf() ? leaves : nodes) +=
+                double{moving_tree::box_of(node, i).swept().half_area()};
     return leaves > 0 ? nodes / leaves : 0;
 }
 
@@ -163,8 +163,7 @@ void Deformable::adapt(const Impacts& impacts) {
             if (edge != kNoEdge && edges[edge])
                 marked[i] = true;
     move_features_off(d.surface(), marked, d.represented);
-    d.swept.leaves = LeafFeatures(d.swept.tree, d.surface(), d.represented);
-    refit(d.swept, d, 1);
+    d.build();
 }
 
 std::size_t Deformable::vertex_count() const noexcept {

@@ -4,7 +4,7 @@
 
 #include "deform/leaf_features.h"
 #include "mesh/representatives.h"
-#include "tree/tree.h"
+#include "tree/moving_tree.h"
 
 #include <cstddef>
 #include <memory>
@@ -21,7 +21,7 @@ struct MovingVertex {
 
 /// The hierarchy over a surface's swept triangles, and the boxes of the features in its leaves.
 struct SweptTree {
-    Tree tree;
+    MovingTree tree;
     LeafFeatures leaves;
 };
 

@@ -1,7 +1,5 @@
 #include "deform/feature_trees.h"
 
-#include "tree/refit.h"
-
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -40,8 +38,7 @@ std::vector<std::uint32_t> used_vertices(const SurfaceView& surface) {
 
 template <typename BoxOf>
 void fit(FeatureTree& tree, const BoxOf& box_of) {
-    refit(tree.tree,
-          [&](NodeRef leaf) { return fit_run(tree.runs, leaf_number(leaf), box_of).swept(); });
+    fit(tree.tree, [&](std::uint32_t leaf) { return fit_run(tree.runs, leaf, box_of); });
 }
 
 template <typename BoxOf>
@@ -50,10 +47,11 @@ void build(FeatureTree& tree, const std::vector<std::uint32_t>& ids, const BoxOf
     boxes.reserve(ids.size());
     for (const std::uint32_t id : ids)
         boxes.push_back(box_of(id).swept());
-    tree.tree = build_tree(boxes);
-    for (const NodeRef leaf : leaves_of(tree.tree)) {
+    const Tree shape = build_tree(boxes);
+    tree.tree = MovingTree(shape);
+    for (const NodeRef leaf : leaves_of(shape)) {
         for (std::uint32_t i = 0; i < leaf.count(); ++i)
-            tree.runs.add(ids[tree.tree.order[leaf.first() + i]]);
+            tree.runs.add(ids[shape.order[leaf.first() + i]]);
         tree.runs.end_leaf();
     }
     tree.runs.allocate_boxes();

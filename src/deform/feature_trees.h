@@ -11,7 +11,7 @@ namespace abut {
 
 /// A hierarchy over features of one kind.
 struct FeatureTree {
-    Tree tree;
+    MovingTree tree;
     FeatureRuns runs;
 
     [[nodiscard]] std::size_t bytes() const { return tree.bytes() + runs.bytes(); }
@@ -38,10 +38,10 @@ public:
     FeatureLeafPairs(const FeatureTree& a, const FeatureTree& b, float margin, const Visit& visit)
         : a_(a), b_(b), margin_(margin), visit_(visit) {}
 
-    bool visit(NodeRef leaf_a, NodeRef leaf_b) override {
-        const std::uint32_t i = leaf_number(leaf_a), j = leaf_number(leaf_b);
-        RunOverlaps overlaps{a_.runs.run(i), b_.runs.run(j), {}};
-        find_overlaps({&overlaps, 1}, margin_);
+    bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
+        const std::uint32_t i = leaf_a.number, j = leaf_b.number;
+        RunOverlaps overlaps{a_.runs.run(i), b_.runs.run(j), 0, {}};
+        find_overlaps({&overlaps, 1}, leaf_b.box, margin_);
         if (&a_ == &b_ && i == j)
             overlaps.keep_once();
         bool more = true;

@@ -2,51 +2,19 @@
 
 #include "core/parallel.h"
 #include "deform/candidate_search.h"
-#include "deform/deformable_data.h"
-#include "deform/elementary_stages.h"
+#include "deform/impact_collector.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace abut {
 
 namespace {
 
-/// Takes candidates through the elementary tests and keeps the impacts.
-class ImpactCollector {
-public:
-    explicit ImpactCollector(const ElementaryOptions& options)
-        : faces_(ElementaryKind::vertex_face, options, *this),
-          edges_(ElementaryKind::edge_edge, options, *this) {}
+struct AllImpacts {
+    std::vector<FeatureImpact>& list;
 
-    void operator()(const FeatureCandidate& candidate) {
-        (candidate.kind == ElementaryKind::vertex_face ? faces_ : edges_).add(candidate);
-    }
-    void finish() {
-        faces_.finish();
-        edges_.finish();
-    }
+    void keep(const FeatureImpact& impact) { list.push_back(impact); }
     static bool is_done() { return false; }
-    [[nodiscard]] Impacts& impacts() { return impacts_; }
-
-    // What the stages ask for.
-    static void write(const FeatureCandidate& candidate, ElementaryBlock& block, std::size_t lane) {
-        candidate.write(block, lane);
-    }
-    static ElementaryPair pair(const FeatureCandidate& candidate) { return candidate.pair(); }
-    void take(const FeatureCandidate& candidate, const ElementaryImpact& impact) {
-        TestCounts& tests = impacts_.counters.elementary_tests;
-        ++(candidate.kind == ElementaryKind::vertex_face ? tests.vertex_face : tests.edge_edge);
-        impacts_.counters.exact_fallbacks += impact.decided_by == ElementaryStage::exact ? 1 : 0;
-        if (impact.hit)
-            impacts_.list.push_back({candidate.kind, impact.status, candidate.face_first,
-                                     candidate.a, candidate.b, impact.time, impact.barycentric,
-                                     impact.normal});
-    }
-
-private:
-    Impacts impacts_;
-    ElementaryStages<FeatureCandidate, ImpactCollector> faces_, edges_;
 };
 
 void add(TestCounts& sum, const TestCounts& counts) {
@@ -63,17 +31,15 @@ void add(Impacts& sum, const Impacts& part) {
 }
 
 void sort(std::vector<FeatureImpact>& list) {
-    const auto key = [](const FeatureImpact& i) {
-        return std::tuple(i.kind, i.face_first, i.a, i.b);
-    };
-    std::sort(list.begin(), list.end(),
-              [&](const FeatureImpact& a, const FeatureImpact& b) { return key(a) < key(b); });
+    std::sort(list.begin(), list.end(), [](const FeatureImpact& a, const FeatureImpact& b) {
+        return list_key(a) < list_key(b);
+    });
     // Schemes without representatives find some several times.
-    list.erase(std::unique(list.begin(), list.end(),
-                           [&](const FeatureImpact& a, const FeatureImpact& b) {
-                               return key(a) == key(b);
-                           }),
-               list.end());
+    const auto last =
+        std::unique(list.begin(), list.end(), [](const FeatureImpact& a, const FeatureImpact& b) {
+            return list_key(a) == list_key(b);
+        });
+    list.erase(last, list.end());
 }
 
 Impacts find_impacts(const DeformableData& a, const DeformableData& b,
@@ -82,10 +48,10 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
     const CandidateSearch search(a, b, 0);
     std::vector<Impacts> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
-        ImpactCollector collector(options);
-        search.run(i, collector, collector.impacts().counters);
+        AllImpacts keeper{parts[i].list};
+        ImpactCollector<AllImpacts> collector(options, keeper, parts[i].counters);
+        search.run(i, collector, parts[i].counters);
         collector.finish();
-        parts[i] = std::move(collector.impacts());
     });
     Impacts impacts;
     for (const Impacts& part : parts)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh/representatives.h"
+#include "tree/moving_tree.h"
 #include "tree/tree.h"
 #include "volume/moving_box.h"
 
@@ -11,11 +12,6 @@
 #include <vector>
 
 namespace abut {
-
-/// Leaves are numbered in the order of their slots.
-inline std::uint32_t leaf_number(NodeRef leaf) {
-    return leaf.first() / TriangleLeaf::kLanes;
-}
 
 /// Features of one kind, leaf by leaf, and boxes of them.
 class FeatureRuns {

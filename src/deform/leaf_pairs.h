@@ -22,14 +22,14 @@ public:
 
     [[nodiscard]] std::uint64_t triangle_pairs() const { return triangle_pairs_; }
 
-    bool visit(NodeRef leaf_a, NodeRef leaf_b) override {
-        const std::uint32_t i = leaf_number(leaf_a), j = leaf_number(leaf_b);
+    bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
+        const std::uint32_t i = leaf_a.number, j = leaf_b.number;
         const bool same = pairs_.is_self() && i == j;
         auto& [faces, edges, vertex_face, face_vertex] = overlaps_;
         faces.a = face_vertex.a = a_.faces.run(i), faces.b = vertex_face.b = b_.faces.run(j);
         edges.a = a_.edges.run(i), edges.b = b_.edges.run(j);
         vertex_face.a = a_.vertices.run(i), face_vertex.b = b_.vertices.run(j);
-        find_overlaps(std::span(overlaps_).first(same ? 3 : 4), margin_);
+        find_overlaps(std::span(overlaps_).first(same ? 3 : 4), leaf_b.box, margin_);
         if (same)
             faces.keep_once(), edges.keep_once();
         triangle_pairs_ += faces.count();
@@ -58,10 +58,10 @@ public:
                       TrianglePairVisitor& visitor)
         : a_(a), b_(b), margin_(margin), visitor_(visitor) {}
 
-    bool visit(NodeRef leaf_a, NodeRef leaf_b) override {
-        const std::uint32_t i = leaf_number(leaf_a), j = leaf_number(leaf_b);
-        RunOverlaps faces{a_.faces.run(i), b_.faces.run(j), {}};
-        find_overlaps({&faces, 1}, margin_);
+    bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
+        const std::uint32_t i = leaf_a.number, j = leaf_b.number;
+        RunOverlaps faces{a_.faces.run(i), b_.faces.run(j), 0, {}};
+        find_overlaps({&faces, 1}, leaf_b.box, margin_);
         if (&a_ == &b_ && i == j)
             faces.keep_once();
         bool more = true;

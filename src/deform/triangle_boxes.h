@@ -3,7 +3,7 @@
 #include "deform/deformable_data.h"
 #include "deform/triangle_pairs.h"
 #include "math/vector.h"
-#include "volume/moving_box.h"
+#include "volume/aabb.h"
 
 #include <cstdint>
 #include <vector>
@@ -28,7 +28,7 @@ inline std::vector<TriangleBox> triangle_boxes(const DeformableData& a, const De
                 extend(box, surface.vertices[v].start);
                 extend(box, surface.vertices[v].end);
             }
-            boxes.push_back({inflated(Aabb(box), second ? 0 : margin), i, second});
+            boxes.push_back({Aabb(box, second ? 0.0 : double{margin}), i, second});
         }
     };
     add(a, false);

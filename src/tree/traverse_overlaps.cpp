@@ -1,14 +1,12 @@
 #include "tree/traverse_overlaps.h"
 
-#include "volume/moving_box.h"
-
 #include <bit>
 #include <boost/container/small_vector.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_overlaps.cpp"
 #include "simd/foreach_target.h"
-#include "volume/box_lanes-inl.h"
+#include "volume/moving_box-inl.h"
 
 // What the targets share.
 #ifndef ABUT_TREE_TRAVERSE_OVERLAPS_ONCE
@@ -17,8 +15,9 @@ namespace abut::traverse_overlaps_detail {
 
 using PairStack = boost::container::small_vector<OverlapTraversal::Pair, 512>;
 
-inline Aabb box_of(const Tree& tree, std::uint32_t name) {
-    return name == kRootName ? tree.bounds : tree.nodes[node_of(name)].box(lane_of(name));
+/// Not of the root.
+inline MovingBoxRef box_of(const MovingTree& tree, std::uint32_t name) {
+    return {tree.nodes[node_of(name)].boxes(), lane_of(name)};
 }
 
 } // namespace abut::traverse_overlaps_detail
@@ -28,15 +27,6 @@ HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
 using namespace traverse_overlaps_detail; // NOLINT(google-build-using-namespace): its own
-
-/// The children of `node` that a box overlaps: a bit each.
-HWY_INLINE std::uint32_t overlapping_children(const Aabb& box, const Node& node) {
-    const hn::CappedTag<float, Node::kWidth> d;
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < Node::kWidth; i += hn::Lanes(d))
-        bits |= overlap_bits(d, box, &node.lower[0][0] + i, Node::kWidth) << i;
-    return bits;
-}
 
 /// Puts the pairs of children of a pair that is not two leaves.
 class Opener {
@@ -60,8 +50,9 @@ public:
 private:
     /// Calls visit(name, lane).
     template <typename Visit>
-    static void for_each_child(const Tree& tree, std::uint32_t node, const Visit& visit) {
-        for (std::uint32_t i = 0; i < Node::kWidth && !tree.nodes[node].child[i].is_none(); ++i)
+    static void for_each_child(const MovingTree& tree, std::uint32_t node, const Visit& visit) {
+        for (std::uint32_t i = 0; i < MovingNode::kWidth && !tree.nodes[node].child[i].is_none();
+             ++i)
             visit(child_name(node, i), i);
     }
 
@@ -73,18 +64,20 @@ private:
     }
     /// The child against those children of a node of b that are `wanted`.
     void open_b(std::uint32_t name, std::uint32_t node, std::uint32_t wanted) {
-        const Aabb box = inflated(box_of(traversal_.a, name), traversal_.margin);
-        std::uint32_t bits = overlapping_children(box, traversal_.b.nodes[node]) & wanted;
+        std::uint32_t bits = overlap_bits(traversal_.b.nodes[node].boxes(),
+                                          box_of(traversal_.a, name), traversal_.margin) &
+                             wanted;
         for (; bits != 0; bits &= bits - 1)
-            pairs_.push_back(
-                {name, child_name(node, static_cast<std::uint32_t>(std::countr_zero(bits)))});
+            pairs_.push_back({name, child_of(node, bits)});
     }
     void open_a(std::uint32_t node, std::uint32_t name) {
-        const Aabb box = inflated(box_of(traversal_.b, name), traversal_.margin);
-        std::uint32_t bits = overlapping_children(box, traversal_.a.nodes[node]);
+        std::uint32_t bits = overlap_bits(traversal_.a.nodes[node].boxes(),
+                                          box_of(traversal_.b, name), traversal_.margin);
         for (; bits != 0; bits &= bits - 1)
-            pairs_.push_back(
-                {child_name(node, static_cast<std::uint32_t>(std::countr_zero(bits))), name});
+            pairs_.push_back({child_of(node, bits), name});
+    }
+    static std::uint32_t child_of(std::uint32_t node, std::uint32_t bits) {
+        return child_name(node, static_cast<std::uint32_t>(std::countr_zero(bits)));
     }
 
     const OverlapTraversal& traversal_;
@@ -103,7 +96,8 @@ bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair
         const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);
         if (!(a.is_leaf() && b.is_leaf()))
             opener.open(pair, a, b);
-        else if (!visitor.visit(a, b))
+        else if (!visitor.visit({leaf_number(a), box_of(traversal.a, pair.a)},
+                                {leaf_number(b), box_of(traversal.b, pair.b)}))
             return false;
     }
     return true;

@@ -1,12 +1,18 @@
 #pragma once
 
-#include "tree/tree.h"
+#include "tree/moving_tree.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace abut {
+
+/// A leaf by its number, and its box.
+struct MovingLeaf {
+    std::uint32_t number = 0;
+    MovingBoxRef box;
+};
 
 /// What a traversal does where the boxes of two leaves overlap.
 class OverlapVisitor {
@@ -17,15 +23,15 @@ public:
     virtual ~OverlapVisitor() = default;
 
     /// False: stop.
-    virtual bool visit(NodeRef leaf_a, NodeRef leaf_b) = 0;
+    virtual bool visit(const MovingLeaf& a, const MovingLeaf& b) = 0;
 };
 
-/// Two trees, or one against itself, whose nodes all have the tree's axes. Of one tree, each
-/// unordered pair of its leaves is visited once, and each leaf with itself.
+/// Two trees, or one against itself: then each unordered pair of its leaves is visited once, and each
+/// leaf with itself.
 struct OverlapTraversal {
-    const Tree& a;
-    const Tree& b;
-    float margin = 0; ///< boxes of a are widened by it
+    const MovingTree& a;
+    const MovingTree& b;
+    float margin = 0; ///< boxes that come so near overlap
 
     /// Two children by their names.
     struct Pair {

@@ -1,0 +1,111 @@
+#include <abut/deformable.h>
+
+#include "core/parallel.h"
+#include "deform/candidate_search.h"
+#include "deform/impact_collector.h"
+
+#include <array>
+#include <atomic>
+#include <tuple>
+
+namespace abut {
+
+namespace {
+
+/// Ends of the windows of time that are searched one after the other.
+constexpr std::array<double, 3> kWindows{0x1p-6, 0x1p-2, 1};
+/// More than times are below the first contact: what is found later in a window than this before
+/// its end may not be the earliest.
+constexpr double kTimeError = 0x1p-29;
+
+struct EarliestImpact {
+    std::optional<FeatureImpact> impact;
+
+    void keep(const FeatureImpact& other) {
+        const auto key = [](const FeatureImpact& i) { return std::tuple(i.time, list_key(i)); };
+        if (!impact || key(other) < key(*impact))
+            impact = other;
+    }
+    static bool is_done() { return false; }
+};
+
+/// The earliest impact among those whose features share a place until some time: of all that happen
+/// by then.
+std::optional<FeatureImpact> earliest(const CandidateSearch& search,
+                                      const ElementaryOptions& options) {
+    std::vector<EarliestImpact> parts(search.tasks());
+    parallel_for(parts.size(), 1, [&](std::size_t i) {
+        DeformableCounters counters;
+        ImpactCollector<EarliestImpact> collector(options, parts[i], counters);
+        search.run(i, collector, counters);
+        collector.finish();
+    });
+    EarliestImpact all;
+    for (const EarliestImpact& part : parts)
+        if (part.impact)
+            all.keep(*part.impact);
+    return all.impact;
+}
+
+std::optional<FeatureImpact> find_first(const DeformableData& a, const DeformableData& b,
+                                        const ElementaryOptions& options) {
+    require_valid(options);
+    SweptTree swept_a = a.swept, swept_b;
+    if (&a != &b)
+        swept_b = b.swept;
+    std::optional<FeatureImpact> first;
+    for (const double until : kWindows) {
+        refit(swept_a, a, until);
+        if (&a != &b)
+            refit(swept_b, b, until);
+        first = earliest(CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, 0), options);
+        if (first && first->time < until - kTimeError)
+            break;
+    }
+    return first;
+}
+
+/// Whether anyone has found an impact.
+struct AnyImpact {
+    std::atomic<bool>& found;
+
+    void keep(const FeatureImpact&) { found = true; }
+    [[nodiscard]] bool is_done() const { return found.load(std::memory_order_relaxed); }
+};
+
+bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryOptions& options) {
+    require_valid(options);
+    const CandidateSearch search(a, a.swept, b, b.swept, 0);
+    std::atomic<bool> found = false;
+    parallel_for(search.tasks(), 1, [&](std::size_t i) {
+        AnyImpact keeper{found};
+        if (keeper.is_done())
+            return;
+        DeformableCounters counters;
+        ImpactCollector<AnyImpact> collector(options, keeper, counters);
+        search.run(i, collector, counters);
+        collector.finish();
+    });
+    return !found;
+}
+
+} // namespace
+
+std::optional<FeatureImpact> first_self_impact(const Deformable& surface,
+                                               const ElementaryOptions& options) {
+    return find_first(surface.data(), surface.data(), options);
+}
+std::optional<FeatureImpact> first_impact(const Deformable& a, const Deformable& b,
+                                          const ElementaryOptions& options) {
+    return find_first(a.data(), b.data(), options);
+}
+
+bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions& options) {
+    return is_free(surface.data(), surface.data(), options);
+}
+bool is_free_of_impacts(const Deformable& a, const Deformable& b,
+                        const ElementaryOptions& options) {
+    return is_free(a.data(), b.data(), options);
+}
+
+} // namespace abut

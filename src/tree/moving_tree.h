@@ -1,0 +1,74 @@
+#pragma once
+
+#include "core/parallel.h"
+#include "tree/tree.h"
+#include "volume/moving_box.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+/// Eight children side by side, as moving boxes: row r of lane i is rows[r][i] (see MovingBoxRun).
+/// Unused lanes come last: their boxes are empty, their reference none.
+struct alignas(32) MovingNode {
+    static constexpr std::uint32_t kWidth = Node::kWidth;
+    float rows[MovingBoxRun::kRows][kWidth];
+    NodeRef child[kWidth];
+
+    /// The boxes alone: children have no ids.
+    [[nodiscard]] MovingBoxRun boxes() const { return {&rows[0][0], nullptr, kWidth}; }
+};
+
+/// Hierarchy over moving boxes, eight wide. Its shape stays while boxes change.
+struct MovingTree {
+    std::vector<MovingNode> nodes; ///< nodes[0] is the root; a node comes after the one above it
+    MovingBox bounds;              ///< of all
+
+    MovingTree() = default;
+    /// The shape of a tree; boxes are to be fitted.
+    explicit MovingTree(const Tree& shape);
+
+    [[nodiscard]] bool empty() const { return nodes.empty(); }
+    [[nodiscard]] NodeRef named(std::uint32_t name) const {
+        return name == kRootName ? NodeRef::node(0) : nodes[node_of(name)].child[lane_of(name)];
+    }
+    [[nodiscard]] std::size_t bytes() const { return nodes.size() * sizeof(nodes[0]); }
+};
+
+/// Leaves are numbered in the order of their slots.
+inline std::uint32_t leaf_number(NodeRef leaf) {
+    return leaf.first() / TriangleLeaf::kLanes;
+}
+
+/// Gives all nodes the boxes of their leaves, which `leaf_box(number)` returns, and what encloses
+/// them. It is called from any thread.
+///
+/// Cost        O(n), the leaves in parallel.
+template <typename LeafBox>
+void fit(MovingTree& tree, const LeafBox& leaf_box);
+
+namespace moving_tree {
+
+void set_box(MovingNode& node, std::size_t lane, const MovingBox& box);
+MovingBox box_of(const MovingNode& node, std::size_t lane);
+/// Of all children.
+MovingBox bounds_of(const MovingNode& node);
+/// Takes the boxes of nodes that are not leaves from the nodes below.
+void fit_inner(MovingTree& tree);
+
+} // namespace moving_tree
+
+template <typename LeafBox>
+void fit(MovingTree& tree, const LeafBox& leaf_box) {
+    parallel_for(tree.nodes.size(), 256, [&](std::size_t i) {
+        MovingNode& node = tree.nodes[i];
+        for (std::size_t lane = 0; lane < MovingNode::kWidth; ++lane)
+            if (!node.child[lane].is_none() && node.child[lane].is_leaf())
+                moving_tree::set_box(node, lane, leaf_box(leaf_number(node.child[lane])));
+    });
+    moving_tree::fit_inner(tree);
+}
+
+} // namespace abut

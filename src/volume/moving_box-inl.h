@@ -1,0 +1,76 @@
+// A moving box against eight, side by side.
+
+// Included once for each target.
+#if defined(ABUT_VOLUME_MOVING_BOX_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ABUT_VOLUME_MOVING_BOX_INL_H
+#undef ABUT_VOLUME_MOVING_BOX_INL_H
+#else
+#define ABUT_VOLUME_MOVING_BOX_INL_H
+#endif
+
+#include "math/lanes-inl.h"
+#include "volume/moving_box.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+/// Boxes of a run side by side, a register for each bound.
+class MovingBoxLanes {
+public:
+    using D = hn::CappedTag<float, 8>;
+
+    HWY_INLINE MovingBoxLanes(const MovingBoxRun& run, std::size_t first) {
+        const float* row = run.rows + first;
+        for (std::size_t end = 0; end < 2; ++end) {
+            for (std::size_t axis = 0; axis < 3; ++axis, row += run.count)
+                lower_[end][axis] = hn::LoadU(D(), row);
+            for (std::size_t axis = 0; axis < 3; ++axis, row += run.count)
+                upper_[end][axis] = hn::LoadU(D(), row);
+        }
+    }
+
+    /// Bits of those that may come within the margin of a box. A rounded difference is below a
+    /// float only if the exact one is.
+    [[nodiscard]] HWY_INLINE std::uint32_t overlap_bits(const MovingBoxRef& box,
+                                                        hn::Vec<D> minus_margin) const {
+        const D d;
+        const float* row = box.run.rows + box.place;
+        const auto bound = [&](std::size_t end, std::size_t i) HWY_ATTR {
+            return hn::Set(d, row[(MovingBoxRun::kEnd * end + i) * box.run.count]);
+        };
+        // How far the boxes overlap along an axis at one end at least; of all axes the least.
+        auto overlap = hn::Set(d, std::numeric_limits<float>::infinity());
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto below = hn::Max(hn::Sub(bound(0, axis + 3), lower_[0][axis]),
+                                       hn::Sub(bound(1, axis + 3), lower_[1][axis]));
+            const auto above = hn::Max(hn::Sub(upper_[0][axis], bound(0, axis)),
+                                       hn::Sub(upper_[1][axis], bound(1, axis)));
+            overlap = hn::Min(overlap, hn::Min(below, above));
+        }
+        return bits_of(d, hn::Ge(overlap, minus_margin));
+    }
+
+private:
+    hn::Vec<D> lower_[2][3], upper_[2][3]; ///< [start, end][axis]
+};
+
+/// The boxes of a run that may come within the margin of a box: a bit each.
+HWY_INLINE std::uint32_t overlap_bits(const MovingBoxRun& run, const MovingBoxRef& box,
+                                      float margin) {
+    const MovingBoxLanes::D d;
+    const auto minus_margin = hn::Set(d, -margin);
+    std::uint32_t bits = 0;
+    for (std::uint32_t first = 0; first < run.count;
+         first += static_cast<std::uint32_t>(hn::Lanes(d)))
+        bits |= MovingBoxLanes(run, first).overlap_bits(box, minus_margin) << first;
+    return bits & run.all();
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
