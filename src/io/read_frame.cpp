@@ -46,6 +46,9 @@ Mesh read_frame(const std::string& path) {
     try {
         Mesh mesh = read_unchecked(path);
         require_frame(mesh, path);
+        // Many frames may be held: no more of each than it needs.
+        mesh.positions.shrink_to_fit();
+        mesh.triangles.shrink_to_fit();
         return mesh;
     } catch (const Fault& fault) {
         throw Error(fault.code(), path, fault.what());
