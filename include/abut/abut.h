@@ -6,6 +6,7 @@
 #include <abut/deformable.h>
 #include <abut/elementary_impact.h>
 #include <abut/error.h>
+#include <abut/frame.h>
 #include <abut/mesh.h>
 #include <abut/model.h>
 #include <abut/motion.h>

@@ -4,48 +4,25 @@
 #include "core/progress.h"
 #include "io/child_process.h"
 #include "io/decode_scene.h"
+#include "io/fault.h"
+#include "io/input_file.h"
 #include "io/reader_program.h"
 #include "io/scene_stream.h"
 #include "math/transform.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <fcntl.h>
 #include <limits>
 #include <numeric>
-#include <sys/stat.h>
 #include <tbb/global_control.h>
 #include <thread>
-#include <unistd.h>
 
 namespace abut {
 
 namespace {
-
-/// Opens a file to learn whether it can be read; its size.
-std::uint64_t readable_size(const std::string& file) {
-    // O_NONBLOCK: a named pipe without a writer must not hold us up.
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) {
-        if (errno == ENOENT || errno == ENOTDIR)
-            throw Error(ErrorCode::file_not_found, file, "no such file");
-        throw Error(ErrorCode::unreadable, file,
-                    std::string("cannot be read: ") + std::strerror(errno));
-    }
-    struct stat status {};
-    const bool known = fstat(descriptor, &status) == 0;
-    close(descriptor);
-    if (!known || !S_ISREG(status.st_mode))
-        throw Error(ErrorCode::unreadable, file,
-                    known && S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
-    if (status.st_size == 0)
-        throw Error(ErrorCode::malformed, file, "is empty");
-    return static_cast<std::uint64_t>(status.st_size);
-}
 
 std::string megabytes(std::uint64_t bytes) {
     return std::to_string(bytes >> 20) + " MiB";
@@ -108,8 +85,8 @@ public:
         for (std::size_t i = files.size(); i-- > 0;) {
             try {
                 sizes_[i] = readable_size(files[i]);
-            } catch (...) {
-                faults_[i] = std::current_exception();
+            } catch (const Fault& fault) {
+                faults_[i] = std::make_exception_ptr(Error(fault.code(), files[i], fault.what()));
                 first_fault_ = i;
             }
         }

@@ -2,9 +2,10 @@
 
 #include <abut/error.h>
 
+#include "io/input_file.h"
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -101,13 +102,6 @@ fs::path find_converter(const std::string& file) {
     throw Error(
         ErrorCode::unsupported, file,
         "cannot be read: the IFC converter is missing (set ABUT_IFC_CONVERTER to its folder)");
-}
-
-std::string lower_extension(const std::string& file) {
-    std::string extension = fs::path(file).extension();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
 }
 
 } // namespace

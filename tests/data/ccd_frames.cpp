@@ -1,71 +1,19 @@
 #include "tests/data/ccd_frames.h"
 
+#include <abut/frame.h>
+
 #include <algorithm>
-#include <bit>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <stdexcept>
+#include <utility>
 
 namespace abut::test {
 
-namespace {
-
-struct Frame {
-    std::vector<Vec3> positions;
-    std::vector<std::array<std::uint32_t, 3>> faces;
-};
-
-/// Big-endian bytes.
-std::uint32_t word_at(const std::string& bytes, std::size_t at) {
-    std::uint32_t word = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        word = word << 8 | static_cast<unsigned char>(bytes.at(at + i));
-    return word;
-}
-
-Frame read_frame(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::size_t vertices = 0, faces = 0, vertex_bytes = 0;
-    std::string line, element;
-    while (std::getline(stream, line) && line != "end_header") {
-        std::istringstream words(line);
-        std::string word, first, second;
-        words >> word >> first >> second;
-        if (word == "element") {
-            element = first;
-            (element == "vertex" ? vertices : faces) = std::stoul(second);
-        }
-        if (word == "property" && element == "vertex")
-            vertex_bytes += first == "float" ? 4 : 1;
-    }
-    std::stringstream rest;
-    rest << stream.rdbuf();
-    const std::string bytes = rest.str();
-    constexpr std::size_t kFaceBytes = 1 + 3 * 4;
-    if (bytes.size() != vertices * vertex_bytes + faces * kFaceBytes)
-        throw std::runtime_error(file + " has another size than its header says");
-    Frame frame;
-    for (std::size_t i = 0; i < vertices; ++i) {
-        const auto coordinate = [&](std::size_t axis) {
-            return double(std::bit_cast<float>(word_at(bytes, i * vertex_bytes + 4 * axis)));
-        };
-        frame.positions.push_back({coordinate(0), coordinate(1), coordinate(2)});
-    }
-    for (std::size_t i = 0; i < faces; ++i) {
-        const std::size_t at = vertices * vertex_bytes + i * kFaceBytes + 1;
-        frame.faces.push_back({word_at(bytes, at), word_at(bytes, at + 4), word_at(bytes, at + 8)});
-    }
-    return frame;
-}
-
-} // namespace
-
 CcdFrames::CcdFrames(const std::string& start, const std::string& end) {
-    const Frame first = read_frame(start);
-    start_ = first.positions;
+    Mesh first = read_frame(start);
+    start_ = std::move(first.positions);
     end_ = read_frame(end).positions;
-    faces_ = first.faces;
+    faces_ = std::move(first.triangles);
     // By the higher vertex, then by the lower one.
     for (const auto& [a, b, c] : faces_)
         for (const auto& [p, q] : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)})

@@ -13,7 +13,7 @@ namespace abut::test {
 /// A pair of frames of ../shared/data/ccd and its features, numbered as IDS.md there says.
 class CcdFrames {
 public:
-    /// In: paths of binary PLY files of floats.
+    /// In: paths of frames that read_frame can read.
     CcdFrames(const std::string& start, const std::string& end);
 
     [[nodiscard]] ElementaryPair vertex_face(std::size_t vertex, std::size_t face) const;

@@ -1,7 +1,7 @@
 #include "io/reader/gltf_tree.h"
 
+#include "io/fault.h"
 #include "io/reader/affine.h"
-#include "io/reader/fault.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 // Not for users: the library starts it. PARENT is the process that it dies with; MEMORY the bytes
 // of address space that it may take, 0 for any.
 
-#include "io/reader/fault.h"
+#include "io/fault.h"
 #include "io/reader/read_model.h"
 #include "io/reader/stream_writer.h"
 #include "io/scene_stream.h"

@@ -1,7 +1,7 @@
 #include "io/reader/node_parts.h"
 
+#include "io/fault.h"
 #include "io/reader/affine.h"
-#include "io/reader/fault.h"
 
 #include <string_view>
 #include <variant>

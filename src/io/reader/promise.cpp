@@ -1,11 +1,10 @@
 #include "io/reader/promise.h"
 
-#include "io/reader/fault.h"
-#include "io/reader/text_scan.h"
+#include "io/fault.h"
+#include "io/input_file.h"
+#include "io/text_scan.h"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 namespace abut {
 
@@ -13,19 +12,6 @@ namespace {
 
 constexpr std::size_t kStlHeaderBytes = 84;
 constexpr std::size_t kStlTriangleBytes = 50;
-
-std::string read_file(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    std::string content;
-    if (stream) {
-        content.resize(static_cast<std::size_t>(stream.tellg()));
-        stream.seekg(0);
-        stream.read(content.data(), static_cast<std::streamsize>(content.size()));
-    }
-    if (!stream)
-        throw Fault(ErrorCode::unreadable, "cannot be read");
-    return content;
-}
 
 std::uint64_t promised_by_text_stl(std::string_view content) {
     LineScan lines(content);

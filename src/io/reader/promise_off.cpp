@@ -1,6 +1,6 @@
-#include "io/reader/fault.h"
+#include "io/fault.h"
 #include "io/reader/promise.h"
-#include "io/reader/text_scan.h"
+#include "io/text_scan.h"
 
 #include <array>
 

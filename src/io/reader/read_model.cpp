@@ -1,6 +1,7 @@
 #include "io/reader/read_model.h"
 
-#include "io/reader/fault.h"
+#include "io/fault.h"
+#include "io/input_file.h"
 #include "io/reader/gltf_tree.h"
 #include "io/reader/joined_vertices.h"
 #include "io/reader/node_parts.h"
@@ -12,8 +13,6 @@
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/scene.h>
-#include <cctype>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <new>
@@ -24,13 +23,6 @@ namespace abut {
 namespace {
 
 constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
-
-std::string lower_extension(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 const aiScene& import(Assimp::Importer& importer, const std::string& file) {
     // No step of Assimp's: they join, drop and move vertices. Polygons are cut here.

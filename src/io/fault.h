@@ -7,7 +7,7 @@
 
 namespace abut {
 
-/// A file's fault, found by a reader; the parent process adds the file's name.
+/// A fault in a file's content; who knows the file's name makes an Error of it.
 class Fault : public std::runtime_error {
 public:
     Fault(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}

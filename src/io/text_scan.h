@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace abut {
 
@@ -37,29 +38,31 @@ private:
     std::uint64_t number_ = 0;
 };
 
+inline bool is_blank(char c) {
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
 /// The next word of a text, taken off it; empty at its end. Line ends count as blanks.
 inline std::string_view take_word(std::string_view& text) {
-    constexpr std::string_view kBlanks = " \t\r\n\v\f";
-    const std::size_t start = text.find_first_not_of(kBlanks);
-    if (start == std::string_view::npos) {
-        text = {};
-        return {};
-    }
-    const std::size_t end = text.find_first_of(kBlanks, start);
+    std::size_t start = 0;
+    while (start < text.size() && is_blank(text[start]))
+        ++start;
+    std::size_t end = start;
+    while (end < text.size() && !is_blank(text[end]))
+        ++end;
     const std::string_view word = text.substr(start, end - start);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end);
+    text.remove_prefix(end);
     return word;
 }
 
-/// A whole word as a number.
+/// A whole word as a number; none if it is beyond the range of the type.
 template <typename Number>
 std::optional<Number> to_number(std::string_view word) {
     if (!word.empty() && word.front() == '+')
         word.remove_prefix(1);
     Number value{};
     const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-    // Beyond the range of the type is a number still; that it is not finite is found later.
-    if (word.empty() || end != word.data() + word.size() || fault == std::errc::invalid_argument)
+    if (fault != std::errc() || end != word.data() + word.size())
         return std::nullopt;
     return value;
 }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace abut {
+
+/// A path's extension in lower case, with its dot.
+std::string lower_extension(const std::string& path);
+
+/// Opens a file to learn whether it can be read; its size in bytes.
+///
+/// Errors      Fault: file_not_found; unreadable, if only because it is no regular file; malformed
+///             if it is empty.
+std::uint64_t readable_size(const std::string& path);
+
+/// All bytes of a file. Errors as readable_size.
+std::string read_file(const std::string& path);
+
+} // namespace abut

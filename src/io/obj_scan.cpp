@@ -1,0 +1,100 @@
+#include "io/obj_scan.h"
+
+#include "io/fault.h"
+
+#include <string>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+/// A line with those that its final backslash joins to it.
+bool next_logical(LineScan& lines, std::string_view& line, std::string& joined) {
+    if (!lines.next(line))
+        return false;
+    if (line.empty() || line.back() != '\\')
+        return true;
+    joined.clear();
+    do {
+        joined.append(line.substr(0, line.size() - 1)).push_back(' ');
+    } while (lines.next(line) && !line.empty() && line.back() == '\\');
+    joined.append(line);
+    line = joined;
+    return true;
+}
+
+/// The corners of faces as indices from 0.
+class CornerReader {
+public:
+    /// In          rest: what follows `f` on its line; vertices: how many have come before it.
+    std::span<const std::uint64_t> read(std::string_view rest, std::uint64_t vertices,
+                                        const LineScan& lines) {
+        corners_.clear();
+        for (std::string_view corner = take_word(rest); !corner.empty() && corner[0] != '#';
+             corner = take_word(rest)) {
+            const auto number = to_number<std::int64_t>(corner.substr(0, corner.find('/')));
+            if (!number)
+                malformed(lines.place() + ": a face has the corner " + std::string(corner));
+            corners_.push_back(index_of(*number, vertices, lines));
+        }
+        if (corners_.size() < 3)
+            malformed(lines.place() + ": a face needs three corners");
+        return corners_;
+    }
+
+    /// In          vertices: of the whole file.
+    /// Errors      Fault bad_mesh if there are too few of them.
+    void check(std::uint64_t vertices) const {
+        if (largest_ > vertices)
+            throw Fault(ErrorCode::bad_mesh,
+                        "line " + std::to_string(largest_line_) + ": a face refers to vertex " +
+                            std::to_string(largest_) + " of " + std::to_string(vertices));
+    }
+
+private:
+    /// Numbers count from 1, or backwards from -1, which is the last vertex so far.
+    std::uint64_t index_of(std::int64_t number, std::uint64_t vertices, const LineScan& lines) {
+        const auto forward = static_cast<std::uint64_t>(number);
+        const std::uint64_t back = 0 - forward;
+        if (number == 0 || (number < 0 && back > vertices))
+            throw Fault(ErrorCode::bad_mesh, lines.place() + ": a face refers to vertex " +
+                                                 std::to_string(number) + ", which does not exist");
+        if (number < 0)
+            return vertices - back;
+        if (forward > largest_) {
+            largest_ = forward;
+            largest_line_ = lines.number();
+        }
+        return forward - 1;
+    }
+
+    std::vector<std::uint64_t> corners_;
+    std::uint64_t largest_ = 0;
+    std::uint64_t largest_line_ = 0;
+};
+
+} // namespace
+
+void scan_obj(std::string_view content,
+              const std::function<void(std::string_view rest, const LineScan& lines)>& vertex,
+              const std::function<void(std::span<const std::uint64_t> corners)>& face) {
+    LineScan lines(content);
+    CornerReader corners;
+    std::string_view line;
+    std::string joined;
+    std::uint64_t vertices = 0;
+    while (next_logical(lines, line, joined)) {
+        std::string_view rest = line;
+        const std::string_view word = take_word(rest);
+        if (word == "v") {
+            vertex(rest, lines);
+            ++vertices;
+        } else if (word == "f") {
+            face(corners.read(rest, vertices, lines));
+        }
+    }
+    corners.check(vertices);
+}
+
+} // namespace abut

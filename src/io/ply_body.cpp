@@ -1,0 +1,106 @@
+#include "io/ply_body.h"
+
+#include <algorithm>
+
+namespace abut {
+
+bool PlyBody::skip(const PlyType& type, std::uint64_t count) {
+    if (is_text()) {
+        for (; count > 0; --count) {
+            const std::string_view word = take_word(rest_);
+            if (word.empty())
+                return false;
+            if (!looks_like_number(word))
+                malformed("has " + std::string(word.substr(0, 40)) + " for a number");
+        }
+        return true;
+    }
+    if (count > rest_.size() / type.bytes)
+        return false;
+    rest_.remove_prefix(count * type.bytes);
+    return true;
+}
+
+bool PlyBody::skip(const PlyProperty& property) {
+    std::uint64_t length = 1;
+    if (property.is_list && !take_length(property, length))
+        return false;
+    return skip(property.value, length);
+}
+
+bool PlyBody::take_length(const PlyProperty& property, std::uint64_t& length) {
+    std::int64_t value = 0;
+    if (!take(property.length, value))
+        return false;
+    if (value < 0)
+        malformed("has a list of negative length");
+    length = static_cast<std::uint64_t>(value);
+    return true;
+}
+
+std::uint64_t PlyBody::most(const PlyElement& element) const {
+    std::uint64_t bytes = 0;
+    // A list may be empty; in text a value is one character or more.
+    for (const PlyProperty& property : element.properties)
+        bytes += is_text() ? 1 : (property.is_list ? property.length : property.value).bytes;
+    return bytes == 0 ? 0 : std::min(element.count, rest_.size() / bytes);
+}
+
+bool PlyBody::at_end() const {
+    return is_text() ? std::all_of(rest_.begin(), rest_.end(), is_blank) : rest_.empty();
+}
+
+namespace {
+
+/// The list of a face's vertices; null if faces have none.
+const PlyProperty* corner_list(const PlyElement& element) {
+    for (const PlyProperty& property : element.properties)
+        if (property.is_list &&
+            (property.name == "vertex_indices" || property.name == "vertex_index"))
+            return &property;
+    return nullptr;
+}
+
+/// False at the end of the data.
+bool take_corners(PlyBody& body, const PlyProperty& list, std::uint64_t vertices,
+                  std::vector<std::uint64_t>& corners) {
+    std::uint64_t length = 0;
+    if (!body.take_length(list, length))
+        return false;
+    corners.clear();
+    for (std::uint64_t i = 0; i < length; ++i) {
+        std::int64_t index = 0;
+        if (!body.take(list.value, index))
+            return false;
+        if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
+            throw Fault(ErrorCode::bad_mesh, "a face refers to vertex " + std::to_string(index) +
+                                                 " of " + std::to_string(vertices));
+        corners.push_back(static_cast<std::uint64_t>(index));
+    }
+    return true;
+}
+
+} // namespace
+
+void take_ply_faces(PlyBody& body, const PlyElement& element, std::uint64_t vertices,
+                    const PlyFace& face) {
+    const PlyProperty* const list = corner_list(element);
+    std::vector<std::uint64_t> corners;
+    take_ply_elements(element, [&] {
+        for (const PlyProperty& property : element.properties)
+            if (!(&property == list ? take_corners(body, property, vertices, corners)
+                                    : body.skip(property)))
+                return false;
+        face(corners);
+        return true;
+    });
+}
+
+void skip_ply_elements(PlyBody& body, const PlyElement& element) {
+    take_ply_elements(element, [&] {
+        return std::all_of(element.properties.begin(), element.properties.end(),
+                           [&](const PlyProperty& property) { return body.skip(property); });
+    });
+}
+
+} // namespace abut
