@@ -60,7 +60,7 @@ public:
 
     bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
         const std::uint32_t i = leaf_a.number, j = leaf_b.number;
-        RunOverlaps faces{a_.faces.run(i), b_.faces.run(j), 0, {}};
+        RunOverlaps faces{a_.faces.run(i), b_.faces.run(j), {}};
         find_overlaps({&faces, 1}, leaf_b.box, margin_);
         if (&a_ == &b_ && i == j)
             faces.keep_once();

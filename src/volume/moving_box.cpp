@@ -9,29 +9,36 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-HWY_INLINE void find_masks(RunOverlaps& overlaps, float margin) {
+/// In: the boxes of a that may meet something, a bit each.
+HWY_INLINE void find_tiles(RunOverlaps& overlaps, std::uint32_t rows, float margin) {
     const MovingBoxRun a = overlaps.a, b = overlaps.b;
+    constexpr std::uint32_t kTile = RunOverlaps::kTile;
     const MovingBoxLanes::D d;
     const auto minus_margin = hn::Set(d, -margin);
-    std::uint32_t first = 0;
-    do {
+    const std::uint32_t tiles_b = RunOverlaps::tiles_of(b);
+    for (std::uint32_t first = 0; first < b.count;
+         first += static_cast<std::uint32_t>(hn::Lanes(d))) {
         const MovingBoxLanes lanes(b, first);
-        for (std::uint32_t left = overlaps.rows; left != 0; left &= left - 1) {
-            const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
-            const std::uint32_t bits = lanes.overlap_bits({a, k}, minus_margin) << first & b.all();
-            overlaps.masks[k] = first == 0 ? bits : overlaps.masks[k] | bits;
+        const std::uint32_t used = b.all() >> first;
+        std::uint64_t* tile = overlaps.tiles.data() + first / kTile;
+        std::uint32_t k = 0;
+        for (std::uint32_t i = 0; i < RunOverlaps::tiles_of(a); ++i, tile += tiles_b) {
+            std::uint64_t bits = 0;
+            for (std::uint32_t left = rows >> k & 0xffU; left != 0; left &= left - 1) {
+                const auto row = static_cast<std::uint32_t>(std::countr_zero(left));
+                bits |= std::uint64_t{lanes.overlap_bits({a, k + row}, minus_margin) & used}
+                        << (kTile * row);
+            }
+            *tile = first % kTile == 0 ? bits : *tile | bits << first % kTile;
+            k += kTile;
         }
-        first += static_cast<std::uint32_t>(hn::Lanes(d));
-    } while (first < b.count);
+    }
 }
 
 void find_all_overlaps(std::span<RunOverlaps> overlaps, const MovingBoxRef& around_b,
                        float margin) {
-    for (RunOverlaps& each : overlaps) {
-        each.rows = each.b.count == 0 ? 0 : overlap_bits(each.a, around_b, margin);
-        if (each.rows != 0)
-            find_masks(each, margin);
-    }
+    for (RunOverlaps& each : overlaps)
+        find_tiles(each, overlap_bits(each.a, around_b, margin), margin);
 }
 
 } // namespace abut::HWY_NAMESPACE
