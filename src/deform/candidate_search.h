@@ -89,20 +89,19 @@ void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters& coun
 template <typename Sink>
 void CandidateSearch::run_features(const Start& start, FeaturePairs<Sink>& pairs) const {
     const FeatureTrees &a = *a_.feature_trees, &b = *b_.feature_trees;
-    const auto all = [](const FeatureCandidate&) { return true; };
     if (start.between == Between::edges)
         run_features(a.edges, b.edges, start.pair, [&](auto e, auto f) {
-            pairs.edges(e, f, all);
+            pairs.edges(e, f);
             return !pairs.is_done();
         });
     else if (start.between == Between::vertices_faces)
         run_features(a.vertices, b.faces, start.pair, [&](auto v, auto f) {
-            pairs.vertex_face(v, f, all);
+            pairs.vertex_face(v, f);
             return !pairs.is_done();
         });
     else
         run_features(a.faces, b.vertices, start.pair, [&](auto f, auto v) {
-            pairs.face_vertex(f, v, all);
+            pairs.face_vertex(f, v);
             return !pairs.is_done();
         });
 }

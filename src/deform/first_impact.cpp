@@ -31,14 +31,15 @@ struct EarliestImpact {
 
 /// The earliest impact among those whose features share a place until some time: of all that happen
 /// by then.
-std::optional<FeatureImpact> earliest(const CandidateSearch& search,
+std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableData& b,
+                                      const CandidateSearch& search,
                                       const ElementaryOptions& options) {
     std::vector<EarliestImpact> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
         DeformableCounters counters;
-        ImpactCollector<EarliestImpact> collector(options, parts[i], counters);
+        ImpactCollector<EarliestImpact> collector(a, b, options, parts[i]);
         search.run(i, collector, counters);
-        collector.finish();
+        collector.finish(counters);
     });
     EarliestImpact all;
     for (const EarliestImpact& part : parts)
@@ -58,7 +59,8 @@ std::optional<FeatureImpact> find_first(const DeformableData& a, const Deformabl
         refit(swept_a, a, until);
         if (&a != &b)
             refit(swept_b, b, until);
-        first = earliest(CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, 0), options);
+        first = earliest(a, b, CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, 0),
+                         options);
         if (first && first->time < until - kTimeError)
             break;
     }
@@ -82,9 +84,9 @@ bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryO
         if (keeper.is_done())
             return;
         DeformableCounters counters;
-        ImpactCollector<AnyImpact> collector(options, keeper, counters);
+        ImpactCollector<AnyImpact> collector(a, b, options, keeper);
         search.run(i, collector, counters);
-        collector.finish();
+        collector.finish(counters);
     });
     return !found;
 }

@@ -1,5 +1,7 @@
 #include "volume/moving_box.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "volume/moving_box.cpp"
 #include "simd/foreach_target.h"
@@ -9,8 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// In: the boxes of a that may meet something, a bit each.
-HWY_INLINE void find_tiles(RunOverlaps& overlaps, std::uint32_t rows, float margin) {
+HWY_INLINE void find_tiles(RunOverlaps& overlaps, float margin) {
     const MovingBoxRun a = overlaps.a, b = overlaps.b;
     constexpr std::uint32_t kTile = RunOverlaps::kTile;
     const MovingBoxLanes::D d;
@@ -21,24 +22,19 @@ HWY_INLINE void find_tiles(RunOverlaps& overlaps, std::uint32_t rows, float marg
         const MovingBoxLanes lanes(b, first);
         const std::uint32_t used = b.all() >> first;
         std::uint64_t* tile = overlaps.tiles.data() + first / kTile;
-        std::uint32_t k = 0;
-        for (std::uint32_t i = 0; i < RunOverlaps::tiles_of(a); ++i, tile += tiles_b) {
+        for (std::uint32_t k = 0; k < a.count; k += kTile, tile += tiles_b) {
             std::uint64_t bits = 0;
-            for (std::uint32_t left = rows >> k & 0xffU; left != 0; left &= left - 1) {
-                const auto row = static_cast<std::uint32_t>(std::countr_zero(left));
+            for (std::uint32_t row = 0; row < std::min(kTile, a.count - k); ++row)
                 bits |= std::uint64_t{lanes.overlap_bits({a, k + row}, minus_margin) & used}
                         << (kTile * row);
-            }
             *tile = first % kTile == 0 ? bits : *tile | bits << first % kTile;
-            k += kTile;
         }
     }
 }
 
-void find_all_overlaps(std::span<RunOverlaps> overlaps, const MovingBoxRef& around_b,
-                       float margin) {
+void find_all_overlaps(std::span<RunOverlaps> overlaps, float margin) {
     for (RunOverlaps& each : overlaps)
-        find_tiles(each, overlap_bits(each.a, around_b, margin), margin);
+        find_tiles(each, margin);
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -49,8 +45,8 @@ namespace abut {
 
 HWY_EXPORT(find_all_overlaps);
 
-void find_overlaps(std::span<RunOverlaps> overlaps, const MovingBoxRef& around_b, float margin) {
-    HWY_DYNAMIC_DISPATCH(find_all_overlaps)(overlaps, around_b, margin);
+void find_overlaps(std::span<RunOverlaps> overlaps, float margin) {
+    HWY_DYNAMIC_DISPATCH(find_all_overlaps)(overlaps, margin);
 }
 
 } // namespace abut

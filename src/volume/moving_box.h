@@ -105,9 +105,8 @@ private:
 
 /// Fills in the tiles: boxes that may come within a margin of each other.
 ///
-/// In          a box around all that the runs a hold, one around all that the runs b hold.
 /// Accuracy    certified: no bit is missing for boxes that come so near at some time.
 /// Cost        some 30 instructions for a box against eight.
-void find_overlaps(std::span<RunOverlaps> overlaps, const MovingBoxRef& around_b, float margin);
+void find_overlaps(std::span<RunOverlaps> overlaps, float margin);
 
 } // namespace abut
