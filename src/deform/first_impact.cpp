@@ -36,10 +36,9 @@ std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableD
                                       const ElementaryOptions& options) {
     std::vector<EarliestImpact> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
-        DeformableCounters counters;
         ImpactCollector<EarliestImpact> collector(a, b, options, parts[i]);
-        search.run(i, collector, counters);
-        collector.finish(counters);
+        search.run(i, collector);
+        collector.finish();
     });
     EarliestImpact all;
     for (const EarliestImpact& part : parts)
@@ -83,10 +82,9 @@ bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryO
         AnyImpact keeper{found};
         if (keeper.is_done())
             return;
-        DeformableCounters counters;
         ImpactCollector<AnyImpact> collector(a, b, options, keeper);
-        search.run(i, collector, counters);
-        collector.finish(counters);
+        search.run(i, collector);
+        collector.finish();
     });
     return !found;
 }

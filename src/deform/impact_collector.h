@@ -71,11 +71,13 @@ public:
             (kind == PairKind::vertex_face ? vertex_face_ : face_vertex_).add(ids, wanted);
     }
     [[nodiscard]] bool is_done() const { return keeper_.is_done(); }
-    /// Tests what still waits for others, and counts the tests.
-    void finish(DeformableCounters& counters) {
+    /// Tests what still waits for others.
+    void finish() {
         edges_.finish();
         vertex_face_.finish();
         face_vertex_.finish();
+    }
+    void count(DeformableCounters& counters) const {
         counters.elementary_tests = {vertex_face_.tests() + face_vertex_.tests(), edges_.tests()};
         counters.exact_fallbacks = edges_.exact_fallbacks() + vertex_face_.exact_fallbacks() +
                                    face_vertex_.exact_fallbacks();

@@ -50,8 +50,9 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
     parallel_for(parts.size(), 1, [&](std::size_t i) {
         AllImpacts keeper{parts[i].list};
         ImpactCollector<AllImpacts> collector(a, b, options, keeper);
-        search.run(i, collector, parts[i].counters);
-        collector.finish(parts[i].counters);
+        search.run(i, collector, &parts[i].counters);
+        collector.finish();
+        collector.count(parts[i].counters);
     });
     Impacts impacts;
     for (const Impacts& part : parts)

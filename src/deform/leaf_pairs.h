@@ -12,15 +12,15 @@
 namespace abut {
 
 /// What leaves make of each other: candidates, straight away. A feature's boxes lie in those of the
-/// triangle that represents it, so that pairs of triangles need no look of their own.
+/// triangle that represents it, so that pairs of triangles need no look of their own: they are
+/// looked for only to be counted.
 template <typename Sink>
 class RepresentativePairs final : public OverlapVisitor {
 public:
+    /// In: a counter of pairs of triangles, or none.
     RepresentativePairs(const LeafFeatures& a, const LeafFeatures& b, float margin,
-                        FeaturePairs<Sink>& pairs)
-        : a_(a), b_(b), margin_(margin), pairs_(pairs) {}
-
-    [[nodiscard]] std::uint64_t triangle_pairs() const { return triangle_pairs_; }
+                        FeaturePairs<Sink>& pairs, std::uint64_t* triangle_pairs)
+        : a_(a), b_(b), margin_(margin), pairs_(pairs), triangle_pairs_(triangle_pairs) {}
 
     bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
         const std::uint32_t i = leaf_a.number, j = leaf_b.number;
@@ -30,11 +30,13 @@ public:
         edges.a = a_.edges.run(i), edges.b = b_.edges.run(j);
         vertex_face.a = a_.vertices.run(i), vertex_face.b = faces.b;
         vertex_of_b.a = b_.vertices.run(j), vertex_of_b.b = faces.a;
-        find_overlaps(std::span(overlaps_).first(same ? 3 : 4), margin_);
+        const std::size_t first = triangle_pairs_ != nullptr ? 0 : 1, last = same ? 3 : 4;
+        find_overlaps(std::span(overlaps_).subspan(first, last - first), margin_);
         if (same)
             faces.keep_once(), edges.keep_once();
-        triangle_pairs_ += faces.count();
 
+        if (triangle_pairs_ != nullptr)
+            *triangle_pairs_ += faces.count();
         edges.for_each([&](auto e, auto f) { pairs_.edges(e, f); });
         vertex_face.for_each([&](auto v, auto f) { pairs_.vertex_face(v, f); });
         if (!same)
@@ -47,7 +49,7 @@ private:
     const LeafFeatures& b_;
     float margin_;
     FeaturePairs<Sink>& pairs_;
-    std::uint64_t triangle_pairs_ = 0;
+    std::uint64_t* triangle_pairs_;
     std::array<RunOverlaps, 4> overlaps_;
 };
 
