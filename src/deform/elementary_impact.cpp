@@ -3,6 +3,7 @@
 
 #include "core/parallel.h"
 #include "geometry/difference_patch.h"
+#include "geometry/elementary_advancement.h"
 #include "geometry/elementary_crossing.h"
 #include "geometry/elementary_exact.h"
 #include "geometry/elementary_filter.h"
@@ -30,6 +31,8 @@ bool is_finite(const ElementaryPair& pair) {
 void require_valid(const ElementaryOptions& options) {
     if (!(options.delta >= 0 && std::isfinite(options.delta)))
         throw Error(ErrorCode::bad_argument, "delta must be a finite number of at least 0");
+    if (!(options.thickness >= 0 && std::isfinite(options.thickness)))
+        throw Error(ErrorCode::bad_argument, "thickness must be a finite number of at least 0");
 }
 
 ElementaryImpact impact_of(const ElementaryPair& pair, const CrossingBlock& crossings,
@@ -94,13 +97,18 @@ public:
 
 private:
     void filter() {
-        for_each_bit(possible_impacts(candidates_.block, kind_) & candidates_.used(),
-                     [&](std::size_t lane) {
-                         const std::size_t pair = candidates_.members[lane];
-                         if (possible_.add(pair, pairs_[pair]))
-                             cross();
-                     });
+        for_each_bit(possible_impacts(candidates_.block, kind_, options_.thickness) &
+                         candidates_.used(),
+                     [&](std::size_t lane) { pass(candidates_.members[lane]); });
         candidates_.count = 0;
+    }
+    /// What the filter has left.
+    void pass(std::size_t i) {
+        if (options_.thickness > 0)
+            impacts_[i] =
+                elementary_impact_advancement(pairs_[i], options_.thickness, options_.delta);
+        else if (possible_.add(i, pairs_[i]))
+            cross();
     }
     void cross() {
         decide_crossings(possible_.block, kind_, crossings_);
@@ -127,8 +135,10 @@ ElementaryImpact elementary_impact(const ElementaryPair& pair, const ElementaryO
     require_valid(options);
     if (!is_finite(pair))
         throw Error(ErrorCode::bad_argument, "a coordinate is not finite");
-    if (!possible_impact(pair))
+    if (!possible_impact(pair, options.thickness))
         return {};
+    if (options.thickness > 0)
+        return elementary_impact_advancement(pair, options.thickness, options.delta);
     CrossingBlock crossing;
     decide_crossing(pair, crossing);
     return (crossing.apart | crossing.meet) != 0 ? impact_of(pair, crossing, 0)
