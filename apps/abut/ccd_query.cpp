@@ -22,6 +22,7 @@ struct QueryArguments {
     std::vector<std::string> files;
     std::string truth_file, kind, mode = "exact";
     std::optional<double> delta;
+    double thickness = 0;
 };
 
 /// Answers to the queries of one file, or of all.
@@ -59,11 +60,16 @@ struct Tally {
 };
 
 ElementaryOptions options_of(const QueryArguments& arguments) {
+    ElementaryOptions options;
+    options.thickness = arguments.thickness;
     if (arguments.mode == "conservative")
-        return {.delta = arguments.delta.value_or(kDefaultDelta)};
-    if (arguments.delta)
+        options.delta = arguments.delta.value_or(kDefaultDelta);
+    else if (arguments.delta)
         throw Error(ErrorCode::bad_argument, "--delta goes with --mode conservative");
-    return {};
+    // The answers that are given are those of features that touch.
+    if (options.thickness > 0 && !arguments.truth_file.empty())
+        throw Error(ErrorCode::bad_argument, "--truth goes without --thickness");
+    return options;
 }
 
 std::optional<ElementaryKind> kind_of(const QueryArguments& arguments) {
@@ -173,8 +179,11 @@ std::string table_row(const std::string& name, const Tally& tally) {
 int run(const QueryArguments& arguments, const CommonOptions& common) {
     const ElementaryOptions options = options_of(arguments);
     std::vector<ElementaryQueries> queries;
-    for (const std::string& file : arguments.files)
+    for (const std::string& file : arguments.files) {
         queries.push_back(read_elementary_queries(file, kind_of(arguments)));
+        if (options.thickness > 0)
+            queries.back().truth.clear();
+    }
     if (!arguments.truth_file.empty())
         replace_truth(arguments.truth_file, queries);
 
@@ -194,6 +203,7 @@ int run(const QueryArguments& arguments, const CommonOptions& common) {
     if (common.json)
         print(dump({{"mode", arguments.mode},
                     {"delta", options.delta},
+                    {"thickness", options.thickness},
                     {"files", std::move(files)},
                     {"total", describe(total)}}));
     else if (!common.quiet)
@@ -220,6 +230,10 @@ Subcommand add_ccd_query(CLI::App& root, CommonOptions& common) {
         ->check(CLI::IsMember({"exact", "conservative"}));
     app->add_option("--delta", arguments->delta,
                     fmt::format("Length, of the mode conservative (default {})", kDefaultDelta))
+        ->check(not_negative());
+    app->add_option("--thickness", arguments->thickness,
+                    "Length: features this near are hits; the files' answers do not count "
+                    "(default 0: features that touch)")
         ->check(not_negative());
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

@@ -28,6 +28,8 @@ std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, doub
         boxes[i].start = box_of(v.start, 0);
         if (until == 1) {
             boxes[i].end = box_of(v.end, 0);
+        } else if (until == 0) {
+            boxes[i].end = boxes[i].start;
         } else {
             // Off by 3 roundings of the larger end at most.
             const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end));

@@ -55,7 +55,7 @@ private:
     double looseness_when_built_ = 0;
 };
 
-/// Fits all boxes to what moves until time `until`, in (0, 1].
+/// Fits all boxes to what moves until time `until`, in [0, 1].
 void refit(SweptTree& swept, const DeformableData& data, double until);
 
 } // namespace abut
