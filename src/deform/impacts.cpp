@@ -55,8 +55,14 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
         collector.count(parts[i].counters);
     });
     Impacts impacts;
+    std::size_t count = 0;
     for (const Impacts& part : parts)
+        count += part.list.size();
+    impacts.list.reserve(count);
+    for (Impacts& part : parts) {
         add(impacts, part);
+        part.list = {}; // so that there is room for one list, not for two
+    }
     sort(impacts.list);
     return impacts;
 }
