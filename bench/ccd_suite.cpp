@@ -1,12 +1,16 @@
 #include <abut/elementary_impact.h>
+#include <abut/error.h>
+#include <abut/frame.h>
 #include <abut/progress.h>
 
+#include "ccd_step_rows.h"
 #include "measure.h"
 #include "peer_elementary.h"
 #include "suites.h"
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fmt/format.h>
 #include <random>
 
@@ -231,6 +235,11 @@ Row measure_many(ElementaryKind kind, const CcdSuiteOptions& options) {
     return row;
 }
 
+CcdStep read_step(const std::string& start, const std::string& end) {
+    return {std::filesystem::path(start).stem().string(), read_frame(start),
+            read_frame(end).positions};
+}
+
 } // namespace
 
 Report run_ccd_suite(const CcdSuiteOptions& options) {
@@ -244,6 +253,15 @@ Report run_ccd_suite(const CcdSuiteOptions& options) {
         report.rows.push_back(measure_single(c, options));
     for (const auto kind : {ElementaryKind::vertex_face, ElementaryKind::edge_edge})
         report.rows.push_back(measure_many(kind, options));
+    if (options.frames.size() % 2 != 0)
+        throw Error(ErrorCode::bad_argument, "frames come in pairs: start and end of a step");
+    if (!options.frames.empty())
+        for (Row& row : calibration_rows(options.rounds))
+            report.rows.push_back(std::move(row));
+    for (std::size_t i = 0; i < options.frames.size(); i += 2)
+        for (Row& row :
+             ccd_step_rows(read_step(options.frames[i], options.frames[i + 1]), options.rounds))
+            report.rows.push_back(std::move(row));
     return report;
 }
 

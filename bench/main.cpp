@@ -75,8 +75,9 @@ int run(int argc, char** argv) {
 
     CcdSuiteOptions ccd;
     CLI::App* ccd_suite = app.add_subcommand(
-        "ccd", "Elementary tests of continuous collision, against FCL's cubic solver");
+        "ccd", "Continuous collision: elementary tests against FCL, steps of deforming surfaces");
     ccd_suite->add_option("files", ccd.files, "Files of queries (CSV)");
+    ccd_suite->add_option("--frames", ccd.frames, "Frames (PLY, OBJ): start and end of each step");
     ccd_suite->add_option("--pairs", ccd.pairs, "Generated pairs of each case")
         ->check(CLI::Range(1, 1000000));
     ccd_suite->add_option("--rounds", ccd.rounds, "Passes; medians are taken")

@@ -60,14 +60,17 @@ struct ImpactSuiteOptions {
 Report run_impact_suite(const ImpactSuiteOptions& options);
 
 struct CcdSuiteOptions {
-    std::vector<std::string> files; ///< of queries (see read_elementary_queries)
-    std::size_t pairs = 2000;       ///< of each generated case
+    std::vector<std::string> files;  ///< of queries (see read_elementary_queries)
+    std::vector<std::string> frames; ///< of steps: start and end of each (see read_frame)
+    std::size_t pairs = 2000;        ///< of each generated case
     int rounds = 5;
     std::uint64_t seed = 1;
 };
 
-/// Elementary tests of continuous collision, by kind and truth, against FCL's cubic solver.
-/// Errors      as read_elementary_queries.
+/// Elementary tests of continuous collision, by kind and truth, against FCL's cubic solver; whole
+/// steps of deforming surfaces, every scheme beside representative triangles.
+/// Errors      as read_elementary_queries and read_frame; Error{bad_argument} for an odd number of
+///             frames.
 Report run_ccd_suite(const CcdSuiteOptions& options);
 
 struct ShapesSuiteOptions {

@@ -70,7 +70,7 @@ struct TestCounts {
 };
 
 /// Work that a query did: the machine-independent part of its cost. The same for any number of
-/// threads and any SIMD width.
+/// threads.
 struct DeformableCounters {
     std::uint64_t triangle_pairs = 0; ///< whose swept boxes overlap, each once; 0 where the scheme
                                       ///< looks at none

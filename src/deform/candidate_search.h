@@ -27,10 +27,10 @@ public:
     [[nodiscard]] std::size_t tasks() const {
         return culling_ ? culling_->tasks() : starts_.size();
     }
-    /// Hands the candidates of a task to a sink (see FeaturePairs), until that is done, and counts
-    /// them.
+    /// Hands the candidates of a task to a sink (see FeaturePairs), until that is done; counts
+    /// them, and the pairs of triangles, if there is where.
     template <typename Sink>
-    void run(std::size_t task, Sink& sink, DeformableCounters& counters) const;
+    void run(std::size_t task, Sink& sink, DeformableCounters* counters = nullptr) const;
 
 private:
     /// Where a task begins, in which hierarchies.
@@ -60,49 +60,52 @@ private:
 };
 
 template <typename Sink>
-void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters& counters) const {
+void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters* counters) const {
     FeaturePairs<Sink> pairs(a_, b_, sink);
     const bool represented = scheme_ == Scheme::representative || scheme_ == Scheme::markup;
     const bool boxes = scheme_ == Scheme::representative || scheme_ == Scheme::database;
     TrianglePairs<Sink> triangles(a_, b_, {represented, boxes, margin_, tested_.get()}, pairs);
+    std::uint64_t triangle_pairs = 0;
     if (culling_) {
         culling_->run(task, triangles);
-        counters.triangle_pairs += triangles.count();
+        triangle_pairs = triangles.count();
     } else if (scheme_ == Scheme::features) {
         run_features(starts_[task], pairs);
     } else {
         const OverlapTraversal traversal{swept_a_.tree, swept_b_.tree, margin_};
         if (scheme_ == Scheme::representative) {
-            RepresentativePairs<Sink> visitor(swept_a_.leaves, swept_b_.leaves, margin_, pairs);
+            RepresentativePairs<Sink> visitor(swept_a_.leaves, swept_b_.leaves, margin_, pairs,
+                                              counters != nullptr ? &triangle_pairs : nullptr);
             traverse_overlaps(traversal, starts_[task].pair, visitor);
-            counters.triangle_pairs += visitor.triangle_pairs();
         } else {
             LeafTrianglePairs visitor(swept_a_.leaves, swept_b_.leaves, margin_, triangles);
             traverse_overlaps(traversal, starts_[task].pair, visitor);
-            counters.triangle_pairs += triangles.count();
+            triangle_pairs = triangles.count();
         }
     }
-    counters.candidates.vertex_face += pairs.counts().vertex_face;
-    counters.candidates.edge_edge += pairs.counts().edge_edge;
+    if (counters != nullptr) {
+        counters->triangle_pairs += triangle_pairs;
+        counters->candidates.vertex_face += pairs.counts().vertex_face;
+        counters->candidates.edge_edge += pairs.counts().edge_edge;
+    }
 }
 
 template <typename Sink>
 void CandidateSearch::run_features(const Start& start, FeaturePairs<Sink>& pairs) const {
     const FeatureTrees &a = *a_.feature_trees, &b = *b_.feature_trees;
-    const auto all = [](const FeatureCandidate&) { return true; };
     if (start.between == Between::edges)
         run_features(a.edges, b.edges, start.pair, [&](auto e, auto f) {
-            pairs.edges(e, f, all);
+            pairs.edges(e, f);
             return !pairs.is_done();
         });
     else if (start.between == Between::vertices_faces)
         run_features(a.vertices, b.faces, start.pair, [&](auto v, auto f) {
-            pairs.vertex_face(v, f, all);
+            pairs.vertex_face(v, f);
             return !pairs.is_done();
         });
     else
         run_features(a.faces, b.vertices, start.pair, [&](auto f, auto v) {
-            pairs.face_vertex(f, v, all);
+            pairs.face_vertex(f, v);
             return !pairs.is_done();
         });
 }

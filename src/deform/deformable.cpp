@@ -16,12 +16,14 @@ namespace {
 /// The hierarchy is built anew once its nodes are this much larger, beside its leaves, than when it
 /// was built.
 constexpr double kMostLooseness = 1.3;
+/// Vertices that a thread takes at once.
+constexpr std::size_t kGrain = 4096;
 
 /// What vertices move between until a time.
 std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, double until) {
     const auto box_of = [](const Vec3& p, double margin) { return Aabb(Box3{p, p}, margin); };
     std::vector<MovingBox> boxes(vertices.size());
-    parallel_for(vertices.size(), 4096, [&](std::size_t i) {
+    parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
         const MovingVertex& v = vertices[i];
         boxes[i].start = box_of(v.start, 0);
         if (until == 1) {
@@ -58,7 +60,13 @@ void refit(SweptTree& swept, const DeformableData& data, double until) {
 DeformableData::DeformableData() = default;
 DeformableData::~DeformableData() = default;
 
+void DeformableData::find_edges_of_triangles() {
+    if (features.edges_of.empty())
+        features = make_surface_features(vertices.size(), triangles);
+}
+
 void DeformableData::build() {
+    find_edges_of_triangles();
     const std::vector<MovingBox> boxes = vertex_boxes(vertices, 1);
     std::vector<Aabb> triangle_boxes(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -71,6 +79,11 @@ void DeformableData::build() {
     looseness_when_built_ = looseness();
     if (options.scheme == Scheme::features)
         feature_trees = std::make_unique<FeatureTrees>(surface(), boxes);
+    const bool spawns_from_leaves =
+        options.scheme == Scheme::features ||
+        (options.scheme == Scheme::representative && options.culling == Culling::tree);
+    if (spawns_from_leaves)
+        features.edges_of = {};
 }
 
 void DeformableData::refit() {
@@ -133,8 +146,9 @@ void Deformable::set_motion(std::span<const Vec3> start, std::span<const Vec3> e
                                                  std::to_string(d.vertices.size()) + " vertices");
     require_valid_positions(start);
     require_valid_positions(end);
-    for (std::size_t i = 0; i < d.vertices.size(); ++i)
+    parallel_for(d.vertices.size(), kGrain, [&](std::size_t i) {
         d.vertices[i] = {start[i], end[i]};
+    });
     d.refit();
 }
 
@@ -144,13 +158,15 @@ void Deformable::advance(std::span<const Vec3> end) {
         throw Error(ErrorCode::bad_argument, std::to_string(end.size()) + " positions for " +
                                                  std::to_string(d.vertices.size()) + " vertices");
     require_valid_positions(end);
-    for (std::size_t i = 0; i < d.vertices.size(); ++i)
+    parallel_for(d.vertices.size(), kGrain, [&](std::size_t i) {
         d.vertices[i] = {d.vertices[i].end, end[i]};
+    });
     d.refit();
 }
 
 void Deformable::adapt(const Impacts& impacts) {
     DeformableData& d = *data_;
+    d.find_edges_of_triangles();
     std::vector<bool> marked(d.triangles.size());
     std::vector<bool> edges(d.features.edges.size());
     for (const FeatureImpact& impact : impacts.list)

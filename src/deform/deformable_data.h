@@ -34,7 +34,7 @@ public:
 
     DeformableOptions options;
     std::vector<IndexTriangle> triangles;
-    SurfaceFeatures features;
+    SurfaceFeatures features; ///< edges_of only where spawning from triangles needs it
     std::vector<Represented> represented; ///< by each triangle
     std::vector<MovingVertex> vertices;
     SweptTree swept;
@@ -42,6 +42,8 @@ public:
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
 
+    /// Makes `features.edges_of`, if it is not there.
+    void find_edges_of_triangles();
     /// Builds the hierarchy anew.
     void build();
     /// Fits all boxes to the motion; builds the hierarchy anew where that is worth it.

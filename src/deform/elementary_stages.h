@@ -42,8 +42,9 @@ public:
     ElementaryStages(ElementaryKind kind, const ElementaryOptions& options, Source& source)
         : kind_(kind), options_(options), source_(source) {}
 
-    void add(const Item& item) {
-        if (candidates_.add(item, source_))
+    /// Nothing, if the pair is not wanted: without a branch, where that is hard to foretell.
+    void add(const Item& item, bool wanted = true) {
+        if (candidates_.add(item, source_, wanted))
             filter();
     }
     void finish() {
@@ -60,9 +61,10 @@ private:
         std::size_t count = 0;
 
         /// True if it is full now.
-        bool add(const Item& item, const Source& source) {
+        bool add(const Item& item, const Source& source, bool wanted) {
             source.write(item, block, count);
-            items[count++] = item;
+            items[count] = item;
+            count += wanted ? 1 : 0;
             return count == ElementaryBlock::kLanes;
         }
         /// Lanes beyond are left from earlier passes.
@@ -72,7 +74,7 @@ private:
     void filter() {
         for_each_bit(possible_impacts(candidates_.block, kind_) & candidates_.used(),
                      [&](std::size_t lane) {
-                         if (possible_.add(candidates_.items[lane], source_))
+                         if (possible_.add(candidates_.items[lane], source_, true))
                              cross();
                      });
         candidates_.count = 0;

@@ -14,124 +14,124 @@
 
 namespace abut {
 
-/// Two features of surfaces, and their four moving vertices in the order of ElementaryPair.
-struct FeatureCandidate {
-    ElementaryKind kind = ElementaryKind::vertex_face;
-    bool face_first = false;    ///< as in FeatureImpact
-    std::uint32_t a = 0, b = 0; ///< as in FeatureImpact
-    std::array<const MovingVertex*, 4> vertices{};
+/// Two features: vertex and triangle, or two edges.
+struct FeatureIds {
+    std::uint32_t a = 0, b = 0;
+};
 
-    void write(ElementaryBlock& block, std::size_t lane) const {
-        for (std::size_t i = 0; i < 4; ++i)
-            block.set_vertex(lane, i, vertices[i]->start, vertices[i]->end);
+using PairVertices = std::array<const MovingVertex*, 4>; ///< in the order of ElementaryPair
+
+inline ElementaryPair pair_of(ElementaryKind kind, const PairVertices& vertices) {
+    ElementaryPair pair{kind, {}, {}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        pair.start[i] = vertices[i]->start;
+        pair.end[i] = vertices[i]->end;
     }
-    [[nodiscard]] ElementaryPair pair() const {
-        ElementaryPair pair{kind, {}, {}};
-        for (std::size_t i = 0; i < 4; ++i) {
-            pair.start[i] = vertices[i]->start;
-            pair.end[i] = vertices[i]->end;
+    return pair;
+}
+
+/// The vertices of pairs of features of one kind, of two surfaces or of one.
+template <ElementaryKind kind>
+class PairGeometry {
+public:
+    PairGeometry(const DeformableData& a, const DeformableData& b) : a_(a), b_(b) {}
+
+    [[nodiscard]] PairVertices vertices(FeatureIds ids) const {
+        if constexpr (kind == ElementaryKind::edge_edge) {
+            const auto &e = a_.features.edges[ids.a], &f = b_.features.edges[ids.b];
+            return {&a_.vertices[e[0]], &a_.vertices[e[1]], &b_.vertices[f[0]], &b_.vertices[f[1]]};
+        } else {
+            const IndexTriangle& f = b_.triangles[ids.b];
+            return {&a_.vertices[ids.a], &b_.vertices[f[0]], &b_.vertices[f[1]],
+                    &b_.vertices[f[2]]};
         }
-        return pair;
     }
+    [[nodiscard]] ElementaryPair pair(FeatureIds ids) const { return pair_of(kind, vertices(ids)); }
+    void write(FeatureIds ids, ElementaryBlock& block, std::size_t lane) const {
+        const PairVertices v = vertices(ids);
+        for (std::size_t i = 0; i < 4; ++i)
+            block.set_vertex(lane, i, v[i]->start, v[i]->end);
+    }
+    /// Whether features of one surface share a vertex. Without branches: of neighbouring leaves,
+    /// as many do as do not.
+    [[nodiscard]] bool are_neighbours(FeatureIds ids) const {
+        if constexpr (kind == ElementaryKind::edge_edge) {
+            const auto &e = a_.features.edges[ids.a], &f = b_.features.edges[ids.b];
+            return static_cast<bool>(unsigned{e[0] == f[0]} | unsigned{e[0] == f[1]} |
+                                     unsigned{e[1] == f[0]} | unsigned{e[1] == f[1]});
+        } else {
+            const IndexTriangle& f = b_.triangles[ids.b];
+            return static_cast<bool>(unsigned{f[0] == ids.a} | unsigned{f[1] == ids.a} |
+                                     unsigned{f[2] == ids.a});
+        }
+    }
+
+private:
+    const DeformableData& a_; ///< of the first feature
+    const DeformableData& b_;
 };
 
 /// Whether the boxes of both features, at both ends of the motion, show them farther apart than a
 /// margin on some axis, always.
-inline bool boxes_apart(const FeatureCandidate& c, double margin) {
-    const std::size_t first = c.kind == ElementaryKind::vertex_face ? 1 : 2;
-    for (int axis = 0; axis < 3; ++axis) {
-        bool below = true, above = true;
-        for (const auto end : {&MovingVertex::start, &MovingVertex::end}) {
-            double low[2], high[2];
-            for (const std::size_t side : {0U, 1U}) {
-                const std::size_t begin = side == 0 ? 0 : first, stop = side == 0 ? first : 4;
-                low[side] = high[side] = component(c.vertices[begin]->*end, axis);
-                for (std::size_t i = begin + 1; i < stop; ++i) {
-                    const double x = component(c.vertices[i]->*end, axis);
-                    low[side] = std::min(low[side], x);
-                    high[side] = std::max(high[side], x);
-                }
-            }
-            // A rounded difference is below a double only if the exact one is.
-            below = below && high[0] - low[1] < -margin;
-            above = above && high[1] - low[0] < -margin;
-        }
-        if (below || above)
-            return true;
-    }
-    return false;
-}
+bool boxes_apart(ElementaryKind kind, const PairVertices& vertices, double margin);
 
-/// Makes candidates of features that are no neighbours, by their ids, and hands those that a
-/// predicate admits to a sink:
+/// Which kind of pair of features two surfaces a and b have.
+enum class PairKind : std::uint8_t {
+    edges,       ///< an edge of each
+    vertex_face, ///< a vertex of a and a face of b
+    face_vertex, ///< a face of a and a vertex of b; not of one surface, where it is vertex_face
+};
+
+/// Hands pairs of features that are no neighbours, by their ids, to a sink:
 ///
-///     void Sink::operator()(const FeatureCandidate&);
-///     bool Sink::is_done() const;  // no more, please
+///     void Sink::add(PairKind, FeatureIds, bool wanted);  // nothing, if not wanted
+///     bool Sink::is_done() const;                          // no more, please
 ///
 /// One surface against itself if both are the same object.
 template <typename Sink>
 class FeaturePairs {
 public:
     FeaturePairs(const DeformableData& a, const DeformableData& b, Sink& sink)
-        : a_(a), b_(b), is_self_(&a == &b), sink_(sink) {}
+        : is_self_(&a == &b), edges_(a, b), vertex_face_(a, b), face_vertex_(b, a), sink_(sink) {}
 
     [[nodiscard]] bool is_self() const { return is_self_; }
     [[nodiscard]] bool is_done() const { return sink_.is_done(); }
     [[nodiscard]] const TestCounts& counts() const { return counts_; }
 
-    template <typename Admits>
-    void edges(std::uint32_t a, std::uint32_t b, const Admits& admits) {
-        if (is_self_ && a > b)
-            std::swap(a, b);
-        const auto &e = a_.features.edges[a], &f = b_.features.edges[b];
-        if (is_self_ && (e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1]))
-            return;
-        hand_over(FeatureCandidate{ElementaryKind::edge_edge,
-                                   false,
-                                   a,
-                                   b,
-                                   {&a_.vertices[e[0]], &a_.vertices[e[1]], &b_.vertices[f[0]],
-                                    &b_.vertices[f[1]]}},
-                  counts_.edge_edge, admits);
+    struct AdmitAll {
+        bool operator()(PairKind, FeatureIds) const { return true; }
+    };
+    /// In: whether a pair that is no neighbours is wanted.
+    template <typename Admits = AdmitAll>
+    void edges(std::uint32_t a, std::uint32_t b, const Admits& admits = {}) {
+        const FeatureIds ids =
+            is_self_ ? FeatureIds{std::min(a, b), std::max(a, b)} : FeatureIds{a, b};
+        hand_over(PairKind::edges, ids, edges_, counts_.edge_edge, admits);
     }
     /// A vertex of the first surface and a face of the second.
-    template <typename Admits>
-    void vertex_face(std::uint32_t vertex, std::uint32_t face, const Admits& admits) {
-        vertex_face(a_, vertex, b_, face, false, admits);
+    template <typename Admits = AdmitAll>
+    void vertex_face(std::uint32_t vertex, std::uint32_t face, const Admits& admits = {}) {
+        hand_over(PairKind::vertex_face, {vertex, face}, vertex_face_, counts_.vertex_face, admits);
     }
     /// A face of the first surface and a vertex of the second.
-    template <typename Admits>
-    void face_vertex(std::uint32_t face, std::uint32_t vertex, const Admits& admits) {
-        vertex_face(b_, vertex, a_, face, !is_self_, admits);
+    template <typename Admits = AdmitAll>
+    void face_vertex(std::uint32_t face, std::uint32_t vertex, const Admits& admits = {}) {
+        hand_over(is_self_ ? PairKind::vertex_face : PairKind::face_vertex, {vertex, face},
+                  face_vertex_, counts_.vertex_face, admits);
     }
 
 private:
-    template <typename Admits>
-    void vertex_face(const DeformableData& of_vertex, std::uint32_t vertex,
-                     const DeformableData& of_face, std::uint32_t face, bool face_first,
-                     const Admits& admits) {
-        const IndexTriangle& f = of_face.triangles[face];
-        if (is_self_ && (f[0] == vertex || f[1] == vertex || f[2] == vertex))
-            return;
-        hand_over(FeatureCandidate{ElementaryKind::vertex_face,
-                                   face_first,
-                                   vertex,
-                                   face,
-                                   {&of_vertex.vertices[vertex], &of_face.vertices[f[0]],
-                                    &of_face.vertices[f[1]], &of_face.vertices[f[2]]}},
-                  counts_.vertex_face, admits);
-    }
-    template <typename Admits>
-    void hand_over(const FeatureCandidate& candidate, std::uint64_t& count, const Admits& admits) {
-        if (!admits(candidate))
-            return;
-        ++count;
-        sink_(candidate);
+    template <ElementaryKind kind, typename Admits>
+    void hand_over(PairKind pair_kind, FeatureIds ids, const PairGeometry<kind>& geometry,
+                   std::uint64_t& count, const Admits& admits) {
+        const bool wanted = !(is_self_ && geometry.are_neighbours(ids)) && admits(pair_kind, ids);
+        count += wanted ? 1 : 0;
+        sink_.add(pair_kind, ids, wanted);
     }
 
-    const DeformableData& a_;
-    const DeformableData& b_;
     bool is_self_;
+    PairGeometry<ElementaryKind::edge_edge> edges_;
+    PairGeometry<ElementaryKind::vertex_face> vertex_face_, face_vertex_;
     Sink& sink_;
     TestCounts counts_;
 };

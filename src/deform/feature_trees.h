@@ -40,8 +40,8 @@ public:
 
     bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
         const std::uint32_t i = leaf_a.number, j = leaf_b.number;
-        RunOverlaps overlaps{a_.runs.run(i), b_.runs.run(j), 0, {}};
-        find_overlaps({&overlaps, 1}, leaf_b.box, margin_);
+        RunOverlaps overlaps{a_.runs.run(i), b_.runs.run(j), {}};
+        find_overlaps({&overlaps, 1}, margin_);
         if (&a_ == &b_ && i == j)
             overlaps.keep_once();
         bool more = true;

@@ -31,13 +31,13 @@ struct EarliestImpact {
 
 /// The earliest impact among those whose features share a place until some time: of all that happen
 /// by then.
-std::optional<FeatureImpact> earliest(const CandidateSearch& search,
+std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableData& b,
+                                      const CandidateSearch& search,
                                       const ElementaryOptions& options) {
     std::vector<EarliestImpact> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
-        DeformableCounters counters;
-        ImpactCollector<EarliestImpact> collector(options, parts[i], counters);
-        search.run(i, collector, counters);
+        ImpactCollector<EarliestImpact> collector(a, b, options, parts[i]);
+        search.run(i, collector);
         collector.finish();
     });
     EarliestImpact all;
@@ -58,7 +58,8 @@ std::optional<FeatureImpact> find_first(const DeformableData& a, const Deformabl
         refit(swept_a, a, until);
         if (&a != &b)
             refit(swept_b, b, until);
-        first = earliest(CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, 0), options);
+        first = earliest(a, b, CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, 0),
+                         options);
         if (first && first->time < until - kTimeError)
             break;
     }
@@ -81,9 +82,8 @@ bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryO
         AnyImpact keeper{found};
         if (keeper.is_done())
             return;
-        DeformableCounters counters;
-        ImpactCollector<AnyImpact> collector(options, keeper, counters);
-        search.run(i, collector, counters);
+        ImpactCollector<AnyImpact> collector(a, b, options, keeper);
+        search.run(i, collector);
         collector.finish();
     });
     return !found;

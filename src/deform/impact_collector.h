@@ -15,8 +15,43 @@ inline auto list_key(const FeatureImpact& impact) {
     return std::tuple(impact.kind, impact.face_first, impact.a, impact.b);
 }
 
-/// A sink of candidates (see FeaturePairs) that takes them through the elementary tests and hands
-/// impacts to a keeper:
+/// What impacts of one kind of pair are made of and go to.
+template <ElementaryKind kind, typename Keeper>
+class PairTests {
+public:
+    PairTests(const DeformableData& a, const DeformableData& b, bool face_first,
+              const ElementaryOptions& options, Keeper& keeper)
+        : geometry_(a, b), face_first_(face_first), keeper_(keeper), stages_(kind, options, *this) {
+    }
+
+    void add(FeatureIds ids, bool wanted) { stages_.add(ids, wanted); }
+    void finish() { stages_.finish(); }
+    [[nodiscard]] std::uint64_t tests() const { return tests_; }
+    [[nodiscard]] std::uint64_t exact_fallbacks() const { return exact_fallbacks_; }
+
+    // What the stages ask for.
+    void write(FeatureIds ids, ElementaryBlock& block, std::size_t lane) const {
+        geometry_.write(ids, block, lane);
+    }
+    [[nodiscard]] ElementaryPair pair(FeatureIds ids) const { return geometry_.pair(ids); }
+    void take(FeatureIds ids, const ElementaryImpact& impact) {
+        ++tests_;
+        exact_fallbacks_ += impact.decided_by == ElementaryStage::exact ? 1 : 0;
+        if (impact.hit)
+            keeper_.keep({kind, impact.status, face_first_, ids.a, ids.b, impact.time,
+                          impact.barycentric, impact.normal});
+    }
+
+private:
+    PairGeometry<kind> geometry_;
+    bool face_first_;
+    Keeper& keeper_;
+    std::uint64_t tests_ = 0, exact_fallbacks_ = 0;
+    ElementaryStages<FeatureIds, PairTests> stages_;
+};
+
+/// A sink of pairs (see FeaturePairs) that takes them through the elementary tests and hands impacts
+/// to a keeper:
 ///
 ///     void Keeper::keep(const FeatureImpact&);
 ///     bool Keeper::is_done() const;  // no more, please
@@ -24,38 +59,34 @@ template <typename Keeper>
 class ImpactCollector {
 public:
     /// In: what lives as long as this.
-    ImpactCollector(const ElementaryOptions& options, Keeper& keeper, DeformableCounters& counters)
-        : keeper_(keeper), counters_(counters), faces_(ElementaryKind::vertex_face, options, *this),
-          edges_(ElementaryKind::edge_edge, options, *this) {}
+    ImpactCollector(const DeformableData& a, const DeformableData& b,
+                    const ElementaryOptions& options, Keeper& keeper)
+        : keeper_(keeper), edges_(a, b, false, options, keeper),
+          vertex_face_(a, b, false, options, keeper), face_vertex_(b, a, true, options, keeper) {}
 
-    void operator()(const FeatureCandidate& candidate) {
-        (candidate.kind == ElementaryKind::vertex_face ? faces_ : edges_).add(candidate);
+    void add(PairKind kind, FeatureIds ids, bool wanted) {
+        if (kind == PairKind::edges)
+            edges_.add(ids, wanted);
+        else
+            (kind == PairKind::vertex_face ? vertex_face_ : face_vertex_).add(ids, wanted);
     }
     [[nodiscard]] bool is_done() const { return keeper_.is_done(); }
     /// Tests what still waits for others.
     void finish() {
-        faces_.finish();
         edges_.finish();
+        vertex_face_.finish();
+        face_vertex_.finish();
     }
-
-    // What the stages ask for.
-    static void write(const FeatureCandidate& candidate, ElementaryBlock& block, std::size_t lane) {
-        candidate.write(block, lane);
-    }
-    static ElementaryPair pair(const FeatureCandidate& candidate) { return candidate.pair(); }
-    void take(const FeatureCandidate& candidate, const ElementaryImpact& impact) {
-        TestCounts& tests = counters_.elementary_tests;
-        ++(candidate.kind == ElementaryKind::vertex_face ? tests.vertex_face : tests.edge_edge);
-        counters_.exact_fallbacks += impact.decided_by == ElementaryStage::exact ? 1 : 0;
-        if (impact.hit)
-            keeper_.keep({candidate.kind, impact.status, candidate.face_first, candidate.a,
-                          candidate.b, impact.time, impact.barycentric, impact.normal});
+    void count(DeformableCounters& counters) const {
+        counters.elementary_tests = {vertex_face_.tests() + face_vertex_.tests(), edges_.tests()};
+        counters.exact_fallbacks = edges_.exact_fallbacks() + vertex_face_.exact_fallbacks() +
+                                   face_vertex_.exact_fallbacks();
     }
 
 private:
     Keeper& keeper_;
-    DeformableCounters& counters_;
-    ElementaryStages<FeatureCandidate, ImpactCollector> faces_, edges_;
+    PairTests<ElementaryKind::edge_edge, Keeper> edges_;
+    PairTests<ElementaryKind::vertex_face, Keeper> vertex_face_, face_vertex_;
 };
 
 } // namespace abut

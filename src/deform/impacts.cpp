@@ -49,9 +49,10 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
     std::vector<Impacts> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
         AllImpacts keeper{parts[i].list};
-        ImpactCollector<AllImpacts> collector(options, keeper, parts[i].counters);
-        search.run(i, collector, parts[i].counters);
+        ImpactCollector<AllImpacts> collector(a, b, options, keeper);
+        search.run(i, collector, &parts[i].counters);
         collector.finish();
+        collector.count(parts[i].counters);
     });
     Impacts impacts;
     for (const Impacts& part : parts)

@@ -12,33 +12,35 @@
 namespace abut {
 
 /// What leaves make of each other: candidates, straight away. A feature's boxes lie in those of the
-/// triangle that represents it, so that pairs of triangles need no look of their own.
+/// triangle that represents it, so that pairs of triangles need no look of their own: they are
+/// looked for only to be counted.
 template <typename Sink>
 class RepresentativePairs final : public OverlapVisitor {
 public:
+    /// In: a counter of pairs of triangles, or none.
     RepresentativePairs(const LeafFeatures& a, const LeafFeatures& b, float margin,
-                        FeaturePairs<Sink>& pairs)
-        : a_(a), b_(b), margin_(margin), pairs_(pairs) {}
-
-    [[nodiscard]] std::uint64_t triangle_pairs() const { return triangle_pairs_; }
+                        FeaturePairs<Sink>& pairs, std::uint64_t* triangle_pairs)
+        : a_(a), b_(b), margin_(margin), pairs_(pairs), triangle_pairs_(triangle_pairs) {}
 
     bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
         const std::uint32_t i = leaf_a.number, j = leaf_b.number;
         const bool same = pairs_.is_self() && i == j;
-        auto& [faces, edges, vertex_face, face_vertex] = overlaps_;
-        faces.a = face_vertex.a = a_.faces.run(i), faces.b = vertex_face.b = b_.faces.run(j);
+        auto& [faces, edges, vertex_face, vertex_of_b] = overlaps_;
+        faces.a = a_.faces.run(i), faces.b = b_.faces.run(j);
         edges.a = a_.edges.run(i), edges.b = b_.edges.run(j);
-        vertex_face.a = a_.vertices.run(i), face_vertex.b = b_.vertices.run(j);
-        find_overlaps(std::span(overlaps_).first(same ? 3 : 4), leaf_b.box, margin_);
+        vertex_face.a = a_.vertices.run(i), vertex_face.b = faces.b;
+        vertex_of_b.a = b_.vertices.run(j), vertex_of_b.b = faces.a;
+        const std::size_t first = triangle_pairs_ != nullptr ? 0 : 1, last = same ? 3 : 4;
+        find_overlaps(std::span(overlaps_).subspan(first, last - first), margin_);
         if (same)
             faces.keep_once(), edges.keep_once();
-        triangle_pairs_ += faces.count();
 
-        const auto all = [](const FeatureCandidate&) { return true; };
-        edges.for_each([&](auto e, auto f) { pairs_.edges(e, f, all); });
-        vertex_face.for_each([&](auto v, auto f) { pairs_.vertex_face(v, f, all); });
+        if (triangle_pairs_ != nullptr)
+            *triangle_pairs_ += faces.count();
+        edges.for_each([&](auto e, auto f) { pairs_.edges(e, f); });
+        vertex_face.for_each([&](auto v, auto f) { pairs_.vertex_face(v, f); });
         if (!same)
-            face_vertex.for_each([&](auto f, auto v) { pairs_.face_vertex(f, v, all); });
+            vertex_of_b.for_each([&](auto v, auto f) { pairs_.face_vertex(f, v); });
         return !pairs_.is_done();
     }
 
@@ -47,7 +49,7 @@ private:
     const LeafFeatures& b_;
     float margin_;
     FeaturePairs<Sink>& pairs_;
-    std::uint64_t triangle_pairs_ = 0;
+    std::uint64_t* triangle_pairs_;
     std::array<RunOverlaps, 4> overlaps_;
 };
 
@@ -60,8 +62,8 @@ public:
 
     bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
         const std::uint32_t i = leaf_a.number, j = leaf_b.number;
-        RunOverlaps faces{a_.faces.run(i), b_.faces.run(j), 0, {}};
-        find_overlaps({&faces, 1}, leaf_b.box, margin_);
+        RunOverlaps faces{a_.faces.run(i), b_.faces.run(j), {}};
+        find_overlaps({&faces, 1}, margin_);
         if (&a_ == &b_ && i == j)
             faces.keep_once();
         bool more = true;

@@ -40,7 +40,9 @@ public:
 
     bool visit(std::uint32_t a, std::uint32_t b) override {
         ++count_;
-        const auto admits = [this](const FeatureCandidate& c) { return this->admits(c); };
+        const auto admits = [this](PairKind kind, FeatureIds ids) {
+            return this->admits(kind, ids);
+        };
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t k = 0; k < 3; ++k)
                 if (spawns_edge(a_, a, i) && spawns_edge(b_, b, k))
@@ -55,11 +57,24 @@ public:
     }
 
 private:
-    /// Whether a candidate keeps to the rules of boxes and of tested pairs.
-    [[nodiscard]] bool admits(const FeatureCandidate& candidate) const {
-        if (rules_.boxes && boxes_apart(candidate, double{rules_.margin}))
+    /// Whether a pair keeps to the rules of boxes and of tested pairs.
+    [[nodiscard]] bool admits(PairKind kind, FeatureIds ids) const {
+        if (rules_.boxes && are_apart(kind, ids))
             return false;
-        return rules_.tested == nullptr || rules_.tested->insert(key(candidate));
+        return rules_.tested == nullptr || rules_.tested->insert(key(kind, ids));
+    }
+    [[nodiscard]] bool are_apart(PairKind kind, FeatureIds ids) const {
+        const double margin{rules_.margin};
+        if (kind == PairKind::edges)
+            return boxes_apart(ElementaryKind::edge_edge,
+                               PairGeometry<ElementaryKind::edge_edge>(a_, b_).vertices(ids),
+                               margin);
+        const bool face_first = kind == PairKind::face_vertex;
+        return boxes_apart(
+            ElementaryKind::vertex_face,
+            PairGeometry<ElementaryKind::vertex_face>(face_first ? b_ : a_, face_first ? a_ : b_)
+                .vertices(ids),
+            margin);
     }
     [[nodiscard]] bool spawns_edge(const DeformableData& of, std::uint32_t triangle,
                                    std::size_t k) const {
@@ -71,9 +86,8 @@ private:
         return !rules_.represented || represents_vertex(of.represented[triangle], k);
     }
     /// Features' numbers are below 3 * 2^28.
-    static std::uint64_t key(const FeatureCandidate& c) {
-        const std::uint64_t kind = c.kind == ElementaryKind::edge_edge ? 2 : c.face_first ? 1 : 0;
-        return kind << 60 | std::uint64_t{c.a} << 30 | c.b;
+    static std::uint64_t key(PairKind kind, FeatureIds ids) {
+        return static_cast<std::uint64_t>(kind) << 60 | std::uint64_t{ids.a} << 30 | ids.b;
     }
 
     const DeformableData& a_;

@@ -24,40 +24,71 @@ HWY_INLINE Lanes3<D> blend(hn::Vec<D> one_minus_t, hn::Vec<D> t, const Lanes3<D>
             blend<D>(one_minus_t, t, v[0].z, v[1].z)};
 }
 
-/// The coplanarity corner . (x x y), a cubic by its Bernstein coefficients, turned so that it ends
-/// above where it begins.
+/// A cubic by its Bernstein coefficients over a part of [0, 1].
 template <class D>
 struct Cubic {
     hn::Vec<D> b[4];
-    hn::Vec<D> error; ///< of it, evaluated or not, at any time in [0, 1]
+    hn::Vec<D> error; ///< of it, evaluated or not, at any time of the part
 
-    HWY_INLINE Cubic(D d, const Patches<D>& p) {
+    /// The coplanarity corner . (x x y) over [0, 1].
+    static HWY_INLINE Cubic of(D d, const Patches<D>& p) {
+        Cubic c;
         const auto third = hn::Set(d, 1.0 / 3);
-        b[0] = dot<D>(p.corner[0], p.area_0);
-        b[1] =
+        c.b[0] = dot<D>(p.corner[0], p.area_0);
+        c.b[1] =
             hn::Mul(third, hn::Add(dot<D>(p.corner[0], p.area_1), dot<D>(p.corner[1], p.area_0)));
-        b[2] =
+        c.b[2] =
             hn::Mul(third, hn::Add(dot<D>(p.corner[1], p.area_1), dot<D>(p.corner[0], p.area_2)));
-        b[3] = dot<D>(p.corner[1], p.area_2);
-        const auto falls = hn::Gt(b[0], b[3]);
-        for (auto& each : b)
-            each = hn::IfThenElse(falls, hn::Neg(each), each);
+        c.b[3] = dot<D>(p.corner[1], p.area_2);
         // Six products, 13 roundings at most; an evaluation is three blends of rounded weights, off
-        // by 4 eps each. Products near overflow leave nothing certain.
-        const auto size =
-            hn::Max(hn::Max(hn::Abs(b[0]), hn::Abs(b[1])), hn::Max(hn::Abs(b[2]), hn::Abs(b[3])));
+        // by 4 eps each, of a half that is made by as many. Products near overflow leave nothing
+        // certain.
+        const auto size = hn::Max(hn::Max(hn::Abs(c.b[0]), hn::Abs(c.b[1])),
+                                  hn::Max(hn::Abs(c.b[2]), hn::Abs(c.b[3])));
         const auto size_xy = hn::Mul(p.size_x, p.size_y), product = hn::Mul(size_xy, p.size_c);
         const auto tiny = hn::Set(d, 0x1p-1000), huge = hn::Set(d, 0x1p1000);
-        error = hn::MulAdd(
+        const auto error = hn::MulAdd(
             hn::Set(d, 80 * kEpsilon), product,
-            hn::MulAdd(hn::Set(d, 16 * kEpsilon), size, hn::MulAdd(tiny, p.size_c, tiny)));
+            hn::MulAdd(hn::Set(d, 32 * kEpsilon), size, hn::MulAdd(tiny, p.size_c, tiny)));
         const auto in_range = hn::And(hn::Lt(product, huge), hn::Lt(size_xy, huge));
-        error = hn::IfThenElse(in_range, error, hn::Inf(d));
+        c.error = hn::IfThenElse(in_range, error, hn::Inf(d));
+        return c;
     }
 
+    HWY_INLINE void negate() {
+        for (auto& each : b)
+            each = hn::Neg(each);
+    }
+    HWY_INLINE void negate_where(hn::Mask<D> mask) {
+        for (auto& each : b)
+            each = hn::IfThenElse(mask, hn::Neg(each), each);
+    }
+    /// Over the part until t, and over that from t on.
+    struct Halves;
+    [[nodiscard]] HWY_INLINE Halves split(D d, hn::Vec<D> t) const;
+
+    [[nodiscard]] HWY_INLINE hn::Mask<D> is_below() const {
+        const auto most = hn::Max(hn::Max(b[0], b[1]), hn::Max(b[2], b[3]));
+        return hn::Lt(most, hn::Neg(error));
+    }
+    [[nodiscard]] HWY_INLINE hn::Mask<D> is_above() const {
+        const auto least = hn::Min(hn::Min(b[0], b[1]), hn::Min(b[2], b[3]));
+        return hn::Gt(least, error);
+    }
     /// It begins certainly below zero and ends above.
-    HWY_INLINE hn::Mask<D> rises() const {
+    [[nodiscard]] HWY_INLINE hn::Mask<D> rises() const {
         return hn::And(hn::Lt(b[0], hn::Neg(error)), hn::Gt(b[3], error));
+    }
+    /// About where it is largest within the part, if it has a maximum there; any time if not.
+    [[nodiscard]] HWY_INLINE hn::Vec<D> maximum(D d) const {
+        // b'(t) / 3 = c2 t^2 + 2 c1 t + c0; the root at which it falls.
+        const auto c0 = hn::Sub(b[1], b[0]), c1 = hn::Sub(hn::Sub(b[2], b[1]), c0),
+                   c2 = hn::Sub(hn::Sub(hn::Sub(b[3], b[2]), hn::Sub(b[2], b[1])), c1);
+        const auto root = hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(c1, c1), hn::Mul(c0, c2))));
+        const auto t = hn::IfThenElse(hn::Lt(c1, hn::Zero(d)), hn::Div(c0, hn::Sub(root, c1)),
+                                      hn::Div(hn::Neg(hn::Add(root, c1)), c2));
+        const auto within = hn::And(hn::Ge(t, hn::Zero(d)), hn::Le(t, hn::Set(d, 1.0)));
+        return hn::IfThenElse(within, t, hn::Set(d, 0.5));
     }
 
     struct Root {
@@ -90,26 +121,22 @@ struct Cubic {
         }
         return {t, slope};
     }
-
-    /// Where it is certainly below zero all of [0, t]: the coefficients over that part are.
-    HWY_INLINE hn::Mask<D> below_until(D d, hn::Vec<D> t) const {
-        const auto s = hn::Sub(hn::Set(d, 1.0), t);
-        const auto b01 = blend<D>(s, t, b[0], b[1]), b12 = blend<D>(s, t, b[1], b[2]),
-                   b23 = blend<D>(s, t, b[2], b[3]);
-        const auto b012 = blend<D>(s, t, b01, b12), b123 = blend<D>(s, t, b12, b23);
-        const auto most = hn::Max(hn::Max(b[0], b01), hn::Max(b012, blend<D>(s, t, b012, b123)));
-        return hn::Lt(most, hn::Neg(error));
-    }
-    /// The same of [t, 1], above zero.
-    HWY_INLINE hn::Mask<D> above_from(D d, hn::Vec<D> t) const {
-        const auto s = hn::Sub(hn::Set(d, 1.0), t);
-        const auto b01 = blend<D>(s, t, b[0], b[1]), b12 = blend<D>(s, t, b[1], b[2]),
-                   b23 = blend<D>(s, t, b[2], b[3]);
-        const auto b012 = blend<D>(s, t, b01, b12), b123 = blend<D>(s, t, b12, b23);
-        const auto least = hn::Min(hn::Min(b[3], b23), hn::Min(b123, blend<D>(s, t, b012, b123)));
-        return hn::Gt(least, error);
-    }
 };
+
+template <class D>
+struct Cubic<D>::Halves {
+    Cubic before, after;
+};
+
+template <class D>
+HWY_INLINE typename Cubic<D>::Halves Cubic<D>::split(D d, hn::Vec<D> t) const {
+    const auto s = hn::Sub(hn::Set(d, 1.0), t);
+    const auto b01 = blend<D>(s, t, b[0], b[1]), b12 = blend<D>(s, t, b[1], b[2]),
+               b23 = blend<D>(s, t, b[2], b[3]);
+    const auto b012 = blend<D>(s, t, b01, b12), b123 = blend<D>(s, t, b12, b23);
+    const auto here = blend<D>(s, t, b012, b123);
+    return {{{b[0], b01, b012, here}, error}, {{here, b123, b23, b[3]}, error}};
+}
 
 /// Twice an area as seen along a direction, and what it may be off by.
 template <class D>
@@ -139,24 +166,34 @@ HWY_INLINE Area<D> seen(D d, const Middle<D>& u, const Middle<D>& v, const Lanes
     return {dot<D>(m, cross<D>(u.v, v.v)), hn::MulAdd(hn::Set(d, 6.2), off, hn::Set(d, 0x1p-900))};
 }
 
+/// What is known of the time at which the cubic rises through zero.
+template <class D>
+struct Crossing {
+    hn::Mask<D> meet, apart;
+    hn::Vec<D> time, x, y; ///< where they meet
+    Lanes3<D> normal;
+};
+
+/// Where the patch holds the origin at the one root of a cubic that rises over [low, high].
 template <bool faces, class D>
-HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, CrossingBlock& result) {
+HWY_INLINE Crossing<D> decide_root(D d, const Patches<D>& p, const Cubic<D>& cubic, hn::Vec<D> low,
+                                   hn::Vec<D> high) {
     const auto one = hn::Set(d, 1.0), zero = hn::Zero(d), half = hn::Set(d, 0.5);
-    const auto p = Patches<D>::template of<faces>(pairs);
-    const Cubic<D> cubic(d, p);
-    const auto rises = cubic.rises();
-    if (hn::AllFalse(d, rises))
-        return;
 
     // An interval around the root, outside which there is no other.
     const auto [root, slope] = cubic.root(d);
     const auto width = hn::Add(hn::Div(hn::Add(cubic.error, cubic.error), hn::Abs(slope)),
                                hn::Set(d, 4 * kEpsilon));
-    const auto start = hn::Max(hn::Sub(root, width), zero),
-               end = hn::Min(hn::Add(root, width), one);
+    const auto part_start = hn::Max(hn::Sub(root, width), zero),
+               part_end = hn::Min(hn::Add(root, width), one);
+    const auto alone = hn::And(cubic.split(d, part_start).before.is_below(),
+                               cubic.split(d, part_end).after.is_above());
+    const auto extent = hn::Sub(high, low), slack = hn::Set(d, 4 * kEpsilon);
+    const auto start = hn::Max(hn::Sub(hn::MulAdd(extent, part_start, low), slack), zero),
+               end = hn::Min(hn::Add(hn::MulAdd(extent, part_end, low), slack), one);
     const auto length = hn::Sub(end, start);
-    const auto enclosed = hn::And(hn::And(rises, hn::Lt(length, hn::Set(d, 0.9e-9))),
-                                  hn::And(cubic.below_until(d, start), cubic.above_from(d, end)));
+    const auto enclosed =
+        hn::And(hn::And(cubic.rises(), hn::Lt(length, hn::Set(d, 0.9e-9))), alone);
 
     // Whether the patch holds the origin during it, or never: see OriginTest in
     // elementary_interval.cpp.
@@ -187,15 +224,53 @@ HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, Cross
     }
     const auto decidable = hn::And(enclosed, in_range);
     below = hn::And(below, hn::Gt(whole.value, whole.error));
-    result.meet |= bits_of(d, hn::And(decidable, above)) << lane;
-    result.apart |= bits_of(d, hn::And(decidable, below)) << lane;
+    return {hn::And(decidable, above),        hn::And(decidable, below),        start,
+            hn::Div(at_x.value, whole.value), hn::Div(at_y.value, whole.value), m};
+}
 
-    hn::StoreU(start, d, result.time + lane);
-    hn::StoreU(hn::Div(at_x.value, whole.value), d, result.x + lane);
-    hn::StoreU(hn::Div(at_y.value, whole.value), d, result.y + lane);
-    hn::StoreU(m.x, d, result.normal[0] + lane);
-    hn::StoreU(m.y, d, result.normal[1] + lane);
-    hn::StoreU(m.z, d, result.normal[2] + lane);
+/// Takes what b says where the mask is set.
+template <class D>
+HWY_INLINE void take_where(D /*d*/, hn::Mask<D> mask, const Crossing<D>& b, Crossing<D>& a) {
+    a.meet = hn::Or(a.meet, hn::And(mask, b.meet));
+    a.apart = hn::Or(hn::And(hn::Not(mask), a.apart), hn::And(mask, b.apart));
+    a.time = hn::IfThenElse(mask, b.time, a.time);
+    a.x = hn::IfThenElse(mask, b.x, a.x);
+    a.y = hn::IfThenElse(mask, b.y, a.y);
+    a.normal = if_then_else<D>(mask, b.normal, a.normal);
+}
+
+template <bool faces, class D>
+HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, CrossingBlock& result) {
+    const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
+    const auto p = Patches<D>::template of<faces>(pairs);
+    Cubic<D> cubic = Cubic<D>::of(d, p);
+    cubic.negate_where(hn::Gt(cubic.b[0], zero)); // so that it begins below
+    const auto begins_below = hn::Lt(cubic.b[0], hn::Neg(cubic.error));
+    const auto ends_below = hn::And(begins_below, hn::Lt(cubic.b[3], hn::Neg(cubic.error)));
+
+    // One that ends below too is cut where it is largest: it rises before, and falls after, or it
+    // has no root at all.
+    const auto cut = hn::IfThenElse(ends_below, cubic.maximum(d), one);
+    auto [before, after] = cubic.split(d, cut);
+    const auto rootless = hn::And(ends_below, hn::And(before.is_below(), after.is_below()));
+    const auto rises = before.rises();
+    if (hn::AllFalse(d, hn::Or(rises, rootless)))
+        return;
+    Crossing<D> crossing = decide_root<faces>(d, p, before, zero, cut);
+    const auto again = hn::And(ends_below, crossing.apart);
+    if (!hn::AllFalse(d, again)) {
+        after.negate(); // so that it rises
+        take_where(d, again, decide_root<faces>(d, p, after, cut, one), crossing);
+    }
+    result.meet |= bits_of(d, crossing.meet) << lane;
+    result.apart |= bits_of(d, hn::Or(crossing.apart, rootless)) << lane;
+
+    hn::StoreU(crossing.time, d, result.time + lane);
+    hn::StoreU(crossing.x, d, result.x + lane);
+    hn::StoreU(crossing.y, d, result.y + lane);
+    hn::StoreU(crossing.normal.x, d, result.normal[0] + lane);
+    hn::StoreU(crossing.normal.y, d, result.normal[1] + lane);
+    hn::StoreU(crossing.normal.z, d, result.normal[2] + lane);
 }
 
 template <class D>

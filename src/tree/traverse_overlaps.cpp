@@ -28,6 +28,17 @@ namespace abut::HWY_NAMESPACE {
 
 using namespace traverse_overlaps_detail; // NOLINT(google-build-using-namespace): its own
 
+/// The children of a node whose boxes may come within the margin of a box: a bit each.
+HWY_INLINE std::uint32_t near_children(const MovingNode& node, const MovingBoxRef& box,
+                                       float margin) {
+    const MovingBoxLanes::D d;
+    const auto minus_margin = hn::Set(d, -margin);
+    std::uint32_t bits = 0;
+    for (std::size_t first = 0; first < MovingNode::kWidth; first += hn::Lanes(d))
+        bits |= MovingBoxLanes(node.boxes(), first).overlap_bits(box, minus_margin) << first;
+    return bits;
+}
+
 /// Puts the pairs of children of a pair that is not two leaves.
 class Opener {
 public:
@@ -64,15 +75,15 @@ private:
     }
     /// The child against those children of a node of b that are `wanted`.
     void open_b(std::uint32_t name, std::uint32_t node, std::uint32_t wanted) {
-        std::uint32_t bits = overlap_bits(traversal_.b.nodes[node].boxes(),
-                                          box_of(traversal_.a, name), traversal_.margin) &
-                             wanted;
+        std::uint32_t bits =
+            near_children(traversal_.b.nodes[node], box_of(traversal_.a, name), traversal_.margin) &
+            wanted;
         for (; bits != 0; bits &= bits - 1)
             pairs_.push_back({name, child_of(node, bits)});
     }
     void open_a(std::uint32_t node, std::uint32_t name) {
-        std::uint32_t bits = overlap_bits(traversal_.a.nodes[node].boxes(),
-                                          box_of(traversal_.b, name), traversal_.margin);
+        std::uint32_t bits =
+            near_children(traversal_.a.nodes[node], box_of(traversal_.b, name), traversal_.margin);
         for (; bits != 0; bits &= bits - 1)
             pairs_.push_back({child_of(node, bits), name});
     }

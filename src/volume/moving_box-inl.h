@@ -58,18 +58,6 @@ private:
     hn::Vec<D> lower_[2][3], upper_[2][3]; ///< [start, end][axis]
 };
 
-/// The boxes of a run that may come within the margin of a box: a bit each.
-HWY_INLINE std::uint32_t overlap_bits(const MovingBoxRun& run, const MovingBoxRef& box,
-                                      float margin) {
-    const MovingBoxLanes::D d;
-    const auto minus_margin = hn::Set(d, -margin);
-    std::uint32_t bits = 0;
-    for (std::uint32_t first = 0; first < run.count;
-         first += static_cast<std::uint32_t>(hn::Lanes(d)))
-        bits |= MovingBoxLanes(run, first).overlap_bits(box, minus_margin) << first;
-    return bits & run.all();
-}
-
 } // namespace abut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -1,5 +1,7 @@
 #include "volume/moving_box.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "volume/moving_box.cpp"
 #include "simd/foreach_target.h"
@@ -9,29 +11,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-HWY_INLINE void find_masks(RunOverlaps& overlaps, float margin) {
+HWY_INLINE void find_tiles(RunOverlaps& overlaps, float margin) {
     const MovingBoxRun a = overlaps.a, b = overlaps.b;
+    constexpr std::uint32_t kTile = RunOverlaps::kTile;
     const MovingBoxLanes::D d;
     const auto minus_margin = hn::Set(d, -margin);
-    std::uint32_t first = 0;
-    do {
+    const std::uint32_t tiles_b = RunOverlaps::tiles_of(b);
+    for (std::uint32_t first = 0; first < b.count;
+         first += static_cast<std::uint32_t>(hn::Lanes(d))) {
         const MovingBoxLanes lanes(b, first);
-        for (std::uint32_t left = overlaps.rows; left != 0; left &= left - 1) {
-            const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
-            const std::uint32_t bits = lanes.overlap_bits({a, k}, minus_margin) << first & b.all();
-            overlaps.masks[k] = first == 0 ? bits : overlaps.masks[k] | bits;
+        const std::uint32_t used = b.all() >> first;
+        std::uint64_t* tile = overlaps.tiles.data() + first / kTile;
+        for (std::uint32_t k = 0; k < a.count; k += kTile, tile += tiles_b) {
+            std::uint64_t bits = 0;
+            for (std::uint32_t row = 0; row < std::min(kTile, a.count - k); ++row)
+                bits |= std::uint64_t{lanes.overlap_bits({a, k + row}, minus_margin) & used}
+                        << (kTile * row);
+            *tile = first % kTile == 0 ? bits : *tile | bits << first % kTile;
         }
-        first += static_cast<std::uint32_t>(hn::Lanes(d));
-    } while (first < b.count);
+    }
 }
 
-void find_all_overlaps(std::span<RunOverlaps> overlaps, const MovingBoxRef& around_b,
-                       float margin) {
-    for (RunOverlaps& each : overlaps) {
-        each.rows = each.b.count == 0 ? 0 : overlap_bits(each.a, around_b, margin);
-        if (each.rows != 0)
-            find_masks(each, margin);
-    }
+void find_all_overlaps(std::span<RunOverlaps> overlaps, float margin) {
+    for (RunOverlaps& each : overlaps)
+        find_tiles(each, margin);
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -42,8 +45,8 @@ namespace abut {
 
 HWY_EXPORT(find_all_overlaps);
 
-void find_overlaps(std::span<RunOverlaps> overlaps, const MovingBoxRef& around_b, float margin) {
-    HWY_DYNAMIC_DISPATCH(find_all_overlaps)(overlaps, around_b, margin);
+void find_overlaps(std::span<RunOverlaps> overlaps, float margin) {
+    HWY_DYNAMIC_DISPATCH(find_all_overlaps)(overlaps, margin);
 }
 
 } // namespace abut

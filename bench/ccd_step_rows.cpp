@@ -1,0 +1,173 @@
+#include "ccd_step_rows.h"
+
+#include <abut/deformable.h>
+#include <abut/model.h>
+#include <abut/progress.h>
+
+#include "measure.h"
+#include "peer_rigid.h"
+#include "peer_swept.h"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr double kMs = 1e3;
+
+void add_counters(Row& row, const Impacts& impacts, const Deformable& surface) {
+    double faces = 0;
+    for (const FeatureImpact& impact : impacts.list)
+        faces += impact.kind == ElementaryKind::vertex_face ? 1 : 0;
+    const DeformableCounters& counters = impacts.counters;
+    row.counters["vertex-face impacts"] = faces;
+    row.counters["edge-edge impacts"] = static_cast<double>(impacts.list.size()) - faces;
+    row.counters["triangle pairs"] = static_cast<double>(counters.triangle_pairs);
+    row.counters["candidates"] =
+        static_cast<double>(counters.candidates.vertex_face + counters.candidates.edge_edge);
+    row.counters["elementary tests"] = static_cast<double>(counters.elementary_tests.vertex_face +
+                                                           counters.elementary_tests.edge_edge);
+    row.counters["exact fallbacks"] = static_cast<double>(counters.exact_fallbacks);
+    row.counters["bytes a triangle"] =
+        static_cast<double>(surface.bytes()) / static_cast<double>(surface.triangles().size());
+}
+
+/// A whole step: the motion is set, the hierarchy fitted, all impacts are found.
+Impacts do_step(Deformable& surface, const CcdStep& step) {
+    surface.set_motion(step.start.positions, step.end);
+    return self_impacts(surface);
+}
+
+Row all_impacts_row(const CcdStep& step, int rounds) {
+    Deformable surface(step.start);
+    Impacts impacts;
+    std::optional<std::size_t> pairs;
+    set_threads(1);
+    const Turns turns = take_turns(
+        rounds, [&] { impacts = do_step(surface, step); },
+        [&] { pairs = embree_swept_pairs(step); });
+    Row row{step.name + ", all impacts", kMs * turns.ours, {}, {}, "ms", 1, {}};
+    if (pairs) {
+        row.peer = "Embree 3, swept boxes of triangles only";
+        row.theirs = kMs * turns.theirs;
+        row.counters["triangle pairs of the peer"] = static_cast<double>(*pairs);
+    }
+    add_counters(row, impacts, surface);
+    return row;
+}
+
+Row threads_row(const CcdStep& step, int rounds) {
+    Deformable surface(step.start);
+    const auto on = [&](int threads) {
+        set_threads(threads);
+        do_step(surface, step);
+    };
+    const Turns turns = take_turns(
+        rounds, [&] { on(2); }, [&] { on(1); });
+    return {step.name + ", all impacts, two threads",
+            kMs * turns.ours,
+            "abut, one thread",
+            kMs * turns.theirs,
+            "ms",
+            2,
+            {}};
+}
+
+Row earliest_row(const CcdStep& step, int rounds) {
+    Deformable surface(step.start);
+    std::optional<FeatureImpact> first;
+    set_threads(1);
+    const Turns turns = take_turns(
+        rounds,
+        [&] {
+            surface.set_motion(step.start.positions, step.end);
+            first = first_self_impact(surface);
+        },
+        [&] { do_step(surface, step); });
+    Row row{step.name + ", earliest impact",
+            kMs * turns.ours,
+            "abut, all impacts",
+            kMs * turns.theirs,
+            "ms",
+            1,
+            {}};
+    row.counters["its time"] = first ? first->time : 1;
+    return row;
+}
+
+Row scheme_row(const CcdStep& step, const std::string& name, const DeformableOptions& options,
+               int rounds) {
+    Deformable ours(step.start), theirs(step.start, options);
+    Impacts impacts;
+    set_threads(1);
+    const Turns turns = take_turns(
+        rounds, [&] { do_step(ours, step); }, [&] { impacts = do_step(theirs, step); });
+    Row row{step.name + ", all impacts",
+            kMs * turns.ours,
+            "abut, " + name,
+            kMs * turns.theirs,
+            "ms",
+            1,
+            {}};
+    add_counters(row, impacts, theirs);
+    return row;
+}
+
+} // namespace
+
+std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds) {
+    std::vector<Row> rows{all_impacts_row(step, rounds), threads_row(step, rounds),
+                          earliest_row(step, rounds)};
+    const auto add = [&](const std::string& name, const DeformableOptions& options) {
+        rows.push_back(scheme_row(step, name, options, rounds));
+    };
+    add("markup", {.scheme = Scheme::markup});
+    add("database", {.scheme = Scheme::database});
+    add("basic", {.scheme = Scheme::basic});
+    add("trees over features", {.scheme = Scheme::features});
+    add("maximal assignment", {.assignment = Assignment::maximal});
+    add("uniform assignment, vertices with edges", {.assignment = Assignment::uniform_vertex_edge});
+    add("uniform assignment, edges alone", {.assignment = Assignment::uniform_edge_edge});
+    add("grid", {.culling = Culling::grid});
+    add("sweep and prune", {.culling = Culling::sweep});
+    set_threads(0);
+    return rows;
+}
+
+std::vector<Row> calibration_rows(int rounds) {
+    constexpr int kSides = 1000, kStepsAlong = 500;
+    Mesh mesh;
+    for (int i = 0; i < kSides; ++i)
+        for (int k = 0; k < kStepsAlong; ++k) {
+            const double a = 2 * std::numbers::pi * i / kSides,
+                         b = 2 * std::numbers::pi * k / kStepsAlong;
+            const double r = 1 + 0.3 * std::cos(b) + 0.02 * std::sin(40 * a);
+            mesh.positions.push_back({r * std::cos(a), r * std::sin(a), 0.3 * std::sin(b)});
+            const auto at = [&](int u, int v) {
+                return static_cast<std::uint32_t>(u % kSides * kStepsAlong + v % kStepsAlong);
+            };
+            mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+            mesh.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+        }
+    set_threads(1);
+    std::vector<double> theirs;
+    const Turns turns = take_turns(
+        rounds, [&] { const Model model(mesh); },
+        [&] {
+            if (const auto seconds = embree_build_seconds(mesh))
+                theirs.push_back(*seconds);
+        });
+    set_threads(0);
+    Row row{"calibration: build of 1,000,000 triangles", kMs * turns.ours, {}, {}, "ms", 1, {}};
+    if (!theirs.empty()) {
+        row.peer = "Embree 3, medium quality";
+        row.theirs = kMs * median(theirs);
+    }
+    return {row};
+}
+
+} // namespace abut::bench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <abut/mesh.h>
+
+#include "report.h"
+
+#include <string>
+#include <vector>
+
+namespace abut::bench {
+
+/// A mesh at the start and at the end of a step.
+struct CcdStep {
+    std::string name;
+    Mesh start;
+    std::vector<Vec3> end;
+};
+
+/// Rows of a step: all impacts and the earliest, on one thread and on two; then every scheme beside
+/// representative triangles.
+std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds);
+
+/// The build of a million triangles by Embree, which tells how fast the machine is.
+std::vector<Row> calibration_rows(int rounds);
+
+} // namespace abut::bench

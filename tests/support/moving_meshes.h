@@ -1,0 +1,183 @@
+#pragma once
+
+#include <abut/deformable.h>
+
+#include "math/vector.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <set>
+#include <tuple>
+#include <vector>
+
+/// Meshes that move, and what impacts are looked for among by brute force.
+namespace abut {
+
+inline void PrintTo(const FeatureImpact& i, std::ostream* out) {
+    *out << (i.kind == ElementaryKind::vertex_face ? "vertex-face " : "edge-edge ") << i.a << ' '
+         << i.b << (i.face_first ? " (face first)" : "") << " at " << i.time;
+}
+
+} // namespace abut
+
+namespace abut::test {
+
+/// A mesh at its start, and where its vertices end.
+struct MovingMesh {
+    Mesh mesh;
+    std::vector<Vec3> end;
+
+    /// With a Deformable's options.
+    [[nodiscard]] Deformable deformable(const DeformableOptions& options = {}) const {
+        Deformable surface(mesh, options);
+        surface.set_motion(mesh.positions, end);
+        return surface;
+    }
+};
+
+/// Triangles of any of the vertices: some have an index twice, most edges have many triangles.
+inline std::vector<std::array<std::uint32_t, 3>> any_triangles(Random& random, int vertices,
+                                                               int triangles) {
+    std::vector<std::array<std::uint32_t, 3>> all(static_cast<std::size_t>(triangles));
+    for (auto& triangle : all)
+        for (std::uint32_t& v : triangle)
+            v = static_cast<std::uint32_t>(random.integer(0, vertices - 1));
+    return all;
+}
+
+/// Coordinates 0 to n: exact contacts, also of planar motion, are common.
+inline MovingMesh lattice_soup(Random& random, int vertices, int triangles, int n) {
+    MovingMesh moving;
+    const bool planar = random.chance(0.2), still = random.chance(0.2);
+    for (int i = 0; i < vertices; ++i)
+        for (auto* points : {&moving.mesh.positions, &moving.end}) {
+            Vec3 p = random.on_lattice(n);
+            if (planar)
+                p.z = 0;
+            points->push_back(p);
+        }
+    for (std::size_t i = 0; i < moving.end.size(); ++i)
+        if (still || random.chance(0.2))
+            moving.end[i] = moving.mesh.positions[i];
+    moving.mesh.triangles = any_triangles(random, vertices, triangles);
+    return moving;
+}
+
+/// Everything anywhere; the motion is as large as the triangles, or smaller.
+inline MovingMesh random_soup(Random& random, int vertices, int triangles) {
+    MovingMesh moving;
+    const double way = std::pow(10, random.uniform(-2, 0));
+    for (int i = 0; i < vertices; ++i) {
+        moving.mesh.positions.push_back(random.in_cube());
+        moving.end.push_back(moving.mesh.positions.back() + random.in_cube(way));
+    }
+    moving.mesh.triangles = any_triangles(random, vertices, triangles);
+    return moving;
+}
+
+/// A sheet of 2 n^2 triangles, crumpled, that crumples further.
+inline MovingMesh crumpled_sheet(Random& random, int n, double size = 1) {
+    const double bend = random.uniform(2, 5), noise = size / n;
+    MovingMesh moving;
+    moving.mesh = grid_mesh(n, n, false, false, [&](double u, double v) {
+        const Vec3 p{u, 0.2 * std::sin(bend * u) * std::cos(bend * v), v * std::cos(bend * u)};
+        return size * p + random.in_cube(0.3 * noise);
+    });
+    for (const Vec3& p : moving.mesh.positions)
+        moving.end.push_back(p + random.in_cube(noise));
+    return moving;
+}
+
+/// All pairs of features of two surfaces, or of one if they are the same object, neighbours left
+/// out: calls visit(impact with kind, face_first, a and b set; elementary pair).
+template <typename Visit>
+void for_each_feature_pair(const MovingMesh& first, const MovingMesh& second, const Visit& visit) {
+    using Edge = std::array<std::uint32_t, 2>;
+    const bool self = &first == &second;
+    const auto edges_of = [](const MovingMesh& moving) {
+        std::set<Edge> edges; // (higher, lower), which is the order of Deformable::edges
+        for (const auto& t : moving.mesh.triangles)
+            for (std::size_t k = 0; k < 3; ++k)
+                if (t[k] != t[(k + 1) % 3])
+                    edges.insert({std::max(t[k], t[(k + 1) % 3]), std::min(t[k], t[(k + 1) % 3])});
+        return std::vector<Edge>(edges.begin(), edges.end());
+    };
+    const auto set = [](ElementaryPair& pair, std::size_t i, const MovingMesh& of,
+                        std::uint32_t v) {
+        pair.start[i] = of.mesh.positions[v];
+        pair.end[i] = of.end[v];
+    };
+
+    const auto edges_a = edges_of(first), edges_b = edges_of(second);
+    for (std::uint32_t a = 0; a < edges_a.size(); ++a)
+        for (std::uint32_t b = self ? a + 1 : 0; b < edges_b.size(); ++b) {
+            const auto& [a1, a0] = edges_a[a];
+            const auto& [b1, b0] = edges_b[b];
+            if (self && (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1))
+                continue;
+            ElementaryPair pair{ElementaryKind::edge_edge, {}, {}};
+            set(pair, 0, first, a0), set(pair, 1, first, a1);
+            set(pair, 2, second, b0), set(pair, 3, second, b1);
+            FeatureImpact impact;
+            impact.kind = pair.kind, impact.a = a, impact.b = b;
+            visit(impact, pair);
+        }
+    const auto faces = [&](const MovingMesh& of_vertex, const MovingMesh& of_face,
+                           bool face_first) {
+        std::set<std::uint32_t> used;
+        for (const auto& t : of_vertex.mesh.triangles)
+            used.insert(t.begin(), t.end());
+        for (const std::uint32_t v : used)
+            for (std::uint32_t f = 0; f < of_face.mesh.triangles.size(); ++f) {
+                const auto& t = of_face.mesh.triangles[f];
+                if (self && std::find(t.begin(), t.end(), v) != t.end())
+                    continue;
+                ElementaryPair pair{ElementaryKind::vertex_face, {}, {}};
+                set(pair, 0, of_vertex, v);
+                for (std::size_t k = 0; k < 3; ++k)
+                    set(pair, 1 + k, of_face, t[k]);
+                FeatureImpact impact;
+                impact.kind = pair.kind, impact.face_first = face_first;
+                impact.a = v, impact.b = f;
+                visit(impact, pair);
+            }
+    };
+    faces(first, second, false);
+    if (!self)
+        faces(second, first, true);
+}
+
+/// By kind, face_first, a, b.
+inline auto list_order(const FeatureImpact& i) {
+    return std::tuple(i.kind, i.face_first, i.a, i.b);
+}
+
+/// The impacts by single elementary tests of all pairs, and how many these are.
+struct BruteForceImpacts {
+    std::vector<FeatureImpact> list;
+    std::size_t pairs = 0;
+
+    BruteForceImpacts(const MovingMesh& first, const MovingMesh& second,
+                      const ElementaryOptions& options = {}) {
+        for_each_feature_pair(first, second, [&](FeatureImpact found, const ElementaryPair& pair) {
+            ++pairs;
+            const ElementaryImpact impact = elementary_impact(pair, options);
+            if (!impact.hit)
+                return;
+            found.status = impact.status;
+            found.time = impact.time;
+            found.barycentric = impact.barycentric;
+            found.normal = impact.normal;
+            list.push_back(found);
+        });
+        std::sort(list.begin(), list.end(), [](const FeatureImpact& a, const FeatureImpact& b) {
+            return list_order(a) < list_order(b);
+        });
+    }
+};
+
+} // namespace abut::test
