@@ -189,8 +189,8 @@ CLI::Validator impact_file_name() {
 Subcommand add_ccd(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<CcdArguments>();
     CLI::App* app = add_subcommand(root, common, "ccd",
-                                   "Every vertex and face, and every two edges, of a deforming "
-                                   "surface that meet between one frame and the next");
+                                   "Which features of a deforming surface meet from one frame to "
+                                   "the next, and when");
     app->add_option("FRAME", arguments->frames,
                     "PLY or OBJ files in order, or one pattern in quotes ('frame-*.ply'), whose "
                     "matches are taken in the order of their numbers")
