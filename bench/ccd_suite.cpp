@@ -22,6 +22,7 @@ struct Case {
     std::string name;
     std::vector<ElementaryPair> pairs;
     std::vector<bool> truth;
+    double thickness = 0; ///< above 0: without a peer
 };
 
 Vec3 plus(const Vec3& a, const Vec3& b) {
@@ -94,6 +95,10 @@ const char* name_of(ElementaryKind kind) {
     return kind == ElementaryKind::vertex_face ? "vertex-face" : "edge-edge";
 }
 
+/// Of features of size 1.
+constexpr double kThickness = 1e-3;
+
+/// Contacts, and the same with a thickness.
 std::vector<Case> generated_cases(const CcdSuiteOptions& options) {
     std::vector<Case> cases;
     PairMaker maker(options.seed);
@@ -102,7 +107,11 @@ std::vector<Case> generated_cases(const CcdSuiteOptions& options) {
         while (meeting.pairs.size() < options.pairs)
             meeting.pairs.push_back(maker.meeting(kind));
         meeting.truth.assign(meeting.pairs.size(), true);
+        Case thick = meeting;
+        thick.name = fmt::format("generated, {}, within {}", name_of(kind), kThickness);
+        thick.thickness = kThickness;
         cases.push_back(std::move(meeting));
+        cases.push_back(std::move(thick));
     }
     return cases;
 }
@@ -162,11 +171,12 @@ Row measure_single(const Case& c, const CcdSuiteOptions& options) {
     for (std::size_t i = 0; i < c.pairs.size(); ++i) {
         const ElementaryPair& pair = c.pairs[i];
         ElementaryImpact impact;
-        ours.push_back(nanoseconds_of(options.rounds, [&] { impact = elementary_impact(pair); }));
+        ours.push_back(nanoseconds_of(
+            options.rounds, [&] { impact = elementary_impact(pair, {.thickness = c.thickness}); }));
         decided.at(static_cast<std::size_t>(impact.decided_by)) += 1;
         missed += c.truth[i] && !impact.hit ? 1 : 0;
         false_hits += impact.hit && !c.truth[i] ? 1 : 0;
-        if (!has_fcl_elementary())
+        if (!has_fcl_elementary() || c.thickness > 0)
             continue;
         std::optional<double> time;
         theirs.push_back(
@@ -199,7 +209,8 @@ Row measure_single(const Case& c, const CcdSuiteOptions& options) {
 }
 
 /// Pairs whose swept boxes overlap, as a traversal hands them on.
-Row measure_many(ElementaryKind kind, const CcdSuiteOptions& options) {
+Row measure_many(ElementaryKind kind, double thickness, const CcdSuiteOptions& options) {
+    const ElementaryOptions test{.thickness = thickness};
     PairMaker maker(options.seed + 1);
     std::vector<ElementaryPair> pairs;
     while (pairs.size() < 8 * options.pairs)
@@ -207,21 +218,22 @@ Row measure_many(ElementaryKind kind, const CcdSuiteOptions& options) {
             pairs.push_back(pair);
     std::array<double, 3> decided{};
     double hits = 0;
-    for (const ElementaryImpact& impact : elementary_impacts(pairs)) {
+    for (const ElementaryImpact& impact : elementary_impacts(pairs, test)) {
         decided.at(static_cast<std::size_t>(impact.decided_by)) += 1;
         hits += impact.hit ? 1 : 0;
     }
     set_threads(1);
     const Turns turns = take_turns(
         pairs.size(), pairs.size(), options.rounds,
-        [&](std::size_t, std::size_t) { elementary_impacts(pairs); },
+        [&](std::size_t, std::size_t) { elementary_impacts(pairs, test); },
         [&](std::size_t, std::size_t) {
             for (const ElementaryPair& pair : pairs)
-                elementary_impact(pair);
+                elementary_impact(pair, test);
         });
     set_threads(0);
     const auto count = static_cast<double>(pairs.size());
-    Row row{fmt::format("candidates, {}, many at once", name_of(kind)),
+    Row row{fmt::format("candidates, {}{}, many at once", name_of(kind),
+                        thickness > 0 ? fmt::format(", within {}", thickness) : ""),
             1e9 * turns.ours / count,
             "abut, one by one",
             1e9 * turns.theirs / count,
@@ -252,7 +264,8 @@ Report run_ccd_suite(const CcdSuiteOptions& options) {
     for (const Case& c : file_cases(options.files))
         report.rows.push_back(measure_single(c, options));
     for (const auto kind : {ElementaryKind::vertex_face, ElementaryKind::edge_edge})
-        report.rows.push_back(measure_many(kind, options));
+        for (const double thickness : {0.0, kThickness})
+            report.rows.push_back(measure_many(kind, thickness, options));
     if (options.frames.size() % 2 != 0)
         throw Error(ErrorCode::bad_argument, "frames come in pairs: start and end of a step");
     if (!options.frames.empty())

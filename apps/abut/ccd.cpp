@@ -168,6 +168,7 @@ int run(const CcdArguments& arguments, const CommonOptions& common) {
                     {"culling", name_of(arguments.surface.culling, kCullings)},
                     {"mode", arguments.elementary.mode},
                     {"delta", arguments.elementary.options().delta},
+                    {"thickness", arguments.elementary.thickness},
                     {"steps", std::move(list)},
                     {"total", describe(total, watch.seconds(), sequence.surface().bytes())}}));
     }

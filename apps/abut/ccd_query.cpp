@@ -162,9 +162,15 @@ std::string table_row(const std::string& name, const Tally& tally) {
 
 int run(const QueryArguments& arguments, const CommonOptions& common) {
     const ElementaryOptions options = arguments.elementary.options();
+    // The answers that are given are those of features that touch.
+    if (options.thickness > 0 && !arguments.truth_file.empty())
+        throw Error(ErrorCode::bad_argument, "--truth goes without --thickness");
     std::vector<ElementaryQueries> queries;
-    for (const std::string& file : arguments.files)
+    for (const std::string& file : arguments.files) {
         queries.push_back(read_elementary_queries(file, kind_of(arguments)));
+        if (options.thickness > 0)
+            queries.back().truth.clear();
+    }
     if (!arguments.truth_file.empty())
         replace_truth(arguments.truth_file, queries);
 
@@ -184,6 +190,7 @@ int run(const QueryArguments& arguments, const CommonOptions& common) {
     if (common.json)
         print(dump({{"mode", arguments.elementary.mode},
                     {"delta", options.delta},
+                    {"thickness", options.thickness},
                     {"files", std::move(files)},
                     {"total", describe(total)}}));
     else if (!common.quiet)

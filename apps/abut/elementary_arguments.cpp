@@ -15,10 +15,10 @@ constexpr double kDefaultDelta = 1e-6;
 
 ElementaryOptions ElementaryArguments::options() const {
     if (mode == "conservative")
-        return {.delta = delta.value_or(kDefaultDelta)};
+        return {.delta = delta.value_or(kDefaultDelta), .thickness = thickness};
     if (delta)
         throw Error(ErrorCode::bad_argument, "--delta goes with --mode conservative");
-    return {};
+    return {.thickness = thickness};
 }
 
 void add_elementary_arguments(CLI::App& app, ElementaryArguments& arguments) {
@@ -27,6 +27,9 @@ void add_elementary_arguments(CLI::App& app, ElementaryArguments& arguments) {
         ->check(CLI::IsMember({"exact", "conservative"}));
     app.add_option("--delta", arguments.delta,
                    fmt::format("Length, of the mode conservative (default {})", kDefaultDelta))
+        ->check(not_negative());
+    app.add_option("--thickness", arguments.thickness,
+                   "Length: features this near are hits (default 0: features that touch)")
         ->check(not_negative());
 }
 

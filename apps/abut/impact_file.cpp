@@ -50,8 +50,8 @@ void append_real(fmt::memory_buffer& out, double value) {
 /// byte  0 step | 4 kind | 5 status | 6 zero | 8 a | 12 b | 16 time | 24 u v w | 48 normal | 72
 void append_record(fmt::memory_buffer& out, std::size_t step, const FeatureImpact& impact) {
     append_word(out, static_cast<std::uint32_t>(step));
-    append_word(out, std::uint8_t{impact.kind == ElementaryKind::edge_edge});
-    append_word(out, std::uint8_t{impact.status == Status::bound_only});
+    append_word(out, static_cast<std::uint8_t>(impact.kind));
+    append_word(out, static_cast<std::uint8_t>(impact.status));
     append_word(out, std::uint16_t{0});
     append_word(out, impact.a);
     append_word(out, impact.b);

@@ -49,8 +49,7 @@ struct DeformableOptions {
 /// Two features that meet.
 struct FeatureImpact {
     ElementaryKind kind = ElementaryKind::vertex_face;
-    /// exact or bound_only: as in ElementaryImpact.
-    Status status = Status::exact;
+    Status status = Status::exact; ///< as in ElementaryImpact
     /// vertex_face between two surfaces: the face is the first surface's, the vertex the second's.
     bool face_first = false;
     /// vertex_face: vertex and triangle. edge_edge: edges, as numbered by `Deformable::edges`; of

@@ -14,7 +14,7 @@ constexpr std::size_t kTasks = 512;
 CandidateSearch::CandidateSearch(const DeformableData& a, const SweptTree& swept_a,
                                  const DeformableData& b, const SweptTree& swept_b, float margin)
     : a_(a), b_(b), swept_a_(swept_a), swept_b_(swept_b), margin_(margin) {
-    split(Between::triangles, swept_a.tree, swept_b.tree);
+    split(Between::triangles, between_triangles());
 }
 
 CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& b, float margin)
@@ -31,20 +31,26 @@ CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& 
     else if (a.options.culling == Culling::sweep)
         culling_ = make_sweep_culling(a, b, margin);
     else
-        split(Between::triangles, a.swept.tree, b.swept.tree);
+        split(Between::triangles, between_triangles());
 }
 
-void CandidateSearch::split(Between between, const MovingTree& a, const MovingTree& b) {
-    for (const OverlapTraversal::Pair& pair : split_overlaps({a, b, margin_}, kTasks))
+OverlapTraversal CandidateSearch::between_triangles() const {
+    const bool skips = &a_ == &b_ && margin_ == 0 && scheme_ == Scheme::representative;
+    return {swept_a_.tree, swept_b_.tree, margin_,
+            skips ? a_.flat_regions.flat() : std::span<const std::uint8_t>{}};
+}
+
+void CandidateSearch::split(Between between, const OverlapTraversal& traversal) {
+    for (const OverlapTraversal::Pair& pair : split_overlaps(traversal, kTasks))
         starts_.push_back({between, pair});
 }
 
 void CandidateSearch::split_features() {
     const FeatureTrees &a = *a_.feature_trees, &b = *b_.feature_trees;
-    split(Between::edges, a.edges.tree, b.edges.tree);
-    split(Between::vertices_faces, a.vertices.tree, b.faces.tree);
+    split(Between::edges, {a.edges.tree, b.edges.tree, margin_});
+    split(Between::vertices_faces, {a.vertices.tree, b.faces.tree, margin_});
     if (&a_ != &b_)
-        split(Between::faces_vertices, a.faces.tree, b.vertices.tree);
+        split(Between::faces_vertices, {a.faces.tree, b.vertices.tree, margin_});
 }
 
 } // namespace abut

@@ -39,7 +39,8 @@ private:
         Between between = Between::triangles;
         OverlapTraversal::Pair pair;
     };
-    void split(Between between, const MovingTree& a, const MovingTree& b);
+    void split(Between between, const OverlapTraversal& traversal);
+    [[nodiscard]] OverlapTraversal between_triangles() const;
     void split_features();
 
     template <typename Sink>
@@ -72,7 +73,7 @@ void CandidateSearch::run(std::size_t task, Sink& sink, DeformableCounters* coun
     } else if (scheme_ == Scheme::features) {
         run_features(starts_[task], pairs);
     } else {
-        const OverlapTraversal traversal{swept_a_.tree, swept_b_.tree, margin_};
+        const OverlapTraversal traversal = between_triangles();
         if (scheme_ == Scheme::representative) {
             RepresentativePairs<Sink> visitor(swept_a_.leaves, swept_b_.leaves, margin_, pairs,
                                               counters != nullptr ? &triangle_pairs : nullptr);

@@ -28,6 +28,8 @@ std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, doub
         boxes[i].start = box_of(v.start, 0);
         if (until == 1) {
             boxes[i].end = box_of(v.end, 0);
+        } else if (until == 0) {
+            boxes[i].end = boxes[i].start;
         } else {
             // Off by 3 roundings of the larger end at most.
             const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end));
@@ -75,7 +77,8 @@ void DeformableData::build() {
     const Tree shape = build_tree(triangle_boxes);
     swept.tree = MovingTree(shape);
     swept.leaves = LeafFeatures(shape, surface(), represented);
-    abut::refit(swept, *this, 1);
+    flat_regions = FlatRegions(swept.tree, swept.leaves.faces, triangles);
+    fit_boxes();
     looseness_when_built_ = looseness();
     if (options.scheme == Scheme::features)
         feature_trees = std::make_unique<FeatureTrees>(surface(), boxes);
@@ -86,8 +89,13 @@ void DeformableData::build() {
         features.edges_of = {};
 }
 
-void DeformableData::refit() {
+void DeformableData::fit_boxes() {
     abut::refit(swept, *this, 1);
+    flat_regions.fit(swept.leaves.faces, triangles, vertices);
+}
+
+void DeformableData::refit() {
+    fit_boxes();
     if (feature_trees)
         feature_trees->refit(surface(), vertex_boxes(vertices, 1));
     if (looseness() > kMostLooseness * looseness_when_built_)
@@ -197,7 +205,8 @@ std::size_t Deformable::bytes() const noexcept {
            d.features.edges.size() * sizeof(d.features.edges[0]) +
            d.features.edges_of.size() * sizeof(d.features.edges_of[0]) + d.represented.size() +
            d.vertices.size() * sizeof(d.vertices[0]) + d.swept.tree.bytes() +
-           d.swept.leaves.bytes() + (d.feature_trees ? d.feature_trees->bytes() : 0);
+           d.swept.leaves.bytes() + d.flat_regions.bytes() +
+           (d.feature_trees ? d.feature_trees->bytes() : 0);
 }
 
 } // namespace abut

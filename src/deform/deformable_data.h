@@ -2,7 +2,9 @@
 
 #include <abut/deformable.h>
 
+#include "deform/flat_regions.h"
 #include "deform/leaf_features.h"
+#include "deform/moving_vertex.h"
 #include "mesh/representatives.h"
 #include "tree/moving_tree.h"
 
@@ -14,10 +16,6 @@
 namespace abut {
 
 struct FeatureTrees;
-
-struct MovingVertex {
-    Vec3 start, end;
-};
 
 /// The hierarchy over a surface's swept triangles, and the boxes of the features in its leaves.
 struct SweptTree {
@@ -34,10 +32,11 @@ public:
 
     DeformableOptions options;
     std::vector<IndexTriangle> triangles;
-    SurfaceFeatures features; ///< edges_of only where spawning from triangles needs it
+    SurfaceFeatures features;             ///< edges_of only where spawning from triangles needs it
     std::vector<Represented> represented; ///< by each triangle
     std::vector<MovingVertex> vertices;
     SweptTree swept;
+    FlatRegions flat_regions;                    ///< nodes of `swept`
     std::unique_ptr<FeatureTrees> feature_trees; ///< for Scheme::features
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
@@ -50,12 +49,13 @@ public:
     void refit();
 
 private:
+    void fit_boxes();
     [[nodiscard]] double looseness() const;
 
     double looseness_when_built_ = 0;
 };
 
-/// Fits all boxes to what moves until time `until`, in (0, 1].
+/// Fits all boxes to what moves until time `until`, in [0, 1].
 void refit(SweptTree& swept, const DeformableData& data, double until);
 
 } // namespace abut

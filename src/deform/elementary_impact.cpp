@@ -42,8 +42,10 @@ ElementaryImpact elementary_impact(const ElementaryPair& pair, const ElementaryO
     require_valid(options);
     if (!is_finite(pair))
         throw Error(ErrorCode::bad_argument, "a coordinate is not finite");
-    if (!possible_impact(pair))
+    if (!possible_impact(pair, options.thickness))
         return {};
+    if (options.thickness > 0)
+        return decide_singly(pair, options);
     CrossingBlock crossing;
     decide_crossing(pair, crossing);
     return (crossing.apart | crossing.meet) != 0 ? impact_of_crossing(pair, crossing, 0)

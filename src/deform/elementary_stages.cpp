@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "geometry/difference_patch.h"
+#include "geometry/elementary_advancement.h"
 #include "geometry/elementary_exact.h"
 #include "geometry/elementary_interval.h"
 
@@ -13,6 +14,8 @@ namespace abut {
 void require_valid(const ElementaryOptions& options) {
     if (!(options.delta >= 0 && std::isfinite(options.delta)))
         throw Error(ErrorCode::bad_argument, "delta must be a finite number of at least 0");
+    if (!(options.thickness >= 0 && std::isfinite(options.thickness)))
+        throw Error(ErrorCode::bad_argument, "thickness must be a finite number of at least 0");
 }
 
 ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBlock& crossings,
@@ -31,6 +34,8 @@ ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBl
 }
 
 ElementaryImpact decide_singly(const ElementaryPair& pair, const ElementaryOptions& options) {
+    if (options.thickness > 0)
+        return elementary_impact_advancement(pair, options.thickness, options.delta);
     if (const auto impact = elementary_impact_interval(pair, options.delta))
         return *impact;
     return elementary_impact_exact(pair);

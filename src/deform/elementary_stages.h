@@ -20,7 +20,7 @@ void require_valid(const ElementaryOptions& options);
 ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBlock& crossings,
                                     std::size_t lane);
 
-/// The answer for a pair that filter and crossings have left.
+/// The answer for a pair that the filter has left, and the crossings, if there is no thickness.
 ElementaryImpact decide_singly(const ElementaryPair& pair, const ElementaryOptions& options);
 
 template <typename Visit>
@@ -72,12 +72,17 @@ private:
     };
 
     void filter() {
-        for_each_bit(possible_impacts(candidates_.block, kind_) & candidates_.used(),
-                     [&](std::size_t lane) {
-                         if (possible_.add(candidates_.items[lane], source_, true))
-                             cross();
-                     });
+        for_each_bit(possible_impacts(candidates_.block, kind_, options_.thickness) &
+                         candidates_.used(),
+                     [&](std::size_t lane) { pass(candidates_.items[lane]); });
         candidates_.count = 0;
+    }
+    /// What the filter has left.
+    void pass(const Item& item) {
+        if (options_.thickness > 0)
+            source_.take(item, decide_singly(source_.pair(item), options_));
+        else if (possible_.add(item, source_, true))
+            cross();
     }
     void cross() {
         decide_crossings(possible_.block, kind_, crossings_);

@@ -2,28 +2,35 @@
 
 namespace abut {
 
-bool boxes_apart(ElementaryKind kind, const PairVertices& vertices, double margin) {
-    const std::size_t of_first = kind == ElementaryKind::vertex_face ? 1 : 2;
-    for (int axis = 0; axis < 3; ++axis) {
-        bool below = true, above = true;
-        for (const auto end : {&MovingVertex::start, &MovingVertex::end}) {
-            const auto coordinate = [&](std::size_t i) {
-                return component(vertices[i]->*end, axis);
-            };
-            double low[2] = {coordinate(0), coordinate(of_first)}, high[2] = {low[0], low[1]};
-            for (std::size_t i = 1; i < 4; ++i) {
-                const std::size_t side = i < of_first ? 0 : 1;
-                low[side] = std::min(low[side], coordinate(i));
-                high[side] = std::max(high[side], coordinate(i));
-            }
-            // A rounded difference is below a double only if the exact one is.
-            below = below && high[0] - low[1] < -margin;
-            above = above && high[1] - low[0] < -margin;
-        }
-        if (below || above)
-            return true;
+namespace {
+
+struct Bounds {
+    Vec3 low, high;
+};
+
+Bounds bounds_of(const PairVertices& vertices, std::size_t first, std::size_t last,
+                 Vec3 MovingVertex::*end) {
+    Bounds bounds{vertices[first]->*end, vertices[first]->*end};
+    for (std::size_t i = first + 1; i < last; ++i) {
+        bounds.low = min(bounds.low, vertices[i]->*end);
+        bounds.high = max(bounds.high, vertices[i]->*end);
     }
-    return false;
+    return bounds;
+}
+
+} // namespace
+
+bool boxes_apart(ElementaryKind kind, const PairVertices& vertices, double margin) {
+    const std::size_t second = kind == ElementaryKind::vertex_face ? 1 : 2;
+    const Bounds a0 = bounds_of(vertices, 0, second, &MovingVertex::start),
+                 b0 = bounds_of(vertices, second, 4, &MovingVertex::start),
+                 a1 = bounds_of(vertices, 0, second, &MovingVertex::end),
+                 b1 = bounds_of(vertices, second, 4, &MovingVertex::end);
+    // How far they overlap along each axis at one end at least, seen from either side. A rounded
+    // difference is below a double only if the exact one is.
+    const Vec3 below = max(a0.high - b0.low, a1.high - b1.low),
+               above = max(b0.high - a0.low, b1.high - a1.low), least = min(below, above);
+    return std::min({least.x, least.y, least.z}) < -margin;
 }
 
 } // namespace abut

@@ -50,6 +50,7 @@ std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableD
 std::optional<FeatureImpact> find_first(const DeformableData& a, const DeformableData& b,
                                         const ElementaryOptions& options) {
     require_valid(options);
+    const float margin = round_up(options.thickness);
     SweptTree swept_a = a.swept, swept_b;
     if (&a != &b)
         swept_b = b.swept;
@@ -58,7 +59,7 @@ std::optional<FeatureImpact> find_first(const DeformableData& a, const Deformabl
         refit(swept_a, a, until);
         if (&a != &b)
             refit(swept_b, b, until);
-        first = earliest(a, b, CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, 0),
+        first = earliest(a, b, CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, margin),
                          options);
         if (first && first->time < until - kTimeError)
             break;
@@ -76,7 +77,7 @@ struct AnyImpact {
 
 bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryOptions& options) {
     require_valid(options);
-    const CandidateSearch search(a, a.swept, b, b.swept, 0);
+    const CandidateSearch search(a, a.swept, b, b.swept, round_up(options.thickness));
     std::atomic<bool> found = false;
     parallel_for(search.tasks(), 1, [&](std::size_t i) {
         AnyImpact keeper{found};

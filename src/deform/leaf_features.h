@@ -29,6 +29,11 @@ public:
     [[nodiscard]] const std::uint32_t* ids(std::uint32_t leaf) const {
         return ids_.data() + begin_[leaf];
     }
+    /// Of all leaves from `first` on, before `last`.
+    [[nodiscard]] std::span<const std::uint32_t> ids(std::uint32_t first,
+                                                     std::uint32_t last) const {
+        return std::span(ids_).subspan(begin_[first], begin_[last] - begin_[first]);
+    }
     [[nodiscard]] MovingBoxRun run(std::uint32_t leaf) const {
         return {rows_.data() + MovingBoxRun::kRows * begin_[leaf], ids(leaf), count(leaf)};
     }

@@ -8,7 +8,7 @@ namespace {
 
 /// Divided by its largest coordinate: its square neither over- nor underflows.
 Vec3 scaled_down(const Vec3& v) {
-    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double largest = max_abs(v);
     return largest > 0 ? Vec3{v.x / largest, v.y / largest, v.z / largest} : Vec3{};
 }
 

@@ -12,103 +12,231 @@ namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace elementary; // NOLINT: within this target's namespace
 
-/// Where all of the first feature lies strictly below all of the second along some direction, at
-/// both ends, or above. `along` gives a vertex's coordinate in that direction: rounded at most
-/// once, since then an order of rounded coordinates is that of the exact ones.
-template <bool faces, class D, class Along>
-HWY_INLINE hn::Mask<D> apart(D /*d*/, const Pairs<D>& pairs, const Along& along) {
-    hn::Mask<D> below[2], above[2];
-    for (std::size_t end = 0; end < 2; ++end) {
-        const auto s0 = along(pairs.p[0][end]), s1 = along(pairs.p[1][end]),
-                   s2 = along(pairs.p[2][end]), s3 = along(pairs.p[3][end]);
-        if constexpr (faces) {
-            below[end] = hn::Lt(s0, hn::Min(s1, hn::Min(s2, s3)));
-            above[end] = hn::Gt(s0, hn::Max(s1, hn::Max(s2, s3)));
-        } else {
-            below[end] = hn::Lt(hn::Max(s0, s1), hn::Min(s2, s3));
-            above[end] = hn::Gt(hn::Min(s0, s1), hn::Max(s2, s3));
-        }
-    }
-    return hn::Or(hn::And(below[0], below[1]), hn::And(above[0], above[1]));
-}
+/// The coplanarity corner . (x x y) by its Bernstein coefficients, the inner ones tripled.
+template <class D>
+struct Coplanarity {
+    hn::Vec<D> b0, b1_3, b2_3, b3;
 
-template <bool faces, class D>
-HWY_INLINE hn::Mask<D> apart_on_axes(D d, const Pairs<D>& pairs) {
-    using P = const Lanes3<D>&;
-    const auto x = apart<faces>(d, pairs, [](P p) HWY_ATTR { return p.x; });
-    const auto y = apart<faces>(d, pairs, [](P p) HWY_ATTR { return p.y; });
-    const auto z = apart<faces>(d, pairs, [](P p) HWY_ATTR { return p.z; });
-    return hn::Or(x, hn::Or(y, z));
-}
+    HWY_INLINE explicit Coplanarity(const Patches<D>& p)
+        : b0(dot<D>(p.corner[0], p.area_0)),
+          b1_3(hn::Add(dot<D>(p.corner[0], p.area_1), dot<D>(p.corner[1], p.area_0))),
+          b2_3(hn::Add(dot<D>(p.corner[1], p.area_1), dot<D>(p.corner[0], p.area_2))),
+          b3(dot<D>(p.corner[1], p.area_2)) {}
+};
 
-template <bool faces, class D>
-HWY_INLINE hn::Mask<D> apart_on_diagonals(D d, const Pairs<D>& pairs) {
-    using P = const Lanes3<D>&;
-    const auto xy = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Add(p.x, p.y); });
-    const auto yz = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Add(p.y, p.z); });
-    const auto zx = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Add(p.z, p.x); });
-    const auto x_y = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Sub(p.x, p.y); });
-    const auto y_z = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Sub(p.y, p.z); });
-    const auto z_x = apart<faces>(d, pairs, [](P p) HWY_ATTR { return hn::Sub(p.z, p.x); });
-    return hn::Or(hn::Or(xy, hn::Or(yz, zx)), hn::Or(x_y, hn::Or(y_z, z_x)));
-}
-
-/// Where the four vertices lie in one plane at no time: corner . (x x y) has Bernstein coefficients
-/// of one sign.
+/// Where the four vertices lie in one plane at no time: the coefficients have one sign.
 ///
-/// With coordinates below C, X and Y, the inner coefficients, three times as large here, sum 18
-/// products, each rounded 11 times at most: off by 18 * 11 eps C X Y; the outer ones are off by
-/// less. The last term covers underflow; products near overflow leave nothing certain.
+/// With coordinates below C, X and Y, the inner coefficients, tripled, sum 18 products, each rounded
+/// 11 times at most: off by 18 * 11 eps C X Y; the outer ones are off by less. The last term covers
+/// underflow; products near overflow leave nothing certain.
 template <class D>
 HWY_INLINE hn::Mask<D> never_coplanar(D d, const Patches<D>& p) {
-    const auto b0 = dot<D>(p.corner[0], p.area_0), b3 = dot<D>(p.corner[1], p.area_2);
-    const auto b1 = hn::Add(dot<D>(p.corner[0], p.area_1), dot<D>(p.corner[1], p.area_0));
-    const auto b2 = hn::Add(dot<D>(p.corner[1], p.area_1), dot<D>(p.corner[0], p.area_2));
-
+    const Coplanarity<D> f(p);
     const auto size_xy = hn::Mul(p.size_x, p.size_y), product = hn::Mul(size_xy, p.size_c);
     const auto tiny = hn::Set(d, 0x1p-1000), huge = hn::Set(d, 0x1p1000);
     const auto bound =
         hn::MulAdd(hn::Set(d, 200 * 0x1p-53), product, hn::MulAdd(tiny, p.size_c, tiny));
     const auto in_range = hn::And(hn::Lt(product, huge), hn::Lt(size_xy, huge));
-    const auto least = hn::Min(hn::Min(b0, b1), hn::Min(b2, b3)),
-               most = hn::Max(hn::Max(b0, b1), hn::Max(b2, b3));
+    const auto least = hn::Min(hn::Min(f.b0, f.b1_3), hn::Min(f.b2_3, f.b3)),
+               most = hn::Max(hn::Max(f.b0, f.b1_3), hn::Max(f.b2_3, f.b3));
     return hn::And(in_range, hn::Or(hn::Gt(least, bound), hn::Lt(most, hn::Neg(bound))));
 }
 
-template <bool faces, class D>
-HWY_INLINE hn::Mask<D> proven_apart(D d, const Pairs<D>& pairs) {
-    auto result = apart_on_axes<faces>(d, pairs);
-    if (hn::AllTrue(d, result))
-        return result;
-    result = hn::Or(result, apart_on_diagonals<faces>(d, pairs));
-    if (hn::AllTrue(d, result))
-        return result;
-    return hn::Or(result, never_coplanar(d, Patches<D>::template of<faces>(pairs)));
+/// Where the patch's plane is farther than the thickness D from the origin at all times, and always
+/// on one side: the coplanarity exceeds D |area|.
+///
+/// |area| is at most the quadratic whose Bernstein coefficients are the lengths of its own; raised
+/// to degree 3, those of the bound are D times |a0|, (|a0| + 2 |a1|) / 3, (2 |a1| + |a2|) / 3, |a2|.
+/// A coordinate of a0 is off by 10 eps X Y at most, one of 2 a1 by twice as much; with lengths,
+/// sums and products that makes less than 120 eps D X Y, and the coplanarity's own error is
+/// as above. Sizes whose squares over- or underflow leave nothing certain.
+template <class D>
+HWY_INLINE hn::Mask<D> never_near_plane(D d, const Patches<D>& p, hn::Vec<D> thickness) {
+    const Coplanarity<D> f(p);
+    const auto length = [](const Lanes3<D>& v) HWY_ATTR { return hn::Sqrt(dot<D>(v, v)); };
+    const auto a0 = length(p.area_0), a1_2 = length(p.area_1), a2 = length(p.area_2);
+    const auto m0 = hn::Mul(thickness, a0), m1 = hn::Mul(thickness, hn::Add(a0, a1_2)),
+               m2 = hn::Mul(thickness, hn::Add(a1_2, a2)), m3 = hn::Mul(thickness, a2);
+
+    const auto size_xy = hn::Mul(p.size_x, p.size_y),
+               product = hn::Mul(size_xy, hn::Add(p.size_c, thickness));
+    const auto tiny = hn::Set(d, 0x1p-1000);
+    const auto bound =
+        hn::MulAdd(hn::Set(d, 200 * 0x1p-53), product, hn::MulAdd(tiny, p.size_c, tiny));
+    const auto in_range = hn::And(
+        hn::And(hn::Gt(size_xy, hn::Set(d, 0x1p-400)), hn::Lt(size_xy, hn::Set(d, 0x1p400))),
+        hn::Lt(product, hn::Set(d, 0x1p1000)));
+    const auto above = hn::Min(hn::Min(hn::Sub(f.b0, m0), hn::Sub(f.b1_3, m1)),
+                               hn::Min(hn::Sub(f.b2_3, m2), hn::Sub(f.b3, m3))),
+               below = hn::Max(hn::Max(hn::Add(f.b0, m0), hn::Add(f.b1_3, m1)),
+                               hn::Max(hn::Add(f.b2_3, m2), hn::Add(f.b3, m3)));
+    return hn::And(in_range, hn::Or(hn::Gt(above, bound), hn::Lt(below, hn::Neg(bound))));
 }
 
-template <bool faces, class D>
-HWY_INLINE std::uint32_t possible_with(D d, const ElementaryBlock& block) {
-    std::uint32_t possible = 0;
+/// How far features without thickness must be apart along a direction: not at all.
+template <class D>
+struct Touching {
+    HWY_INLINE hn::Mask<D> on_axis(hn::Vec<D> above, hn::Vec<D> below) const {
+        return hn::Gt(above, below);
+    }
+    HWY_INLINE hn::Mask<D> on_diagonal(hn::Vec<D> above, hn::Vec<D> below) const {
+        return hn::Gt(above, below);
+    }
+    HWY_INLINE hn::Mask<D> off_plane(D d, const Patches<D>& p) const {
+        return never_coplanar(d, p);
+    }
+};
+
+/// Farther than a thickness. Rounding is monotone: a difference that exceeds it after rounding
+/// once did before.
+template <class D>
+struct Thick {
+    hn::Vec<D> thickness, diagonal;
+
+    /// Along a diagonal of length sqrt(2), coordinates are sums, rounded by eps of twice the
+    /// largest coordinate each; the factor covers its own rounding. Sums near overflow leave nothing
+    /// certain.
+    HWY_INLINE Thick(D d, const Pairs<D>& pairs, double thick) : thickness(hn::Set(d, thick)) {
+        auto size = hn::Zero(d);
+        for (const auto& vertex : pairs.p)
+            for (const Lanes3<D>& p : vertex)
+                size = hn::Max(size, max_abs<D>(p));
+        const double root_2 = 1.4142135623731;
+        diagonal = hn::MulAdd(hn::Set(d, 0x1p-50), size, hn::Set(d, root_2 * thick + 0x1p-1070));
+        diagonal = hn::IfThenElse(hn::Lt(size, hn::Set(d, 0x1p1000)), diagonal, hn::Inf(d));
+    }
+    HWY_INLINE hn::Mask<D> on_axis(hn::Vec<D> above, hn::Vec<D> below) const {
+        return hn::Gt(hn::Sub(above, below), thickness);
+    }
+    HWY_INLINE hn::Mask<D> on_diagonal(hn::Vec<D> above, hn::Vec<D> below) const {
+        return hn::Gt(hn::Sub(above, below), diagonal);
+    }
+    HWY_INLINE hn::Mask<D> off_plane(D d, const Patches<D>& p) const {
+        return never_near_plane(d, p, thickness);
+    }
+};
+
+/// Where all of the first feature lies below all of the second along some direction, at both ends,
+/// or above, `far` enough. `along` gives a vertex's coordinate in that direction: rounded at most
+/// once, since then an order of rounded coordinates is that of the exact ones.
+template <bool faces, class D, class Along, class Far>
+HWY_INLINE hn::Mask<D> apart(D /*d*/, const Pairs<D>& pairs, const Along& along, const Far& far) {
+    hn::Mask<D> below[2], above[2];
+    for (std::size_t end = 0; end < 2; ++end) {
+        const auto s0 = along(pairs.p[0][end]), s1 = along(pairs.p[1][end]),
+                   s2 = along(pairs.p[2][end]), s3 = along(pairs.p[3][end]);
+        if constexpr (faces) {
+            below[end] = far(hn::Min(s1, hn::Min(s2, s3)), s0);
+            above[end] = far(s0, hn::Max(s1, hn::Max(s2, s3)));
+        } else {
+            below[end] = far(hn::Min(s2, s3), hn::Max(s0, s1));
+            above[end] = far(hn::Min(s0, s1), hn::Max(s2, s3));
+        }
+    }
+    return hn::Or(hn::And(below[0], below[1]), hn::And(above[0], above[1]));
+}
+
+template <bool faces, class D, class Clearance>
+HWY_INLINE hn::Mask<D> apart_on_axes(D d, const Pairs<D>& pairs, const Clearance& clearance) {
+    using P = const Lanes3<D>&;
+    using V = hn::Vec<D>;
+    const auto far = [&](V above, V below) HWY_ATTR { return clearance.on_axis(above, below); };
+    const auto x = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return p.x; }, far);
+    const auto y = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return p.y; }, far);
+    const auto z = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return p.z; }, far);
+    return hn::Or(x, hn::Or(y, z));
+}
+
+template <bool faces, class D, class Clearance>
+HWY_INLINE hn::Mask<D> apart_on_diagonals(D d, const Pairs<D>& pairs, const Clearance& clearance) {
+    using P = const Lanes3<D>&;
+    using V = hn::Vec<D>;
+    const auto far = [&](V above, V below) HWY_ATTR { return clearance.on_diagonal(above, below); };
+    const auto xy = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return hn::Add(p.x, p.y); }, far);
+    const auto yz = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return hn::Add(p.y, p.z); }, far);
+    const auto zx = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return hn::Add(p.z, p.x); }, far);
+    const auto x_y = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return hn::Sub(p.x, p.y); }, far);
+    const auto y_z = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return hn::Sub(p.y, p.z); }, far);
+    const auto z_x = apart<faces>(
+        d, pairs, [](P p) HWY_ATTR { return hn::Sub(p.z, p.x); }, far);
+    return hn::Or(hn::Or(xy, hn::Or(yz, zx)), hn::Or(x_y, hn::Or(y_z, z_x)));
+}
+
+template <bool faces, class D, class Clearance>
+HWY_INLINE hn::Mask<D> proven_apart(D d, const Pairs<D>& pairs, const Clearance& clearance) {
+    auto result = apart_on_axes<faces>(d, pairs, clearance);
+    if (hn::AllTrue(d, result))
+        return result;
+    result = hn::Or(result, apart_on_diagonals<faces>(d, pairs, clearance));
+    if (hn::AllTrue(d, result))
+        return result;
+    return hn::Or(result, clearance.off_plane(d, Patches<D>::template of<faces>(pairs)));
+}
+
+template <class D>
+HWY_INLINE hn::Mask<D> proven_apart(D d, const Pairs<D>& pairs, bool faces) {
+    return faces ? proven_apart<true>(d, pairs, Touching<D>())
+                 : proven_apart<false>(d, pairs, Touching<D>());
+}
+template <class D>
+HWY_INLINE hn::Mask<D> proven_farther(D d, const Pairs<D>& pairs, bool faces, double thickness) {
+    const Thick<D> clearance(d, pairs, thickness);
+    return faces ? proven_apart<true>(d, pairs, clearance)
+                 : proven_apart<false>(d, pairs, clearance);
+}
+
+template <class D, class Proven>
+HWY_INLINE std::uint32_t lanes_left(D d, const ElementaryBlock& block, const Proven& proven) {
+    std::uint32_t left = 0;
     for (std::size_t lane = 0; lane < ElementaryBlock::kLanes; lane += hn::Lanes(d)) {
         const Pairs<D> pairs(d, block, lane);
-        possible |= bits_of(d, hn::Not(proven_apart<faces>(d, pairs))) << lane;
+        left |= bits_of(d, hn::Not(proven(pairs))) << lane;
     }
-    return possible;
+    return left;
+}
+template <class D>
+HWY_INLINE std::uint32_t touching_with(D d, const ElementaryBlock& block, bool faces) {
+    return lanes_left(
+        d, block, [&](const Pairs<D>& pairs) HWY_ATTR { return proven_apart(d, pairs, faces); });
+}
+template <class D>
+HWY_INLINE std::uint32_t within_with(D d, const ElementaryBlock& block, bool faces,
+                                     double thickness) {
+    return lanes_left(d, block, [&](const Pairs<D>& pairs) HWY_ATTR {
+        return proven_farther(d, pairs, faces, thickness);
+    });
 }
 
-std::uint32_t possible_simd(const ElementaryBlock& block, bool faces) {
-    return faces ? possible_with<true>(BlockLanes(), block)
-                 : possible_with<false>(BlockLanes(), block);
+// With a thickness apart: a test without one shall pay for no branch.
+std::uint32_t touching_simd(const ElementaryBlock& block, bool faces) {
+    return touching_with(BlockLanes(), block, faces);
 }
-bool possible_single(const ElementaryPair& pair) {
+std::uint32_t within_simd(const ElementaryBlock& block, bool faces, double thickness) {
+    return within_with(BlockLanes(), block, faces, thickness);
+}
+bool touching_single(const ElementaryPair& pair) {
     const OneLane d;
-    const Pairs<OneLane> pairs(d, pair);
-    return hn::AllFalse(d, pair.kind == ElementaryKind::vertex_face
-                               ? proven_apart<true>(d, pairs)
-                               : proven_apart<false>(d, pairs));
+    return hn::AllFalse(
+        d, proven_apart(d, Pairs<OneLane>(d, pair), pair.kind == ElementaryKind::vertex_face));
 }
-std::uint32_t possible_reference(const ElementaryBlock& block, bool faces) {
-    return faces ? possible_with<true>(OneLane(), block) : possible_with<false>(OneLane(), block);
+bool within_single(const ElementaryPair& pair, double thickness) {
+    const OneLane d;
+    return hn::AllFalse(d, proven_farther(d, Pairs<OneLane>(d, pair),
+                                          pair.kind == ElementaryKind::vertex_face, thickness));
+}
+std::uint32_t touching_reference(const ElementaryBlock& block, bool faces) {
+    return touching_with(OneLane(), block, faces);
+}
+std::uint32_t within_reference(const ElementaryBlock& block, bool faces, double thickness) {
+    return within_with(OneLane(), block, faces, thickness);
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -117,17 +245,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace abut {
 
-HWY_EXPORT(possible_simd);
-HWY_EXPORT(possible_single);
+HWY_EXPORT(touching_simd);
+HWY_EXPORT(within_simd);
+HWY_EXPORT(touching_single);
+HWY_EXPORT(within_single);
 
-std::uint32_t possible_impacts(const ElementaryBlock& block, ElementaryKind kind) {
-    return HWY_DYNAMIC_DISPATCH(possible_simd)(block, kind == ElementaryKind::vertex_face);
+std::uint32_t possible_impacts(const ElementaryBlock& block, ElementaryKind kind,
+                               double thickness) {
+    const bool faces = kind == ElementaryKind::vertex_face;
+    return thickness > 0 ? HWY_DYNAMIC_DISPATCH(within_simd)(block, faces, thickness)
+                         : HWY_DYNAMIC_DISPATCH(touching_simd)(block, faces);
 }
-bool possible_impact(const ElementaryPair& pair) {
-    return HWY_DYNAMIC_DISPATCH(possible_single)(pair);
+bool possible_impact(const ElementaryPair& pair, double thickness) {
+    return thickness > 0 ? HWY_DYNAMIC_DISPATCH(within_single)(pair, thickness)
+                         : HWY_DYNAMIC_DISPATCH(touching_single)(pair);
 }
-std::uint32_t possible_impacts_reference(const ElementaryBlock& block, ElementaryKind kind) {
-    return HWY_STATIC_DISPATCH(possible_reference)(block, kind == ElementaryKind::vertex_face);
+std::uint32_t possible_impacts_reference(const ElementaryBlock& block, ElementaryKind kind,
+                                         double thickness) {
+    const bool faces = kind == ElementaryKind::vertex_face;
+    return thickness > 0 ? HWY_STATIC_DISPATCH(within_reference)(block, faces, thickness)
+                         : HWY_STATIC_DISPATCH(touching_reference)(block, faces);
 }
 
 } // namespace abut

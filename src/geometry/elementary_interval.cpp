@@ -1,6 +1,7 @@
 #include "geometry/elementary_interval.h"
 
 #include "geometry/difference_patch.h"
+#include "geometry/rounded_patch.h"
 #include "math/predicates.h"
 
 #include <algorithm>
@@ -21,33 +22,6 @@ constexpr int kMostLevel = 12, kMostCells = 64;
 constexpr int kMostSteps = 32;
 /// The time of an impact is not certain enough in a longer interval.
 constexpr double kLongestImpact = 1e-9;
-
-double largest(const Vec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
-/// A vector in linear motion. Its coordinates at both ends are differences of two doubles, each
-/// rounded once.
-struct LinearVec3 {
-    Vec3 start, end;
-    double size; ///< no coordinate exceeds it
-
-    LinearVec3(const ElementaryPair& pair, const VertexDifference& d)
-        : start(pair.start[d.to] - pair.start[d.from]), end(pair.end[d.to] - pair.end[d.from]),
-          size(std::max(largest(start), largest(end))) {}
-
-    [[nodiscard]] Vec3 at(double t) const { return (1 - t) * start + t * end; }
-};
-
-/// corner + x side_x + y side_y, see difference_patch.h.
-struct RoundedPatch {
-    LinearVec3 corner, side_x, side_y;
-
-    explicit RoundedPatch(const ElementaryPair& pair)
-        : RoundedPatch(pair, patch_layout(pair.kind)) {}
-    RoundedPatch(const ElementaryPair& pair, const PatchLayout& layout)
-        : corner(pair, layout.corner), side_x(pair, layout.side_x), side_y(pair, layout.side_y) {}
-};
 
 /// A cubic over one cell [start, start + length] of times, by Bernstein coefficients.
 struct CubicCell {
@@ -231,9 +205,9 @@ public:
 
     [[nodiscard]] Contact decide() const {
         const Vec3 area = cross(x_, y_);
-        const double scale = largest(area);
+        const double scale = max_abs(area);
         // Products that lost digits to underflow, or overflowed, are left to exact arithmetic.
-        const double sizes = (largest(corner_) + off_corner_) + (largest(x_) + largest(y_));
+        const double sizes = (max_abs(corner_) + off_corner_) + (max_abs(x_) + max_abs(y_));
         if (!(scale > 0x1p-900 && sizes < 0x1p450))
             return {};
         Contact contact;
@@ -254,13 +228,13 @@ public:
     /// the interval.
     [[nodiscard]] double distance_at_most(double x, double y) const {
         // Coordinates instead of a length: their squares may underflow.
-        return 1.7321 * (largest(corner_ + x * x_ + y * y_) + 2 * (off_corner_ + off_x_ + off_y_));
+        return 1.7321 * (max_abs(corner_ + x * x_ + y * y_) + 2 * (off_corner_ + off_x_ + off_y_));
     }
 
 private:
     /// m . (u x v), |m| at most 1 in each coordinate, u and v off by `off_u` and `off_v` each.
     static Area seen(const Vec3& u, double off_u, const Vec3& v, double off_v, const Vec3& m) {
-        const double size_u = largest(u), size_v = largest(v);
+        const double size_u = max_abs(u), size_v = max_abs(v);
         // Six products: each off by what its factors are off by, and by 8 roundings.
         const double off =
             off_u * size_v + size_u * off_v + off_u * off_v + 8 * kEpsilon * size_u * size_v;

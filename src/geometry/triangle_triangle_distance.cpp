@@ -32,23 +32,6 @@ TriangleFeature on_edge(std::size_t i, double s) {
     return s <= 0 ? vertex(i) : s >= 1 ? vertex((i + 1) % 3) : edge(i);
 }
 
-/// Closest points of two segments by their parameters.
-struct SegmentPoints {
-    double s = 0, t = 0, distance_sq = 0;
-};
-
-SegmentPoints closest_parameters(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
-    const Vec3 u = p1 - p0, v = q1 - q0, r = q0 - p0;
-    const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
-    const Vec3 n = cross(u, v);
-    const double nn = length_sq(n);
-    // Lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s for that t.
-    double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
-    const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
-    s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;
-    return {s, t, length_sq(r - s * u + t * v)};
-}
-
 /// Its ends are met exactly.
 Vec3 point_of_segment(const Vec3& p, const Vec3& q, double s) {
     return s >= 1 ? q : p + s * (q - p);
@@ -58,7 +41,7 @@ Vec3 point_of_segment(const Vec3& p, const Vec3& q, double s) {
 ClosestPoints edge_edge_distance(const Triangle& a, std::size_t i, const Triangle& b,
                                  std::size_t j) {
     const Vec3 &p0 = a[i], &p1 = a[(i + 1) % 3], &q0 = b[j], &q1 = b[(j + 1) % 3];
-    const SegmentPoints c = closest_parameters(p0, p1, q0, q1);
+    const SegmentPoints c = nearest_on_segments(p1 - p0, q1 - q0, q0 - p0);
     return {c.distance_sq, point_of_segment(p0, p1, c.s), point_of_segment(q0, q1, c.t),
             on_edge(i, c.s), on_edge(j, c.t)};
 }
@@ -77,9 +60,20 @@ bool pierce(const Vec3& p, const Vec3& q, const Triangle& t, Vec3& point) {
 
 } // namespace
 
+SegmentPoints nearest_on_segments(const Vec3& u, const Vec3& v, const Vec3& r) {
+    const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
+    const Vec3 n = cross(u, v);
+    const double nn = length_sq(n);
+    // Lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s for that t.
+    double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
+    const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
+    s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;
+    return {s, t, length_sq(r - s * u + t * v)};
+}
+
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1) {
-    const SegmentPoints c = closest_parameters(p0, p1, q0, q1);
+    const SegmentPoints c = nearest_on_segments(p1 - p0, q1 - q0, q0 - p0);
     return {c.distance_sq, point_of_segment(p0, p1, c.s), point_of_segment(q0, q1, c.t)};
 }
 

@@ -5,11 +5,19 @@
 
 namespace abut {
 
-/// Closest points of the segments p + s u and q + t v, s and t in [0, 1].
+/// Closest points of two segments by their parameters.
+struct SegmentPoints {
+    double s = 0, t = 0, distance_sq = 0;
+};
+
+/// Closest points of the segments s u and r + t v, s and t in [0, 1].
 ///
 /// Degenerate  zero-length segments act as points; parallel segments return one minimiser.
 /// Source      [Ericson 2005, 5.1.9]. Differs: the lines' parameters come from cross products,
 ///             which keeps almost parallel segments exact to rounding.
+SegmentPoints nearest_on_segments(const Vec3& u, const Vec3& v, const Vec3& r);
+
+/// The same of the segments from p0 to p1 and from q0 to q1, as points.
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1);
 

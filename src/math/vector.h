@@ -43,6 +43,11 @@ inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+/// The largest coordinate's size.
+inline double max_abs(const Vec3& a) {
+    return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
+
 inline double component(const Vec3& a, int axis) {
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }

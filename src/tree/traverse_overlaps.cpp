@@ -68,6 +68,8 @@ private:
     }
 
     void open_self(std::uint32_t node) {
+        if (!traversal_.skipped.empty() && traversal_.skipped[node] != 0)
+            return;
         for_each_child(traversal_.a, node, [&](std::uint32_t name, std::uint32_t lane) {
             pairs_.push_back({name, name});
             open_b(name, node, 0xfeU << lane);

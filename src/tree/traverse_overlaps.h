@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace abut {
@@ -32,6 +33,8 @@ struct OverlapTraversal {
     const MovingTree& a;
     const MovingTree& b;
     float margin = 0; ///< boxes that come so near overlap
+    /// Of one tree: nodes, not 0, whose leaves are not visited with each other. May be empty.
+    std::span<const std::uint8_t> skipped{};
 
     /// Two children by their names.
     struct Pair {

@@ -101,6 +101,23 @@ TEST_F(CcdQueryCommand, ConservativeReportsWhatIsNear) {
     EXPECT_EQ(conservative.json()["delta"], 1e-9);
 }
 
+TEST_F(CcdQueryCommand, ThicknessTakesThePlaceOfTheTruth) {
+    const std::string queries =
+        folder_.write("vf.csv", falling("1,8", ",0") + falling("1,2", ",0"));
+    const auto thick = run_abut({"ccd-query", queries, "--thickness", "0.25", "--json"});
+    ASSERT_EQ(thick.status, 0) << thick.err;
+    const auto answer = thick.json();
+    EXPECT_EQ(answer["thickness"], 0.25);
+    EXPECT_EQ(answer["total"]["hits"], 1);
+    EXPECT_TRUE(answer["total"]["positives"].is_null());
+    EXPECT_TRUE(answer["total"]["false_positives"].is_null());
+    EXPECT_EQ(run_abut({"ccd-query", queries, "--json"}).json()["thickness"], 0);
+    expect_refused(run_abut({"ccd-query", queries, "--thickness", "-1"}), {"--thickness"});
+    const std::string truth = folder_.write("truth.json", "[0, 0]");
+    expect_refused(run_abut({"ccd-query", queries, "--thickness", "1", "--truth", truth}),
+                   {"--truth"});
+}
+
 TEST_F(CcdQueryCommand, BadFilesAreRefusedByLine) {
     const std::string good = falling("-1,2", ",1");
     expect_file_refused("", {"no rows"});

@@ -231,6 +231,27 @@ TEST_F(CcdCommand, ConservativeReportsWhatIsNear) {
         EXPECT_EQ(each.impact.status, Status::bound_only);
 }
 
+TEST_F(CcdCommand, AThicknessReportsWhatComesSoNear) {
+    // The lowest vertex stops at 1/8; the edges, at 1/16 from each other.
+    const auto falling = frames({small_above_large(2), small_above_large(0.125)});
+    EXPECT_EQ(answer(falling)["total"]["vertex_face"], 0);
+    EXPECT_EQ(answer(falling, {"--thickness", "0.1"})["total"]["vertex_face"], 0);
+    for (const char* const name : {"impacts.csv", "impacts.bin"}) {
+        const auto report = answer(falling, {"--thickness", "0.5", "--out", folder_ / name});
+        EXPECT_EQ(report["thickness"], 0.5);
+        EXPECT_EQ(report["total"]["vertex_face"], 1);
+        EXPECT_EQ(report["total"]["edge_edge"], 0);
+        EXPECT_NEAR(report["steps"][0]["first_time"].get<double>(), 0.8, 1e-6);
+        const auto written = read_impacts(folder_ / name);
+        ASSERT_EQ(written.size(), 1U);
+        EXPECT_EQ(written[0].impact.status, Status::converged);
+        EXPECT_NEAR(written[0].impact.normal.z, 1, 1e-6);
+    }
+    const auto edges = frames({crossed_edges(1), crossed_edges(0.0625)});
+    EXPECT_EQ(answer(edges)["total"]["edge_edge"], 0);
+    EXPECT_EQ(answer(edges, {"--thickness", "0.0625"})["total"]["edge_edge"], 1);
+}
+
 TEST_F(CcdCommand, APatternIsTakenInTheOrderOfItsNumbers) {
     fs::create_directory(folder_ / "run7");
     for (const auto& [name, height] :
@@ -253,7 +274,7 @@ TEST_F(CcdCommand, APatternIsTakenInTheOrderOfItsNumbers) {
 TEST_F(CcdCommand, HasTheKeysThatTheGuidePromises) {
     const auto report = answer(frames({small_above_large(1), small_above_large(-2)}));
     for (const char* const key :
-         {"scheme", "assignment", "culling", "mode", "delta", "steps", "total"})
+         {"scheme", "assignment", "culling", "mode", "delta", "thickness", "steps", "total"})
         EXPECT_TRUE(report.contains(key)) << key;
     ASSERT_EQ(report["steps"].size(), 1U);
     const auto &step = report["steps"][0], &total = report["total"];
@@ -368,6 +389,7 @@ TEST_F(CcdCommand, BadOptionsAreRefused) {
     expect_refused(ccd(files, {"--culling", "none"}), {"--culling"});
     expect_refused(ccd(files, {"--mode", "fuzzy"}), {"--mode"});
     expect_refused(ccd(files, {"--mode", "conservative", "--delta", "-1"}), {"--delta"});
+    expect_refused(ccd(files, {"--thickness", "-1"}), {"--thickness"});
     expect_refused(ccd(files, {"--out", folder_ / "impacts.txt"}), {"--out", "impacts.txt"});
     expect_refused(ccd(files, {"--json", "--out", folder_ / "none/impacts.csv"}),
                    {"none/impacts.csv", "cannot be written"});

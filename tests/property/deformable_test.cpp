@@ -6,6 +6,7 @@
 #include <abut/progress.h>
 
 #include "geometry/elementary_exact.h"
+#include "geometry/feature_distance.h"
 #include "tests/support/ccd_cases.h"
 #include "tests/support/ccd_oracle.h"
 #include "tests/support/moving_meshes.h"
@@ -131,26 +132,29 @@ TEST(Deformable, LargerSurfacesOfAllSchemesAgree) {
     EXPECT_GT(hits, 100U);
 }
 
-/// Every elementary test once: representatives spawn what the database leaves of all, and no more.
+/// Every elementary test once: what representatives spawn is what a database leaves of all, and less
+/// where a region is flat.
 TEST(Deformable, SpawnsNoPairTwice) {
     Random random(5);
     for (int round = 0; round < many(20); ++round) {
         const MovingMesh moving = crumpled_sheet(random, 12);
-        const auto tests = [&](Scheme scheme) {
-            return self_impacts(moving.deformable({.scheme = scheme})).counters;
+        const auto counters = [&](const DeformableOptions& options) {
+            return self_impacts(moving.deformable(options)).counters;
         };
-        const DeformableCounters representative = tests(Scheme::representative),
-                                 database = tests(Scheme::database),
-                                 features = tests(Scheme::features), markup = tests(Scheme::markup),
-                                 basic = tests(Scheme::basic);
-        EXPECT_EQ(representative.elementary_tests, database.elementary_tests);
-        EXPECT_EQ(representative.elementary_tests, features.elementary_tests);
-        EXPECT_EQ(representative.elementary_tests, markup.elementary_tests);
-        // The boxes of the tree are floats; the other's are doubles.
-        EXPECT_GE(representative.candidates.edge_edge, database.candidates.edge_edge);
-        EXPECT_GT(markup.candidates.edge_edge, representative.candidates.edge_edge);
+        const DeformableCounters database = counters({.scheme = Scheme::database}),
+                                 features = counters({.scheme = Scheme::features}),
+                                 markup = counters({.scheme = Scheme::markup}),
+                                 grid = counters({.culling = Culling::grid}),
+                                 representative = counters({}),
+                                 basic = counters({.scheme = Scheme::basic});
+        EXPECT_EQ(features.elementary_tests, database.elementary_tests);
+        EXPECT_EQ(markup.elementary_tests, database.elementary_tests);
+        EXPECT_EQ(grid.elementary_tests, database.elementary_tests);
+        EXPECT_EQ(grid.candidates, database.candidates);
+        EXPECT_LE(representative.elementary_tests.edge_edge, database.elementary_tests.edge_edge);
+        EXPECT_GT(basic.elementary_tests.edge_edge, database.elementary_tests.edge_edge);
+        EXPECT_GT(markup.candidates.edge_edge, database.candidates.edge_edge);
         EXPECT_GT(basic.candidates.edge_edge, markup.candidates.edge_edge);
-        EXPECT_GT(basic.elementary_tests.edge_edge, representative.elementary_tests.edge_edge);
     }
 }
 
@@ -272,6 +276,66 @@ TEST(Deformable, ConservativeMissesNone) {
     }
     std::cout << hits << " hits\n";
     EXPECT_GT(hits, 500U);
+}
+
+TEST(Deformable, ThicknessEqualsSingleTests) {
+    Random random(83);
+    std::size_t pairs = 0, hits = 0, more = 0;
+    for (int round = 0; round < many(30); ++round) {
+        const MovingMesh moving = any_soup(random), other = any_soup(random);
+        const ElementaryOptions thick{.thickness = random.uniform(0.01, 0.3)};
+        const BruteForceImpacts truth(moving, moving, thick), between(moving, other, thick);
+        pairs += truth.pairs + between.pairs;
+        hits += truth.list.size() + between.list.size();
+        more += truth.list.size() - self_impacts(moving.deformable()).list.size();
+        for (const DeformableOptions& options : all_options()) {
+            const Deformable a = moving.deformable(options), b = other.deformable(options);
+            ASSERT_EQ(self_impacts(a, thick).list, truth.list);
+            ASSERT_EQ(impacts(a, b, thick).list, between.list);
+            ASSERT_EQ(is_free_of_self_impacts(a, thick), truth.list.empty());
+            const auto first = first_self_impact(a, thick);
+            ASSERT_EQ(first.has_value(), !truth.list.empty());
+        }
+    }
+    std::cout << pairs << " pairs, " << hits << " hits, " << more << " by thickness\n";
+    EXPECT_GT(hits, pairs / 20);
+    EXPECT_LT(hits, pairs * 9 / 10);
+    EXPECT_GT(more, 50U);
+}
+
+TEST(Deformable, PairsWithinEqualAllDistances) {
+    Random random(61);
+    std::size_t pairs = 0, found = 0;
+    for (int round = 0; round < many(100); ++round) {
+        const MovingMesh a = any_soup(random), b = any_soup(random);
+        const double distance = random.chance(0.2) ? 0 : random.uniform(0, 0.5);
+        const auto check = [&](const MovingMesh& first, const MovingMesh& second,
+                               const std::vector<FeaturePair>& near) {
+            std::vector<FeatureImpact> expected;
+            for_each_feature_pair(first, second,
+                                  [&](const FeatureImpact& ids, const ElementaryPair& pair) {
+                                      ++pairs;
+                                      if (feature_distance(pair.kind, pair.start).lower <= distance)
+                                          expected.push_back(ids);
+                                  });
+            std::sort(expected.begin(), expected.end(),
+                      [](const auto& p, const auto& q) { return list_order(p) < list_order(q); });
+            ASSERT_EQ(near.size(), expected.size());
+            for (std::size_t i = 0; i < near.size(); ++i) {
+                EXPECT_EQ(std::tuple(near[i].kind, near[i].face_first, near[i].a, near[i].b),
+                          list_order(expected[i]));
+                EXPECT_LE(near[i].distance, distance + 1e-12);
+            }
+            found += near.size();
+        };
+        // The motion does not matter.
+        const Deformable first = a.deformable(), second = b.deformable();
+        check(a, a, self_pairs_within(first, distance));
+        check(a, b, pairs_within(first, second, distance));
+    }
+    std::cout << pairs << " pairs, " << found << " near\n";
+    EXPECT_GT(found, pairs / 20);
+    EXPECT_LT(found, pairs * 3 / 4);
 }
 
 } // namespace

@@ -14,25 +14,14 @@
 #include "tests/support/ccd_cases.h"
 #include "tests/support/ccd_oracle.h"
 #include "tests/support/random.h"
+#include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <gtest/gtest.h>
 
 namespace abut::test {
 namespace {
-
-/// So many cases, times ABUT_TEST_ROUNDS; fewer under a sanitizer, which slows them down.
-int many(int count) {
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): tests set no environment
-    const char* text = std::getenv("ABUT_TEST_ROUNDS");
-    const int rounds = text != nullptr ? std::max(1, std::atoi(text)) : 1;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    count /= 16;
-#endif
-    return count * rounds;
-}
 
 /// Counts what happened, so that a test can see that it has tested something.
 struct Tally {

@@ -1,0 +1,87 @@
+#include <abut/deformable.h>
+#include <abut/error.h>
+
+#include "core/parallel.h"
+#include "deform/candidate_search.h"
+#include "geometry/feature_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace abut {
+
+namespace {
+
+/// A sink of pairs (see FeaturePairs) that keeps those that are near each other at the start.
+class NearPairs {
+public:
+    NearPairs(const DeformableData& a, const DeformableData& b, double distance,
+              std::vector<FeaturePair>& list)
+        : edges_(a, b), vertex_face_(a, b), face_vertex_(b, a), distance_(distance), list_(list) {}
+
+    void add(PairKind kind, FeatureIds ids, bool wanted) {
+        if (!wanted)
+            return;
+        if (kind == PairKind::edges)
+            keep(ElementaryKind::edge_edge, false, ids, edges_.vertices(ids));
+        else if (kind == PairKind::vertex_face)
+            keep(ElementaryKind::vertex_face, false, ids, vertex_face_.vertices(ids));
+        else
+            keep(ElementaryKind::vertex_face, true, ids, face_vertex_.vertices(ids));
+    }
+    static bool is_done() { return false; }
+
+private:
+    void keep(ElementaryKind kind, bool face_first, FeatureIds ids, const PairVertices& vertices) {
+        const FeatureDistance found = feature_distance(
+            kind, {vertices[0]->start, vertices[1]->start, vertices[2]->start, vertices[3]->start});
+        if (found.lower <= distance_)
+            list_.push_back(
+                {kind, face_first, ids.a, ids.b, std::sqrt(found.distance_sq), found.barycentric});
+    }
+
+    PairGeometry<ElementaryKind::edge_edge> edges_;
+    PairGeometry<ElementaryKind::vertex_face> vertex_face_, face_vertex_;
+    double distance_;
+    std::vector<FeaturePair>& list_;
+};
+
+std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData& b,
+                                   double distance) {
+    if (!(distance >= 0 && std::isfinite(distance)))
+        throw Error(ErrorCode::bad_argument, "the distance must be a finite number of at least 0");
+    SweptTree rest_a = a.swept, rest_b;
+    refit(rest_a, a, 0);
+    if (&a != &b) {
+        rest_b = b.swept;
+        refit(rest_b, b, 0);
+    }
+    const CandidateSearch search(a, rest_a, b, &a == &b ? rest_a : rest_b, round_up(distance));
+    std::vector<std::vector<FeaturePair>> parts(search.tasks());
+    parallel_for(parts.size(), 1, [&](std::size_t i) {
+        NearPairs sink(a, b, distance, parts[i]);
+        search.run(i, sink);
+    });
+    std::vector<FeaturePair> all;
+    for (const std::vector<FeaturePair>& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end(), [](const FeaturePair& p, const FeaturePair& q) {
+        const auto key = [](const FeaturePair& pair) {
+            return std::tuple(pair.kind, pair.face_first, pair.a, pair.b);
+        };
+        return key(p) < key(q);
+    });
+    return all;
+}
+
+} // namespace
+
+std::vector<FeaturePair> self_pairs_within(const Deformable& surface, double distance) {
+    return find_near(surface.data(), surface.data(), distance);
+}
+std::vector<FeaturePair> pairs_within(const Deformable& a, const Deformable& b, double distance) {
+    return find_near(a.data(), b.data(), distance);
+}
+
+} // namespace abut

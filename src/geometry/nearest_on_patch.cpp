@@ -1,0 +1,139 @@
+#include "geometry/nearest_on_patch.h"
+
+#include "geometry/point_triangle_distance.h"
+#include "geometry/triangle_triangle_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+constexpr double kEpsilon = 0x1p-53;
+
+/// The place of the nearest point, and the part of the patch within which it lies.
+struct Foot {
+    double x = 0, y = 0;
+    bool along_x = false, along_y = false; ///< neither: at a corner; both: inside
+    bool along_diagonal = false;           ///< of a triangle: between the ends of its sides
+};
+
+Foot foot_of(const FlatPatch& patch) {
+    if (patch.kind == ElementaryKind::edge_edge) {
+        const SegmentPoints n = nearest_on_segments(-patch.side_x, patch.side_y, patch.corner);
+        const auto is_inside = [](double s) { return s > 0 && s < 1; };
+        return {n.s, n.t, is_inside(n.s), is_inside(n.t)};
+    }
+    const auto corners = patch.corners();
+    const Triangle triangle{corners[0], corners[1], corners[2]};
+    if (const TriangleFoot foot = foot_within({}, triangle); foot.within)
+        return {foot.weights[1], foot.weights[2], true, true};
+    const NearestOnTriangle n = nearest_on_triangle({}, triangle);
+    const bool inside = n.dimension == 2, edge = n.dimension == 1;
+    return {n.weights[1], n.weights[2], inside || (edge && n.index == 0),
+            inside || (edge && n.index == 2), edge && n.index == 1};
+}
+
+/// The part of `v` across a line.
+Vec3 across(const Vec3& v, const Vec3& line) {
+    const double sq = length_sq(line);
+    return sq > 0 ? v - (dot(v, line) / sq) * line : v;
+}
+
+/// The direction across two vectors, however small the angle between them: what the cross product's
+/// rounding, over that angle, leaves of it along them is taken off.
+Vec3 across(const Vec3& x, const Vec3& y, const Vec3& area) {
+    const Vec3 n = normalized_or_zero(area), beside = across(across(y, x), x);
+    const double xx = length_sq(x), bb = length_sq(beside);
+    if (!(xx > 0 && bb > 0))
+        return n;
+    // n - u x - v beside, with no part along x nor y.
+    const double u = dot(n, x) / xx, v = (dot(n, y) - u * dot(x, y)) / bb;
+    return n - u * x - v * beside;
+}
+
+/// What the patch's distance is at least, by how far its corners are along a direction.
+struct Bound {
+    double lower = 0;
+    Vec3 direction;
+};
+
+class Bounds {
+public:
+    explicit Bounds(const FlatPatch& patch) : corners_(patch.corners()) {}
+
+    void add(const Vec3& towards) {
+        // Of shorter ones, squares lose digits to underflow.
+        const double sq = length_sq(towards);
+        if (!(sq > 0x1p-900))
+            return;
+        const Vec3 n = (1 / std::sqrt(sq)) * towards;
+        double least = dot(n, corners_[0]);
+        for (std::size_t i = 1; i < corners_.size(); ++i)
+            least = std::min(least, dot(n, corners_[i]));
+        // n is longer than 1 by at most 6 eps.
+        if (const double lower = (1 - 8 * kEpsilon) * (least - kAlongOff); lower > best_.lower)
+            best_ = {lower, n};
+    }
+    /// All directions in which the nearest point of a convex patch may lie: that of a corner, across
+    /// a side, across the patch.
+    void add_all(const FlatPatch& patch, const Vec3& area) {
+        const Vec3 n = across(patch.side_x, patch.side_y, area);
+        add(n), add(-n);
+        for (std::size_t i = 0; i < corners_.size(); ++i) {
+            const Vec3 &from = corners_[i], side = corners_[(i + 1) % corners_.size()] - from;
+            add(from);
+            add(across(across(from, side), side));
+        }
+    }
+    [[nodiscard]] const Bound& best() const { return best_; }
+
+private:
+    std::array<Vec3, 4> corners_;
+    Bound best_;
+};
+
+/// The gap is off by roundings of the coordinates, which may be many of its own length; what is
+/// known of its direction is not.
+Vec3 direction_of(const FlatPatch& patch, const Foot& foot, const Vec3& gap, const Vec3& area) {
+    if (foot.along_x && foot.along_y)
+        return dot(area, gap) < 0 ? -area : area;
+    if (foot.along_x)
+        return across(gap, patch.side_x);
+    if (foot.along_y)
+        return across(gap, patch.side_y);
+    return foot.along_diagonal ? across(gap, patch.side_y - patch.side_x) : gap;
+}
+
+} // namespace
+
+std::array<Vec3, 4> FlatPatch::corners() const {
+    const Vec3 beyond_x = corner + side_x, beyond_y = corner + side_y;
+    return {corner, beyond_x, kind == ElementaryKind::vertex_face ? beyond_y : beyond_x + side_y,
+            beyond_y};
+}
+
+NearestOnPatch nearest_on_patch(const FlatPatch& patch) {
+    const Foot foot = foot_of(patch);
+    const Vec3 gap = patch.corner + foot.x * patch.side_x + foot.y * patch.side_y;
+    NearestOnPatch nearest;
+    nearest.x = foot.x, nearest.y = foot.y;
+    nearest.distance = length(gap);
+    // A coordinate of the gap is off by 4 eps for its vectors, 4 for products and sums, and 1 where
+    // rounded weights sum to more than 1: in all by 9 sqrt(3) eps.
+    nearest.upper = (1 + 4 * kEpsilon) * nearest.distance + 18 * kEpsilon;
+
+    const Vec3 area = cross(patch.side_x, patch.side_y);
+    Bounds bounds(patch);
+    bounds.add(direction_of(patch, foot, gap, area));
+    // Needles and nearly parallel edges.
+    constexpr double kLoose = 1e-9;
+    if (nearest.upper - bounds.best().lower > kLoose * nearest.upper + 4 * kAlongOff)
+        bounds.add_all(patch, area);
+    nearest.lower = bounds.best().lower;
+    nearest.direction = bounds.best().direction;
+    return nearest;
+}
+
+} // namespace abut
