@@ -2,6 +2,7 @@
 #include <abut/error.h>
 
 #include "commands.h"
+#include "elementary_arguments.h"
 
 #include <algorithm>
 #include <array>
@@ -15,14 +16,10 @@ namespace abut::command {
 
 namespace {
 
-/// Of the mode `conservative` where none is given; length.
-constexpr double kDefaultDelta = 1e-6;
-
 struct QueryArguments {
     std::vector<std::string> files;
-    std::string truth_file, kind, mode = "exact";
-    std::optional<double> delta;
-    double thickness = 0;
+    std::string truth_file, kind;
+    ElementaryArguments elementary;
 };
 
 /// Answers to the queries of one file, or of all.
@@ -58,19 +55,6 @@ struct Tally {
         return sorted[static_cast<std::size_t>(share * last)];
     }
 };
-
-ElementaryOptions options_of(const QueryArguments& arguments) {
-    ElementaryOptions options;
-    options.thickness = arguments.thickness;
-    if (arguments.mode == "conservative")
-        options.delta = arguments.delta.value_or(kDefaultDelta);
-    else if (arguments.delta)
-        throw Error(ErrorCode::bad_argument, "--delta goes with --mode conservative");
-    // The answers that are given are those of features that touch.
-    if (options.thickness > 0 && !arguments.truth_file.empty())
-        throw Error(ErrorCode::bad_argument, "--truth goes without --thickness");
-    return options;
-}
 
 std::optional<ElementaryKind> kind_of(const QueryArguments& arguments) {
     if (arguments.kind.empty())
@@ -177,7 +161,10 @@ std::string table_row(const std::string& name, const Tally& tally) {
 }
 
 int run(const QueryArguments& arguments, const CommonOptions& common) {
-    const ElementaryOptions options = options_of(arguments);
+    const ElementaryOptions options = arguments.elementary.options();
+    // The answers that are given are those of features that touch.
+    if (options.thickness > 0 && !arguments.truth_file.empty())
+        throw Error(ErrorCode::bad_argument, "--truth goes without --thickness");
     std::vector<ElementaryQueries> queries;
     for (const std::string& file : arguments.files) {
         queries.push_back(read_elementary_queries(file, kind_of(arguments)));
@@ -201,7 +188,7 @@ int run(const QueryArguments& arguments, const CommonOptions& common) {
         text += table_row(std::filesystem::path(arguments.files[i]).filename().string(), tally);
     }
     if (common.json)
-        print(dump({{"mode", arguments.mode},
+        print(dump({{"mode", arguments.elementary.mode},
                     {"delta", options.delta},
                     {"thickness", options.thickness},
                     {"files", std::move(files)},
@@ -225,16 +212,7 @@ Subcommand add_ccd_query(CLI::App& root, CommonOptions& common) {
     app->add_option("--kind", arguments->kind,
                     "vertex-face or edge-edge (default: what the file's name says)")
         ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
-    app->add_option("--mode", arguments->mode,
-                    "exact (default), or conservative: pairs nearer than delta may be hits")
-        ->check(CLI::IsMember({"exact", "conservative"}));
-    app->add_option("--delta", arguments->delta,
-                    fmt::format("Length, of the mode conservative (default {})", kDefaultDelta))
-        ->check(not_negative());
-    app->add_option("--thickness", arguments->thickness,
-                    "Length: features this near are hits; the files' answers do not count "
-                    "(default 0: features that touch)")
-        ->check(not_negative());
+    add_elementary_arguments(*app, arguments->elementary);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -159,6 +159,12 @@ const char* to_string(Feature feature) {
     return feature == Feature::vertex ? "vertex" : feature == Feature::edge ? "edge" : "face";
 }
 
+const char* to_string(Status status) {
+    return status == Status::exact       ? "exact"
+           : status == Status::converged ? "converged"
+                                         : "bound_only";
+}
+
 std::string dump(const nlohmann::ordered_json& value) {
     return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -86,6 +86,7 @@ std::string grouped(std::uint64_t value);
 nlohmann::ordered_json to_json(const Vec3& v);
 
 const char* to_string(Feature feature);
+const char* to_string(Status status);
 
 /// One line of JSON text; bytes that are no UTF-8 (in file names) are replaced.
 std::string dump(const nlohmann::ordered_json& value);

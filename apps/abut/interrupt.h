@@ -8,7 +8,7 @@ namespace abut::command {
 inline constexpr int kExitInterrupted = 130; ///< 128 + SIGINT, as a shell reports it
 
 enum class OnInterrupt : int {
-    exit,  ///< end at once: nothing of ours is on the disk and nobody polls the flag
+    exit,  ///< end at once: nothing half-written is on the disk and nobody polls the flag
     ask,   ///< set the flag that the library polls; a second signal ends at once
     defer, ///< set the flag only: files are being written
 };

@@ -47,6 +47,14 @@ void ProgressBar::show(std::string_view stage, double fraction) {
     std::fflush(stderr);
 }
 
+void ProgressBar::hide() {
+    if (style_ != Style::bar || stage_.empty())
+        return;
+    fmt::print(stderr, "\r\x1b[K");
+    std::fflush(stderr);
+    last_shown_ = {};
+}
+
 void ProgressBar::finish() {
     end_stage();
     stage_.clear();
@@ -55,9 +63,8 @@ void ProgressBar::finish() {
 void ProgressBar::end_stage() {
     if (stage_.empty())
         return;
-    if (style_ == Style::bar)
-        fmt::print(stderr, "\r\x1b[K");
-    else
+    hide();
+    if (style_ == Style::lines)
         fmt::print(stderr, " {:8.2f} s\n",
                    std::chrono::duration<double>(Clock::now() - stage_start_).count());
     std::fflush(stderr);

@@ -26,6 +26,8 @@ public:
 
     /// Calls must not overlap, which Progress::report promises.
     void show(std::string_view stage, double fraction);
+    /// Takes a bar off the terminal until show() is called: something is to be printed there.
+    void hide();
     /// Ends the last stage; may be called twice.
     void finish();
 

@@ -3,6 +3,7 @@
 #include <abut/error.h>
 #include <abut/scene.h>
 
+#include "choice.h"
 #include "interrupt.h"
 
 #include <algorithm>
@@ -18,28 +19,16 @@ namespace abut::command {
 
 namespace {
 
-struct NamedVolume {
-    const char* name;
-    Volume volume;
-};
-
-constexpr std::array<NamedVolume, 10> kVolumes{{{"automatic", Volume::automatic},
-                                                {"aabb", Volume::aabb},
-                                                {"sphere", Volume::sphere},
-                                                {"kdop14", Volume::kdop14},
-                                                {"kdop18", Volume::kdop18},
-                                                {"kdop26", Volume::kdop26},
-                                                {"obb", Volume::obb},
-                                                {"pss", Volume::pss},
-                                                {"lss", Volume::lss},
-                                                {"rss", Volume::rss}}};
-
-/// In          a name of kVolumes.
-Volume parse_volume(const std::string& name) {
-    return std::find_if(kVolumes.begin(), kVolumes.end(),
-                        [&](const NamedVolume& named) { return name == named.name; })
-        ->volume;
-}
+constexpr std::array<Named<Volume>, 10> kVolumes{{{"automatic", Volume::automatic},
+                                                  {"aabb", Volume::aabb},
+                                                  {"sphere", Volume::sphere},
+                                                  {"kdop14", Volume::kdop14},
+                                                  {"kdop18", Volume::kdop18},
+                                                  {"kdop26", Volume::kdop26},
+                                                  {"obb", Volume::obb},
+                                                  {"pss", Volume::pss},
+                                                  {"lss", Volume::lss},
+                                                  {"rss", Volume::rss}}};
 
 } // namespace
 
@@ -55,14 +44,8 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
 }
 
 void add_volume(CLI::App& app, TwoModelsOptions& options) {
-    std::vector<std::string> names;
-    names.reserve(kVolumes.size());
-    for (const NamedVolume& named : kVolumes)
-        names.emplace_back(named.name);
-    app.add_option("--volume", options.volume,
-                   "Kind of the bounding volumes; the answer does not depend on it")
-        ->check(CLI::IsMember(names))
-        ->capture_default_str();
+    add_choice(app, "--volume", options.volume, kVolumes,
+               "Kind of the bounding volumes; the answer does not depend on it");
 }
 
 Pose parse_pose(const std::string& option, const std::string& text) {
@@ -97,7 +80,7 @@ TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
     const double seconds_import = import_watch.seconds();
 
     const Stopwatch build_watch;
-    const ModelOptions build{.volume = parse_volume(options.volume)};
+    const ModelOptions build{.volume = options.volume};
     Model a(std::move(meshes[0]), build);
     Model b(std::move(meshes[1]), build);
     return {std::move(a), std::move(b),   world_from_a,
@@ -160,12 +143,6 @@ nlohmann::ordered_json to_json(const std::vector<TrianglePair>& pairs) {
 
 nlohmann::ordered_json describe_seconds(const TwoModels& models, double query) {
     return {{"import", models.seconds_import}, {"build", models.seconds_build}, {"query", query}};
-}
-
-const char* to_string(Status status) {
-    return status == Status::exact       ? "exact"
-           : status == Status::converged ? "converged"
-                                         : "bound_only";
 }
 
 } // namespace abut::command

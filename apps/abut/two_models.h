@@ -18,7 +18,7 @@ struct TwoModelsOptions {
     std::array<std::string, 2> files;
     std::array<std::string, 2> poses; ///< as given; empty: identity
     double unit = 0;
-    std::string volume = "automatic";
+    Volume volume = Volume::automatic;
 };
 
 /// --poses FILE: many poses of B in one run.
@@ -65,6 +65,5 @@ nlohmann::ordered_json describe(const Counters& counters);
 nlohmann::ordered_json to_json(const std::vector<TrianglePair>& pairs);
 /// {import, build, query}
 nlohmann::ordered_json describe_seconds(const TwoModels& models, double query);
-const char* to_string(Status status);
 
 } // namespace abut::command

@@ -19,4 +19,8 @@ struct Progress {
 /// machine's.
 void set_threads(int count);
 
+/// The largest resident memory, in MiB, that this process has had, or any of its finished children,
+/// if larger.
+double peak_resident_mib();
+
 } // namespace abut

@@ -1,4 +1,4 @@
-#include "core/resources.h"
+#include <abut/progress.h>
 
 #include <algorithm>
 #include <sys/resource.h>

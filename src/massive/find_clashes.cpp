@@ -1,9 +1,9 @@
 #include <abut/clash.h>
 #include <abut/error.h>
+#include <abut/progress.h>
 
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "core/resources.h"
 #include "massive/classify_pair.h"
 #include "massive/part_instances.h"
 #include "massive/rule_match.h"

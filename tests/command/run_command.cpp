@@ -104,12 +104,12 @@ Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std
     const Running running = start(arguments);
     bool sent = false;
     Outcome outcome = finish(running, std::chrono::seconds(60), [&](const Outcome& so_far) {
-        if (!sent && so_far.err.find(sign) != std::string::npos) {
+        if (!sent && (so_far.out + so_far.err).find(sign) != std::string::npos) {
             sent = true;
             kill(running.process, signal);
         }
     });
-    EXPECT_TRUE(sent) << "standard error never held '" << sign << "': " << outcome.err;
+    EXPECT_TRUE(sent) << "neither output ever held '" << sign << "': " << outcome.err;
     return outcome;
 }
 

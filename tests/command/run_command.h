@@ -18,8 +18,8 @@ struct Outcome {
 /// Runs `abut ARGUMENTS` to its end.
 Outcome run_abut(const std::vector<std::string>& arguments);
 
-/// Runs `abut ARGUMENTS`, sends the signal as soon as its standard error holds `sign`, and waits
-/// for its end.
+/// Runs `abut ARGUMENTS`, sends the signal as soon as one of its outputs holds `sign`, and waits for
+/// its end.
 ///
 /// A run that ends before, or needs more than a minute, fails the test.
 Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,

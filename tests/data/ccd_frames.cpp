@@ -41,12 +41,14 @@ CcdFrames::Truth CcdFrames::read_truth(const std::string& stem, ElementaryKind k
     Truth truth;
     truth.collides =
         nlohmann::json::parse(std::ifstream(stem + "-collides.json")).get<std::vector<bool>>();
+    const bool edges = kind == ElementaryKind::edge_edge;
     const std::size_t first_edge = start_.size(), first_face = first_edge + edges_.size();
+    const std::size_t first_a = edges ? first_edge : 0, first_b = edges ? first_edge : first_face;
     for (const auto& pair : ids) {
-        const std::size_t a = pair[0], b = pair[1];
-        truth.pairs.push_back(kind == ElementaryKind::edge_edge
-                                  ? edge_edge(a - first_edge, b - first_edge)
-                                  : vertex_face(a, b - first_face));
+        const std::size_t a = pair[0].get<std::size_t>() - first_a,
+                          b = pair[1].get<std::size_t>() - first_b;
+        truth.features.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+        truth.pairs.push_back(edges ? edge_edge(a, b) : vertex_face(a, b));
     }
     return truth;
 }

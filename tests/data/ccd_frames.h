@@ -20,6 +20,8 @@ public:
     [[nodiscard]] ElementaryPair edge_edge(std::size_t a, std::size_t b) const;
 
     struct Truth {
+        /// As numbered there: two edges, the lower first; or vertex and triangle.
+        std::vector<std::array<std::uint32_t, 2>> features;
         std::vector<ElementaryPair> pairs;
         std::vector<bool> collides;
     };

@@ -1,0 +1,40 @@
+#include "elementary_arguments.h"
+
+#include <abut/error.h>
+
+#include <fmt/format.h>
+
+namespace abut::command {
+
+namespace {
+
+/// Of the mode `conservative` where none is given; length.
+constexpr double kDefaultDelta = 1e-6;
+
+} // namespace
+
+ElementaryOptions ElementaryArguments::options() const {
+    if (mode == "conservative")
+        return {.delta = delta.value_or(kDefaultDelta), .thickness = thickness};
+    if (delta)
+        throw Error(ErrorCode::bad_argument, "--delta goes with --mode conservative");
+    return {.thickness = thickness};
+}
+
+void add_elementary_arguments(CLI::App& app, ElementaryArguments& arguments) {
+    app.add_option("--mode", arguments.mode,
+                   "exact (default), or conservative: pairs nearer than delta may be hits")
+        ->check(CLI::IsMember({"exact", "conservative"}));
+    app.add_option("--delta", arguments.delta,
+                   fmt::format("Length, of the mode conservative (default {})", kDefaultDelta))
+        ->check(not_negative());
+    app.add_option("--thickness", arguments.thickness,
+                   "Length: features this near are hits (default 0: features that touch)")
+        ->check(not_negative());
+}
+
+const char* to_string(ElementaryKind kind) {
+    return kind == ElementaryKind::vertex_face ? "vertex-face" : "edge-edge";
+}
+
+} // namespace abut::command

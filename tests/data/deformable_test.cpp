@@ -1,0 +1,97 @@
+// Steps of simulations whose colliding pairs of features are all known: through the library, and
+// through the command.
+
+#include <abut/deformable.h>
+#include <abut/frame.h>
+
+#include "tests/command/impact_file.h"
+#include "tests/command/run_command.h"
+#include "tests/data/ccd_frames.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+struct KnownStep {
+    std::string start, end;
+    std::size_t edge_edge, vertex_face; ///< that collide
+};
+
+class Deforming : public testing::TestWithParam<KnownStep> {
+protected:
+    using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+
+    KnownStep step_ = GetParam();
+    std::string start_ = in_ccd("frames/" + step_.start + ".ply"),
+                end_ = in_ccd("frames/" + step_.end + ".ply");
+
+    void SetUp() override {
+        if (!std::filesystem::exists(start_))
+            GTEST_SKIP() << start_ << " is not there";
+    }
+    static std::string in_ccd(const std::string& name) {
+        return std::string(ABUT_SHARED_DATA) + "/ccd/" + name;
+    }
+    /// The pairs that collide, sorted.
+    [[nodiscard]] Pairs truth(ElementaryKind kind) const {
+        const std::string stem =
+            "truth/" + step_.start + (kind == ElementaryKind::edge_edge ? "-ee" : "-vf");
+        const auto listed = CcdFrames(start_, end_).read_truth(in_ccd(stem), kind);
+        Pairs pairs;
+        for (std::size_t i = 0; i < listed.features.size(); ++i)
+            if (listed.collides[i])
+                pairs.push_back(listed.features[i]);
+        std::sort(pairs.begin(), pairs.end());
+        return pairs;
+    }
+};
+
+TEST_P(Deforming, EverySchemeFindsEveryTruePairAndNoOther) {
+    const Pairs edge_edge = truth(ElementaryKind::edge_edge),
+                vertex_face = truth(ElementaryKind::vertex_face);
+    ASSERT_EQ(edge_edge.size(), step_.edge_edge);
+    ASSERT_EQ(vertex_face.size(), step_.vertex_face);
+    const Mesh start = read_frame(start_), end = read_frame(end_);
+    for (const Scheme scheme : {Scheme::representative, Scheme::database, Scheme::markup,
+                                Scheme::basic, Scheme::features}) {
+        SCOPED_TRACE(static_cast<int>(scheme));
+        Deformable surface(start, {.scheme = scheme});
+        surface.advance(end.positions);
+        Pairs found_edge_edge, found_vertex_face;
+        for (const FeatureImpact& impact : self_impacts(surface).list) {
+            EXPECT_EQ(impact.status, Status::exact);
+            (impact.kind == ElementaryKind::edge_edge ? found_edge_edge : found_vertex_face)
+                .push_back({impact.a, impact.b});
+        }
+        EXPECT_TRUE(found_edge_edge == edge_edge) << found_edge_edge.size() << " found";
+        EXPECT_TRUE(found_vertex_face == vertex_face) << found_vertex_face.size() << " found";
+    }
+}
+
+TEST_P(Deforming, TheCommandWritesThem) {
+    const TemporaryFolder folder;
+    const std::string out = folder / "impacts.bin";
+    const Outcome outcome = run_abut({"ccd", start_, end_, "--json", "--out", out});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto report = outcome.json();
+    ASSERT_EQ(report["steps"].size(), 1U);
+    EXPECT_EQ(report["steps"][0]["edge_edge"], step_.edge_edge);
+    EXPECT_EQ(report["steps"][0]["vertex_face"], step_.vertex_face);
+    Deformable surface(read_frame(start_));
+    surface.advance(read_frame(end_).positions);
+    const Impacts impacts = self_impacts(surface);
+    const auto written = read_impacts(out);
+    ASSERT_EQ(written.size(), impacts.list.size());
+    for (std::size_t i = 0; i < written.size(); ++i)
+        ASSERT_EQ(written[i], (WrittenImpact{0, impacts.list[i]})) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Simulations, Deforming,
+                         testing::Values(KnownStep{"cloth-ball-92", "cloth-ball-93", 94822, 19032},
+                                         KnownStep{"balls16-18", "balls16-19", 41031, 9459}));
+
+} // namespace
+} // namespace abut::test
