@@ -77,7 +77,7 @@ void DeformableData::build() {
     const Tree shape = build_tree(triangle_boxes);
     swept.tree = MovingTree(shape);
     swept.leaves = LeafFeatures(shape, surface(), represented);
-    flat_regions = FlatRegions(swept.tree, swept.leaves.faces, triangles);
+    flat_regions = FlatRegions(swept.tree, swept.leaves.faces, surface());
     fit_boxes();
     looseness_when_built_ = looseness();
     if (options.scheme == Scheme::features)

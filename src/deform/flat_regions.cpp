@@ -150,7 +150,7 @@ private:
 } // namespace
 
 FlatRegions::FlatRegions(const MovingTree& tree, const FeatureRuns& faces,
-                         std::span<const IndexTriangle> triangles)
+                         const SurfaceView& surface)
     : flat_(tree.nodes.size()) {
     // Leaves below each node: a node comes after the one above it, and leaves are numbered in the
     // order of the nodes.
@@ -170,12 +170,8 @@ FlatRegions::FlatRegions(const MovingTree& tree, const FeatureRuns& faces,
         }
     std::vector<std::vector<std::uint32_t>> borders(tree.nodes.size());
     parallel_for(tree.nodes.size(), 64, [&](std::size_t i) {
-        if (below[i].last - below[i].first > kMostLeaves)
-            return;
-        std::vector<IndexTriangle> region;
-        for (const std::uint32_t face : faces.ids(below[i].first, below[i].last))
-            region.push_back(triangles[face]);
-        borders[i] = disc_boundary(region);
+        if (below[i].last - below[i].first <= kMostLeaves)
+            borders[i] = disc_boundary(surface, faces.ids(below[i].first, below[i].last));
     });
     for (std::uint32_t i = 0; i < borders.size(); ++i) {
         if (borders[i].empty())

@@ -23,8 +23,7 @@ class FlatRegions {
 public:
     FlatRegions() = default;
     /// Finds the borders, which depend on topology alone.
-    FlatRegions(const MovingTree& tree, const FeatureRuns& faces,
-                std::span<const IndexTriangle> triangles);
+    FlatRegions(const MovingTree& tree, const FeatureRuns& faces, const SurfaceView& surface);
 
     /// Finds which nodes are flat during a step.
     void fit(const FeatureRuns& faces, std::span<const IndexTriangle> triangles,

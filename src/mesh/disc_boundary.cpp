@@ -7,60 +7,77 @@ namespace abut {
 
 namespace {
 
-/// From one vertex to another; in the order of where they begin.
-using Side = std::uint64_t;
+/// A side of the border, from a vertex to the next.
+struct Side {
+    std::uint32_t from, to;
+};
 
-Side side(std::uint32_t from, std::uint32_t to) {
-    return Side{from} << 32 | to;
+bool operator<(const Side& side, std::uint32_t from) {
+    return side.from < from;
 }
-std::uint32_t from(Side side) {
-    return static_cast<std::uint32_t>(side >> 32);
+
+/// How many different numbers there are. Sorts them.
+std::size_t count_distinct(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    return static_cast<std::size_t>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
 }
-std::uint32_t to(Side side) {
-    return static_cast<std::uint32_t>(side);
+
+/// The border's vertices, if it is one loop that passes none twice.
+std::vector<std::uint32_t> loop_of(std::vector<Side>& border) {
+    std::sort(border.begin(), border.end(),
+              [](const Side& a, const Side& b) { return a.from < b.from; });
+    std::vector<std::uint32_t> loop;
+    std::uint32_t at = border.front().from;
+    do {
+        const auto next = std::lower_bound(border.begin(), border.end(), at);
+        const bool leaves_once = next != border.end() && next->from == at &&
+                                 (next + 1 == border.end() || (next + 1)->from != at);
+        if (!leaves_once || loop.size() == border.size())
+            return {};
+        loop.push_back(at);
+        at = next->to;
+    } while (at != loop.front());
+    return loop.size() == border.size() ? loop : std::vector<std::uint32_t>{};
 }
 
 } // namespace
 
-std::vector<std::uint32_t> disc_boundary(std::span<const IndexTriangle> triangles) {
-    std::vector<Side> sides;
-    sides.reserve(3 * triangles.size());
-    for (const IndexTriangle& t : triangles)
-        for (std::size_t k = 0; k < 3; ++k)
-            sides.push_back(side(t[k], t[(k + 1) % 3]));
-    std::sort(sides.begin(), sides.end());
-    if (std::adjacent_find(sides.begin(), sides.end()) != sides.end())
+std::vector<std::uint32_t> disc_boundary(const SurfaceView& surface,
+                                         std::span<const std::uint32_t> triangles) {
+    // Uses of edges: in an edge's lowest bit, whether it is used from the higher vertex on.
+    std::vector<std::uint32_t> uses, vertices;
+    uses.reserve(3 * triangles.size());
+    vertices.reserve(3 * triangles.size());
+    for (const std::uint32_t triangle : triangles) {
+        const IndexTriangle& v = surface.triangles[triangle];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t edge = surface.features.edges_of[triangle][k];
+            if (edge == kNoEdge)
+                return {};
+            uses.push_back(edge << 1 | (v[k] > v[(k + 1) % 3] ? 1U : 0U));
+            vertices.push_back(v[k]);
+        }
+    }
+    std::sort(uses.begin(), uses.end());
+    if (std::adjacent_find(uses.begin(), uses.end()) != uses.end())
         return {}; // two triangles on one side of an edge
 
-    std::size_t vertices = 0;
-    std::vector<Side> border; // sides without the opposite one
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        if (from(sides[i]) == to(sides[i]))
-            return {};
-        if (i == 0 || from(sides[i]) != from(sides[i - 1]))
-            ++vertices;
-        if (!std::binary_search(sides.begin(), sides.end(), side(to(sides[i]), from(sides[i]))))
-            border.push_back(sides[i]);
+    std::vector<Side> border; // of edges with one use
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        if (i + 1 < uses.size() && uses[i] >> 1 == uses[i + 1] >> 1) {
+            ++i;
+            continue;
+        }
+        const auto& [low, high] = surface.features.edges[uses[i] >> 1];
+        border.push_back((uses[i] & 1U) != 0 ? Side{high, low} : Side{low, high});
     }
     // Vertices - edges + triangles: 1 for a disc. Other surfaces with one boundary have less, unless
     // they fall apart, or have closed ones hanging at a vertex: those have no projection that
     // shows all of one side.
-    const std::size_t edges = (sides.size() + border.size()) / 2;
-    if (vertices + triangles.size() != edges + 1 || border.empty())
+    const std::size_t edges = (uses.size() + border.size()) / 2;
+    if (border.empty() || count_distinct(vertices) + triangles.size() != edges + 1)
         return {};
-
-    std::vector<std::uint32_t> loop;
-    std::uint32_t at = from(border.front());
-    do {
-        const auto next = std::lower_bound(border.begin(), border.end(), side(at, 0));
-        const bool leaves_once = next != border.end() && from(*next) == at &&
-                                 (next + 1 == border.end() || from(*(next + 1)) != at);
-        if (!leaves_once || loop.size() == border.size())
-            return {};
-        loop.push_back(at);
-        at = to(*next);
-    } while (at != loop.front());
-    return loop.size() == border.size() ? loop : std::vector<std::uint32_t>{};
+    return loop_of(border);
 }
 
 } // namespace abut

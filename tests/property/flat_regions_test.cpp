@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <iostream>
 #include <numbers>
+#include <numeric>
 
 namespace abut::test {
 namespace {
@@ -84,35 +85,44 @@ TEST(FlatRegions, SpiralIsNotFlat) {
     EXPECT_EQ(self_impacts(moving.deformable()).list, truth.list);
 }
 
+using Triangles = std::vector<IndexTriangle>;
+
+/// Of all of the triangles.
+std::vector<std::uint32_t> boundary(const Triangles& triangles) {
+    constexpr std::size_t kVertices = 64;
+    const SurfaceFeatures features = make_surface_features(kVertices, triangles);
+    std::vector<std::uint32_t> all(triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return disc_boundary({kVertices, triangles, features}, all);
+}
+
 TEST(DiscBoundary, OfWhatIsADisc) {
-    using Triangles = std::vector<IndexTriangle>;
-    const auto loop = disc_boundary(Triangles{{5, 6, 7}, {7, 6, 8}});
+    const auto loop = boundary(Triangles{{5, 6, 7}, {7, 6, 8}});
     EXPECT_EQ(loop, (std::vector<std::uint32_t>{5, 6, 8, 7}));
     const Mesh sheet = grid_mesh(4, 3, false, false, [](double, double) { return Vec3{}; });
-    EXPECT_EQ(disc_boundary(sheet.triangles).size(), 14U);
+    EXPECT_EQ(boundary(sheet.triangles).size(), 14U);
 }
 
 TEST(DiscBoundary, NoneOfWhatIsNot) {
-    using Triangles = std::vector<IndexTriangle>;
     const auto mesh = [](bool u, bool v) {
         return grid_mesh(5, 5, u, v, [](double, double) { return Vec3{}; }).triangles;
     };
-    EXPECT_TRUE(disc_boundary({}).empty());
-    EXPECT_TRUE(disc_boundary(mesh(true, false)).empty()) << "a tube";
-    EXPECT_TRUE(disc_boundary(mesh(true, true)).empty()) << "a torus";
-    EXPECT_TRUE(disc_boundary(Triangles{{0, 1, 2}, {3, 4, 5}}).empty()) << "two pieces";
-    EXPECT_TRUE(disc_boundary(Triangles{{0, 1, 2}, {2, 3, 4}}).empty()) << "joined at a vertex";
-    EXPECT_TRUE(disc_boundary(Triangles{{0, 1, 2}, {0, 1, 3}}).empty()) << "flipped";
-    EXPECT_TRUE(disc_boundary(Triangles{{0, 1, 2}, {2, 1, 3}, {1, 2, 4}}).empty()) << "a fin";
-    EXPECT_TRUE(disc_boundary(Triangles{{0, 1, 2}, {0, 1, 2}}).empty()) << "twice";
-    EXPECT_TRUE(disc_boundary(Triangles{{0, 0, 2}}).empty()) << "an index twice";
+    EXPECT_TRUE(boundary({}).empty());
+    EXPECT_TRUE(boundary(mesh(true, false)).empty()) << "a tube";
+    EXPECT_TRUE(boundary(mesh(true, true)).empty()) << "a torus";
+    EXPECT_TRUE(boundary(Triangles{{0, 1, 2}, {3, 4, 5}}).empty()) << "two pieces";
+    EXPECT_TRUE(boundary(Triangles{{0, 1, 2}, {2, 3, 4}}).empty()) << "joined at a vertex";
+    EXPECT_TRUE(boundary(Triangles{{0, 1, 2}, {0, 1, 3}}).empty()) << "flipped";
+    EXPECT_TRUE(boundary(Triangles{{0, 1, 2}, {2, 1, 3}, {1, 2, 4}}).empty()) << "a fin";
+    EXPECT_TRUE(boundary(Triangles{{0, 1, 2}, {0, 1, 2}}).empty()) << "twice";
+    EXPECT_TRUE(boundary(Triangles{{0, 0, 2}}).empty()) << "an index twice";
     Triangles holed = mesh(false, false);
     holed.erase(holed.begin() + 24, holed.begin() + 26);
-    EXPECT_TRUE(disc_boundary(holed).empty()) << "a hole";
+    EXPECT_TRUE(boundary(holed).empty()) << "a hole";
     Mesh box = box_mesh({}, {1, 1, 1});
-    EXPECT_TRUE(disc_boundary(box.triangles).empty()) << "closed";
+    EXPECT_TRUE(boundary(box.triangles).empty()) << "closed";
     box.triangles.pop_back();
-    EXPECT_EQ(disc_boundary(box.triangles).size(), 3U);
+    EXPECT_EQ(boundary(box.triangles).size(), 3U);
 }
 
 } // namespace
