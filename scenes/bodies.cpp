@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-Vec3 unit(const Vec3& v) {
-    return scaled(v, 1 / std::sqrt(dot(v, v)));
-}
-
 /// A sum of waves in space; each shorter one is lower.
 class Waves {
 public:
@@ -67,7 +63,7 @@ private:
 
 } // namespace
 
-Mesh boulder(std::uint32_t triangles, std::uint64_t seed) {
+Mesh sphere(std::uint32_t triangles) {
     const int n = std::max(1, static_cast<int>(std::lround(std::sqrt(triangles / 8.0))));
     Mesh mesh;
     Lattice lattice(mesh);
@@ -89,11 +85,16 @@ Mesh boulder(std::uint32_t triangles, std::uint64_t seed) {
                     add({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
             }
     }
+    for (Vec3& p : mesh.positions)
+        p = unit(p);
+    return mesh;
+}
+
+Mesh boulder(std::uint32_t triangles, std::uint64_t seed) {
+    Mesh mesh = sphere(triangles);
     const Waves waves(seed);
-    for (Vec3& p : mesh.positions) {
-        const Vec3 direction = unit(p);
-        p = scaled(direction, 0.5 * (1 + waves.at(direction)));
-    }
+    for (Vec3& p : mesh.positions)
+        p = scaled(p, 0.5 * (1 + waves.at(p)));
     return mesh;
 }
 

@@ -10,6 +10,9 @@ namespace abut::scenes {
 constexpr Vec3 add(const Vec3& a, const Vec3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
+constexpr Vec3 subtract(const Vec3& a, const Vec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 constexpr Vec3 scaled(const Vec3& a, double s) {
     return {a.x * s, a.y * s, a.z * s};
 }
@@ -18,6 +21,16 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 constexpr double dot(const Vec3& a, const Vec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline double norm(const Vec3& a) {
+    return std::sqrt(dot(a, a));
+}
+inline Vec3 unit(const Vec3& a) {
+    return scaled(a, 1 / norm(a));
+}
+constexpr Vec3 mixed(const Vec3& a, const Vec3& b, double t) {
+    return add(scaled(a, 1 - t), scaled(b, t));
 }
 
 inline constexpr Vec3 kX{1, 0, 0};

@@ -1,17 +1,14 @@
-#include <abut/clash.h>
 #include <abut/error.h>
-#include <abut/scene.h>
 
 #include "commands.h"
-#include "interrupt.h"
-#include "output_files.h"
-#include "scenes/plant.h"
+#include "scene_frames.h"
+#include "scene_plant.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace abut::command {
 
@@ -19,53 +16,64 @@ namespace {
 
 constexpr std::uint64_t kMostTriangles = 1'000'000'000;
 constexpr std::uint64_t kMostClashes = 1'000'000; // PlantOptions counts them as int
+constexpr std::uint64_t kMostFrames = 10'000;     // their numbers have four digits
+constexpr const char* kPlant = "plant";
 
 struct SceneArguments {
     std::string name, out;
-    PlantOptions plant;
+    std::optional<std::uint64_t> triangles, frames;
+    std::optional<int> clashes;
+    std::optional<double> clearance;
+    std::uint64_t seed = 1;
 };
 
-std::string summary(const Plant& plant, const std::string& scene_path,
-                    const std::string& truth_path) {
-    std::string text =
-        fmt::format("{}  {} parts, {} meshes, {} triangles\n{}  {} planted\n", scene_path,
-                    grouped(plant.scene.parts.size()), grouped(plant.scene.meshes.size()),
-                    grouped(plant.triangles), truth_path, grouped(plant.truth.size()));
-    for (const ClashKind kind : kClashKinds)
-        text += fmt::format("  {:<10} {:>9}\n", abut::to_string(kind),
-                            std::count_if(plant.truth.begin(), plant.truth.end(),
-                                          [&](const auto& clash) { return clash.kind == kind; }));
-    return text;
+/// Errors      Error{bad_argument} if the option is given.
+template <class Value>
+void refuse(const char* option, const std::optional<Value>& value, const std::string& scene) {
+    if (value)
+        throw Error(ErrorCode::bad_argument, option,
+                    fmt::format("the scene '{}' has no such option", scene));
+}
+
+int make_plant_scene(const SceneArguments& arguments, const CommonOptions& common) {
+    refuse("--frames", arguments.frames, arguments.name);
+    PlantOptions options;
+    options.triangles = arguments.triangles.value_or(options.triangles);
+    options.clashes = arguments.clashes.value_or(options.clashes);
+    options.clearance = arguments.clearance.value_or(options.clearance);
+    options.seed = arguments.seed;
+    return make_plant_files(arguments.out, options, common);
+}
+
+int make_deforming(const DeformingSceneInfo& scene, const SceneArguments& arguments,
+                   const CommonOptions& common) {
+    refuse("--clashes", arguments.clashes, arguments.name);
+    refuse("--clearance", arguments.clearance, arguments.name);
+    return make_frame_files(
+        arguments.name, arguments.out, arguments.frames.value_or(scene.frames),
+        {.triangles = arguments.triangles.value_or(scene.triangles), .seed = arguments.seed},
+        common);
 }
 
 int run(const SceneArguments& arguments, const CommonOptions& common) {
-    const std::filesystem::path file(arguments.out);
-    if (!file.has_filename() || file.extension() != ".glb")
-        throw Error(ErrorCode::bad_argument, arguments.out,
-                    "cannot be written: a scene is written as FILE.glb");
-    const std::string scene_name = file.filename().string();
-    const std::string truth_name = file.stem().string() + ".truth.json";
-    OutputFiles outputs(file.parent_path(), {scene_name, truth_name});
-    ProgressBar bar(common.progress_style());
+    const auto* deforming =
+        std::ranges::find(kDeformingScenes, arguments.name, &DeformingSceneInfo::name);
+    return deforming == kDeformingScenes.end() ? make_plant_scene(arguments, common)
+                                               : make_deforming(*deforming, arguments, common);
+}
 
-    bar.show("scene", 0);
-    const Plant plant = make_plant(arguments.plant);
-    const std::string truth = plant_truth_json(plant);
-    bar.show("write", 0);
-    {
-        const InterruptScope scope(OnInterrupt::defer);
-        outputs.stage(scene_name, [&](const std::string& path) { write_glb(plant.scene, path); });
-        throw_if_interrupted();
-        outputs.stage_text(truth_name, truth);
-        throw_if_interrupted();
-        outputs.commit();
-    }
-    bar.finish();
-    if (common.json)
-        print(truth);
-    else if (!common.quiet)
-        print(summary(plant, outputs.path(scene_name), outputs.path(truth_name)));
-    return kExitDone;
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names{kPlant};
+    for (const DeformingSceneInfo& scene : kDeformingScenes)
+        names.emplace_back(scene.name);
+    return names;
+}
+
+std::string scene_help() {
+    std::string text = "plant: a power plant with planted clashes";
+    for (const DeformingSceneInfo& scene : kDeformingScenes)
+        text += fmt::format("; {}: {}", scene.name, scene.description);
+    return text;
 }
 
 } // namespace
@@ -73,21 +81,26 @@ int run(const SceneArguments& arguments, const CommonOptions& common) {
 Subcommand add_scene(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<SceneArguments>();
     CLI::App* app = add_subcommand(root, common, "scene",
-                                   "Make a procedural scene and the truth that it holds");
-    app->add_option("NAME", arguments->name, "plant: a power plant with planted clashes")
+                                   "Make a procedural scene: a plant and the truth that it holds, "
+                                   "or frames of a surface that deforms");
+    app->add_option("NAME", arguments->name, scene_help())
         ->required()
-        ->check(CLI::IsMember({"plant"}));
-    app->add_option("--out", arguments->out, "FILE.glb to write; the truth goes to FILE.truth.json")
+        ->check(CLI::IsMember(scene_names()));
+    app->add_option("--out", arguments->out,
+                    "plant: FILE.glb to write; the truth goes to FILE.truth.json. Frames: a folder "
+                    "for NAME-0000.ply and so on, or FILE.ply for FILE-0000.ply and so on")
         ->required();
-    app->add_option("--triangles", arguments->plant.triangles, "About how many triangles")
+    app->add_option("--triangles", arguments->triangles, "About how many triangles")
         ->check(whole_number(1, kMostTriangles));
-    app->add_option("--clashes", arguments->plant.clashes,
-                    "How many clashes to plant, of the kinds in turn")
+    app->add_option("--frames", arguments->frames, "How many frames; all but plant")
+        ->check(whole_number(1, kMostFrames));
+    app->add_option("--clashes", arguments->clashes,
+                    "How many clashes to plant, of the kinds in turn; plant")
         ->check(whole_number(0, kMostClashes));
-    app->add_option("--seed", arguments->plant.seed, "Seed of everything random")
+    app->add_option("--seed", arguments->seed, "Seed of everything random")
         ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-    app->add_option("--clearance", arguments->plant.clearance,
-                    "Up to this clearance, in metres, nothing but the planted pairs is near")
+    app->add_option("--clearance", arguments->clearance,
+                    "Up to this clearance, in metres, nothing but the planted pairs is near; plant")
         ->check(not_negative());
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

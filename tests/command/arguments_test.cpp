@@ -63,6 +63,12 @@ TEST(Arguments, BadUsageIsRefusedInOneLine) {
         {{"scene", "plant", "--out", out, "--triangles", "-5"}, "--triangles"},
         {{"scene", "plant", "--out", out, "--clashes", "1.5"}, "--clashes"},
         {{"scene", "plant", "--out", out, "--seed", "x"}, "--seed"},
+        {{"scene", "plant", "--out", out, "--frames", "2"}, "--frames"},
+        {{"scene", "twist"}, "--out"},
+        {{"scene", "twist", "--out", out, "--frames", "0"}, "--frames"},
+        {{"scene", "twist", "--out", out, "--triangles", "10"}, "triangles"},
+        {{"scene", "twist", "--out", out, "--clashes", "5"}, "--clashes"},
+        {{"scene", "twist", "--out", out, "--clearance", "0.1"}, "--clearance"},
     };
     for (const Case& each : cases) {
         SCOPED_TRACE(::testing::PrintToString(each.arguments));

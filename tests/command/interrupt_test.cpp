@@ -43,6 +43,10 @@ TEST(Interrupt, ASceneInTheMakingLeavesNothing) {
     expect_interrupted(run_abut_and_signal(
         {"scene", "plant", "--triangles", "20000000", "--out", folder / "plant.glb", "--progress"},
         "scene", SIGINT));
+    for (const int signal : {SIGINT, SIGTERM})
+        expect_interrupted(run_abut_and_signal({"scene", "twist", "--triangles", "5000", "--frames",
+                                                "10000", "--out", folder / "frames", "--progress"},
+                                               "frames", signal));
     EXPECT_EQ(folder.list(), std::vector<std::string>{});
 }
 

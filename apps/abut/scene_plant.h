@@ -1,0 +1,14 @@
+#pragma once
+
+#include "common.h"
+#include "scenes/plant.h"
+
+#include <string>
+
+namespace abut::command {
+
+/// Writes a plant to FILE.glb and its truth to FILE.truth.json; prints the truth.
+int make_plant_files(const std::string& out, const PlantOptions& options,
+                     const CommonOptions& common);
+
+} // namespace abut::command
