@@ -7,7 +7,9 @@
 #include "measure.h"
 #include "peer_rigid.h"
 #include "peer_swept.h"
+#include "scenes/deforming.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -135,6 +137,105 @@ std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds) {
     add("grid", {.culling = Culling::grid});
     add("sweep and prune", {.culling = Culling::sweep});
     set_threads(0);
+    return rows;
+}
+
+namespace {
+
+/// A scheme on the sampled frames of a scene.
+struct SchemeSum {
+    std::string name;
+    DeformableOptions options;
+    std::optional<Deformable> surface;
+    double seconds = 0, bytes = 0, found = 0;
+    DeformableCounters counters;
+
+    void measure(const CcdStep& step, int rounds) {
+        if (!surface)
+            surface.emplace(step.start, options);
+        else if (surface->triangles() != step.start.triangles ||
+                 surface->vertex_count() != step.start.positions.size())
+            surface->set_mesh(step.start);
+        std::vector<double> times;
+        Impacts impacts;
+        for (int round = 0; round < rounds; ++round) {
+            const double start = wall_seconds();
+            impacts = do_step(*surface, step);
+            times.push_back(wall_seconds() - start);
+        }
+        seconds += median(times);
+        bytes += static_cast<double>(surface->bytes()) /
+                 static_cast<double>(step.start.triangles.size());
+        const DeformableCounters& c = impacts.counters;
+        counters.triangle_pairs += c.triangle_pairs;
+        counters.candidates.vertex_face += c.candidates.vertex_face;
+        counters.candidates.edge_edge += c.candidates.edge_edge;
+        counters.elementary_tests.vertex_face += c.elementary_tests.vertex_face;
+        counters.elementary_tests.edge_edge += c.elementary_tests.edge_edge;
+        counters.exact_fallbacks += c.exact_fallbacks;
+        found += static_cast<double>(impacts.list.size());
+    }
+};
+
+} // namespace
+
+std::vector<Row> ccd_scene_rows(const std::string& scene_name, int samples, int rounds) {
+    const auto* info =
+        std::find_if(kDeformingScenes.begin(), kDeformingScenes.end(),
+                     [&](const DeformingSceneInfo& each) { return each.name == scene_name; });
+    const auto scene = make_deforming_scene(scene_name);
+    std::vector<SchemeSum> sums;
+    const auto add = [&](const std::string& name, const DeformableOptions& options) {
+        sums.push_back({name, options, std::nullopt, 0, 0, 0, {}});
+    };
+    add("representative", {});
+    add("markup", {.scheme = Scheme::markup});
+    add("database", {.scheme = Scheme::database});
+    add("basic", {.scheme = Scheme::basic});
+    add("trees over features", {.scheme = Scheme::features});
+
+    double measured = 0;
+    CcdStep step{scene_name, scene->mesh(), {}};
+    const auto every = std::max(1U, info->frames / static_cast<std::uint32_t>(samples));
+    for (std::uint32_t frame = 1; frame <= info->frames; ++frame) {
+        set_threads(0);
+        scene->step();
+        const bool moves = scene->mesh().triangles == step.start.triangles &&
+                           scene->mesh().positions.size() == step.start.positions.size();
+        if (frame % every == every / 2 && moves) {
+            step.end = scene->mesh().positions;
+            set_threads(1);
+            for (SchemeSum& sum : sums)
+                sum.measure(step, rounds);
+            ++measured;
+        }
+        step.start = scene->mesh();
+    }
+    set_threads(0);
+
+    std::vector<Row> rows;
+    const double ours = kMs * sums.front().seconds / measured;
+    for (const SchemeSum& sum : sums) {
+        Row row{scene_name + ", all impacts", ours, {}, {}, "ms/frame", 1, {}};
+        if (&sum != &sums.front()) {
+            row.peer = "abut, " + sum.name;
+            row.theirs = kMs * sum.seconds / measured;
+        }
+        const auto mean = [&](std::uint64_t total) {
+            return static_cast<double>(total) / measured;
+        };
+        row.counters["frames measured"] = measured;
+        row.counters["triangles"] = static_cast<double>(step.start.triangles.size());
+        row.counters["impacts"] = sum.found / measured;
+        row.counters["triangle pairs"] = mean(sum.counters.triangle_pairs);
+        row.counters["candidates"] =
+            mean(sum.counters.candidates.vertex_face + sum.counters.candidates.edge_edge);
+        row.counters["elementary tests"] = mean(sum.counters.elementary_tests.vertex_face +
+                                                sum.counters.elementary_tests.edge_edge);
+        row.counters["exact fallbacks"] = mean(sum.counters.exact_fallbacks);
+        row.counters["bytes a triangle"] = sum.bytes / measured;
+        rows.push_back(std::move(row));
+    }
     return rows;
 }
 

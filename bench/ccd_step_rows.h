@@ -20,6 +20,11 @@ struct CcdStep {
 /// representative triangles.
 std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds);
 
+/// Rows of a deforming scene: means over some of its frames, every scheme beside representative
+/// triangles.
+/// Errors      Error{bad_argument} if there is no such scene.
+std::vector<Row> ccd_scene_rows(const std::string& scene, int samples, int rounds);
+
 /// The build of a million triangles by Embree, which tells how fast the machine is.
 std::vector<Row> calibration_rows(int rounds);
 

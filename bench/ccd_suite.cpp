@@ -268,12 +268,15 @@ Report run_ccd_suite(const CcdSuiteOptions& options) {
             report.rows.push_back(measure_many(kind, thickness, options));
     if (options.frames.size() % 2 != 0)
         throw Error(ErrorCode::bad_argument, "frames come in pairs: start and end of a step");
-    if (!options.frames.empty())
+    if (!options.frames.empty() || !options.scenes.empty())
         for (Row& row : calibration_rows(options.rounds))
             report.rows.push_back(std::move(row));
     for (std::size_t i = 0; i < options.frames.size(); i += 2)
         for (Row& row :
              ccd_step_rows(read_step(options.frames[i], options.frames[i + 1]), options.rounds))
+            report.rows.push_back(std::move(row));
+    for (const std::string& scene : options.scenes)
+        for (Row& row : ccd_scene_rows(scene, options.samples, options.rounds))
             report.rows.push_back(std::move(row));
     return report;
 }

@@ -78,6 +78,9 @@ int run(int argc, char** argv) {
         "ccd", "Continuous collision: elementary tests against FCL, steps of deforming surfaces");
     ccd_suite->add_option("files", ccd.files, "Files of queries (CSV)");
     ccd_suite->add_option("--frames", ccd.frames, "Frames (PLY, OBJ): start and end of each step");
+    ccd_suite->add_option("--scenes", ccd.scenes, "Deforming scenes (see abut scene)");
+    ccd_suite->add_option("--samples", ccd.samples, "Frames of each scene that are measured")
+        ->check(CLI::Range(1, 10000));
     ccd_suite->add_option("--pairs", ccd.pairs, "Generated pairs of each case")
         ->check(CLI::Range(1, 1000000));
     ccd_suite->add_option("--rounds", ccd.rounds, "Passes; medians are taken")

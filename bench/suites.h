@@ -62,6 +62,8 @@ Report run_impact_suite(const ImpactSuiteOptions& options);
 struct CcdSuiteOptions {
     std::vector<std::string> files;  ///< of queries (see read_elementary_queries)
     std::vector<std::string> frames; ///< of steps: start and end of each (see read_frame)
+    std::vector<std::string> scenes; ///< names of deforming scenes
+    int samples = 12;                ///< frames of each scene that are measured
     std::size_t pairs = 2000;        ///< of each generated case
     int rounds = 5;
     std::uint64_t seed = 1;
