@@ -13,8 +13,7 @@ namespace abut {
 
 namespace {
 
-/// The hierarchy is built anew once its nodes are this much larger, beside its leaves, than when it
-/// was built.
+/// The hierarchy is built anew once its boxes are this much looser than when it was built.
 constexpr double kMostLooseness = 1.3;
 /// Vertices that a thread takes at once.
 constexpr std::size_t kGrain = 4096;
@@ -102,15 +101,35 @@ void DeformableData::refit() {
         build();
 }
 
-/// Area of the nodes' boxes beside that of the leaves': motion makes both larger, a bad shape of the
-/// hierarchy the first alone.
+/// How much larger a node's box is than the boxes in it are together, and a leaf's than those of its
+/// triangles: the mean of all. A ratio each, so that neither motion nor a few large triangles
+/// outweigh what the shape of the hierarchy does.
 double DeformableData::looseness() const {
-    double nodes = 0, leaves = 0;
-    for (const MovingNode& node : swept.tree.nodes)
-        for (std::uint32_t i = 0; i < MovingNode::kWidth && !node.child[i].is_none(); ++i)
-            (node.child[i].is_leaf() ? leaves : nodes) +=
-                double{moving_tree::box_of(node, i).swept().half_area()};
-    return leaves > 0 ? nodes / leaves : 0;
+    double sum = 0;
+    std::size_t count = 0;
+    const auto add = [&](const MovingBox& outer, double inner) {
+        const double area{outer.swept().half_area()};
+        if (inner > 0) {
+            sum += area / inner;
+            ++count;
+        }
+    };
+    for (const MovingNode& node : swept.tree.nodes) {
+        double children = 0;
+        for (std::uint32_t i = 0; i < MovingNode::kWidth && !node.child[i].is_none(); ++i) {
+            const MovingBox box = moving_tree::box_of(node, i);
+            children += double{box.swept().half_area()};
+            if (!node.child[i].is_leaf())
+                continue;
+            const std::uint32_t leaf = leaf_number(node.child[i]);
+            double faces = 0;
+            for (std::uint32_t k = 0; k < swept.leaves.faces.count(leaf); ++k)
+                faces += double{swept.leaves.faces.box(leaf, k).swept().half_area()};
+            add(box, faces);
+        }
+        add(moving_tree::bounds_of(node), children);
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
 Deformable::Deformable(const Mesh& mesh, const DeformableOptions& options)

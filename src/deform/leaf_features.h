@@ -46,6 +46,17 @@ public:
                     row += count(leaf);
                 }
     }
+    [[nodiscard]] MovingBox box(std::uint32_t leaf, std::uint32_t k) const {
+        MovingBox box;
+        const float* row = rows_.data() + MovingBoxRun::kRows * begin_[leaf] + k;
+        for (Aabb* bounds : {&box.start, &box.end})
+            for (auto* side : {&bounds->lower, &bounds->upper})
+                for (float& bound : *side) {
+                    bound = *row;
+                    row += count(leaf);
+                }
+        return box;
+    }
     [[nodiscard]] std::size_t size() const { return ids_.size(); }
     [[nodiscard]] std::size_t bytes() const {
         return begin_.size() * sizeof(begin_[0]) + ids_.size() * sizeof(ids_[0]) +
