@@ -49,6 +49,7 @@ protected:
     /// A file for each of the meshes, in order.
     [[nodiscard]] std::vector<std::string> frames(const std::vector<Mesh>& meshes) const {
         std::vector<std::string> files;
+        files.reserve(meshes.size());
         for (const Mesh& mesh : meshes)
             files.push_back(frame("frame-" + std::to_string(files.size()) + ".ply", mesh));
         return files;
@@ -158,11 +159,12 @@ std::vector<Mesh> crumpled_sheets(Random& random, std::size_t frames) {
             }
     std::vector<Mesh> sequence(frames, sheets);
     for (Mesh& mesh : sequence)
-        for (std::uint32_t v = 0; v < 2 * kSide * kSide; ++v) {
-            const Vec3 jitter = random.in_cube(0.6);
-            mesh.positions.push_back({v / kSide % kSide + jitter.x, v % kSide + jitter.y,
-                                      0.3 * (v / (kSide * kSide)) + jitter.z});
-        }
+        for (std::uint32_t sheet = 0; sheet < 2; ++sheet)
+            for (std::uint32_t i = 0; i < kSide; ++i)
+                for (std::uint32_t j = 0; j < kSide; ++j) {
+                    const Vec3 jitter = random.in_cube(0.6);
+                    mesh.positions.push_back({i + jitter.x, j + jitter.y, 0.3 * sheet + jitter.z});
+                }
     return sequence;
 }
 
