@@ -5,6 +5,7 @@
 #include <abut/deformable.h>
 #include <abut/progress.h>
 
+#include "deform/deformable_data.h"
 #include "geometry/elementary_exact.h"
 #include "geometry/feature_distance.h"
 #include "tests/support/ccd_cases.h"
@@ -230,6 +231,45 @@ TEST(Deformable, StepsEqualNewSurfaces) {
     }
     std::cout << hits << " hits\n";
     EXPECT_GT(hits, 1000U);
+}
+
+double area_of_boxes(const Deformable& surface) {
+    double area = 0;
+    for (const MovingNode& node : surface.data().swept.tree.nodes)
+        for (std::size_t i = 0; i < MovingNode::kWidth && !node.child[i].is_none(); ++i)
+            area += double{moving_tree::box_of(node, i).swept().half_area()};
+    return area;
+}
+
+/// Pieces that scatter from where they were one surface leave no hierarchy that spans them all, not
+/// even beside triangles that are much larger and stay.
+TEST(Deformable, HierarchyFollowsWhatScatters) {
+    Random random(13);
+    MovingMesh moving;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        const Vec3 at = random.in_cube();
+        for (int k = 0; k < 3; ++k)
+            moving.mesh.positions.push_back(at + random.in_cube(0.02));
+        moving.mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    for (const Vec3& p : {Vec3{-1e3, -1e3, -2}, Vec3{1e3, -1e3, -2}, Vec3{0, 1e3, -2}})
+        moving.mesh.positions.push_back(p);
+    moving.mesh.triangles.push_back({9000, 9001, 9002});
+    Deformable surface(moving.mesh);
+    std::vector<Vec3> flight(3000);
+    for (Vec3& each : flight)
+        each = random.in_cube(0.3);
+    std::vector<Vec3> at = moving.mesh.positions;
+    for (int step = 0; step < 10; ++step) {
+        for (std::size_t i = 0; i < 9000; ++i)
+            at[i] = at[i] + flight[i / 3];
+        surface.advance(at);
+    }
+    Mesh scattered = moving.mesh;
+    scattered.positions = at;
+    Deformable anew(scattered);
+    surface.advance(at);
+    EXPECT_LT(area_of_boxes(surface), 1.5 * area_of_boxes(anew));
 }
 
 /// Triangles are removed, added, turned and re-indexed.
