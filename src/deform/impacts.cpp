@@ -45,7 +45,7 @@ void sort(std::vector<FeatureImpact>& list) {
 Impacts find_impacts(const DeformableData& a, const DeformableData& b,
                      const ElementaryOptions& options) {
     require_valid(options);
-    const CandidateSearch search(a, b, round_up(options.thickness));
+    const CandidateSearch search(a, b, options.thickness);
     std::vector<Impacts> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
         AllImpacts keeper{parts[i].list};
