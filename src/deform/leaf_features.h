@@ -46,7 +46,6 @@ public:
                     row += count(leaf);
                 }
     }
-    [[nodiscard]] std::size_t size() const { return ids_.size(); }
     [[nodiscard]] std::size_t bytes() const {
         return begin_.size() * sizeof(begin_[0]) + ids_.size() * sizeof(ids_[0]) +
                rows_.size() * sizeof(rows_[0]);
