@@ -13,6 +13,8 @@
 
 namespace abut {
 
+static_assert(3 * TriangleLeaf::kLanes <= MovingBoxRun::kMost, "a leaf's edges are one run");
+
 /// Features of one kind, leaf by leaf, and boxes of them.
 class FeatureRuns {
 public:

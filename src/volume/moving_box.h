@@ -33,7 +33,7 @@ struct MovingBox {
 ///
 /// Kernels read up to kPadding floats beyond the last row.
 struct MovingBoxRun {
-    static constexpr std::uint32_t kMost = 24; ///< boxes in a run
+    static constexpr std::uint32_t kMost = 12; ///< boxes in a run
     static constexpr std::size_t kRows = 12;
     static constexpr std::size_t kPadding = 8;
     /// Of the bounds at the end.
