@@ -12,7 +12,8 @@
 #include <vector>
 
 /// Continuous collision detection of deforming surfaces: which vertices and faces, and which edges,
-/// meet while the vertices move, and when. docs/deformable.md tells how they are found.
+/// meet while the vertices move, and when. docs/representative-triangles.md tells how they are
+/// found.
 namespace abut {
 
 /// Which one of its triangles represents a vertex or an edge.
@@ -71,8 +72,8 @@ struct TestCounts {
 /// Work that a query did: the machine-independent part of its cost. The same for any number of
 /// threads.
 struct DeformableCounters {
-    std::uint64_t triangle_pairs = 0; ///< whose swept boxes overlap, each once; 0 where the scheme
-                                      ///< looks at none
+    std::uint64_t triangle_pairs = 0; ///< whose boxes overlap, each once, but for those that flat
+                                      ///< regions spare; 0 where the scheme looks at none
     TestCounts candidates; ///< feature pairs that the scheme wants tested: without adjacent ones
     TestCounts elementary_tests;       ///< of these, those for whose roots was looked: that neither
                                        ///< directions nor signs of the cubic have told apart
@@ -123,21 +124,23 @@ public:
     ///
     /// Errors      Error{bad_argument} if there are not as many positions as vertices; Error{bad_mesh} if
     ///             a coordinate is not finite or beyond 1e18. Nothing has changed then.
-    /// Cost        O(n), in parallel.
+    /// Cost        O(n), in parallel; O(n log n) where the hierarchy is built anew.
     void set_motion(std::span<const Vec3> start, std::span<const Vec3> end);
     /// The next step: what was the end is the start. Errors and cost as set_motion.
     void advance(std::span<const Vec3> end);
 
-    /// Takes other triangles, and moves no vertex: cutting, fracture, remeshing. `positions` are those
-    /// of all vertices, and are start and end. A triangle keeps its index where `triangles`
-    /// has the same three vertices in the same order at that index; what only such triangles use
-    /// keeps its representative.
+    /// Takes another mesh, at rest: cutting, fracture, remeshing. What is represented by a triangle
+    /// that has the same three vertices in the same order at the same index stays so.
     ///
-    /// Errors      Error{bad_mesh}, and nothing has changed then.
+    /// Errors      Error{bad_mesh} as the constructor; nothing has changed then.
+    /// Cost        O(n log n).
     void set_mesh(const Mesh& mesh);
 
     /// Moves the vertices and edges of triangles that met something to other triangles of theirs that
     /// did not. For Assignment::adaptive, from time to time; changes no answer.
+    ///
+    /// In          `self_impacts` of this surface, as its triangles are.
+    /// Cost        O(n log n).
     void adapt(const Impacts& impacts);
 
     [[nodiscard]] std::size_t vertex_count() const noexcept;
@@ -158,7 +161,8 @@ private:
 ///
 /// In          options: exact by default; see ElementaryOptions.
 /// Accuracy    complete, and exact where the options say so: decided as `elementary_impact` does.
-/// Errors      Error{bad_argument} for the options, as `elementary_impact`.
+/// Errors      Error{bad_argument} for the options, as `elementary_impact`; or if the schemes or
+///             cullings of two surfaces differ.
 /// Cost        in parallel (`set_threads`); no list of candidates is ever made.
 /// Source      [Curtis, Tamstorf, Manocha 2008]. Differs: leaves of several triangles test the boxes of all
 ///             the features that they represent, one against many in SIMD; certified filters follow at
@@ -169,6 +173,10 @@ Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOption
 
 /// The earliest of them; of several at the same time, the first of the list. Nothing if there is none.
 ///
+/// Accuracy    `time` is never later than the first contact. With a delta or a thickness, some other
+///             of the list may have an earlier `time`, at which it is only near within the tolerances
+///             that ElementaryOptions tells.
+/// Errors      Error{bad_argument} for the options.
 /// Cost        less than all impacts: times are searched in growing windows, and only what moves into
 ///             each other within a window is looked at.
 std::optional<FeatureImpact> first_self_impact(const Deformable& surface,
@@ -176,7 +184,8 @@ std::optional<FeatureImpact> first_self_impact(const Deformable& surface,
 std::optional<FeatureImpact> first_impact(const Deformable& a, const Deformable& b,
                                           const ElementaryOptions& options = {});
 
-/// Whether there is none: stops at the first that is found.
+/// Whether there is none: stops at the first that is found. Errors as those of `self_impacts` and
+/// `impacts`.
 bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions& options = {});
 bool is_free_of_impacts(const Deformable& a, const Deformable& b,
                         const ElementaryOptions& options = {});

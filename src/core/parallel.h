@@ -4,6 +4,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#ifdef __SANITIZE_THREAD__
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+#endif
+
 namespace abut {
 
 /// Calls body(i) for every i in [0, count), in parallel, in chunks of at least `grain`.

@@ -2,6 +2,10 @@
 
 #include <abut/error.h>
 
+#include "mesh/topology.h"
+
+#include <algorithm>
+
 namespace abut {
 
 namespace {
@@ -9,27 +13,34 @@ namespace {
 /// Enough that the longest does not keep others waiting.
 constexpr std::size_t kTasks = 512;
 
+/// What boxes are widened by. Never more than lets all of them overlap, so that bounds stay finite.
+float margin_of(double distance) {
+    return round_up(std::min(distance, 4 * kLargestCoordinate));
+}
+
 } // namespace
 
 CandidateSearch::CandidateSearch(const DeformableData& a, const SweptTree& swept_a,
-                                 const DeformableData& b, const SweptTree& swept_b, float margin)
-    : a_(a), b_(b), swept_a_(swept_a), swept_b_(swept_b), margin_(margin) {
+                                 const DeformableData& b, const SweptTree& swept_b, double distance)
+    : a_(a), b_(b), swept_a_(swept_a), swept_b_(swept_b), margin_(margin_of(distance)) {
     split(Between::triangles, between_triangles());
 }
 
-CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& b, float margin)
-    : a_(a), b_(b), swept_a_(a.swept), swept_b_(b.swept), margin_(margin),
+CandidateSearch::CandidateSearch(const DeformableData& a, const DeformableData& b, double distance)
+    : a_(a), b_(b), swept_a_(a.swept), swept_b_(b.swept), margin_(margin_of(distance)),
       scheme_(a.options.scheme) {
     if (scheme_ != b.options.scheme)
         throw Error(ErrorCode::bad_argument, "the surfaces have different schemes");
+    if (a.options.culling != b.options.culling)
+        throw Error(ErrorCode::bad_argument, "the surfaces have different cullings");
     if (scheme_ == Scheme::database)
         tested_ = std::make_unique<ConcurrentSet>();
     if (scheme_ == Scheme::features)
         split_features();
     else if (a.options.culling == Culling::grid)
-        culling_ = make_grid_culling(a, b, margin);
+        culling_ = make_grid_culling(a, b, margin_);
     else if (a.options.culling == Culling::sweep)
-        culling_ = make_sweep_culling(a, b, margin);
+        culling_ = make_sweep_culling(a, b, margin_);
     else
         split(Between::triangles, between_triangles());
 }

@@ -1,18 +1,23 @@
 #pragma once
 
+#include <abut/deformable.h>
+
+#include "core/concurrent_set.h"
 #include "deform/feature_pairs.h"
 #include "deform/feature_trees.h"
 #include "deform/leaf_pairs.h"
 #include "deform/triangle_culling.h"
 #include "deform/triangle_pairs.h"
+#include "tree/traverse_overlaps.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace abut {
 
-/// Finds the features of two surfaces that may come within a margin of each other, or of one
+/// Finds the features of two surfaces that may come within a distance of each other, or of one
 /// surface, in the way that a scheme and a culling say. Divided into tasks, to be run in any order
 /// and from any thread.
 class CandidateSearch {
@@ -20,9 +25,11 @@ public:
     /// By the boxes of `swept_a` and `swept_b`, which may be others than the surfaces' own; they
     /// must outlive this. One surface against itself if both are the same objects.
     CandidateSearch(const DeformableData& a, const SweptTree& swept_a, const DeformableData& b,
-                    const SweptTree& swept_b, float margin);
-    /// As the first surface's options say.
-    CandidateSearch(const DeformableData& a, const DeformableData& b, float margin);
+                    const SweptTree& swept_b, double distance);
+    /// As the surfaces' options say.
+    ///
+    /// Errors      Error{bad_argument} if their schemes or cullings differ.
+    CandidateSearch(const DeformableData& a, const DeformableData& b, double distance);
 
     [[nodiscard]] std::size_t tasks() const {
         return culling_ ? culling_->tasks() : starts_.size();

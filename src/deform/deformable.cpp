@@ -7,7 +7,9 @@
 #include "math/vector.h"
 #include "mesh/topology.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 namespace abut {
 
@@ -37,16 +39,6 @@ std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, doub
         }
     });
     return boxes;
-}
-
-void require_valid_positions(std::span<const Vec3> positions) {
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Vec3& p = positions[i];
-        for (const double x : {p.x, p.y, p.z})
-            if (!(std::abs(x) <= kLargestCoordinate))
-                throw Error(ErrorCode::bad_mesh, "vertex " + std::to_string(i) +
-                                                     ": a coordinate is not finite or beyond 1e18");
-    }
 }
 
 } // namespace
@@ -85,7 +77,7 @@ void DeformableData::build() {
         options.scheme == Scheme::features ||
         (options.scheme == Scheme::representative && options.culling == Culling::tree);
     if (spawns_from_leaves)
-        features.edges_of = {};
+        features.edges_of = std::vector<IndexTriangle>(); // `{}` would keep its memory
 }
 
 void DeformableData::fit_boxes() {

@@ -8,9 +8,7 @@
 #include "mesh/representatives.h"
 #include "tree/moving_tree.h"
 
-#include <cstddef>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace abut {

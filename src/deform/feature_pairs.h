@@ -10,7 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <tuple>
 
 namespace abut {
 
@@ -18,6 +18,12 @@ namespace abut {
 struct FeatureIds {
     std::uint32_t a = 0, b = 0;
 };
+
+/// The order of what a query lists, FeatureImpact or FeaturePair: no two of a list are equal in it.
+template <typename Found>
+auto list_key(const Found& found) {
+    return std::tuple(found.kind, found.face_first, found.a, found.b);
+}
 
 using PairVertices = std::array<const MovingVertex*, 4>; ///< in the order of ElementaryPair
 

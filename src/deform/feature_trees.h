@@ -1,10 +1,10 @@
 #pragma once
 
-#include "deform/feature_pairs.h"
 #include "deform/leaf_features.h"
 #include "tree/traverse_overlaps.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace abut {
@@ -38,8 +38,7 @@ public:
     FeatureLeafPairs(const FeatureTree& a, const FeatureTree& b, float margin, const Visit& visit)
         : a_(a), b_(b), margin_(margin), visit_(visit) {}
 
-    bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
-        const std::uint32_t i = leaf_a.number, j = leaf_b.number;
+    bool visit(std::uint32_t i, std::uint32_t j) override {
         RunOverlaps overlaps{a_.runs.run(i), b_.runs.run(j), {}};
         find_overlaps({&overlaps, 1}, margin_);
         if (&a_ == &b_ && i == j)

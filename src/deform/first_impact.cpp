@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <tuple>
+#include <vector>
 
 namespace abut {
 
@@ -14,8 +15,8 @@ namespace {
 
 /// Ends of the windows of time that are searched one after the other.
 constexpr std::array<double, 3> kWindows{0x1p-6, 0x1p-2, 1};
-/// More than times are below the first contact: what is found later in a window than this before
-/// its end may not be the earliest.
+/// More than exact times are below the first contact: what is found later in a window than this
+/// before its end may not be the earliest.
 constexpr double kTimeError = 0x1p-29;
 
 struct EarliestImpact {
@@ -50,7 +51,6 @@ std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableD
 std::optional<FeatureImpact> find_first(const DeformableData& a, const DeformableData& b,
                                         const ElementaryOptions& options) {
     require_valid(options);
-    const float margin = round_up(options.thickness);
     SweptTree swept_a = a.swept, swept_b;
     if (&a != &b)
         swept_b = b.swept;
@@ -59,8 +59,9 @@ std::optional<FeatureImpact> find_first(const DeformableData& a, const Deformabl
         refit(swept_a, a, until);
         if (&a != &b)
             refit(swept_b, b, until);
-        first = earliest(a, b, CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, margin),
-                         options);
+        first = earliest(
+            a, b, CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, options.thickness),
+            options);
         if (first && first->time < until - kTimeError)
             break;
     }
@@ -77,7 +78,7 @@ struct AnyImpact {
 
 bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryOptions& options) {
     require_valid(options);
-    const CandidateSearch search(a, a.swept, b, b.swept, round_up(options.thickness));
+    const CandidateSearch search(a, a.swept, b, b.swept, options.thickness);
     std::atomic<bool> found = false;
     parallel_for(search.tasks(), 1, [&](std::size_t i) {
         AnyImpact keeper{found};

@@ -6,14 +6,9 @@
 #include "deform/feature_pairs.h"
 
 #include <cstddef>
-#include <tuple>
+#include <cstdint>
 
 namespace abut {
-
-/// The order of impacts in a list: no two of a list are equal in it.
-inline auto list_key(const FeatureImpact& impact) {
-    return std::tuple(impact.kind, impact.face_first, impact.a, impact.b);
-}
 
 /// What impacts of one kind of pair are made of and go to.
 template <ElementaryKind kind, typename Keeper>
@@ -23,6 +18,8 @@ public:
               const ElementaryOptions& options, Keeper& keeper)
         : geometry_(a, b), face_first_(face_first), keeper_(keeper), stages_(kind, options, *this) {
     }
+    PairTests(const PairTests&) = delete; // the stages know where this is
+    PairTests& operator=(const PairTests&) = delete;
 
     void add(FeatureIds ids, bool wanted) { stages_.add(ids, wanted); }
     void finish() { stages_.finish(); }

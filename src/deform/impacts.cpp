@@ -45,7 +45,7 @@ void sort(std::vector<FeatureImpact>& list) {
 Impacts find_impacts(const DeformableData& a, const DeformableData& b,
                      const ElementaryOptions& options) {
     require_valid(options);
-    const CandidateSearch search(a, b, round_up(options.thickness));
+    const CandidateSearch search(a, b, options.thickness);
     std::vector<Impacts> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
         AllImpacts keeper{parts[i].list};
@@ -61,7 +61,7 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
     impacts.list.reserve(count);
     for (Impacts& part : parts) {
         add(impacts, part);
-        part.list = {}; // so that there is room for one list, not for two
+        part.list = std::vector<FeatureImpact>(); // so that there is room for one list, not for two
     }
     sort(impacts.list);
     return impacts;

@@ -13,6 +13,8 @@
 
 namespace abut {
 
+static_assert(3 * TriangleLeaf::kLanes <= MovingBoxRun::kMost, "a leaf's edges are one run");
+
 /// Features of one kind, leaf by leaf, and boxes of them.
 class FeatureRuns {
 public:
@@ -57,7 +59,6 @@ public:
                 }
         return box;
     }
-    [[nodiscard]] std::size_t size() const { return ids_.size(); }
     [[nodiscard]] std::size_t bytes() const {
         return begin_.size() * sizeof(begin_[0]) + ids_.size() * sizeof(ids_[0]) +
                rows_.size() * sizeof(rows_[0]);

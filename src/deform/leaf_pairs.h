@@ -1,11 +1,13 @@
 #pragma once
 
 #include "deform/feature_pairs.h"
+#include "deform/leaf_features.h"
 #include "deform/triangle_pairs.h"
 #include "tree/traverse_overlaps.h"
 #include "volume/moving_box.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -22,8 +24,7 @@ public:
                         FeaturePairs<Sink>& pairs, std::uint64_t* triangle_pairs)
         : a_(a), b_(b), margin_(margin), pairs_(pairs), triangle_pairs_(triangle_pairs) {}
 
-    bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
-        const std::uint32_t i = leaf_a.number, j = leaf_b.number;
+    bool visit(std::uint32_t i, std::uint32_t j) override {
         const bool same = pairs_.is_self() && i == j;
         auto& [faces, edges, vertex_face, vertex_of_b] = overlaps_;
         faces.a = a_.faces.run(i), faces.b = b_.faces.run(j);
@@ -60,8 +61,7 @@ public:
                       TrianglePairVisitor& visitor)
         : a_(a), b_(b), margin_(margin), visitor_(visitor) {}
 
-    bool visit(const MovingLeaf& leaf_a, const MovingLeaf& leaf_b) override {
-        const std::uint32_t i = leaf_a.number, j = leaf_b.number;
+    bool visit(std::uint32_t i, std::uint32_t j) override {
         RunOverlaps faces{a_.faces.run(i), b_.faces.run(j), {}};
         find_overlaps({&faces, 1}, margin_);
         if (&a_ == &b_ && i == j)

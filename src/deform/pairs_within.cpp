@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace abut {
 
@@ -57,7 +56,7 @@ std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData
         rest_b = b.swept;
         refit(rest_b, b, 0);
     }
-    const CandidateSearch search(a, rest_a, b, &a == &b ? rest_a : rest_b, round_up(distance));
+    const CandidateSearch search(a, rest_a, b, &a == &b ? rest_a : rest_b, distance);
     std::vector<std::vector<FeaturePair>> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
         NearPairs sink(a, b, distance, parts[i]);
@@ -66,12 +65,8 @@ std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData
     std::vector<FeaturePair> all;
     for (const std::vector<FeaturePair>& part : parts)
         all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end(), [](const FeaturePair& p, const FeaturePair& q) {
-        const auto key = [](const FeaturePair& pair) {
-            return std::tuple(pair.kind, pair.face_first, pair.a, pair.b);
-        };
-        return key(p) < key(q);
-    });
+    std::sort(all.begin(), all.end(),
+              [](const FeaturePair& p, const FeaturePair& q) { return list_key(p) < list_key(q); });
     return all;
 }
 

@@ -10,7 +10,7 @@ namespace abut {
 
 using IndexTriangle = std::array<std::uint32_t, 3>;
 
-/// A triangle's edge k runs from its vertex k to its vertex k + 1 (mod 3).
+/// In place of an edge's number: there is none.
 inline constexpr std::uint32_t kNoEdge = 0xffffffffU;
 
 /// The edges of indexed triangles.
@@ -18,7 +18,8 @@ struct SurfaceFeatures {
     /// Each pair of vertices that a triangle joins, once: (lower, higher), sorted by the higher
     /// index, then by the lower.
     std::vector<std::array<std::uint32_t, 2>> edges;
-    /// Of each triangle; kNoEdge where both ends are the same vertex.
+    /// Three of each triangle: edge k runs from its vertex k to its vertex k + 1 (mod 3). kNoEdge where
+    /// both are the same vertex.
     std::vector<IndexTriangle> edges_of;
 };
 

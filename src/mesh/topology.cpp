@@ -117,9 +117,9 @@ std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Top
     return result;
 }
 
-void require_valid(const Mesh& mesh) {
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const Vec3& p = mesh.positions[i];
+void require_valid_positions(std::span<const Vec3> positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vec3& p = positions[i];
         if (!is_finite(p))
             throw Error(ErrorCode::bad_mesh,
                         "vertex " + std::to_string(i) + " has a coordinate that is not finite");
@@ -127,6 +127,10 @@ void require_valid(const Mesh& mesh) {
             throw Error(ErrorCode::bad_mesh,
                         "vertex " + std::to_string(i) + " has a coordinate beyond 1e18");
     }
+}
+
+void require_valid(const Mesh& mesh) {
+    require_valid_positions(mesh.positions);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
         for (const std::uint32_t v : mesh.triangles[i])
             if (v >= mesh.positions.size())

@@ -45,8 +45,10 @@ std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Top
 /// Squares of box sizes stay finite in single precision up to here.
 inline constexpr double kLargestCoordinate = 1e18;
 
-/// Errors      Error{bad_mesh} if an index is out of range, or a coordinate not finite or beyond
-///             kLargestCoordinate.
+/// Errors      Error{bad_mesh} if a coordinate is not finite or beyond kLargestCoordinate.
+void require_valid_positions(std::span<const Vec3> positions);
+
+/// Errors      as for its positions; Error{bad_mesh} if an index is out of range.
 void require_valid(const Mesh& mesh);
 
 } // namespace abut

@@ -425,7 +425,7 @@ Tree build_tree(const TreeMesh& mesh, bool own_axes) {
         primitives[i] = Primitive(box, static_cast<std::uint32_t>(i));
     });
     Tree tree = build_tree(primitives);
-    primitives = {};
+    primitives = std::vector<Primitive>();
     orient_nodes(tree, mesh, own_axes);
     return tree;
 }

@@ -57,8 +57,6 @@ void fit_inner(MovingTree& tree) {
                 set_box(node, lane, bounds_of(tree.nodes[child.index()]));
         }
     }
-    if (!tree.empty())
-        tree.bounds = bounds_of(tree.nodes[0]);
 }
 
 } // namespace moving_tree

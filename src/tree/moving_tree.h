@@ -24,7 +24,6 @@ struct alignas(32) MovingNode {
 /// Hierarchy over moving boxes, eight wide. Its shape stays while boxes change.
 struct MovingTree {
     std::vector<MovingNode> nodes; ///< nodes[0] is the root; a node comes after the one above it
-    MovingBox bounds;              ///< of all
 
     MovingTree() = default;
     /// The shape of a tree; boxes are to be fitted.

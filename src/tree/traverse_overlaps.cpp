@@ -109,8 +109,7 @@ bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair
         const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);
         if (!(a.is_leaf() && b.is_leaf()))
             opener.open(pair, a, b);
-        else if (!visitor.visit({leaf_number(a), box_of(traversal.a, pair.a)},
-                                {leaf_number(b), box_of(traversal.b, pair.b)}))
+        else if (!visitor.visit(leaf_number(a), leaf_number(b)))
             return false;
     }
     return true;

@@ -9,12 +9,6 @@
 
 namespace abut {
 
-/// A leaf by its number, and its box.
-struct MovingLeaf {
-    std::uint32_t number = 0;
-    MovingBoxRef box;
-};
-
 /// What a traversal does where the boxes of two leaves overlap.
 class OverlapVisitor {
 public:
@@ -23,8 +17,8 @@ public:
     OverlapVisitor& operator=(const OverlapVisitor&) = delete;
     virtual ~OverlapVisitor() = default;
 
-    /// False: stop.
-    virtual bool visit(const MovingLeaf& a, const MovingLeaf& b) = 0;
+    /// In: the leaves' numbers. False: stop.
+    virtual bool visit(std::uint32_t a, std::uint32_t b) = 0;
 };
 
 /// Two trees, or one against itself: then each unordered pair of its leaves is visited once, and each
@@ -33,7 +27,8 @@ struct OverlapTraversal {
     const MovingTree& a;
     const MovingTree& b;
     float margin = 0; ///< boxes that come so near overlap
-    /// Of one tree: nodes, not 0, whose leaves are not visited with each other. May be empty.
+    /// By node of the one tree: not 0 where leaves below are not visited with each other. May be
+    /// empty.
     std::span<const std::uint8_t> skipped{};
 
     /// Two children by their names.

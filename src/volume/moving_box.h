@@ -33,7 +33,7 @@ struct MovingBox {
 ///
 /// Kernels read up to kPadding floats beyond the last row.
 struct MovingBoxRun {
-    static constexpr std::uint32_t kMost = 24; ///< boxes in a run
+    static constexpr std::uint32_t kMost = 12; ///< boxes in a run
     static constexpr std::size_t kRows = 12;
     static constexpr std::size_t kPadding = 8;
     /// Of the bounds at the end.
@@ -60,7 +60,8 @@ struct RunOverlaps {
     static constexpr std::uint32_t kTiles = (MovingBoxRun::kMost + kTile - 1) / kTile; ///< a side
 
     MovingBoxRun a, b;
-    std::array<std::uint64_t, kTiles * kTiles> tiles; ///< those of a's first boxes first
+    std::array<std::uint64_t, std::size_t{kTiles} * kTiles>
+        tiles{}; ///< those of a's first boxes first
 
     [[nodiscard]] static std::uint32_t tiles_of(const MovingBoxRun& run) {
         return (run.count + kTile - 1) / kTile;
@@ -85,7 +86,8 @@ struct RunOverlaps {
     template <typename Visit>
     void for_each(const Visit& visit) {
         for_each_tile([&](std::uint32_t i, std::uint32_t k, std::uint64_t tile) {
-            const std::uint32_t *ids_a = a.ids + i * kTile, *ids_b = b.ids + k * kTile;
+            const std::uint32_t* ids_a = a.ids + std::size_t{i} * kTile;
+            const std::uint32_t* ids_b = b.ids + std::size_t{k} * kTile;
             for (; tile != 0; tile &= tile - 1) {
                 const auto bit = static_cast<std::uint32_t>(std::countr_zero(tile));
                 visit(ids_a[bit / kTile], ids_b[bit % kTile]);

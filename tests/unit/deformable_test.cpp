@@ -182,6 +182,22 @@ TEST(Deformable, BadInputIsAnErrorAndChangesNothing) {
     EXPECT_EQ(self_impacts(surface).list, before.list);
     const Deformable other = moving.deformable({.scheme = Scheme::markup});
     EXPECT_EQ(code_of([&] { impacts(surface, other); }), ErrorCode::bad_argument);
+    const Deformable swept = moving.deformable({.culling = Culling::sweep});
+    EXPECT_EQ(code_of([&] { impacts(swept, surface); }), ErrorCode::bad_argument);
+}
+
+/// Bounds of boxes stay finite: unused children of a node do not come near.
+TEST(Deformable, EverythingIsWithinALargeThickness) {
+    const MovingMesh moving = rising_tip();
+    for (const auto culling : {Culling::tree, Culling::grid, Culling::sweep}) {
+        const Deformable surface = moving.deformable({.culling = culling});
+        for (const double large : {1e3, 1e40, 1e300}) {
+            const Impacts all = self_impacts(surface, {.thickness = large});
+            EXPECT_EQ(all.list.size(), 6U + 9U) << large;
+            EXPECT_EQ(first_self_impact(surface, {.thickness = large}), all.list.at(0)) << large;
+            EXPECT_EQ(self_pairs_within(surface, large).size(), 6U + 9U) << large;
+        }
+    }
 }
 
 } // namespace
