@@ -17,8 +17,22 @@ namespace {
 
 /// The hierarchy is built anew once its boxes are this much looser than when it was built.
 constexpr double kMostLooseness = 1.3;
-/// Vertices that a thread takes at once.
+/// Vertices or triangles that a thread takes at once.
 constexpr std::size_t kGrain = 4096;
+
+std::vector<Aabb> swept_boxes(std::span<const IndexTriangle> triangles,
+                              std::span<const MovingVertex> vertices) {
+    std::vector<Aabb> boxes(triangles.size());
+    parallel_for(triangles.size(), kGrain, [&](std::size_t i) {
+        Box3 box;
+        for (const std::uint32_t v : triangles[i]) {
+            extend(box, vertices[v].start);
+            extend(box, vertices[v].end);
+        }
+        boxes[i] = Aabb(box);
+    });
+    return boxes;
+}
 
 /// What vertices move between until a time.
 std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, double until) {
@@ -58,26 +72,28 @@ void DeformableData::find_edges_of_triangles() {
         features = make_surface_features(vertices.size(), triangles);
 }
 
+/// Makes room before it takes some: no more is needed on the way than in the end.
 void DeformableData::build() {
+    swept = SweptTree();
+    flat_regions = FlatRegions();
+    feature_trees.reset();
     find_edges_of_triangles();
-    const std::vector<MovingBox> boxes = vertex_boxes(vertices, 1);
-    std::vector<Aabb> triangle_boxes(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (const std::uint32_t v : triangles[i])
-            triangle_boxes[i].merge(boxes[v].swept());
-    const Tree shape = build_tree(triangle_boxes);
-    swept.tree = MovingTree(shape);
-    swept.leaves = LeafFeatures(shape, surface(), represented);
+    {
+        const Tree shape = build_tree(swept_boxes(triangles, vertices));
+        swept.tree = MovingTree(shape);
+        swept.leaves = LeafFeatures(shape, surface(), represented);
+    }
     flat_regions = FlatRegions(swept.tree, swept.leaves.faces, surface());
-    fit_boxes();
-    looseness_when_built_ = looseness();
-    if (options.scheme == Scheme::features)
-        feature_trees = std::make_unique<FeatureTrees>(surface(), boxes);
     const bool spawns_from_leaves =
         options.scheme == Scheme::features ||
         (options.scheme == Scheme::representative && options.culling == Culling::tree);
     if (spawns_from_leaves)
         features.edges_of = std::vector<IndexTriangle>(); // `{}` would keep its memory
+    swept.leaves.allocate_boxes();
+    if (options.scheme == Scheme::features)
+        feature_trees = std::make_unique<FeatureTrees>(surface(), vertex_boxes(vertices, 1));
+    fit_boxes();
+    looseness_when_built_ = looseness();
 }
 
 void DeformableData::fit_boxes() {

@@ -13,7 +13,11 @@ std::vector<NodeRef> leaves_of(const Tree& tree) {
 
 LeafFeatures::LeafFeatures(const Tree& tree, const SurfaceView& surface,
                            std::span<const Represented> represented) {
-    for (const NodeRef leaf : leaves_of(tree)) {
+    const std::vector<NodeRef> leaves = leaves_of(tree);
+    faces.reserve(leaves.size(), surface.triangles.size());
+    edges.reserve(leaves.size(), surface.features.edges.size());
+    vertices.reserve(leaves.size(), surface.vertices);
+    for (const NodeRef leaf : leaves) {
         for (std::uint32_t slot = leaf.first(); slot < leaf.first() + leaf.count(); ++slot) {
             const std::uint32_t triangle = tree.order[slot];
             faces.add(triangle);
@@ -27,6 +31,9 @@ LeafFeatures::LeafFeatures(const Tree& tree, const SurfaceView& surface,
         for (FeatureRuns* runs : {&faces, &edges, &vertices})
             runs->end_leaf();
     }
+}
+
+void LeafFeatures::allocate_boxes() {
     for (FeatureRuns* runs : {&faces, &edges, &vertices})
         runs->allocate_boxes();
 }

@@ -18,6 +18,10 @@ static_assert(3 * TriangleLeaf::kLanes <= MovingBoxRun::kMost, "a leaf's edges a
 /// Features of one kind, leaf by leaf, and boxes of them.
 class FeatureRuns {
 public:
+    void reserve(std::size_t leaves, std::size_t features) {
+        begin_.reserve(leaves + 1);
+        ids_.reserve(features);
+    }
     void add(std::uint32_t id) { ids_.push_back(id); }
     /// What was added since the last end belongs to the next leaf.
     void end_leaf() { begin_.push_back(static_cast<std::uint32_t>(ids_.size())); }
@@ -75,9 +79,11 @@ struct LeafFeatures {
     FeatureRuns faces, edges, vertices;
 
     LeafFeatures() = default;
+    /// Without boxes.
     LeafFeatures(const Tree& tree, const SurfaceView& surface,
                  std::span<const Represented> represented);
 
+    void allocate_boxes();
     [[nodiscard]] std::size_t bytes() const {
         return faces.bytes() + edges.bytes() + vertices.bytes();
     }

@@ -30,14 +30,27 @@ SurfaceFeatures make_surface_features(std::size_t vertices,
         sides[next[higher]++] = {lower, side};
     });
 
+    // Those with one other vertex side by side.
+    const auto is_new = [](const Side* first, const Side* side) {
+        return side == first || side->lower != (side - 1)->lower;
+    };
+    std::size_t edges = 0;
+    for (std::size_t higher = 0; higher < vertices; ++higher) {
+        Side *const first = sides.data() + begin[higher], *const last =
+                                                              sides.data() + begin[higher + 1];
+        std::sort(first, last, [](const Side& a, const Side& b) { return a.lower < b.lower; });
+        for (const Side* side = first; side != last; ++side)
+            edges += is_new(first, side) ? 1 : 0;
+    }
+
     SurfaceFeatures features;
-    features.edges.reserve(sides.size() / 2);
+    features.edges.reserve(edges);
     features.edges_of.assign(triangles.size(), {kNoEdge, kNoEdge, kNoEdge});
     for (std::uint32_t higher = 0; higher < vertices; ++higher) {
-        const auto first = sides.begin() + begin[higher], last = sides.begin() + begin[higher + 1];
-        std::sort(first, last, [](const Side& a, const Side& b) { return a.lower < b.lower; });
-        for (auto side = first; side != last; ++side) {
-            if (side == first || side->lower != (side - 1)->lower)
+        const Side *const first = sides.data() + begin[higher], *const last = sides.data() +
+                                                                              begin[higher + 1];
+        for (const Side* side = first; side != last; ++side) {
+            if (is_new(first, side))
                 features.edges.push_back({side->lower, higher});
             features.edges_of[side->side / 3][side->side % 3] =
                 static_cast<std::uint32_t>(features.edges.size() - 1);
