@@ -20,6 +20,17 @@ constexpr double kMostLooseness = 1.3;
 /// Vertices or triangles that a thread takes at once.
 constexpr std::size_t kGrain = 4096;
 
+std::vector<Aabb> swept_vertex_boxes(std::span<const MovingVertex> vertices) {
+    std::vector<Aabb> boxes(vertices.size());
+    parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
+        Box3 box;
+        extend(box, vertices[i].start);
+        extend(box, vertices[i].end);
+        boxes[i] = Aabb(box);
+    });
+    return boxes;
+}
+
 std::vector<Aabb> swept_boxes(std::span<const IndexTriangle> triangles,
                               std::span<const MovingVertex> vertices) {
     std::vector<Aabb> boxes(triangles.size());
@@ -34,23 +45,20 @@ std::vector<Aabb> swept_boxes(std::span<const IndexTriangle> triangles,
     return boxes;
 }
 
-/// What vertices move between until a time.
-std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, double until) {
-    const auto box_of = [](const Vec3& p, double margin) { return Aabb(Box3{p, p}, margin); };
-    std::vector<MovingBox> boxes(vertices.size());
+/// Around where vertices are at a time.
+std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, double time) {
+    std::vector<Aabb> boxes(vertices.size());
     parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
         const MovingVertex& v = vertices[i];
-        boxes[i].start = box_of(v.start, 0);
-        if (until == 1) {
-            boxes[i].end = box_of(v.end, 0);
-        } else if (until == 0) {
-            boxes[i].end = boxes[i].start;
-        } else {
-            // Off by 3 roundings of the larger end at most.
-            const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end));
-            boxes[i].end = box_of((1 - until) * v.start + until * v.end,
-                                  0x1p-50 * std::max({size.x, size.y, size.z}));
+        if (time == 0 || time == 1) {
+            const Vec3& p = time == 0 ? v.start : v.end;
+            boxes[i] = Aabb(Box3{p, p});
+            return;
         }
+        // Off by 3 roundings of the larger end at most.
+        const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end)),
+                   p = (1 - time) * v.start + time * v.end;
+        boxes[i] = Aabb(Box3{p, p}, 0x1p-50 * std::max({size.x, size.y, size.z}));
     });
     return boxes;
 }
@@ -58,10 +66,13 @@ std::vector<MovingBox> vertex_boxes(std::span<const MovingVertex> vertices, doub
 } // namespace
 
 void refit(SweptTree& swept, const DeformableData& data, double until) {
-    const std::vector<MovingBox> boxes = vertex_boxes(data.vertices, until);
     const SurfaceView surface = data.surface();
-    fit(swept.tree,
-        [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, surface, boxes); });
+    for (const StepEnd end : kStepEnds) {
+        const std::vector<Aabb> boxes =
+            vertex_boxes(data.vertices, end == StepEnd::start ? 0 : until);
+        fit(swept.tree, end,
+            [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, end, surface, boxes); });
+    }
 }
 
 DeformableData::DeformableData() = default;
@@ -91,20 +102,22 @@ void DeformableData::build() {
         features.edges_of = std::vector<IndexTriangle>(); // `{}` would keep its memory
     swept.leaves.allocate_boxes();
     if (options.scheme == Scheme::features)
-        feature_trees = std::make_unique<FeatureTrees>(surface(), vertex_boxes(vertices, 1));
+        feature_trees = std::make_unique<FeatureTrees>(surface(), swept_vertex_boxes(vertices));
     fit_boxes();
     looseness_when_built_ = looseness();
 }
 
 void DeformableData::fit_boxes() {
     abut::refit(swept, *this, 1);
+    if (feature_trees)
+        for (const StepEnd end : kStepEnds)
+            feature_trees->fit(surface(), end,
+                               vertex_boxes(vertices, end == StepEnd::start ? 0 : 1));
     flat_regions.fit(swept.leaves.faces, triangles, vertices);
 }
 
 void DeformableData::refit() {
     fit_boxes();
-    if (feature_trees)
-        feature_trees->refit(surface(), vertex_boxes(vertices, 1));
     if (looseness() > kMostLooseness * looseness_when_built_)
         build();
 }

@@ -11,7 +11,7 @@ namespace {
 /// Calls visit(tree, box_of(id)) for each kind.
 template <typename Visit>
 void for_each_kind(FeatureTrees& trees, const SurfaceView& surface,
-                   std::span<const MovingBox> vertex_boxes, const Visit& visit) {
+                   std::span<const Aabb> vertex_boxes, const Visit& visit) {
     visit(trees.faces, [&](std::size_t id) { return box_of(surface.triangles[id], vertex_boxes); });
     visit(trees.edges,
           [&](std::size_t id) { return box_of(surface.features.edges[id], vertex_boxes); });
@@ -37,16 +37,11 @@ std::vector<std::uint32_t> used_vertices(const SurfaceView& surface) {
 }
 
 template <typename BoxOf>
-void fit(FeatureTree& tree, const BoxOf& box_of) {
-    fit(tree.tree, [&](std::uint32_t leaf) { return fit_run(tree.runs, leaf, box_of); });
-}
-
-template <typename BoxOf>
 void build(FeatureTree& tree, const std::vector<std::uint32_t>& ids, const BoxOf& box_of) {
     std::vector<Aabb> boxes;
     boxes.reserve(ids.size());
     for (const std::uint32_t id : ids)
-        boxes.push_back(box_of(id).swept());
+        boxes.push_back(box_of(id));
     const Tree shape = build_tree(boxes);
     tree.tree = MovingTree(shape);
     for (const NodeRef leaf : leaves_of(shape)) {
@@ -55,12 +50,11 @@ void build(FeatureTree& tree, const std::vector<std::uint32_t>& ids, const BoxOf
         tree.runs.end_leaf();
     }
     tree.runs.allocate_boxes();
-    fit(tree, box_of);
 }
 
 } // namespace
 
-FeatureTrees::FeatureTrees(const SurfaceView& surface, std::span<const MovingBox> vertex_boxes) {
+FeatureTrees::FeatureTrees(const SurfaceView& surface, std::span<const Aabb> vertex_boxes) {
     for_each_kind(*this, surface, vertex_boxes, [&](FeatureTree& tree, const auto& box_of) {
         build(tree,
               &tree == &vertices ? used_vertices(surface)
@@ -70,9 +64,12 @@ FeatureTrees::FeatureTrees(const SurfaceView& surface, std::span<const MovingBox
     });
 }
 
-void FeatureTrees::refit(const SurfaceView& surface, std::span<const MovingBox> vertex_boxes) {
-    for_each_kind(*this, surface, vertex_boxes,
-                  [](FeatureTree& tree, const auto& box_of) { fit(tree, box_of); });
+void FeatureTrees::fit(const SurfaceView& surface, StepEnd end,
+                       std::span<const Aabb> vertex_boxes) {
+    for_each_kind(*this, surface, vertex_boxes, [&](FeatureTree& tree, const auto& box_of) {
+        abut::fit(tree.tree, end,
+                  [&](std::uint32_t leaf) { return fit_run(tree.runs, leaf, end, box_of); });
+    });
 }
 
 } // namespace abut

@@ -22,8 +22,10 @@ struct FeatureTree {
 struct FeatureTrees {
     FeatureTree faces, edges, vertices;
 
-    FeatureTrees(const SurfaceView& surface, std::span<const MovingBox> vertex_boxes);
-    void refit(const SurfaceView& surface, std::span<const MovingBox> vertex_boxes);
+    /// By the vertices' swept boxes; all boxes are to be fitted.
+    FeatureTrees(const SurfaceView& surface, std::span<const Aabb> vertex_boxes);
+    /// Sets the boxes at one end to those of the vertices there.
+    void fit(const SurfaceView& surface, StepEnd end, std::span<const Aabb> vertex_boxes);
 
     [[nodiscard]] std::size_t bytes() const {
         return faces.bytes() + edges.bytes() + vertices.bytes();

@@ -38,12 +38,12 @@ void LeafFeatures::allocate_boxes() {
         runs->allocate_boxes();
 }
 
-MovingBox fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,
-                   std::span<const MovingBox> vertex_boxes) {
-    fit_run(leaves.edges, leaf,
+Aabb fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, StepEnd end, const SurfaceView& surface,
+              std::span<const Aabb> vertex_boxes) {
+    fit_run(leaves.edges, leaf, end,
             [&](std::uint32_t id) { return box_of(surface.features.edges[id], vertex_boxes); });
-    fit_run(leaves.vertices, leaf, [&](std::uint32_t id) { return vertex_boxes[id]; });
-    return fit_run(leaves.faces, leaf,
+    fit_run(leaves.vertices, leaf, end, [&](std::uint32_t id) { return vertex_boxes[id]; });
+    return fit_run(leaves.faces, leaf, end,
                    [&](std::uint32_t id) { return box_of(surface.triangles[id], vertex_boxes); });
 }
 

@@ -43,25 +43,16 @@ public:
     [[nodiscard]] MovingBoxRun run(std::uint32_t leaf) const {
         return {rows_.data() + MovingBoxRun::kRows * begin_[leaf], ids(leaf), count(leaf)};
     }
-    void set_box(std::uint32_t leaf, std::uint32_t k, const MovingBox& box) {
-        float* row = rows_.data() + MovingBoxRun::kRows * begin_[leaf] + k;
-        for (const Aabb& bounds : {box.start, box.end})
-            for (const auto& side : {bounds.lower, bounds.upper})
-                for (const float bound : side) {
-                    *row = bound;
-                    row += count(leaf);
-                }
+    void set_box(std::uint32_t leaf, std::uint32_t k, StepEnd end, const Aabb& box) {
+        float* rows = rows_.data() + MovingBoxRun::kRows * begin_[leaf];
+        set_bounds(rows + first_bound(end, count(leaf), k), count(leaf), box);
     }
     [[nodiscard]] MovingBox box(std::uint32_t leaf, std::uint32_t k) const {
-        MovingBox box;
-        const float* row = rows_.data() + MovingBoxRun::kRows * begin_[leaf] + k;
-        for (Aabb* bounds : {&box.start, &box.end})
-            for (auto* side : {&bounds->lower, &bounds->upper})
-                for (float& bound : *side) {
-                    bound = *row;
-                    row += count(leaf);
-                }
-        return box;
+        const float* rows = rows_.data() + MovingBoxRun::kRows * begin_[leaf];
+        const auto at = [&](StepEnd end) {
+            return bounds_from(rows + first_bound(end, count(leaf), k), count(leaf));
+        };
+        return {at(StepEnd::start), at(StepEnd::end)};
     }
     [[nodiscard]] std::size_t bytes() const {
         return begin_.size() * sizeof(begin_[0]) + ids_.size() * sizeof(ids_[0]) +
@@ -94,28 +85,28 @@ std::vector<NodeRef> leaves_of(const Tree& tree);
 
 /// The box of some vertices.
 template <std::size_t n>
-MovingBox box_of(const std::array<std::uint32_t, n>& vertices,
-                 std::span<const MovingBox> vertex_boxes) {
-    MovingBox box = vertex_boxes[vertices[0]];
+Aabb box_of(const std::array<std::uint32_t, n>& vertices, std::span<const Aabb> vertex_boxes) {
+    Aabb box = vertex_boxes[vertices[0]];
     for (std::size_t i = 1; i < n; ++i)
         box.merge(vertex_boxes[vertices[i]]);
     return box;
 }
 
-/// Gives each feature of a leaf the box that `box_of(id)` returns; returns that of all.
+/// Gives each feature of a leaf the box at one end that `box_of(id)` returns; returns that of all.
 template <typename BoxOf>
-MovingBox fit_run(FeatureRuns& runs, std::uint32_t leaf, const BoxOf& box_of) {
-    MovingBox all;
+Aabb fit_run(FeatureRuns& runs, std::uint32_t leaf, StepEnd end, const BoxOf& box_of) {
+    Aabb all;
     for (std::uint32_t k = 0; k < runs.count(leaf); ++k) {
-        const MovingBox box = box_of(runs.ids(leaf)[k]);
-        runs.set_box(leaf, k, box);
+        const Aabb box = box_of(runs.ids(leaf)[k]);
+        runs.set_box(leaf, k, end, box);
         all.merge(box);
     }
     return all;
 }
 
-/// Sets the boxes of a leaf's features to those of their vertices; returns that of its triangles.
-MovingBox fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, const SurfaceView& surface,
-                   std::span<const MovingBox> vertex_boxes);
+/// Sets the boxes of a leaf's features at one end to those of their vertices there; returns that of
+/// its triangles.
+Aabb fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, StepEnd end, const SurfaceView& surface,
+              std::span<const Aabb> vertex_boxes);
 
 } // namespace abut

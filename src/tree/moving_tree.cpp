@@ -8,53 +8,55 @@ MovingTree::MovingTree(const Tree& shape) : nodes(shape.nodes.size()) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
         for (std::size_t lane = 0; lane < MovingNode::kWidth; ++lane) {
             nodes[i].child[lane] = shape.nodes[i].child[lane];
-            moving_tree::set_box(nodes[i], lane, {});
+            for (const StepEnd end : kStepEnds)
+                moving_tree::set_box(nodes[i], lane, end, {});
         }
 }
 
 namespace moving_tree {
 
-void set_box(MovingNode& node, std::size_t lane, const MovingBox& box) {
-    std::size_t row = 0;
-    for (const Aabb& end : {box.start, box.end})
-        for (const auto& side : {end.lower, end.upper})
-            for (const float bound : side)
-                node.rows[row++][lane] = bound;
-}
+namespace {
 
-MovingBox box_of(const MovingNode& node, std::size_t lane) {
-    MovingBox box;
-    std::size_t row = 0;
-    for (Aabb* end : {&box.start, &box.end})
-        for (auto* side : {&end->lower, &end->upper})
-            for (float& bound : *side)
-                bound = node.rows[row++][lane];
-    return box;
-}
-
-MovingBox bounds_of(const MovingNode& node) {
-    MovingBox box;
-    std::size_t row = 0;
-    for (Aabb* end : {&box.start, &box.end}) {
-        for (float& bound : end->lower) {
-            bound = *std::min_element(node.rows[row], node.rows[row] + MovingNode::kWidth);
-            ++row;
-        }
-        for (float& bound : end->upper) {
-            bound = *std::max_element(node.rows[row], node.rows[row] + MovingNode::kWidth);
-            ++row;
-        }
+Aabb bounds_of(const MovingNode& node, StepEnd end) {
+    Aabb box;
+    const auto* row = node.rows + (end == StepEnd::start ? 0 : MovingBoxRun::kEnd);
+    for (float& bound : box.lower) {
+        bound = *std::min_element(*row, *row + MovingNode::kWidth);
+        ++row;
+    }
+    for (float& bound : box.upper) {
+        bound = *std::max_element(*row, *row + MovingNode::kWidth);
+        ++row;
     }
     return box;
 }
 
-void fit_inner(MovingTree& tree) {
+} // namespace
+
+void set_box(MovingNode& node, std::size_t lane, StepEnd end, const Aabb& box) {
+    set_bounds(&node.rows[0][0] + first_bound(end, MovingNode::kWidth, lane), MovingNode::kWidth,
+               box);
+}
+
+MovingBox box_of(const MovingNode& node, std::size_t lane) {
+    const auto at = [&](StepEnd end) {
+        return bounds_from(&node.rows[0][0] + first_bound(end, MovingNode::kWidth, lane),
+                           MovingNode::kWidth);
+    };
+    return {at(StepEnd::start), at(StepEnd::end)};
+}
+
+MovingBox bounds_of(const MovingNode& node) {
+    return {bounds_of(node, StepEnd::start), bounds_of(node, StepEnd::end)};
+}
+
+void fit_inner(MovingTree& tree, StepEnd end) {
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
         MovingNode& node = tree.nodes[i];
         for (std::size_t lane = 0; lane < MovingNode::kWidth; ++lane) {
             const NodeRef child = node.child[lane];
             if (!child.is_none() && !child.is_leaf())
-                set_box(node, lane, bounds_of(tree.nodes[child.index()]));
+                set_box(node, lane, end, bounds_of(tree.nodes[child.index()], end));
         }
     }
 }

@@ -41,33 +41,33 @@ inline std::uint32_t leaf_number(NodeRef leaf) {
     return leaf.first() / TriangleLeaf::kLanes;
 }
 
-/// Gives all nodes the boxes of their leaves, which `leaf_box(number)` returns, and what encloses
-/// them. It is called from any thread.
+/// Gives all nodes the boxes of their leaves at one end, which `leaf_box(number)` returns, and what
+/// encloses them. It is called from any thread.
 ///
 /// Cost        O(n), the leaves in parallel.
 template <typename LeafBox>
-void fit(MovingTree& tree, const LeafBox& leaf_box);
+void fit(MovingTree& tree, StepEnd end, const LeafBox& leaf_box);
 
 namespace moving_tree {
 
-void set_box(MovingNode& node, std::size_t lane, const MovingBox& box);
+void set_box(MovingNode& node, std::size_t lane, StepEnd end, const Aabb& box);
 MovingBox box_of(const MovingNode& node, std::size_t lane);
 /// Of all children.
 MovingBox bounds_of(const MovingNode& node);
 /// Takes the boxes of nodes that are not leaves from the nodes below.
-void fit_inner(MovingTree& tree);
+void fit_inner(MovingTree& tree, StepEnd end);
 
 } // namespace moving_tree
 
 template <typename LeafBox>
-void fit(MovingTree& tree, const LeafBox& leaf_box) {
+void fit(MovingTree& tree, StepEnd end, const LeafBox& leaf_box) {
     parallel_for(tree.nodes.size(), 256, [&](std::size_t i) {
         MovingNode& node = tree.nodes[i];
         for (std::size_t lane = 0; lane < MovingNode::kWidth; ++lane)
             if (!node.child[lane].is_none() && node.child[lane].is_leaf())
-                moving_tree::set_box(node, lane, leaf_box(leaf_number(node.child[lane])));
+                moving_tree::set_box(node, lane, end, leaf_box(leaf_number(node.child[lane])));
     });
-    moving_tree::fit_inner(tree);
+    moving_tree::fit_inner(tree, end);
 }
 
 } // namespace abut

@@ -10,14 +10,17 @@
 
 namespace abut {
 
+/// The two ends of a motion.
+enum class StepEnd : std::uint8_t { start, end };
+inline constexpr std::array kStepEnds{StepEnd::start, StepEnd::end};
+
 /// Boxes of something whose points move in straight lines, at both ends of their motion. Two of them
 /// meet at no time if along one axis one is below the other at the start and at the end.
 struct MovingBox {
     Aabb start, end;
 
-    void merge(const MovingBox& other) {
-        start.merge(other.start);
-        end.merge(other.end);
+    [[nodiscard]] const Aabb& at(StepEnd step_end) const {
+        return step_end == StepEnd::start ? start : end;
     }
     /// What it stays within.
     [[nodiscard]] Aabb swept() const {
@@ -46,6 +49,28 @@ struct MovingBoxRun {
     /// A bit for each.
     [[nodiscard]] std::uint32_t all() const { return (1U << count) - 1; }
 };
+
+/// Where the bounds of box k at one end begin, in rows that are `count` apart.
+inline std::size_t first_bound(StepEnd end, std::size_t count, std::size_t k) {
+    return (end == StepEnd::start ? 0 : MovingBoxRun::kEnd) * count + k;
+}
+/// Six bounds, a row each, from the first on.
+inline void set_bounds(float* bound, std::size_t count, const Aabb& box) {
+    for (const auto& side : {box.lower, box.upper})
+        for (const float value : side) {
+            *bound = value;
+            bound += count;
+        }
+}
+inline Aabb bounds_from(const float* bound, std::size_t count) {
+    Aabb box;
+    for (auto* side : {&box.lower, &box.upper})
+        for (float& value : *side) {
+            value = *bound;
+            bound += count;
+        }
+    return box;
+}
 
 /// One of a run.
 struct MovingBoxRef {
