@@ -31,6 +31,15 @@ double wall_seconds() {
     return std::chrono::duration<double>(now).count();
 }
 
+double clock_seconds() {
+    std::vector<double> seconds;
+    for (int i = 0; i < 1000; ++i) {
+        const double start = wall_seconds();
+        seconds.push_back(wall_seconds() - start);
+    }
+    return median(std::move(seconds));
+}
+
 double median(std::vector<double> values) {
     if (values.empty())
         return 0;

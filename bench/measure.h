@@ -10,6 +10,8 @@ namespace abut::bench {
 double thread_seconds();
 /// Seconds on the wall.
 double wall_seconds();
+/// What two readings of the wall's clock are apart when nothing lies between them.
+double clock_seconds();
 
 /// Seconds that all threads of this process have computed.
 double process_seconds();

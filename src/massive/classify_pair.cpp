@@ -5,6 +5,7 @@
 #include "rigid/contacts.h"
 #include "rigid/local_penetration.h"
 #include "rigid/meeting.h"
+#include "rigid/separating_plane.h"
 
 #include <algorithm>
 #include <limits>
@@ -127,6 +128,8 @@ std::optional<Clash> apart(const ClashPart& a, const ClashPart& b, const PlacedP
 
 std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, double clearance,
                                    double touch) {
+    if (far_apart(a.model.data(), a.world_from_mesh, b.model.data(), b.world_from_mesh, clearance))
+        return std::nullopt;
     Counters counters;
     const PlacedPair pair(a.model, a.world_from_mesh, b.model, b.world_from_mesh);
     std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);

@@ -1,6 +1,7 @@
 #include "geometry/triangle_triangle_segment.h"
 #include "math/predicates.h"
 #include "rigid/contacts.h"
+#include "rigid/separating_plane.h"
 
 #include <algorithm>
 
@@ -61,6 +62,8 @@ Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options) {
     Contacts result;
+    if (far_apart(a.data(), world_from_a, b.data(), world_from_b, 0))
+        return result;
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     Workspace* const workspace = options.mode == ContactMode::first ? options.workspace : nullptr;
     if (workspace != nullptr && workspace->used && still_meet(pair, workspace->last)) {

@@ -6,6 +6,7 @@
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
 #include "rigid/placed_pair.h"
+#include "rigid/separating_plane.h"
 #include "rigid/signed_gap.h"
 
 #include <algorithm>
@@ -152,6 +153,11 @@ void require_bound(double bound, const char* what) {
         throw Error(ErrorCode::bad_argument, std::string(what) + " must not be negative");
 }
 
+void report_beyond(double bound, Gap& gap) {
+    gap.distance = gap.at_least = bound;
+    gap.status = Status::bound_only;
+}
+
 } // namespace
 
 Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
@@ -170,8 +176,7 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     finder.report(gap);
     gap.at_least = gap.distance;
     if (!finder.found()) {
-        gap.distance = gap.at_least = options.upper_bound;
-        gap.status = Status::bound_only;
+        report_beyond(options.upper_bound, gap);
     } else if (slack.any() && gap.distance > 0) {
         gap.at_least = slack.least_of_interest(gap.distance);
         gap.status = Status::converged;
@@ -189,6 +194,12 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
     require_bound(options.relative_error, "relative error");
     if (options.signed_distance)
         return signed_gap(a, world_from_a, b, world_from_b, options);
+    if (std::isfinite(options.upper_bound) &&
+        far_apart(a.data(), world_from_a, b.data(), world_from_b, options.upper_bound)) {
+        Gap gap;
+        report_beyond(options.upper_bound, gap);
+        return gap;
+    }
     return distance(PlacedPair(a, world_from_a, b, world_from_b), options);
 }
 
@@ -197,6 +208,8 @@ bool within(const Model& a, const Transform& world_from_a, const Model& b,
     require_bound(tolerance, "tolerance");
     if (tolerance == 0) // whether they meet is exact, a distance is not
         return collide(a, world_from_a, b, world_from_b, {.workspace = workspace}).any();
+    if (far_apart(a.data(), world_from_a, b.data(), world_from_b, tolerance))
+        return false;
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     NearestPairFinder finder(pair, tolerance, true);
     if (workspace != nullptr && workspace->used && finder.begin_with(workspace->last))

@@ -51,6 +51,7 @@ ModelData::ModelData(Mesh mesh, const ModelOptions& options)
     tree_ = build_tree(TreeMesh{positions, mesh_.triangles}, options.volume != Volume::aabb);
     volumes_ = build_volume_tree(options.volume, tree_, {positions, mesh_.triangles});
     sort_vertices();
+    support_ = SupportBound(vertices_);
 }
 
 void ModelData::sort_vertices() {

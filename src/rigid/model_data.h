@@ -8,6 +8,7 @@
 #include "rigid/solid.h"
 #include "tree/tree.h"
 #include "tree/volume_tree.h"
+#include "volume/support_bound.h"
 
 #include <array>
 #include <cstdint>
@@ -29,6 +30,8 @@ public:
     [[nodiscard]] const ModelOptions& options() const { return options_; }
     /// The volumes that were asked for in place of the tree's boxes; null if none were.
     [[nodiscard]] const VolumeTree* volumes() const { return volumes_.get(); }
+    /// How far the triangles reach, in the mesh's frame.
+    [[nodiscard]] const SupportBound& support() const { return support_; }
     /// Rigid to rounding, and a power of two in scale: the tree is about as large as 1.
     [[nodiscard]] const Transform& model_from_tree() const { return model_from_tree_; }
     /// Mesh index of the triangle in a slot of the tree.
@@ -54,6 +57,7 @@ private:
 
     Mesh mesh_;
     ModelOptions options_;
+    SupportBound support_{{}};
     Transform model_from_tree_;
     Tree tree_;
     std::unique_ptr<const VolumeTree> volumes_;

@@ -1,0 +1,83 @@
+#include "rigid/separating_plane.h"
+
+#include "math/transform.h"
+
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+constexpr int kDirections = 4;
+/// Nothing that is not smaller is lost where products underflow.
+constexpr double kSmallest = 0x1p-900;
+
+double size_sum(const Vec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+/// A model's support in the world.
+class PlacedSupport {
+public:
+    PlacedSupport(const SupportBound& support, const Transform& world)
+        : support_(support), world_(world), middle_(apply(world, support.middle())) {}
+
+    [[nodiscard]] const Vec3& middle() const { return middle_; }
+
+    /// A direction of the world as the model sees it.
+    [[nodiscard]] Vec3 seen(const Vec3& n) const {
+        const auto& m = world_.m;
+        return {m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
+                m[6] * n.x + m[7] * n.y + m[8] * n.z};
+    }
+    /// From the middle, along a direction that the model sees: as SupportBound.
+    [[nodiscard]] double height(const Vec3& seen) const { return support_.height(seen); }
+    [[nodiscard]] Vec3 support(const Vec3& seen) const {
+        return apply_linear(world_, support_.support(seen));
+    }
+
+    /// No world coordinate, and no sum on the way to one, is larger.
+    [[nodiscard]] double reach() const {
+        double entries = 0;
+        for (std::size_t i = 0; i < 9; ++i)
+            entries += std::abs(world_.m[i]);
+        return entries * (support_.size() + size_sum(support_.middle())) +
+               size_sum({world_.m[9], world_.m[10], world_.m[11]});
+    }
+
+private:
+    const SupportBound& support_;
+    const Transform& world_;
+    Vec3 middle_;
+};
+
+/// The point of the segment nearest to the origin.
+Vec3 nearest_to_origin(const Vec3& p, const Vec3& q) {
+    const Vec3 along = q - p;
+    const double share = -dot(p, along) / length_sq(along);
+    return p + std::min(1.0, share) * along;
+}
+
+} // namespace
+
+bool far_apart(const ModelData& model_a, const Transform& world_from_a, const ModelData& model_b,
+               const Transform& world_from_b, double gap) {
+    const PlacedSupport a(model_a.support(), world_from_a), b(model_b.support(), world_from_b);
+    const Vec3 between = b.middle() - a.middle();
+    const double margin = 0x1p-46 * (a.reach() + b.reach());
+    Vec3 nearest = between;
+    for (int i = 0; i < kDirections; ++i) {
+        const Vec3 n = nearest, n_a = a.seen(n), n_b = b.seen(-n);
+        const double apart = dot(n, between) - a.height(n_a) - b.height(n_b) - margin * size_sum(n);
+        const double n_sq = length_sq(n);
+        if (!(apart > kSmallest) || !(n_sq > kSmallest))
+            return false;
+        if (apart * apart > gap * gap * n_sq * (1 + 0x1p-40))
+            return true;
+        const Vec3 point = between + b.support(n_b) - a.support(n_a);
+        nearest = nearest_to_origin(nearest, point);
+    }
+    return false;
+}
+
+} // namespace abut

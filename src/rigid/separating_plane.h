@@ -1,0 +1,20 @@
+#pragma once
+
+#include <abut/types.h>
+
+#include "rigid/model_data.h"
+
+namespace abut {
+
+/// Whether a plane between two models proves that they are farther apart than `gap`; false says
+/// nothing. Any transforms, also singular ones.
+///
+/// In          gap >= 0.
+/// Accuracy    proven for world positions as abut/types.h computes them.
+/// Cost        some 30 ns, up to four times that where the first plane is not one.
+/// Source      the directions: [Gilbert 1966], steps towards the nearest point of a difference of
+///             convex sets; of the models' 26-DOPs here.
+bool far_apart(const ModelData& a, const Transform& world_from_a, const ModelData& b,
+               const Transform& world_from_b, double gap);
+
+} // namespace abut
