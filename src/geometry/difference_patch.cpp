@@ -12,9 +12,10 @@ Vec3 scaled_down(const Vec3& v) {
     return largest > 0 ? Vec3{v.x / largest, v.y / largest, v.z / largest} : Vec3{};
 }
 
-/// Of the second feature's point of impact, as seen from the first's.
+/// An eighth, so that none of it overflows, of the velocity of the second feature's point of impact as
+/// seen from the first's.
 Vec3 relative_velocity(const ElementaryPair& pair, const std::array<double, 3>& b) {
-    const auto way = [&](std::size_t i) { return pair.end[i] - pair.start[i]; };
+    const auto way = [&](std::size_t i) { return 0.125 * pair.end[i] - 0.125 * pair.start[i]; };
     if (pair.kind == ElementaryKind::vertex_face)
         return b[0] * (way(1) - way(0)) + b[1] * (way(2) - way(0)) + b[2] * (way(3) - way(0));
     return (1 - b[1]) * way(2) + b[1] * way(3) - ((1 - b[0]) * way(0) + b[0] * way(1));

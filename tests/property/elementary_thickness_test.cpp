@@ -260,7 +260,7 @@ TEST(ElementaryThickness, AnySizeOfCoordinates) {
         ASSERT_EQ(one.time, two.time) << d << pair;
         // Of touching features it depends on a velocity, which loses digits to underflow.
         if (exponent >= -1000) {
-            ASSERT_EQ(one.normal, two.normal) << d << pair;
+            ASSERT_EQ(one.normal, two.normal) << exponent << ' ' << d << pair;
         }
     }
     // Sizes far apart.
