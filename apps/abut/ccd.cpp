@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <memory>
 
 namespace abut::command {
@@ -81,7 +82,7 @@ public:
         CcdStep step;
         step.from = from;
         step.to = to;
-        const Mesh frame = read_frame(to);
+        Mesh frame = read_frame(to);
         const std::string change = topology_change(surface_, frame);
         step.topology_changed = !change.empty();
         if (step.topology_changed && !allow_topology_changes_)
@@ -89,10 +90,12 @@ public:
                 ErrorCode::bad_mesh, to,
                 fmt::format("has {} as {} has (see --allow-topology-changes)", change, from));
         const Stopwatch refit;
-        if (step.topology_changed)
-            surface_.set_mesh(frame);
-        else
+        if (step.topology_changed) {
+            surface_.set_mesh(std::move(frame));
+        } else {
+            std::vector<std::array<std::uint32_t, 3>>().swap(frame.triangles); // the surface's
             surface_.advance(frame.positions);
+        }
         step.seconds_refit = refit.seconds();
         if (!step.topology_changed)
             detect(step);
@@ -131,8 +134,13 @@ private:
     std::size_t steps_ = 0;
 };
 
+/// Large blocks that are freed go back to the system at once; else a sequence would need as much more
+/// as its largest temporary blocks are.
+constexpr int kLargeBlock = 1 << 20;
+
 int run(const CcdArguments& arguments, const CommonOptions& common) {
     const Stopwatch watch;
+    mallopt(M_MMAP_THRESHOLD, kLargeBlock);
     const std::vector<std::string> frames = frame_files(arguments.frames);
     ProgressBar bar(common.progress_style());
     bar.show("steps", 0);

@@ -114,7 +114,7 @@ public:
     ///             that no triangle uses take no part.
     /// Errors      Error{bad_mesh} as `Model`.
     /// Cost        O(n log n).
-    explicit Deformable(const Mesh& mesh, const DeformableOptions& options = {});
+    explicit Deformable(Mesh mesh, const DeformableOptions& options = {});
     ~Deformable();
     Deformable(Deformable&&) noexcept;
     Deformable& operator=(Deformable&&) noexcept;
@@ -134,7 +134,7 @@ public:
     ///
     /// Errors      Error{bad_mesh} as the constructor; nothing has changed then.
     /// Cost        O(n log n).
-    void set_mesh(const Mesh& mesh);
+    void set_mesh(Mesh mesh);
 
     /// Moves the vertices and edges of triangles that met something to other triangles of theirs that
     /// did not. For Assignment::adaptive, from time to time; changes no answer.

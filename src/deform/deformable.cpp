@@ -153,16 +153,16 @@ double DeformableData::looseness() const {
     return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-Deformable::Deformable(const Mesh& mesh, const DeformableOptions& options)
+Deformable::Deformable(Mesh mesh, const DeformableOptions& options)
     : data_(std::make_unique<DeformableData>()) {
     data_->options = options;
-    set_mesh(mesh);
+    set_mesh(std::move(mesh));
 }
 Deformable::~Deformable() = default;
 Deformable::Deformable(Deformable&&) noexcept = default;
 Deformable& Deformable::operator=(Deformable&&) noexcept = default;
 
-void Deformable::set_mesh(const Mesh& mesh) {
+void Deformable::set_mesh(Mesh mesh) {
     require_valid(mesh);
     DeformableData& d = *data_;
     SurfaceFeatures features = make_surface_features(mesh.positions.size(), mesh.triangles);
@@ -177,12 +177,13 @@ void Deformable::set_mesh(const Mesh& mesh) {
                 represented[i] = d.represented[i];
         complete_assignment(surface, represented);
     }
-    d.triangles = mesh.triangles;
+    d.triangles = std::move(mesh.triangles);
     d.features = std::move(features);
     d.represented = std::move(represented);
     d.vertices.resize(mesh.positions.size());
     for (std::size_t i = 0; i < d.vertices.size(); ++i)
         d.vertices[i] = {mesh.positions[i], mesh.positions[i]};
+    mesh = Mesh(); // what it needs no more goes before the hierarchy comes
     d.build();
 }
 
