@@ -88,7 +88,7 @@ public:
 
     /// Times of which the first contact is one (or it is 0), if the origin always lies in the plane
     /// of the patch: what holds it is decided by the signs of these polynomials, and the times of
-    /// contact are a closed set.
+    /// contact are a closed set. In order, but for those in the same cell of kTimeLevel.
     [[nodiscard]] std::vector<UnitRoot> times_of_change() const {
         std::vector<UnitRoot> times;
         const auto add = [&](const PolynomialVec3& polynomials) {
@@ -201,6 +201,11 @@ ElementaryImpact impact_at(const ElementaryPair& pair, const UnitRoot& time,
     return impact;
 }
 
+/// Where the cell of kTimeLevel begins in which a time lies.
+double cell_begin(double time) {
+    return std::ldexp(std::floor(std::ldexp(time, kTimeLevel)), -int{kTimeLevel});
+}
+
 std::vector<UnitRoot> times_to_examine(const ExactPatch& patch) {
     if (!patch.coplanarity().is_zero())
         return unit_roots(patch.coplanarity());
@@ -218,6 +223,9 @@ ElementaryImpact elementary_impact_exact(const ElementaryPair& pair) {
         if (const auto point = patch.origin_at(time)) {
             time.refine(kTimeLevel);
             impact = impact_at(pair, time, *point);
+            // Another time of this cell may have been the first.
+            if (patch.coplanarity().is_zero())
+                impact.time = cell_begin(impact.time);
             break;
         }
     impact.decided_by = ElementaryStage::exact;

@@ -185,6 +185,20 @@ TEST(EdgeEdge, ParallelOnes) {
     expect_hit(impact(kEdges, line, line_end), 0.5);
 }
 
+// Found by the soak: in a plane, ends meet edges at times 1.6e-14 from each other.
+TEST(EdgeEdge, OfTimesNextToEachOtherNoneIsLate) {
+    const Points start{Vec3{-0x1.e3423e3c65332p-2, -0x1.b273132125cfap-1, 0},
+                       Vec3{0x1.25a2975b6621p+0, -0x1.0f0d13dbb7bdp-2, 0},
+                       Vec3{-0x1.e3423e3c65332p-2, -0x1.b273132125cf9p-1, 0},
+                       Vec3{0x1.8bfa100c66adap-1, 0x1.cf7ab0692cebp-2, 0}};
+    const Points end{Vec3{-0x1.e3ffe871f53d4p-2, -0x1.b0c7132532c2ap-1, 0},
+                     Vec3{0x1.26677722b850cp+0, -0x1.102e8aafbee0ep-2, 0},
+                     Vec3{-0x1.e321eb4397028p-2, -0x1.b16d7db1a458dp-1, 0},
+                     Vec3{0x1.8c9a1a53ce73ap-1, 0x1.cf7cd11de9c9fp-2, 0}};
+    // By rational arithmetic: apart at 7e-14, together then.
+    expect_hit(impact(kEdges, start, end), 7.1054e-14);
+}
+
 TEST(EdgeEdge, EdgesWithoutLength) {
     const Points start{Vec3{0, 0, 1}, Vec3{0, 0, 1}, Vec3{0, -1, 0}, Vec3{0, 1, 0}};
     Points end = start;
