@@ -58,6 +58,12 @@ private:
     std::shared_ptr<const ConvexData> data_;
 };
 
+/// A vertex of each of two bodies.
+struct VertexPair {
+    std::uint32_t a, b;
+    friend bool operator==(const VertexPair&, const VertexPair&) = default;
+};
+
 /// What queries remember of two convex bodies from one pose to the next. A query that is given it
 /// walks on from there: the answer is the same, but for which of several closest pairs is found.
 ///
@@ -65,8 +71,8 @@ private:
 struct ConvexWorkspace {
     enum class Kind : std::uint8_t { empty, features, simplex };
     Kind kind = Kind::empty;
-    /// features: a vertex and an edge of each, then what of these counts. simplex: vertices.
-    std::array<std::uint32_t, 4> a{}, b{};
+    /// simplex: pairs whose differences hold the origin. features: their vertices, edges, kinds.
+    std::array<VertexPair, 4> pairs{};
 };
 
 /// Work that a query did: the machine-independent part of its cost.

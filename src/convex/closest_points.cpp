@@ -1,18 +1,13 @@
 #include "convex/closest_points.h"
 
 #include <algorithm>
+#include <limits>
 #include <span>
+#include <vector>
 
 namespace abut {
 
 namespace {
-
-void take(ClosestState& state, const WalkState& walked) {
-    state.a = walked.a, state.b = walked.b;
-    state.point_a = walked.point_a, state.gap = walked.gap;
-    state.distance_sq = walked.distance_sq;
-    state.meeting = walked.end == WalkEnd::meeting;
-}
 
 /// The feature whose corners, or some of them, the vertices are. In a face of many corners these
 /// need not be neighbours: then the triangle next to the first that is flattest as seen along n.
@@ -47,49 +42,40 @@ std::vector<std::uint32_t> vertices_of(const DifferenceSimplex& simplex,
 
 } // namespace
 
-ClosestState closest_points(const PolytopePair& pair, const DifferenceSimplex& start,
-                            double rounding) {
-    const SimplexState found = search_simplex(pair, start, rounding);
-    ClosestState state;
-    state.simplices = found.steps;
-    state.simplex = found.simplex;
-    state.point_a = found.point_a, state.gap = found.gap;
-    state.distance_sq = found.distance_sq;
-    state.meeting = found.meeting;
-    if (found.meeting)
-        return state;
-    // The closest features, and the digits that weights lose, come from a walk that begins at them.
-    const auto& weights = found.simplex.weights;
-    const auto heaviest = static_cast<std::size_t>(
-        std::max_element(weights.begin(), weights.begin() + found.simplex.count) - weights.begin());
-    const VertexPair& nearest = found.simplex.corners[heaviest];
-    const WalkState walked =
-        walk(pair, vertex_feature(nearest.a), vertex_feature(nearest.b), rounding);
-    state.feature_pairs = walked.steps;
-    if (walked.end != WalkEnd::stuck) {
-        take(state, walked);
-        return state;
+void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
+                                      ClosestPointSearch& search) {
+    const SimplexState found = search_simplex(pair, search.simplex, rounding);
+    search.simplices += found.steps;
+    search.simplex = found.simplex;
+    WalkState& at = search.at;
+    if (!found.meeting) {
+        // The closest features, and the digits that weights lose, come from a walk that begins at
+        // the vertices nearest to them.
+        const auto& weights = found.simplex.weights;
+        const auto* heaviest =
+            std::max_element(weights.begin(), weights.begin() + found.simplex.count);
+        const auto& nearest =
+            found.simplex.corners[static_cast<std::size_t>(heaviest - weights.begin())];
+        at.a = vertex_feature(nearest.a), at.b = vertex_feature(nearest.b);
+        walk(pair, rounding, at);
+        if (at.end != WalkEnd::stuck)
+            return;
+        at.a = spanned_feature(*pair.a.polytope, pair.a.pulled_back(found.gap),
+                               vertices_of(found.simplex, &VertexPair::a));
+        at.b = spanned_feature(*pair.b.polytope, pair.b.pulled_back(-found.gap),
+                               vertices_of(found.simplex, &VertexPair::b));
     }
-    state.a = spanned_feature(*pair.a.polytope, pair.a.map.pulled_back(found.gap),
-                              vertices_of(found.simplex, &VertexPair::a));
-    state.b = spanned_feature(*pair.b.polytope, pair.b.map.pulled_back(-found.gap),
-                              vertices_of(found.simplex, &VertexPair::b));
-    return state;
+    at.point_a = found.point_a, at.gap = found.gap, at.distance_sq = found.distance_sq;
+    at.end = found.meeting ? WalkEnd::meeting : WalkEnd::closest;
 }
 
-ClosestState closest_points(const PolytopePair& pair, const HullFeature& a, const HullFeature& b,
-                            double rounding) {
-    const WalkState walked = walk(pair, a, b, rounding);
-    if (walked.end == WalkEnd::stuck) {
-        ClosestState state =
-            closest_points(pair, {{{{walked.a.vertex, walked.b.vertex}}}, {}, 1}, rounding);
-        state.feature_pairs += walked.steps;
-        return state;
-    }
-    ClosestState state;
-    take(state, walked);
-    state.feature_pairs = walked.steps;
-    return state;
+void find_closest_points(const PolytopePair& pair, double rounding, ClosestPointSearch& search) {
+    walk(pair, rounding, search.at);
+    if (search.at.end != WalkEnd::stuck)
+        return;
+    search.simplex.corners[0] = {search.at.a.vertex, search.at.b.vertex};
+    search.simplex.count = 1;
+    find_closest_points_from_simplex(pair, rounding, search);
 }
 
 } // namespace abut

@@ -53,14 +53,14 @@ HullLevel coarser(const HullLevel& fine) {
 /// The largest distance of a vertex from a hull inside, a little more for rounding.
 double deviation(std::span<const Vec3> vertices, const HullLevel& level, double rounding) {
     double largest = 0;
+    const Transform unmoved;
+    const Vec3& centre = level.polytope.vertices[0].at;
     for (const Vec3& v : vertices) {
         const Polytope point{{{v, 0, 0}}, {}};
-        const PolytopePair pair(level.polytope, {}, point, {});
-        const Vec3& centre = level.polytope.vertices[0].at;
-        const ClosestState state =
-            closest_points(pair, vertex_feature(level.starts.vertex(v - centre)), vertex_feature(0),
-                           rounding);
-        largest = std::max(largest, std::sqrt(state.distance_sq));
+        ClosestPointSearch search;
+        search.at.a = vertex_feature(level.starts.vertex(v - centre));
+        find_closest_points({level.polytope, unmoved, point, unmoved}, rounding, search);
+        largest = std::max(largest, std::sqrt(search.at.distance_sq));
     }
     return largest + 8 * rounding;
 }

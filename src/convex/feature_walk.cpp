@@ -22,16 +22,16 @@ struct Measured {
     Corners a = 1, b = 1;
 };
 
-Measured turned(const Measured& m) {
+inline Measured turned(const Measured& m) {
     return {m.point_a + m.gap, -m.gap, m.distance_sq, m.b, m.a};
 }
 
-Measured measured(const Vec3& point_a, const Vec3& gap, Corners a, Corners b) {
+inline Measured measured(const Vec3& point_a, const Vec3& gap, Corners a, Corners b) {
     return {point_a, gap, length_sq(gap), a, b};
 }
 
 /// A point q and the segment from p0 to p1, that of a.
-Measured measure_edge_vertex(const Vec3& p0, const Vec3& p1, const Vec3& q) {
+inline Measured measure_edge_vertex(const Vec3& p0, const Vec3& p1, const Vec3& q) {
     const Vec3 u = p1 - p0, w = q - p0;
     const double along = dot(w, u), all = length_sq(u);
     if (!(along > 0))
@@ -42,11 +42,11 @@ Measured measure_edge_vertex(const Vec3& p0, const Vec3& p1, const Vec3& q) {
     return measured(p0 + foot, w - foot, 3, 1);
 }
 
-Corners corners_at(double parameter) {
+inline Corners corners_at(double parameter) {
     return parameter <= 0 ? 1 : parameter >= 1 ? 2 : 3;
 }
 
-Measured measure_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
+inline Measured measure_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1) {
     const Vec3 u = p1 - p0, v = q1 - q0, r = q0 - p0;
     const SegmentPoints c = nearest_on_segments(u, v, r);
     const Vec3 from = c.s * u;
@@ -100,147 +100,151 @@ Measured measure_face_edge(const Triangle& t, const Vec3& q0, const Vec3& q1) {
     return best;
 }
 
-/// A feature of one side, and what of it is placed.
-struct Placed {
-    const PolytopePair::Side& side;
-    HullFeature feature;
+inline Vec3 corner0(const PlacedPolytope& side, const HullFeature& f) {
+    return side.place(side.polytope->vertices[f.vertex].at);
+}
+inline Vec3 corner1(const PlacedPolytope& side, const HullFeature& f) {
+    return side.place(side.polytope->edges[f.edge].to);
+}
+inline Triangle triangle(const PlacedPolytope& side, const HullFeature& f) {
+    const Polytope& p = *side.polytope;
+    return {corner0(side, f), corner1(side, f),
+            side.place(p.edges[p.after(p.vertices[f.vertex], f.edge)].to)};
+}
 
-    [[nodiscard]] const HullVertex& vertex() const {
-        return side.polytope->vertices[feature.vertex];
-    }
-    [[nodiscard]] Vec3 corner0() const { return side.place(vertex().at); }
-    [[nodiscard]] Vec3 corner1() const {
-        return side.place(side.polytope->edges[feature.edge].to);
-    }
-    [[nodiscard]] Vec3 corner2() const {
-        return side.place(
-            side.polytope->edges[side.polytope->after(vertex(), feature.edge)].to);
-    }
-    [[nodiscard]] Triangle triangle() const { return {corner0(), corner1(), corner2()}; }
-
-    /// The feature that the corners are those of.
-    [[nodiscard]] HullFeature part(Corners corners) const {
-        const Polytope& p = *side.polytope;
-        const std::uint32_t edge = feature.edge;
-        switch (corners) {
-        case 1:
-            return vertex_feature(feature.vertex);
-        case 2:
-            return vertex_feature(p.edges[edge].target);
-        case 4:
-            return vertex_feature(p.edges[p.after(vertex(), edge)].target);
-        case 5:
-            return {feature.vertex, p.after(vertex(), edge), Feature::edge};
-        case 6: {
-            const std::uint32_t end = p.edges[edge].target;
-            return {end, p.before(p.vertices[end], p.edges[edge].twin), Feature::edge};
-        }
-        default: // the whole
-            return feature;
-        }
-    }
-
-    /// How much further along the gap than this feature a neighbour lies at most, and the feature
-    /// grown towards it.
-    struct Growth {
-        double excess;
-        HullFeature feature;
-    };
-    [[nodiscard]] Growth growth(const Vec3& gap) const {
-        const Polytope& p = *side.polytope;
-        const Vec3 n = side.map.pulled_back(gap);
-        const HullVertex& v = vertex();
-        const auto excess = [&](std::uint32_t edge) { return dot(n, p.edges[edge].to - v.at); };
-        if (feature.kind == Feature::edge) {
-            const std::uint32_t left = p.after(v, feature.edge), right = p.before(v, feature.edge);
-            const double to_left = excess(left), to_right = excess(right);
-            if (to_left >= to_right)
-                return {to_left, {feature.vertex, feature.edge, Feature::face}};
-            return {to_right, {feature.vertex, right, Feature::face}};
-        }
-        double most = 0;
-        std::uint32_t best = v.first_edge;
-        for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
-            if (const double x = excess(e); x > most)
-                most = x, best = e;
-        return {most, {feature.vertex, best, Feature::edge}};
-    }
-};
-
-Measured measure(const Placed& a, const Placed& b) {
-    const auto kinds = 3 * static_cast<int>(a.feature.kind) + static_cast<int>(b.feature.kind);
-    switch (kinds) {
+inline Measured measure(const PolytopePair& pair, const HullFeature& a, const HullFeature& b) {
+    switch (3 * static_cast<int>(a.kind) + static_cast<int>(b.kind)) {
     case 0: {
-        const Vec3 p = a.corner0();
-        return measured(p, b.corner0() - p, 1, 1);
+        const Vec3 p = corner0(pair.a, a);
+        return measured(p, corner0(pair.b, b) - p, 1, 1);
     }
     case 1:
-        return turned(measure_edge_vertex(b.corner0(), b.corner1(), a.corner0()));
+        return turned(
+            measure_edge_vertex(corner0(pair.b, b), corner1(pair.b, b), corner0(pair.a, a)));
     case 2:
-        return turned(measure_face_vertex(b.triangle(), a.corner0()));
+        return turned(measure_face_vertex(triangle(pair.b, b), corner0(pair.a, a)));
     case 3:
-        return measure_edge_vertex(a.corner0(), a.corner1(), b.corner0());
+        return measure_edge_vertex(corner0(pair.a, a), corner1(pair.a, a), corner0(pair.b, b));
     case 4:
-        return measure_edge_edge(a.corner0(), a.corner1(), b.corner0(), b.corner1());
+        return measure_edge_edge(corner0(pair.a, a), corner1(pair.a, a), corner0(pair.b, b),
+                                 corner1(pair.b, b));
     case 5:
-        return turned(measure_face_edge(b.triangle(), a.corner0(), a.corner1()));
+        return turned(measure_face_edge(triangle(pair.b, b), corner0(pair.a, a),
+                                        corner1(pair.a, a)));
     case 6:
-        return measure_face_vertex(a.triangle(), b.corner0());
+        return measure_face_vertex(triangle(pair.a, a), corner0(pair.b, b));
     default:
-        return measure_face_edge(a.triangle(), b.corner0(), b.corner1());
+        return measure_face_edge(triangle(pair.a, a), corner0(pair.b, b), corner1(pair.b, b));
     }
+}
+
+/// What remains of a feature of which these corners hold the closest point.
+inline void shrink(const Polytope& p, Corners corners, HullFeature& f) {
+    const std::uint32_t next = f.kind == Feature::face ? p.after(p.vertices[f.vertex], f.edge) : 0;
+    switch (corners) {
+    case 1:
+        f.kind = Feature::vertex;
+        break;
+    case 2:
+        f.vertex = p.edges[f.edge].target;
+        f.kind = Feature::vertex;
+        break;
+    case 3:
+        f.kind = Feature::edge;
+        break;
+    case 4:
+        f.vertex = p.edges[next].target;
+        f.kind = Feature::vertex;
+        break;
+    case 5:
+        f.edge = next;
+        f.kind = Feature::edge;
+        break;
+    case 6:
+        f.vertex = p.edges[f.edge].target;
+        f.edge = p.before(p.vertices[f.vertex], p.edges[f.edge].twin);
+        f.kind = Feature::edge;
+        break;
+    default:
+        break;
+    }
+}
+
+/// How much further along the gap than a feature a neighbour lies at most, and the feature grown
+/// towards it.
+struct Growth {
+    double excess;
+    HullFeature feature;
+    bool possible;
+};
+
+inline Growth grow(const PlacedPolytope& side, const HullFeature& f, const Vec3& gap) {
+    const Polytope& p = *side.polytope;
+    const Vec3 n = side.pulled_back(gap);
+    const HullVertex& v = p.vertices[f.vertex];
+    const auto excess = [&](std::uint32_t edge) { return dot(n, p.edges[edge].to - v.at); };
+    if (f.kind == Feature::edge) {
+        const std::uint32_t right = p.before(v, f.edge);
+        const double to_left = excess(p.after(v, f.edge)), to_right = excess(right);
+        const bool left = to_left >= to_right;
+        const double most = left ? to_left : to_right;
+        return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0};
+    }
+    double most = 0;
+    std::uint32_t best = v.first_edge;
+    for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
+        if (const double x = excess(e); x > most)
+            most = x, best = e;
+    return {most, {f.vertex, best, Feature::edge}, most > 0 && f.kind != Feature::face};
 }
 
 } // namespace
 
-WalkState walk(const PolytopePair& pair, const HullFeature& a, const HullFeature& b,
-               double rounding) {
-    Placed side_a{pair.a, a}, side_b{pair.b, b};
-    Measured now = measure(side_a, side_b);
-    WalkState state;
-    state.steps = 1;
-    const auto settle = [&] {
-        side_a.feature = side_a.part(now.a);
-        side_b.feature = side_b.part(now.b);
-    };
-    settle();
-    const auto improves = [&](const HullFeature& next_a, const HullFeature& next_b) {
-        const Placed grown_a{pair.a, next_a}, grown_b{pair.b, next_b};
-        const Measured next = measure(grown_a, grown_b);
-        ++state.steps;
-        if (!(next.distance_sq < now.distance_sq))
-            return false;
-        now = next;
-        side_a.feature = next_a, side_b.feature = next_b;
-        settle();
-        return true;
-    };
+void walk(const PolytopePair& pair, double rounding, WalkState& state) {
+    const double rounding_sq = rounding * rounding;
+    HullFeature a = state.a, b = state.b; ///< the pair that was accepted last
+    HullFeature next_a = a, next_b = b;   ///< the pair to measure
+    Growth grown_a{}, grown_b{};
+    Vec3 point_a, gap;
+    double distance_sq = std::numeric_limits<double>::infinity();
+    std::uint32_t count = 0;
+    WalkEnd end = WalkEnd::closest;
     for (;;) {
-        if (!(now.distance_sq > rounding * rounding)) {
-            state.end = WalkEnd::meeting;
+        const Measured next = measure(pair, next_a, next_b);
+        ++count;
+        if (next.distance_sq < distance_sq) {
+            a = next_a, b = next_b;
+            shrink(*pair.a.polytope, next.a, a);
+            shrink(*pair.b.polytope, next.b, b);
+            point_a = next.point_a, gap = next.gap, distance_sq = next.distance_sq;
+            if (!(distance_sq > rounding_sq)) {
+                end = WalkEnd::meeting;
+                break;
+            }
+            grown_a = grow(pair.a, a, gap);
+            grown_b = grow(pair.b, b, -gap);
+            // No point is nearer than the distance less the sum of the excesses over the distance.
+            const double excess = std::max(grown_a.excess, 0.0) + std::max(grown_b.excess, 0.0);
+            if (excess * excess <= rounding_sq * distance_sq)
+                break;
+        }
+        // The larger excess first. What has been tried is not possible any more.
+        next_a = a, next_b = b;
+        if (grown_a.possible && !(grown_b.possible && grown_b.excess > grown_a.excess)) {
+            next_a = grown_a.feature;
+            grown_a.possible = false;
+        } else if (grown_b.possible) {
+            next_b = grown_b.feature;
+            grown_b.possible = false;
+        } else {
+            end = WalkEnd::stuck;
             break;
         }
-        const Placed::Growth grown_a = side_a.growth(now.gap), grown_b = side_b.growth(-now.gap);
-        // No point is nearer than the distance less the sum of the excesses over the distance.
-        const double excess = std::max(grown_a.excess, 0.0) + std::max(grown_b.excess, 0.0);
-        if (excess * excess <= rounding * rounding * now.distance_sq)
-            break;
-        const bool face_a = side_a.feature.kind == Feature::face,
-                   face_b = side_b.feature.kind == Feature::face;
-        const bool a_can = grown_a.excess > 0 && !face_a, b_can = grown_b.excess > 0 && !face_b;
-        const bool a_first = a_can && (!b_can || grown_a.excess >= grown_b.excess);
-        if (a_can && a_first && improves(grown_a.feature, side_b.feature))
-            continue;
-        if (b_can && improves(side_a.feature, grown_b.feature))
-            continue;
-        if (a_can && !a_first && improves(grown_a.feature, side_b.feature))
-            continue;
-        state.end = WalkEnd::stuck;
-        break;
     }
-    state.a = side_a.feature, state.b = side_b.feature;
-    state.point_a = now.point_a, state.gap = now.gap, state.distance_sq = now.distance_sq;
-    return state;
+    state.a = a, state.b = b;
+    state.point_a = point_a, state.gap = gap, state.distance_sq = distance_sq;
+    state.feature_pairs += count;
+    state.end = end;
 }
 
 } // namespace abut

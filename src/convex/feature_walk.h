@@ -28,7 +28,7 @@ struct WalkState {
     Vec3 point_a; ///< in the pair's frame
     Vec3 gap;     ///< to the point of b
     double distance_sq = 0;
-    std::uint32_t steps = 0; ///< pairs of features that were measured
+    std::uint32_t feature_pairs = 0; ///< that were measured
     WalkEnd end = WalkEnd::closest;
 };
 
@@ -41,16 +41,15 @@ struct WalkState {
 /// points on the border of the grown features lets them shrink to what holds it. So no pair of
 /// features comes twice.
 ///
-/// In          features of the two polytopes, in any combination but two triangles. `rounding`: a
-///             length, that of the rounding of the coordinates in the pair's frame.
+/// In/out      `state`: features of the two polytopes, in any combination but two triangles; all of
+///             it is set. `rounding`: a length, that of the rounding of the coordinates in the
+///             pair's frame.
 /// Accuracy    closest: no point is nearer by more than a few times `rounding`.
 /// Source      [Lin, Canny 1991], [Mirtich 1998] (V-Clip). Differs: normal cones in place of Voronoi
 ///             planes, which need nothing but the neighbours' positions and stay right under
 ///             any affine transform; a measured distance must shrink, so there is nothing to cycle.
-WalkState walk(const PolytopePair& pair, const HullFeature& a, const HullFeature& b,
-               double rounding);
+void walk(const PolytopePair& pair, double rounding, WalkState& state);
 
-/// A pair of features that has not grown or shrunk to anything else: for a walk from vertices.
 inline HullFeature vertex_feature(std::uint32_t vertex) {
     return {vertex, 0, Feature::vertex};
 }

@@ -144,8 +144,8 @@ SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& s
     while (!simplex.holds_origin() && simplex.distance_sq() > rounding_sq) {
         const Vec3 gap = simplex.gap();
         const double sq = simplex.distance_sq();
-        last = {climb(*pair.a.polytope, pair.a.map.pulled_back(gap), last.a),
-                climb(*pair.b.polytope, pair.b.map.pulled_back(-gap), last.b)};
+        last = {climb(*pair.a.polytope, pair.a.pulled_back(gap), last.a),
+                climb(*pair.b.polytope, pair.b.pulled_back(-gap), last.b)};
         const double excess = sq - dot(gap, simplex.difference(last));
         if (excess <= 0 || excess * excess <= rounding_sq * sq || simplex.holds(last))
             break;

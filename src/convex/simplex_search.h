@@ -1,5 +1,7 @@
 #pragma once
 
+#include <abut/convex.h>
+
 #include "convex/placed_polytope.h"
 
 #include <array>
@@ -7,17 +9,11 @@
 
 namespace abut {
 
-/// A vertex of each polytope: a corner of the difference of the two.
-struct VertexPair {
-    std::uint32_t a = 0, b = 0;
-    friend bool operator==(const VertexPair&, const VertexPair&) = default;
-};
-
 /// Up to four corners of the difference of two polytopes b - a, and the point of their hull that is
 /// nearest to the origin.
 struct DifferenceSimplex {
-    std::array<VertexPair, 4> corners{};
-    std::array<double, 4> weights{}; ///< of that point; positive, their sum is 1
+    std::array<VertexPair, 4> corners;
+    std::array<double, 4> weights; ///< of that point; positive, their sum is 1
     std::uint32_t count = 0;
 };
 
