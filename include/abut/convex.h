@@ -87,18 +87,19 @@ struct ConvexGap {
     double at_least = 0; ///< no two points are closer: proven, to rounding
     /// World frame. Where they share a point: one of them, in both, to rounding.
     Vec3 point_a, point_b;
-    /// What the points lie on: numbers of a vertex, an edge, a face. Of no meaning at distance 0.
+    /// What the points lie on: numbers of a vertex, an edge, a face. Within an error that was
+    /// allowed: a vertex close by. Of no meaning at distance 0.
     Feature feature_a = Feature::vertex, feature_b = Feature::vertex;
     std::uint32_t id_a = 0, id_b = 0;
-    /// converged: within the error allowed; or at distance 0, nearer than rounding can tell from
-    /// touching.
+    /// converged: between at_least and distance, within the error allowed; or at distance 0, nearer
+    /// than rounding can tell from touching.
     Status status = Status::exact;
     ConvexCounters counters;
 };
 
 struct ConvexDistanceOptions {
-    /// What the distance may exceed the true one by: a length. Simplified hulls, whose deviation is
-    /// known, may then answer.
+    /// What the distance may exceed the true one by: a length. Simplified hulls inside of the
+    /// bodies, whose deviation is known, may then answer.
     double max_error = 0;
     ConvexWorkspace* workspace = nullptr;
 };

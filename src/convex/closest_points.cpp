@@ -40,6 +40,17 @@ std::vector<std::uint32_t> vertices_of(const DifferenceSimplex& simplex,
     return vertices;
 }
 
+/// After so many pairs of features a search by the tables of normals may be shorter.
+constexpr std::uint32_t kLeap = 8;
+
+/// To the vertices that face each other along the gap, if they are nearer.
+void leap(const PolytopePair& pair, WalkState& at) {
+    const std::uint32_t a = pair.a.polytope->starts.vertex(pair.a.pulled_back(at.gap)),
+                        b = pair.b.polytope->starts.vertex(pair.b.pulled_back(-at.gap));
+    if (length_sq(pair.b.vertex(b) - pair.a.vertex(a)) < at.distance_sq)
+        at.a = vertex_feature(a), at.b = vertex_feature(b);
+}
+
 } // namespace
 
 void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
@@ -57,7 +68,7 @@ void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
         const auto& nearest =
             found.simplex.corners[static_cast<std::size_t>(heaviest - weights.begin())];
         at.a = vertex_feature(nearest.a), at.b = vertex_feature(nearest.b);
-        walk(pair, rounding, at);
+        walk(pair, rounding, kNoLimit, at);
         if (at.end != WalkEnd::stuck)
             return;
         at.a = spanned_feature(*pair.a.polytope, pair.a.pulled_back(found.gap),
@@ -65,12 +76,17 @@ void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
         at.b = spanned_feature(*pair.b.polytope, pair.b.pulled_back(-found.gap),
                                vertices_of(found.simplex, &VertexPair::b));
     }
-    at.point_a = found.point_a, at.gap = found.gap, at.distance_sq = found.distance_sq;
+    at.point_a = found.point_a, at.gap = found.gap;
+    at.distance_sq = found.distance_sq, at.excess = found.excess;
     at.end = found.meeting ? WalkEnd::meeting : WalkEnd::closest;
 }
 
 void find_closest_points(const PolytopePair& pair, double rounding, ClosestPointSearch& search) {
-    walk(pair, rounding, search.at);
+    walk(pair, rounding, kLeap, search.at);
+    if (search.at.end == WalkEnd::limit) {
+        leap(pair, search.at);
+        walk(pair, rounding, kNoLimit, search.at);
+    }
     if (search.at.end != WalkEnd::stuck)
         return;
     search.simplex.corners[0] = {search.at.a.vertex, search.at.b.vertex};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace abut {
 
@@ -13,6 +14,8 @@ namespace {
 
 /// Vertices below which a hull has no simpler one, and vertices of a hull for one of the next.
 constexpr std::size_t kCoarsest = 48, kReduction = 4;
+/// Vertices of a hull on which walking from any start is cheap enough.
+constexpr std::size_t kEntry = 3000;
 
 double reach_of(std::span<const Vec3> points) {
     double reach = 0;
@@ -30,7 +33,7 @@ NormalTable make_table(const Polytope& polytope, std::size_t cells) {
 HullLevel make_level(std::span<const Vec3> points, std::span<const IndexTriangle> triangles) {
     HullLevel level;
     level.polytope = make_polytope(points, triangles);
-    level.starts = make_table(level.polytope, points.size());
+    level.polytope.starts = make_table(level.polytope, 4 * points.size());
     return level;
 }
 
@@ -46,7 +49,8 @@ HullLevel coarser(const HullLevel& fine) {
     // Vertices of a hull are vertices of the hull of some of them.
     const HullSurface hull = exact_hull(points);
     HullLevel level = make_level(points, hull.triangles);
-    level.finer = std::move(kept);
+    for (const std::uint32_t v : kept)
+        level.number.push_back(fine.number[v]);
     return level;
 }
 
@@ -56,9 +60,9 @@ double deviation(std::span<const Vec3> vertices, const HullLevel& level, double 
     const Transform unmoved;
     const Vec3& centre = level.polytope.vertices[0].at;
     for (const Vec3& v : vertices) {
-        const Polytope point{{{v, 0, 0}}, {}};
+        const Polytope point{{{v, 0, 0}}, {}, {}};
         ClosestPointSearch search;
-        search.at.a = vertex_feature(level.starts.vertex(v - centre));
+        search.at.a = vertex_feature(level.polytope.starts.vertex(v - centre));
         find_closest_points({level.polytope, unmoved, point, unmoved}, rounding, search);
         largest = std::max(largest, std::sqrt(search.at.distance_sq));
     }
@@ -91,8 +95,12 @@ ConvexData::ConvexData(std::span<const Vec3> points) {
         extend(box, p);
     middle = box.lower + 0.5 * (box.upper - box.lower);
     levels.push_back(make_level(vertices, triangles));
+    levels[0].number.resize(vertices.size());
+    std::iota(levels[0].number.begin(), levels[0].number.end(), 0);
     number_features();
     simplify();
+    while (entry + 1 < levels.size() && levels[entry].polytope.vertices.size() > kEntry)
+        ++entry;
 }
 
 void ConvexData::number_features() {
@@ -165,7 +173,7 @@ std::size_t ConvexData::bytes() const {
                       bytes_of(edge_number) + bytes_of(face_number);
     for (const HullLevel& level : levels)
         sum += sizeof(level) + bytes_of(level.polytope.vertices) + bytes_of(level.polytope.edges) +
-               bytes_of(level.starts.vertices()) + bytes_of(level.finer);
+               bytes_of(level.polytope.starts.vertices()) + bytes_of(level.number);
     return sum;
 }
 

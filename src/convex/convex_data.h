@@ -3,7 +3,6 @@
 #include <abut/convex.h>
 
 #include "convex/exact_hull.h"
-#include "convex/normal_table.h"
 #include "convex/polytope.h"
 
 #include <vector>
@@ -13,8 +12,7 @@ namespace abut {
 /// A hull of some of the body's vertices, so inside of it.
 struct HullLevel {
     Polytope polytope;
-    NormalTable starts;
-    std::vector<std::uint32_t> finer; ///< for each vertex its number in the next finer level
+    std::vector<std::uint32_t> number; ///< of each vertex, among those of the body
     double deviation = 0; ///< no point of the body is farther than that from this hull
 };
 
@@ -37,6 +35,7 @@ public:
     /// the face of the triangle between it and the next around its vertex.
     std::vector<std::uint32_t> edge_number, face_number;
     std::vector<HullLevel> levels; ///< the body's own polytope first, then ever coarser ones
+    std::size_t entry = 0; ///< the level where an incoherent search begins
     double reach = 0;              ///< largest |x| + |y| + |z| of a vertex
     Vec3 middle;                   ///< of the box around the vertices
 

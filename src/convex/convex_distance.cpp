@@ -26,37 +26,56 @@ double rounding_of(const ConvexData& a, const ConvexData& b, const PolytopePair&
                       std::abs(pair.b.offset.y) + std::abs(pair.b.offset.z));
 }
 
-/// Two bodies under their transforms, at any pair of their levels.
+/// Two bodies under their transforms, and the hulls of them that are to answer.
 struct PlacedBodies {
     const ConvexData &a, &b;
     const Transform &world_from_a, &world_from_b;
+    std::size_t level_a = 0, level_b = 0;
 
-    [[nodiscard]] PolytopePair at(std::size_t level_a, std::size_t level_b) const {
-        return {a.levels[level_a].polytope, world_from_a, b.levels[level_b].polytope, world_from_b};
+    [[nodiscard]] PolytopePair at(std::size_t of_a, std::size_t of_b) const {
+        return {a.levels[of_a].polytope, world_from_a, b.levels[of_b].polytope, world_from_b};
+    }
+    /// What the distance of the hulls may exceed that of the bodies by.
+    [[nodiscard]] double deviation() const {
+        if (level_a == 0 && level_b == 0)
+            return 0;
+        return stretch_of(world_from_a).most * a.levels[level_a].deviation +
+               stretch_of(world_from_b).most * b.levels[level_b].deviation;
     }
 };
 
-/// From coarse hulls to the bodies themselves, or to the first hulls that are near enough to them.
-void descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& search) {
-    std::size_t level_a = bodies.a.levels.size() - 1, level_b = bodies.b.levels.size() - 1;
-    Vec3 direction;
-    {
-        const PolytopePair pair = bodies.at(0, 0);
-        direction = pair.b.place(bodies.b.middle) - pair.a.place(bodies.a.middle);
-    }
-    for (;;) {
-        const PolytopePair pair = bodies.at(level_a, level_b);
-        search.at.a =
-            vertex_feature(bodies.a.levels[level_a].starts.vertex(pair.a.pulled_back(direction)));
-        search.at.b =
-            vertex_feature(bodies.b.levels[level_b].starts.vertex(pair.b.pulled_back(-direction)));
-        find_closest_points(pair, rounding, search);
-        if (level_a == 0 && level_b == 0)
-            return;
-        direction = search.at.gap;
-        level_a = 0;
-        level_b = 0;
-    }
+/// The coarsest hull of a body that deviates by no more, once it is placed.
+std::size_t coarsest_within(const ConvexData& body, const Transform& world, double error) {
+    const double most = stretch_of(world).most;
+    std::size_t level = body.levels.size() - 1;
+    while (level > 0 && !(most * body.levels[level].deviation <= error))
+        --level;
+    return level;
+}
+
+/// From the vertices that face each other along a direction.
+void search_along(const PolytopePair& pair, const Vec3& direction, double rounding,
+                  ClosestPointSearch& search) {
+    search.at.a = vertex_feature(pair.a.polytope->starts.vertex(pair.a.pulled_back(direction)));
+    search.at.b = vertex_feature(pair.b.polytope->starts.vertex(pair.b.pulled_back(-direction)));
+    find_closest_points(pair, rounding, search);
+}
+
+/// Without a workspace: first the hulls that are small enough to walk on from anywhere. Where these
+/// are closest, the tables of normals of the others begin. Whether it came to the others.
+bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& search) {
+    const std::size_t entry_a = std::max(bodies.a.entry, bodies.level_a),
+                      entry_b = std::max(bodies.b.entry, bodies.level_b);
+    const PolytopePair first = bodies.at(entry_a, entry_b);
+    search_along(first, first.b.place(bodies.b.middle) - first.a.place(bodies.a.middle), rounding,
+                 search);
+    // Hulls lie inside of the bodies: where they meet, so do these.
+    if (entry_a == bodies.level_a && entry_b == bodies.level_b)
+        return true;
+    if (search.at.end == WalkEnd::meeting)
+        return false;
+    search_along(bodies.at(bodies.level_a, bodies.level_b), search.at.gap, rounding, search);
+    return true;
 }
 
 /// The feature of the body that a feature of its triangulated surface is, or lies in.
@@ -123,22 +142,26 @@ void go_on(const PolytopePair& pair, double rounding, const ConvexWorkspace& las
 
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
                    const Transform& world_from_b, const ConvexDistanceOptions& options) {
-    const PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b};
-    const PolytopePair pair = bodies.at(0, 0);
-    const double rounding = rounding_of(bodies.a, bodies.b, pair);
+    PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b};
+    const double rounding = rounding_of(bodies.a, bodies.b, bodies.at(0, 0));
     if (!std::isfinite(rounding)) {
         require_finite(world_from_a, "transform of a");
         require_finite(world_from_b, "transform of b");
     }
     if (!(options.max_error >= 0))
         throw Error(ErrorCode::bad_argument, "the error allowed must not be negative");
+    if (options.max_error > 0) {
+        bodies.level_a = coarsest_within(bodies.a, world_from_a, options.max_error / 2);
+        bodies.level_b = coarsest_within(bodies.b, world_from_b, options.max_error / 2);
+    }
     ConvexWorkspace* const workspace = options.workspace;
     ClosestPointSearch search;
+    bool features_last = true;
     if (workspace != nullptr && workspace->kind != ConvexWorkspace::Kind::empty)
-        go_on(pair, rounding, *workspace, search);
+        go_on(bodies.at(bodies.level_a, bodies.level_b), rounding, *workspace, search);
     else
-        descend(bodies, rounding, search);
-    if (workspace != nullptr)
+        features_last = descend(bodies, rounding, search);
+    if (workspace != nullptr && features_last)
         remember(search, *workspace);
 
     ConvexGap gap;
@@ -154,6 +177,17 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
     }
     gap.point_b = origin + (at.point_a + at.gap);
     gap.distance = gap.at_least = std::sqrt(at.distance_sq);
+    if (at.excess * at.excess > rounding * rounding * at.distance_sq) {
+        gap.at_least = std::max(0.0, gap.distance - at.excess / gap.distance);
+        gap.status = Status::converged;
+    }
+    if (const double deviation = bodies.deviation(); deviation > 0) {
+        gap.at_least = std::max(0.0, gap.at_least - deviation);
+        gap.status = Status::converged;
+        gap.id_a = bodies.a.levels[bodies.level_a].number[at.a.vertex];
+        gap.id_b = bodies.b.levels[bodies.level_b].number[at.b.vertex];
+        return gap;
+    }
     name(bodies.a, at.a, gap.feature_a, gap.id_a);
     name(bodies.b, at.b, gap.feature_b, gap.id_b);
     return gap;

@@ -45,8 +45,8 @@ std::vector<std::uint32_t> coplanar_groups(std::span<const Vec3> points,
         if (orient3d(points[s.low], points[s.high], points[s.apex], points[t.apex]) != 0)
             continue;
         // The first triangle of a group is its root.
-        const auto [low, high] = std::minmax(root(s.triangle), root(t.triangle));
-        parent[high] = low;
+        const std::uint32_t i_root = root(s.triangle), j_root = root(t.triangle);
+        parent[std::max(i_root, j_root)] = std::min(i_root, j_root);
     }
     std::vector<std::uint32_t> group(triangles.size());
     for (std::uint32_t i = 0, count = 0; i < triangles.size(); ++i)

@@ -53,16 +53,17 @@ inline Measured measure_edge_edge(const Vec3& p0, const Vec3& p1, const Vec3& q0
     return {p0 + from, r + c.t * v - from, c.distance_sq, corners_at(c.s), corners_at(c.t)};
 }
 
+Corners corners_with(const std::array<double, 3>& weights) {
+    return (weights[0] > 0 ? 1U : 0U) | (weights[1] > 0 ? 2U : 0U) | (weights[2] > 0 ? 4U : 0U);
+}
+
 /// A triangle of a and a point of b.
 Measured measure_face_vertex(const Triangle& t, const Vec3& q) {
     const TriangleFoot foot = foot_within(q, t);
     if (foot.within)
-        return measured(foot.point, foot.gap, 7, 1);
+        return measured(foot.point, foot.gap, corners_with(foot.weights), 1);
     const NearestOnTriangle n = nearest_on_triangle(q, t);
-    const Corners corners = n.dimension == 0   ? 1U << n.index
-                            : n.dimension == 2 ? 7U
-                                               : (n.index == 2 ? 5U : 3U << n.index);
-    return measured(n.point, q - n.point, corners, 1);
+    return measured(n.point, q - n.point, corners_with(n.weights), 1);
 }
 
 /// A triangle of a and the segment from q0 to q1, that of b.
@@ -84,13 +85,13 @@ Measured measure_face_edge(const Triangle& t, const Vec3& q0, const Vec3& q1) {
     // one side, only the end that is nearer to the plane: then nothing else is nearer.
     const bool first_is_nearer = std::abs(h0) < std::abs(h1);
     if (const TriangleFoot foot = foot_within(first_is_nearer ? q0 : q1, t); foot.within) {
-        take(measured(foot.point, foot.gap, 7, first_is_nearer ? 1 : 2));
+        take(measured(foot.point, foot.gap, corners_with(foot.weights), first_is_nearer ? 1 : 2));
         if (!pierces_plane)
             return best;
     }
     if (pierces_plane)
         if (const TriangleFoot foot = foot_within(first_is_nearer ? q1 : q0, t); foot.within)
-            take(measured(foot.point, foot.gap, 7, first_is_nearer ? 2 : 1));
+            take(measured(foot.point, foot.gap, corners_with(foot.weights), first_is_nearer ? 2 : 1));
     constexpr Corners kEdgeCorners[3][4] = {{0, 1, 2, 3}, {0, 2, 4, 6}, {0, 4, 1, 5}};
     for (std::size_t k = 0; k < 3; ++k) {
         Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
@@ -178,7 +179,9 @@ struct Growth {
     bool possible;
 };
 
-inline Growth grow(const PlacedPolytope& side, const HullFeature& f, const Vec3& gap) {
+/// `tolerance_sq`: the square of an excess that is rounding.
+inline Growth grow(const PlacedPolytope& side, const HullFeature& f, const Vec3& gap,
+                   double tolerance_sq) {
     const Polytope& p = *side.polytope;
     const Vec3 n = side.pulled_back(gap);
     const HullVertex& v = p.vertices[f.vertex];
@@ -188,25 +191,27 @@ inline Growth grow(const PlacedPolytope& side, const HullFeature& f, const Vec3&
         const double to_left = excess(p.after(v, f.edge)), to_right = excess(right);
         const bool left = to_left >= to_right;
         const double most = left ? to_left : to_right;
-        return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0};
+        if (most * most > tolerance_sq)
+            return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0};
+        // Between coplanar triangles: a part of a face, whose side only the others tell.
     }
     double most = 0;
     std::uint32_t best = v.first_edge;
     for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
         if (const double x = excess(e); x > most)
             most = x, best = e;
-    return {most, {f.vertex, best, Feature::edge}, most > 0 && f.kind != Feature::face};
+    return {most, {f.vertex, best, Feature::edge}, most > 0 && f.kind == Feature::vertex};
 }
 
 } // namespace
 
-void walk(const PolytopePair& pair, double rounding, WalkState& state) {
+void walk(const PolytopePair& pair, double rounding, std::uint32_t limit, WalkState& state) {
     const double rounding_sq = rounding * rounding;
     HullFeature a = state.a, b = state.b; ///< the pair that was accepted last
     HullFeature next_a = a, next_b = b;   ///< the pair to measure
     Growth grown_a{}, grown_b{};
     Vec3 point_a, gap;
-    double distance_sq = std::numeric_limits<double>::infinity();
+    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0;
     std::uint32_t count = 0;
     WalkEnd end = WalkEnd::closest;
     for (;;) {
@@ -221,12 +226,16 @@ void walk(const PolytopePair& pair, double rounding, WalkState& state) {
                 end = WalkEnd::meeting;
                 break;
             }
-            grown_a = grow(pair.a, a, gap);
-            grown_b = grow(pair.b, b, -gap);
-            // No point is nearer than the distance less the sum of the excesses over the distance.
-            const double excess = std::max(grown_a.excess, 0.0) + std::max(grown_b.excess, 0.0);
-            if (excess * excess <= rounding_sq * distance_sq)
+            const double tolerance_sq = rounding_sq * distance_sq;
+            grown_a = grow(pair.a, a, gap, tolerance_sq);
+            grown_b = grow(pair.b, b, -gap, tolerance_sq);
+            excess = std::max(grown_a.excess, 0.0) + std::max(grown_b.excess, 0.0);
+            if (excess * excess <= tolerance_sq)
                 break;
+        }
+        if (count >= limit) {
+            end = WalkEnd::limit;
+            break;
         }
         // The larger excess first. What has been tried is not possible any more.
         next_a = a, next_b = b;
@@ -242,7 +251,8 @@ void walk(const PolytopePair& pair, double rounding, WalkState& state) {
         }
     }
     state.a = a, state.b = b;
-    state.point_a = point_a, state.gap = gap, state.distance_sq = distance_sq;
+    state.point_a = point_a, state.gap = gap;
+    state.distance_sq = distance_sq, state.excess = excess;
     state.feature_pairs += count;
     state.end = end;
 }

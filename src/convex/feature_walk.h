@@ -18,6 +18,7 @@ struct HullFeature {
 enum class WalkEnd : std::uint8_t {
     closest, ///< the features hold a pair of closest points of the polytopes
     meeting, ///< they share a point, to rounding: so the polytopes do
+    limit,   ///< not yet there after the pairs allowed
     stuck,   ///< nothing that may grow brings them nearer: a triangle whose back side the other
              ///< polytope sees, as where they meet; or rounding
 };
@@ -28,6 +29,7 @@ struct WalkState {
     Vec3 point_a; ///< in the pair's frame
     Vec3 gap;     ///< to the point of b
     double distance_sq = 0;
+    double excess = 0; ///< no point is nearer than the distance less this over the distance
     std::uint32_t feature_pairs = 0; ///< that were measured
     WalkEnd end = WalkEnd::closest;
 };
@@ -43,12 +45,13 @@ struct WalkState {
 ///
 /// In/out      `state`: features of the two polytopes, in any combination but two triangles; all of
 ///             it is set. `rounding`: a length, that of the rounding of the coordinates in the
-///             pair's frame.
+///             pair's frame. `limit`: of the pairs that are measured.
 /// Accuracy    closest: no point is nearer by more than a few times `rounding`.
 /// Source      [Lin, Canny 1991], [Mirtich 1998] (V-Clip). Differs: normal cones in place of Voronoi
 ///             planes, which need nothing but the neighbours' positions and stay right under
 ///             any affine transform; a measured distance must shrink, so there is nothing to cycle.
-void walk(const PolytopePair& pair, double rounding, WalkState& state);
+inline constexpr std::uint32_t kNoLimit = 0xffffffffU;
+void walk(const PolytopePair& pair, double rounding, std::uint32_t limit, WalkState& state);
 
 inline HullFeature vertex_feature(std::uint32_t vertex) {
     return {vertex, 0, Feature::vertex};

@@ -1,5 +1,7 @@
 #include "convex/normal_table.h"
 
+#include "convex/polytope.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,8 +42,8 @@ std::uint32_t NormalTable::vertex(const Vec3& direction) const {
     std::size_t axis = 0;
     const std::uint32_t face = face_of(d, axis);
     const double size = std::abs(d[axis]);
-    if (!(size > 0))
-        return vertices_.front();
+    if (!(size > 0) || vertices_.empty())
+        return 0;
     const double half = 0.5 * resolution_, scale = half / size;
     const auto cell = [&](double v) {
         return std::min(static_cast<std::uint32_t>(v * scale + half), resolution_ - 1);

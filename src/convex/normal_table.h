@@ -1,11 +1,13 @@
 #pragma once
 
-#include "convex/polytope.h"
+#include "math/vector.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace abut {
+
+struct Polytope;
 
 /// For each cell of a grid over all directions, on the faces of a cube, the vertex that is farthest
 /// along the cell's middle: where to begin to climb.
@@ -17,7 +19,7 @@ public:
     /// Of 6 resolution^2 cells.
     NormalTable(const Polytope& polytope, std::uint32_t resolution);
 
-    /// In          any direction; of any length, zero included.
+    /// In          any direction; of any length, zero included. A table without cells says 0.
     [[nodiscard]] std::uint32_t vertex(const Vec3& direction) const;
     /// One vertex a cell, in the order of the cells.
     [[nodiscard]] const std::vector<std::uint32_t>& vertices() const { return vertices_; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "convex/normal_table.h"
 #include "math/vector.h"
 #include "mesh/surface_features.h"
 
@@ -31,6 +32,7 @@ struct HullVertex {
 struct Polytope {
     std::vector<HullVertex> vertices;
     std::vector<HullEdge> edges; ///< by vertex, then around it
+    NormalTable starts;
 
     /// Next edge counter-clockwise around the vertex that this edge leaves from.
     [[nodiscard]] std::uint32_t after(const HullVertex& v, std::uint32_t edge) const {

@@ -90,7 +90,8 @@ private:
         return length_sq(point) <= kRoundings * kRoundings * rounding_ * rounding_;
     }
 
-    /// Shares of the volume; else the nearest of the faces that the origin lies outside of.
+    /// Shares of the volume; else the nearest of the faces. All are measured: which of them the
+    /// origin lies outside of cannot be told of a flat tetrahedron.
     void measure_tetrahedron() {
         constexpr std::uint32_t kOthers[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
         const auto face = [&](std::size_t i) {
@@ -106,11 +107,8 @@ private:
         gap_ = {};
         if (holds_origin_)
             return;
-        const bool outside = std::any_of(shares.begin(), shares.end(), [](double x) { return x < 0; });
         double best_sq = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < 4; ++i) {
-            if (outside && shares[i] >= 0)
-                continue;
             const NearestOnTriangle n = nearest_on_triangle({}, face(i));
             if (!(n.distance_sq < best_sq))
                 continue;
@@ -146,8 +144,8 @@ SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& s
         const double sq = simplex.distance_sq();
         last = {climb(*pair.a.polytope, pair.a.pulled_back(gap), last.a),
                 climb(*pair.b.polytope, pair.b.pulled_back(-gap), last.b)};
-        const double excess = sq - dot(gap, simplex.difference(last));
-        if (excess <= 0 || excess * excess <= rounding_sq * sq || simplex.holds(last))
+        state.excess = std::max(0.0, sq - dot(gap, simplex.difference(last)));
+        if (state.excess * state.excess <= rounding_sq * sq || simplex.holds(last))
             break;
         const PlacedSimplex before = simplex;
         simplex.grow(last);
