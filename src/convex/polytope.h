@@ -53,4 +53,9 @@ Polytope make_polytope(std::span<const Vec3> points, std::span<const IndexTriang
 /// A vertex of the polytope that is farthest along a direction, by going uphill from `start`.
 std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32_t start);
 
+/// The same, from where the table of normals says.
+inline std::uint32_t farthest(const Polytope& polytope, const Vec3& direction) {
+    return climb(polytope, direction, polytope.starts.vertex(direction));
+}
+
 } // namespace abut

@@ -137,13 +137,13 @@ SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& s
     PlacedSimplex simplex(pair, start, rounding);
     SimplexState state;
     state.steps = 1;
-    VertexPair last = start.corners[0];
+    VertexPair last{};
     const double rounding_sq = rounding * rounding;
     while (!simplex.holds_origin() && simplex.distance_sq() > rounding_sq) {
         const Vec3 gap = simplex.gap();
         const double sq = simplex.distance_sq();
-        last = {climb(*pair.a.polytope, pair.a.pulled_back(gap), last.a),
-                climb(*pair.b.polytope, pair.b.pulled_back(-gap), last.b)};
+        last = {farthest(*pair.a.polytope, pair.a.pulled_back(gap)),
+                farthest(*pair.b.polytope, pair.b.pulled_back(-gap))};
         state.excess = std::max(0.0, sq - dot(gap, simplex.difference(last)));
         if (state.excess * state.excess <= rounding_sq * sq || simplex.holds(last))
             break;
