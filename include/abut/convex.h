@@ -104,6 +104,19 @@ struct ConvexDistanceOptions {
     ConvexWorkspace* workspace = nullptr;
 };
 
+/// How deep two convex bodies go into each other.
+struct ConvexDepth {
+    /// They share a point. False: all else is zero.
+    bool meet = false;
+    double depth = 0;    ///< length of the shortest translation that leaves them touching
+    double at_least = 0; ///< no shorter translation than that does: proven, to rounding
+    Vec3 direction;      ///< unit vector in which b moves by `depth`
+    /// On the surfaces, world frame: point_b meets point_a when b has moved.
+    Vec3 point_a, point_b;
+    Status status = Status::exact; ///< converged: the depth lies between at_least and depth
+    ConvexCounters counters;
+};
+
 /// Distance of two solid convex bodies, and one pair of points that realises it.
 ///
 /// Degenerate  points, segments and polygons as any other; transforms may be any affine map,
@@ -116,5 +129,16 @@ struct ConvexDistanceOptions {
 /// Source      [Lin, Canny 1991], [Mirtich 1998], [Ehmann, Lin 2000]; docs/convex.md.
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
                    const Transform& world_from_b, const ConvexDistanceOptions& options = {});
+
+
+/// The shortest translation that ends the overlap of two convex bodies.
+///
+/// Degenerate  as `distance`. Where they only touch, or one of them is flat, the depth may be 0.
+/// Accuracy    to a few roundings of the coordinates, as `distance`: of all translations, not of
+///             those in some directions.
+/// Errors      Error{bad_argument} if a transform is not finite.
+/// Source      [van den Bergen 2001], ended by certified bounds; docs/convex.md.
+ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
+                        const Transform& world_from_b, ConvexWorkspace* workspace = nullptr);
 
 } // namespace abut

@@ -3,6 +3,7 @@
 
 #include "convex/closest_points.h"
 #include "convex/convex_data.h"
+#include "convex/convex_query.h"
 #include "math/transform.h"
 
 #include <algorithm>
@@ -11,20 +12,6 @@
 namespace abut {
 
 namespace {
-
-double sum_of_sizes(const Transform& t) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 9; ++i)
-        sum += std::abs(t.m[i]);
-    return sum;
-}
-
-/// No coordinate in the pair's frame is off by more.
-double rounding_of(const ConvexData& a, const ConvexData& b, const PolytopePair& pair) {
-    return 0x1p-51 * (sum_of_sizes(*pair.a.linear) * a.reach +
-                      sum_of_sizes(*pair.b.linear) * b.reach + std::abs(pair.b.offset.x) +
-                      std::abs(pair.b.offset.y) + std::abs(pair.b.offset.z));
-}
 
 /// Two bodies under their transforms, and the hulls of them that are to answer.
 struct PlacedBodies {
@@ -56,8 +43,8 @@ std::size_t coarsest_within(const ConvexData& body, const Transform& world, doub
 /// From the vertices that face each other along a direction.
 void search_along(const PolytopePair& pair, const Vec3& direction, double rounding,
                   ClosestPointSearch& search) {
-    search.at.a = vertex_feature(pair.a.polytope->starts.vertex(pair.a.pulled_back(direction)));
-    search.at.b = vertex_feature(pair.b.polytope->starts.vertex(pair.b.pulled_back(-direction)));
+    const VertexPair start = facing_vertices(pair, direction);
+    search.at.a = vertex_feature(start.a), search.at.b = vertex_feature(start.b);
     find_closest_points(pair, rounding, search);
 }
 
@@ -67,8 +54,7 @@ bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& se
     const std::size_t entry_a = std::max(bodies.a.entry, bodies.level_a),
                       entry_b = std::max(bodies.b.entry, bodies.level_b);
     const PolytopePair first = bodies.at(entry_a, entry_b);
-    search_along(first, first.b.place(bodies.b.middle) - first.a.place(bodies.a.middle), rounding,
-                 search);
+    search_along(first, between_middles(bodies.a, bodies.b, first), rounding, search);
     // Hulls lie inside of the bodies: where they meet, so do these.
     if (entry_a == bodies.level_a && entry_b == bodies.level_b)
         return true;
@@ -117,25 +103,18 @@ void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, 
 }
 
 /// Goes on from where the last query ended.
-void go_on(const PolytopePair& pair, double rounding, const ConvexWorkspace& last,
+void go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& last,
            ClosestPointSearch& search) {
-    const Polytope &a = *pair.a.polytope, &b = *pair.b.polytope;
-    const auto& pairs = last.pairs;
-    if (last.kind == ConvexWorkspace::Kind::features) {
-        recall(a, pairs[0].a, pairs[1].a, pairs[2].a, search.at.a);
-        recall(b, pairs[0].b, pairs[1].b, pairs[2].b, search.at.b);
-        find_closest_points(pair, rounding, search);
+    const PolytopePair pair = bodies.at(bodies.level_a, bodies.level_b);
+    if (last.kind == ConvexWorkspace::Kind::simplex) {
+        search.simplex = first_simplex(bodies.a, bodies.b, pair, &last);
+        find_closest_points_from_simplex(pair, rounding, search);
         return;
     }
-    DifferenceSimplex& simplex = search.simplex;
-    for (const VertexPair& last_pair : pairs) {
-        const VertexPair corner{last_pair.a < a.vertices.size() ? last_pair.a : 0,
-                                last_pair.b < b.vertices.size() ? last_pair.b : 0};
-        auto* const end = simplex.corners.begin() + simplex.count;
-        if (std::find(simplex.corners.begin(), end, corner) == end)
-            simplex.corners[simplex.count++] = corner;
-    }
-    find_closest_points_from_simplex(pair, rounding, search);
+    const auto& pairs = last.pairs;
+    recall(*pair.a.polytope, pairs[0].a, pairs[1].a, pairs[2].a, search.at.a);
+    recall(*pair.b.polytope, pairs[0].b, pairs[1].b, pairs[2].b, search.at.b);
+    find_closest_points(pair, rounding, search);
 }
 
 } // namespace
@@ -143,11 +122,7 @@ void go_on(const PolytopePair& pair, double rounding, const ConvexWorkspace& las
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
                    const Transform& world_from_b, const ConvexDistanceOptions& options) {
     PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b};
-    const double rounding = rounding_of(bodies.a, bodies.b, bodies.at(0, 0));
-    if (!std::isfinite(rounding)) {
-        require_finite(world_from_a, "transform of a");
-        require_finite(world_from_b, "transform of b");
-    }
+    const double rounding = rounding_of(bodies.a, world_from_a, bodies.b, world_from_b);
     if (!(options.max_error >= 0))
         throw Error(ErrorCode::bad_argument, "the error allowed must not be negative");
     if (options.max_error > 0) {
@@ -158,7 +133,7 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
     ClosestPointSearch search;
     bool features_last = true;
     if (workspace != nullptr && workspace->kind != ConvexWorkspace::Kind::empty)
-        go_on(bodies.at(bodies.level_a, bodies.level_b), rounding, *workspace, search);
+        go_on(bodies, rounding, *workspace, search);
     else
         features_last = descend(bodies, rounding, search);
     if (workspace != nullptr && features_last)
