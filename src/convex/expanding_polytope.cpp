@@ -29,7 +29,7 @@ ExpandingPolytope::ExpandingPolytope(const PolytopePair& pair, double rounding)
     corners_.reserve(64);
     cone_from_.reserve(64);
     faces_.reserve(256);
-    queue_.reserve(128);
+    open_.reserve(64);
 }
 
 ExpandingPolytope::Corner ExpandingPolytope::placed(const VertexPair& vertices) const {
@@ -79,44 +79,77 @@ bool ExpandingPolytope::complete(const DifferenceSimplex& start, NearestBoundary
     return true;
 }
 
-void ExpandingPolytope::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                 const std::array<std::uint32_t, 3>& across_edges) {
+/// With the edges' other sides still to be set. (Written field by field: a whole face, put together
+/// elsewhere and copied at once, would wait for its parts.)
+void ExpandingPolytope::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const auto number = static_cast<std::uint32_t>(faces_.size());
+    Face& face = faces_.emplace_back();
+    face.corners[0] = a, face.corners[1] = b, face.corners[2] = c;
     const Vec3 &p = corners_[a].at, &q = corners_[b].at, &r = corners_[c].at;
-    Vec3 normal = cross(q - p, r - p);
+    const Vec3 normal = cross(q - p, r - p);
     const double size = length(normal);
-    normal = size > 0 ? (1 / size) * normal : Vec3{};
-    const double offset = dot(normal, p);
-    queue_.push_back({offset, static_cast<std::uint32_t>(faces_.size())});
-    std::push_heap(queue_.begin(), queue_.end());
-    faces_.push_back({{a, b, c}, across_edges, normal, offset, true});
+    const double scale = size > 0 ? 1 / size : 0;
+    face.normal.x = scale * normal.x, face.normal.y = scale * normal.y;
+    face.normal.z = scale * normal.z;
+    face.offset = scale * dot(normal, p);
+    if (face.offset <= upper_) // else it is never the nearest
+        open_.push_back(number);
+}
+
+/// Takes the nearest face from those that are open, and forgets those that will not be it.
+std::uint32_t ExpandingPolytope::nearest_face() {
+    std::size_t kept = 0, nearest = 0;
+    for (const std::uint32_t f : open_) {
+        if (!faces_[f].alive || faces_[f].offset > upper_)
+            continue;
+        if (faces_[f].offset < faces_[open_[nearest]].offset)
+            nearest = kept;
+        open_[kept++] = f;
+    }
+    open_.resize(kept);
+    return open_[nearest];
+}
+
+/// Faces that see the corner, beginning with one of them, and the border around them.
+void ExpandingPolytope::remove_visible(const Vec3& corner, std::uint32_t seen_by) {
+    visible_.clear();
+    visible_.push_back(seen_by);
+    horizon_.clear();
+    faces_[seen_by].alive = false;
+    for (std::size_t i = 0; i < visible_.size(); ++i) {
+        const Face& face = faces_[visible_[i]];
+        for (std::size_t k = 0; k < 3; ++k) {
+            Face& beyond = faces_[face.across[k]];
+            if (beyond.alive && above(beyond, corner) > rounding_) {
+                beyond.alive = false;
+                visible_.push_back(face.across[k]);
+            }
+        }
+    }
+    for (const std::uint32_t f : visible_)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (faces_[faces_[f].across[k]].alive)
+                horizon_.push_back(3 * f + static_cast<std::uint32_t>(k));
 }
 
 void ExpandingPolytope::add_corner(const Corner& corner, std::uint32_t seen_by) {
+    remove_visible(corner.at, seen_by);
     const auto point = static_cast<std::uint32_t>(corners_.size());
     corners_.push_back(corner);
     cone_from_.resize(corners_.size());
-    visible_.assign(1, seen_by);
-    horizon_.clear();
-    faces_[seen_by].alive = false;
-    for (std::size_t i = 0; i < visible_.size(); ++i)
-        for (const std::uint32_t beyond : faces_[visible_[i]].across)
-            if (faces_[beyond].alive && above(faces_[beyond], corner.at) > rounding_) {
-                faces_[beyond].alive = false;
-                visible_.push_back(beyond);
-            }
-    for (const std::uint32_t f : visible_)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (const Face& face = faces_[f]; faces_[face.across[k]].alive)
-                horizon_.push_back({face.corners[k], face.corners[(k + 1) % 3], face.across[k]});
     const auto first = static_cast<std::uint32_t>(faces_.size());
-    for (const HorizonEdge& edge : horizon_) {
+    for (const std::uint32_t edge : horizon_) {
+        const std::uint32_t k = edge % 3, from = faces_[edge / 3].corners[k],
+                            to = faces_[edge / 3].corners[(k + 1) % 3],
+                            other = faces_[edge / 3].across[k];
         const auto face = static_cast<std::uint32_t>(faces_.size());
-        cone_from_[edge.from] = face;
-        Face& beyond = faces_[edge.beyond];
-        for (std::size_t k = 0; k < 3; ++k)
-            if (beyond.corners[k] == edge.to && beyond.corners[(k + 1) % 3] == edge.from)
-                beyond.across[k] = face;
-        add_face(edge.from, edge.to, point, {edge.beyond, 0, 0});
+        cone_from_[from] = face;
+        Face& beyond = faces_[other];
+        for (std::size_t j = 0; j < 3; ++j)
+            if (beyond.corners[j] == to)
+                beyond.across[j] = face;
+        add_face(from, to, point);
+        faces_[face].across[0] = other;
     }
     for (std::uint32_t f = first; f < faces_.size(); ++f) {
         const std::uint32_t next = cone_from_[faces_[f].corners[1]];
@@ -162,21 +195,17 @@ NearestBoundary ExpandingPolytope::run(const DifferenceSimplex& start,
     if (dot(cross(corners_[1].at - corners_[0].at, corners_[2].at - corners_[0].at),
             corners_[3].at - corners_[0].at) > 0)
         std::swap(corners_[1], corners_[2]);
-    add_face(0, 1, 2, {3, 2, 1});
-    add_face(0, 2, 3, {0, 2, 3});
-    add_face(2, 1, 3, {0, 3, 1});
-    add_face(1, 0, 3, {0, 1, 2});
+    add_face(0, 1, 2), add_face(0, 2, 3), add_face(2, 1, 3), add_face(1, 0, 3);
+    faces_[0].across = {3, 2, 1}, faces_[1].across = {0, 2, 3};
+    faces_[2].across = {0, 3, 1}, faces_[3].across = {0, 1, 2};
     for (const VertexPair& hint : hints)
         add_hint(hint);
     for (;;) {
-        std::pop_heap(queue_.begin(), queue_.end());
-        const std::uint32_t f = queue_.back().face;
-        queue_.pop_back();
-        if (!faces_[f].alive)
-            continue;
-        const Face face = faces_[f];
+        const std::uint32_t f = nearest_face();
+        const Face& face = faces_[f];
         const Corner corner = farthest_corner(face.normal);
         const double excess = above(face, corner.at);
+        upper_ = std::min(upper_, face.offset + excess + rounding_);
         const bool own = std::any_of(face.corners.begin(), face.corners.end(), [&](std::uint32_t c) {
             return corners_[c].vertices == corner.vertices;
         });

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,8 @@ struct NearestBoundary {
 /// difference along that face's normal is an upper bound, since its plane has all on one side. When
 /// both are equal, to rounding, that is the depth.
 ///
-/// Source      [van den Bergen 2001]. Differs: it ends by both bounds, and the faces lie in a flat
-///             list by number.
+/// Source      [van den Bergen 2001]. Differs: it ends by both bounds, and the faces lie in one
+///             list; no heap: the upper bound leaves few to look at.
 class ExpandingPolytope {
 public:
     /// In          `pair` and `rounding` as for `walk`; a simplex that holds the origin.
@@ -49,16 +50,7 @@ private:
         std::array<std::uint32_t, 3> corners, across; ///< across[k]: beyond the edge from corner k
         Vec3 normal;
         double offset; ///< of its plane from the origin
-        bool alive;
-    };
-    struct HorizonEdge {
-        std::uint32_t from, to, beyond;
-    };
-    struct Waiting {
-        double offset;
-        std::uint32_t face;
-        /// For a heap with the nearest on top.
-        friend bool operator<(const Waiting& p, const Waiting& q) { return p.offset > q.offset; }
+        bool alive = true;
     };
 
     [[nodiscard]] Corner farthest_corner(const Vec3& direction) const;
@@ -67,19 +59,22 @@ private:
         return dot(face.normal, point) - face.offset;
     }
     bool complete(const DifferenceSimplex& start, NearestBoundary& flat);
-    void add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                  const std::array<std::uint32_t, 3>& across);
+    void add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    std::uint32_t nearest_face();
+    void remove_visible(const Vec3& corner, std::uint32_t seen_by);
     void add_corner(const Corner& corner, std::uint32_t seen_by);
     void add_hint(const VertexPair& vertices);
     void finish(const Face& face, NearestBoundary& nearest) const;
 
     const PolytopePair& pair_;
     double rounding_;
+    double upper_ = std::numeric_limits<double>::infinity(); ///< of the depth
     std::vector<Corner> corners_;
     std::vector<Face> faces_;
-    std::vector<Waiting> queue_;
-    std::vector<HorizonEdge> horizon_;
-    std::vector<std::uint32_t> visible_, cone_from_;
+    std::vector<std::uint32_t> open_;    ///< faces that may be the nearest, and some that went
+    std::vector<std::uint32_t> visible_; ///< faces
+    std::vector<std::uint32_t> horizon_; ///< edges, each as three times a face that goes plus k
+    std::vector<std::uint32_t> cone_from_; ///< by corner: the new face whose first corner it is
 };
 
 } // namespace abut

@@ -25,6 +25,8 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& vertices() const { return vertices_; }
 
 private:
+    [[nodiscard]] std::size_t cell(std::uint32_t axis, double along, double u, double v) const;
+
     std::uint32_t resolution_ = 1;
     std::vector<std::uint32_t> vertices_;
 };
