@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 namespace abut::bench {
 
@@ -87,7 +88,7 @@ private:
         return poses;
     }
 
-    /// Paths of 250 steps: b turns by one degree a step, and moves on a circle by 0.01.
+    /// Paths of 250 steps: b turns by one degree a step, and moves by 0.01 on a circle about a.
     std::vector<PosedPair> path_poses(double radius) {
         std::vector<PosedPair> poses;
         while (poses.size() < options_.poses) {
@@ -115,7 +116,7 @@ private:
 
     void compare(const std::string& name, const Convex& a, const Convex& b,
                  const std::vector<PosedPair>& poses, const Query& ours, PeerQuery theirs,
-                 double error) {
+                 std::optional<double> error) {
         std::vector<double> our_answers(poses.size()), their_answers(poses.size());
         const Work work = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
@@ -135,7 +136,8 @@ private:
                 take_turns(poses.size(), kSteps, options_.rounds, work, peer_work);
             const double nanoseconds = 1e9 / static_cast<double>(poses.size());
             Row row{name, turns.ours * nanoseconds, {}, {}, "ns/query", 1, {}};
-            row.counters["largest relative error"] = error;
+            if (error)
+                row.counters["largest relative error"] = *error;
             if (peer) {
                 row.peer = peer->name(), row.theirs = turns.theirs * nanoseconds;
                 double beyond = 0;
@@ -181,7 +183,22 @@ private:
         const std::vector<PosedPair> apart = random_poses(a, b, true);
         measure("distance, random", apart, cold);
         measure("distance, random, old workspace", apart, warm);
-        measure("distance, random, meeting", random_poses(a, b, false), cold);
+        const std::vector<PosedPair> meeting = random_poses(a, b, false);
+        measure("distance, random, meeting", meeting, cold);
+        compare(
+            name + ", penetration, random", a, b, meeting,
+            [&](const PosedPair& p, std::size_t /*index*/) {
+                return abut::penetration(a, p.a, b, p.b).depth;
+            },
+            &ConvexPeer::penetration, {});
+        compare(
+            name + ", penetration, coherent", a, b, path_poses(0.5),
+            [&](const PosedPair& p, std::size_t index) {
+                if (index % kSteps == 0)
+                    workspace = {};
+                return abut::penetration(a, p.a, b, p.b, &workspace).depth;
+            },
+            &ConvexPeer::penetration, {});
     }
 
     static constexpr std::size_t kSteps = 250;

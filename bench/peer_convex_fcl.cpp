@@ -44,10 +44,11 @@ public:
         return std::max(0.0, result.min_distance); // -1 if they meet
     }
     double penetration(std::size_t pose) override {
+        // The expanding polytope of libccd: fcl::collide gives a depth that is not the least.
         const auto& [a, b] = poses_[pose];
-        fcl::CollisionResultd result;
-        fcl::collide(a_.get(), a, b_.get(), b, fcl::CollisionRequestd(1, true), result);
-        return result.isCollision() ? result.getContact(0).penetration_depth : 0;
+        fcl::DistanceResultd result;
+        fcl::distance(a_.get(), a, b_.get(), b, fcl::DistanceRequestd(true, true), result);
+        return -result.min_distance;
     }
 
 private:

@@ -73,6 +73,7 @@ struct ConvexWorkspace {
     Kind kind = Kind::empty;
     /// simplex: pairs whose differences hold the origin. features: their vertices, edges, kinds.
     std::array<VertexPair, 4> pairs{};
+    std::array<VertexPair, 3> deepest{}; ///< pairs at the end of the shortest way out
 };
 
 /// Work that a query did: the machine-independent part of its cost.

@@ -77,13 +77,11 @@ void name(const ConvexData& body, const HullFeature& f, Feature& kind, std::uint
 }
 
 void remember(const ClosestPointSearch& search, ConvexWorkspace& workspace) {
-    auto& pairs = workspace.pairs;
     if (search.at.end == WalkEnd::meeting && search.simplex.count > 0) {
-        workspace.kind = ConvexWorkspace::Kind::simplex;
-        for (std::size_t i = 0; i < 4; ++i)
-            pairs[i] = search.simplex.corners[i < search.simplex.count ? i : 0];
+        remember(search.simplex, workspace);
         return;
     }
+    auto& pairs = workspace.pairs;
     workspace.kind = ConvexWorkspace::Kind::features;
     const HullFeature &a = search.at.a, &b = search.at.b;
     pairs[0] = {a.vertex, b.vertex};

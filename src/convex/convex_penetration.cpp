@@ -4,23 +4,10 @@
 #include "convex/convex_query.h"
 #include "convex/expanding_polytope.h"
 
-#include <algorithm>
+#include <array>
+#include <span>
 
 namespace abut {
-
-namespace {
-
-/// The face that was nearest, and a corner opposite of it: a simplex about the origin if little
-/// changes.
-void remember(const PolytopePair& pair, const NearestBoundary& nearest,
-              ConvexWorkspace& workspace) {
-    workspace.kind = ConvexWorkspace::Kind::simplex;
-    std::copy(nearest.corners.begin(), nearest.corners.end(), workspace.pairs.begin());
-    workspace.pairs[3] = {farthest(*pair.a.polytope, pair.a.pulled_back(nearest.normal)),
-                          farthest(*pair.b.polytope, pair.b.pulled_back(-nearest.normal))};
-}
-
-} // namespace
 
 ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
                         const Transform& world_from_b, ConvexWorkspace* workspace) {
@@ -33,13 +20,19 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     result.counters.simplices = found.steps;
     if (!found.meeting)
         return result;
-    ExpandingPolytope polytope(pair, rounding);
+    // With corners that were close to the way out last time, the polytope is there at once.
+    std::array<VertexPair, 3> hints{};
     const bool warm = workspace != nullptr && workspace->kind == ConvexWorkspace::Kind::simplex;
-    const NearestBoundary nearest = polytope.run(
-        found.simplex, warm ? std::span(first.corners.begin(), std::min(3U, first.count))
-                            : std::span<const VertexPair>());
-    if (workspace != nullptr)
-        remember(pair, nearest, *workspace);
+    for (std::size_t i = 0; warm && i < hints.size(); ++i)
+        hints[i] = recalled(pair, workspace->deepest[i]);
+    const NearestBoundary nearest =
+        ExpandingPolytope(pair, rounding)
+            .run(found.simplex, warm ? std::span<const VertexPair>(hints)
+                                     : std::span<const VertexPair>());
+    if (workspace != nullptr) {
+        remember(found.simplex, *workspace);
+        workspace->deepest = nearest.corners;
+    }
 
     result.meet = true;
     result.counters.simplices += nearest.steps;

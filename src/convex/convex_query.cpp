@@ -49,16 +49,19 @@ DifferenceSimplex first_simplex(const ConvexData& a, const ConvexData& b, const 
         simplex.count = 1;
         return simplex;
     }
-    const auto vertex = [](const Polytope& p, std::uint32_t v) {
-        return v < p.vertices.size() ? v : 0;
-    };
     for (const VertexPair& last : workspace->pairs) {
-        const VertexPair corner{vertex(*pair.a.polytope, last.a), vertex(*pair.b.polytope, last.b)};
+        const VertexPair corner = recalled(pair, last);
         auto* const end = simplex.corners.begin() + simplex.count;
         if (std::find(simplex.corners.begin(), end, corner) == end)
             simplex.corners[simplex.count++] = corner;
     }
     return simplex;
+}
+
+void remember(const DifferenceSimplex& simplex, ConvexWorkspace& workspace) {
+    workspace.kind = ConvexWorkspace::Kind::simplex;
+    for (std::size_t i = 0; i < 4; ++i)
+        workspace.pairs[i] = simplex.corners[i < simplex.count ? i : 0];
 }
 
 } // namespace abut

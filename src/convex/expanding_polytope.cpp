@@ -27,13 +27,14 @@ constexpr std::uint32_t kMostSteps = 2000;
 ExpandingPolytope::ExpandingPolytope(const PolytopePair& pair, double rounding)
     : pair_(pair), rounding_(rounding) {
     corners_.reserve(64);
-    cone_from_.reserve(64);
     faces_.reserve(256);
     open_.reserve(64);
+    visible_.reserve(64);
+    horizon_.reserve(64);
 }
 
 ExpandingPolytope::Corner ExpandingPolytope::placed(const VertexPair& vertices) const {
-    return {pair_.b.vertex(vertices.b) - pair_.a.vertex(vertices.a), vertices};
+    return {pair_.b.vertex(vertices.b) - pair_.a.vertex(vertices.a), vertices, 0};
 }
 
 ExpandingPolytope::Corner ExpandingPolytope::farthest_corner(const Vec3& direction) const {
@@ -136,14 +137,13 @@ void ExpandingPolytope::add_corner(const Corner& corner, std::uint32_t seen_by) 
     remove_visible(corner.at, seen_by);
     const auto point = static_cast<std::uint32_t>(corners_.size());
     corners_.push_back(corner);
-    cone_from_.resize(corners_.size());
     const auto first = static_cast<std::uint32_t>(faces_.size());
     for (const std::uint32_t edge : horizon_) {
         const std::uint32_t k = edge % 3, from = faces_[edge / 3].corners[k],
                             to = faces_[edge / 3].corners[(k + 1) % 3],
                             other = faces_[edge / 3].across[k];
         const auto face = static_cast<std::uint32_t>(faces_.size());
-        cone_from_[from] = face;
+        corners_[from].cone = face;
         Face& beyond = faces_[other];
         for (std::size_t j = 0; j < 3; ++j)
             if (beyond.corners[j] == to)
@@ -152,7 +152,7 @@ void ExpandingPolytope::add_corner(const Corner& corner, std::uint32_t seen_by) 
         faces_[face].across[0] = other;
     }
     for (std::uint32_t f = first; f < faces_.size(); ++f) {
-        const std::uint32_t next = cone_from_[faces_[f].corners[1]];
+        const std::uint32_t next = corners_[faces_[f].corners[1]].cone;
         faces_[f].across[1] = next;
         faces_[next].across[2] = f;
     }
@@ -171,19 +171,23 @@ void ExpandingPolytope::add_hint(const VertexPair& vertices) {
 void ExpandingPolytope::finish(const Face& face, NearestBoundary& nearest) const {
     const Vec3 point = face.offset * face.normal;
     double least_sq = std::numeric_limits<double>::infinity();
-    for (const Face& f : faces_) {
-        if (!f.alive || f.offset > face.offset + rounding_)
-            continue;
+    const auto try_face = [&](const Face& f) {
         const auto corner = [&](std::size_t k) -> const Corner& { return corners_[f.corners[k]]; };
         const NearestOnTriangle n =
             nearest_on_triangle(point, {corner(0).at, corner(1).at, corner(2).at});
         if (!(n.distance_sq < least_sq))
-            continue;
+            return;
         least_sq = n.distance_sq;
         nearest.weights = n.weights;
         for (std::size_t k = 0; k < 3; ++k)
             nearest.corners[k] = corner(k).vertices;
-    }
+    };
+    try_face(face);
+    if (least_sq <= rounding_ * rounding_)
+        return;
+    for (const Face& f : faces_)
+        if (f.alive && f.offset <= face.offset + rounding_)
+            try_face(f);
 }
 
 NearestBoundary ExpandingPolytope::run(const DifferenceSimplex& start,
@@ -191,7 +195,6 @@ NearestBoundary ExpandingPolytope::run(const DifferenceSimplex& start,
     NearestBoundary nearest;
     if (!complete(start, nearest))
         return nearest;
-    cone_from_.resize(4);
     if (dot(cross(corners_[1].at - corners_[0].at, corners_[2].at - corners_[0].at),
             corners_[3].at - corners_[0].at) > 0)
         std::swap(corners_[1], corners_[2]);

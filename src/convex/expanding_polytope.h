@@ -44,6 +44,7 @@ private:
     struct Corner {
         Vec3 at;
         VertexPair vertices;
+        std::uint32_t cone; ///< while a cone is built: its face that begins here
     };
     /// Counter-clockwise as seen from outside.
     struct Face {
@@ -74,7 +75,6 @@ private:
     std::vector<std::uint32_t> open_;    ///< faces that may be the nearest, and some that went
     std::vector<std::uint32_t> visible_; ///< faces
     std::vector<std::uint32_t> horizon_; ///< edges, each as three times a face that goes plus k
-    std::vector<std::uint32_t> cone_from_; ///< by corner: the new face whose first corner it is
 };
 
 } // namespace abut

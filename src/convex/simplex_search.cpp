@@ -3,6 +3,7 @@
 #include "geometry/point_triangle_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace abut {
@@ -90,8 +91,8 @@ private:
         return length_sq(point) <= kRoundings * kRoundings * rounding_ * rounding_;
     }
 
-    /// Shares of the volume; else the nearest of the faces. All are measured: which of them the
-    /// origin lies outside of cannot be told of a flat tetrahedron.
+    /// Shares of the volume; else the nearest of the faces that the origin lies outside of. Of a flat
+    /// tetrahedron, whose shares do not add up, that cannot be told: then of all.
     void measure_tetrahedron() {
         constexpr std::uint32_t kOthers[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
         const auto face = [&](std::size_t i) {
@@ -107,8 +108,11 @@ private:
         gap_ = {};
         if (holds_origin_)
             return;
+        const bool sound = std::abs(shares[0] + shares[1] + shares[2] + shares[3] - 1) < 1e-9;
         double best_sq = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < 4; ++i) {
+            if (sound && shares[i] > 0)
+                continue;
             const NearestOnTriangle n = nearest_on_triangle({}, face(i));
             if (!(n.distance_sq < best_sq))
                 continue;
