@@ -172,6 +172,33 @@ TEST(Convex, MeshesAreChecked) {
     EXPECT_EQ(error_of(dented, {.relative_dent = 0.1}), "none");
 }
 
+TEST(Convex, PenetrationByHand) {
+    const ConvexDepth side = penetration(kCube, Pose{}, kCube, translation(0.25, 0.5, 0.75));
+    EXPECT_TRUE(side.meet);
+    EXPECT_EQ(side.depth, 0.25);
+    EXPECT_EQ(side.at_least, 0.25);
+    EXPECT_EQ(side.direction, (Vec3{0, 0, 1}));
+    EXPECT_EQ(side.point_a.z, 1);
+    EXPECT_EQ(side.point_b.z, 0.75);
+    EXPECT_EQ(side.status, Status::exact);
+    EXPECT_EQ(penetration(kCube, Pose{}, kCube, Pose{}).depth, 1);
+    EXPECT_EQ(penetration(kCube, Pose{}, kCube, translation(0, 1, 0)).depth, 0);
+    EXPECT_FALSE(penetration(kCube, Pose{}, kCube, translation(0, 2, 0)).meet);
+
+    // Flat bodies: out of the common plane, or off the side.
+    const Convex square = hull({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    EXPECT_EQ(penetration(square, Pose{}, square, translation(0.5, 0, 0)).depth, 0);
+    EXPECT_EQ(penetration(kCube, Pose{}, square, translation(0, 0, 0.75)).depth, 0.25);
+    const Convex point = hull({{0.5, 0.5, 0.875}});
+    const ConvexDepth inside = penetration(kCube, Pose{}, point, Pose{});
+    EXPECT_EQ(inside.depth, 0.125);
+    EXPECT_EQ(inside.point_a, (Vec3{0.5, 0.5, 1}));
+    EXPECT_EQ(inside.point_b, (Vec3{0.5, 0.5, 0.875}));
+    const Convex needle = hull({{0.5, 0.5, -1}, {0.5, 0.5, 3}});
+    EXPECT_EQ(penetration(kCube, Pose{}, needle, Pose{}).depth, 0.5);
+    EXPECT_EQ(penetration(needle, Pose{}, point, Pose{}).depth, 0);
+}
+
 TEST(Convex, BadArguments) {
     Transform bad;
     bad.m[4] = kNaN;
@@ -179,6 +206,7 @@ TEST(Convex, BadArguments) {
     EXPECT_THROW(distance(kCube, Pose{}, kCube, bad), Error);
     bad.m[4] = 1, bad.m[11] = std::numeric_limits<double>::infinity();
     EXPECT_THROW(distance(kCube, Pose{}, kCube, bad), Error);
+    EXPECT_THROW(penetration(kCube, Pose{}, kCube, bad), Error);
     EXPECT_THROW(distance(kCube, Pose{}, kCube, Pose{}, {.max_error = -1}), Error);
     EXPECT_THROW(distance(kCube, Pose{}, kCube, Pose{}, {.max_error = kNaN}), Error);
 }
