@@ -117,6 +117,8 @@ private:
     void compare(const std::string& name, const Convex& a, const Convex& b,
                  const std::vector<PosedPair>& poses, const Query& ours, PeerQuery theirs,
                  std::optional<double> error) {
+        if (name.find(options_.only) == std::string::npos)
+            return;
         std::vector<double> our_answers(poses.size()), their_answers(poses.size());
         const Work work = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
@@ -132,8 +134,7 @@ private:
                         their_answers[i] = ((*peer).*theirs)(i);
                 };
             }
-            const Turns turns =
-                take_turns(poses.size(), kSteps, options_.rounds, work, peer_work);
+            const Turns turns = take_turns(poses.size(), kSteps, options_.rounds, work, peer_work);
             const double nanoseconds = 1e9 / static_cast<double>(poses.size());
             Row row{name, turns.ours * nanoseconds, {}, {}, "ns/query", 1, {}};
             if (error)
@@ -185,20 +186,18 @@ private:
         measure("distance, random, old workspace", apart, warm);
         const std::vector<PosedPair> meeting = random_poses(a, b, false);
         measure("distance, random, meeting", meeting, cold);
-        compare(
-            name + ", penetration, random", a, b, meeting,
-            [&](const PosedPair& p, std::size_t /*index*/) {
-                return abut::penetration(a, p.a, b, p.b).depth;
-            },
-            &ConvexPeer::penetration, {});
-        compare(
-            name + ", penetration, coherent", a, b, path_poses(0.5),
-            [&](const PosedPair& p, std::size_t index) {
-                if (index % kSteps == 0)
-                    workspace = {};
-                return abut::penetration(a, p.a, b, p.b, &workspace).depth;
-            },
-            &ConvexPeer::penetration, {});
+        compare(name + ", penetration, random", a, b, meeting,
+                [&](const PosedPair& p, std::size_t /*index*/) {
+                    return abut::penetration(a, p.a, b, p.b).depth;
+                },
+                &ConvexPeer::penetration, {});
+        compare(name + ", penetration, coherent", a, b, path_poses(0.5),
+                [&](const PosedPair& p, std::size_t index) {
+                    if (index % kSteps == 0)
+                        workspace = {};
+                    return abut::penetration(a, p.a, b, p.b, &workspace).depth;
+                },
+                &ConvexPeer::penetration, {});
     }
 
     static constexpr std::size_t kSteps = 250;

@@ -105,6 +105,7 @@ int run(int argc, char** argv) {
     convex_suite->add_option("files", convex.files, "Model files whose hulls are taken too");
     convex_suite->add_option("--vertices", convex.vertices, "Of the ellipsoids");
     convex_suite->add_option("--poses", convex.poses, "In each case");
+    convex_suite->add_option("--only", convex.only, "Cases whose name has this in it");
     convex_suite->add_option("--rounds", convex.rounds, "Passes; medians are printed")
         ->check(CLI::Range(1, 1000));
     convex_suite->add_option("--seed", convex.seed, "Of bodies and poses");

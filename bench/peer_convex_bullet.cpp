@@ -1,11 +1,10 @@
 #include "peer_convex.h"
 
 #ifdef ABUT_BENCH_BULLET
-#include <btBulletCollisionCommon.h>
-
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <btBulletCollisionCommon.h>
 #include <fmt/format.h>
 #endif
 

@@ -131,7 +131,6 @@ struct ConvexDepth {
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
                    const Transform& world_from_b, const ConvexDistanceOptions& options = {});
 
-
 /// The shortest translation that ends the overlap of two convex bodies.
 ///
 /// Degenerate  as `distance`. Where they only touch, or one of them is flat, the depth may be 0.

@@ -13,7 +13,7 @@ namespace abut {
 struct HullLevel {
     Polytope polytope;
     std::vector<std::uint32_t> number; ///< of each vertex, among those of the body
-    double deviation = 0; ///< no point of the body is farther than that from this hull
+    double deviation = 0;              ///< no point of the body is farther than that from this hull
 };
 
 /// What a Convex shares among its copies.
@@ -35,7 +35,7 @@ public:
     /// the face of the triangle between it and the next around its vertex.
     std::vector<std::uint32_t> edge_number, face_number;
     std::vector<HullLevel> levels; ///< the body's own polytope first, then ever coarser ones
-    std::size_t entry = 0; ///< the level where an incoherent search begins
+    std::size_t entry = 0;         ///< the level where an incoherent search begins
     double reach = 0;              ///< largest |x| + |y| + |z| of a vertex
     Vec3 middle;                   ///< of the box around the vertices
 

@@ -27,8 +27,8 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
         hints[i] = recalled(pair, workspace->deepest[i]);
     const NearestBoundary nearest =
         ExpandingPolytope(pair, rounding)
-            .run(found.simplex, warm ? std::span<const VertexPair>(hints)
-                                     : std::span<const VertexPair>());
+            .run(found.simplex,
+                 warm ? std::span<const VertexPair>(hints) : std::span<const VertexPair>());
     if (workspace != nullptr) {
         remember(found.simplex, *workspace);
         workspace->deepest = nearest.corners;

@@ -43,9 +43,8 @@ std::vector<std::uint32_t> spanning_points(std::span<const Vec3> points) {
         return {first};
     const Vec3& b = points[second];
     const Vec3 along = normalized_or_zero(b - a);
-    const std::uint32_t third =
-        pick([&](const Vec3& p) { return length_sq(cross(along, p - a)); },
-             [&](const Vec3& p) { return !collinear(a, b, p); });
+    const std::uint32_t third = pick([&](const Vec3& p) { return length_sq(cross(along, p - a)); },
+                                     [&](const Vec3& p) { return !collinear(a, b, p); });
     if (third == kNone)
         return {first, second};
     const Vec3& c = points[third];
@@ -95,7 +94,7 @@ public:
 private:
     struct Face {
         IndexTriangle corners;
-        IndexTriangle across; ///< across[k]: the face beyond the edge from corner k
+        IndexTriangle across;               ///< across[k]: the face beyond the edge from corner k
         std::vector<std::uint32_t> outside; ///< points that this face sees, and no earlier one
         bool alive;
     };
@@ -112,11 +111,10 @@ private:
     [[nodiscard]] std::uint32_t farthest(const Face& f) const {
         const Vec3& a = points_[f.corners[0]];
         const Vec3 normal = cross(points_[f.corners[1]] - a, points_[f.corners[2]] - a);
-        return *std::max_element(f.outside.begin(), f.outside.end(),
-                                 [&](std::uint32_t p, std::uint32_t q) {
-                                     return dot(normal, points_[p] - a) <
-                                            dot(normal, points_[q] - a);
-                                 });
+        return *std::max_element(
+            f.outside.begin(), f.outside.end(), [&](std::uint32_t p, std::uint32_t q) {
+                return dot(normal, points_[p] - a) < dot(normal, points_[q] - a);
+            });
     }
 
     /// Gives each point to the first of the faces from `first_face` on that sees it.

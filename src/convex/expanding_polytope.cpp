@@ -64,9 +64,9 @@ bool ExpandingPolytope::complete(const DifferenceSimplex& start, NearestBoundary
         corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(least));
     }
     while (corners_.size() < 4) {
-        const Vec3 direction =
-            corners_.size() == 1   ? Vec3{1, 0, 0}
-            : corners_.size() == 2 ? across(at(1) - at(0))
+        const Vec3 direction = corners_.size() == 1 ? Vec3{1, 0, 0}
+                               : corners_.size() == 2
+                                   ? across(at(1) - at(0))
                                    : normalized_or_zero(cross(at(1) - at(0), at(2) - at(0)));
         const Corner next = farthest_corner(direction);
         if (!(dot(direction, next.at) > rounding_)) {
@@ -100,11 +100,13 @@ void ExpandingPolytope::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t
 /// Takes the nearest face from those that are open, and forgets those that will not be it.
 std::uint32_t ExpandingPolytope::nearest_face() {
     std::size_t kept = 0, nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t f : open_) {
-        if (!faces_[f].alive || faces_[f].offset > upper_)
+        const double offset = faces_[f].offset;
+        if (offset > upper_)
             continue;
-        if (faces_[f].offset < faces_[open_[nearest]].offset)
-            nearest = kept;
+        nearest = offset < least ? kept : nearest;
+        least = std::min(least, offset);
         open_[kept++] = f;
     }
     open_.resize(kept);
@@ -116,20 +118,21 @@ void ExpandingPolytope::remove_visible(const Vec3& corner, std::uint32_t seen_by
     visible_.clear();
     visible_.push_back(seen_by);
     horizon_.clear();
-    faces_[seen_by].alive = false;
+    faces_[seen_by].remove();
     for (std::size_t i = 0; i < visible_.size(); ++i) {
         const Face& face = faces_[visible_[i]];
         for (std::size_t k = 0; k < 3; ++k) {
             Face& beyond = faces_[face.across[k]];
-            if (beyond.alive && above(beyond, corner) > rounding_) {
-                beyond.alive = false;
+            // Nothing is above a face that is gone.
+            if (above(beyond, corner) > rounding_) {
+                beyond.remove();
                 visible_.push_back(face.across[k]);
             }
         }
     }
     for (const std::uint32_t f : visible_)
         for (std::size_t k = 0; k < 3; ++k)
-            if (faces_[faces_[f].across[k]].alive)
+            if (faces_[faces_[f].across[k]].alive())
                 horizon_.push_back(3 * f + static_cast<std::uint32_t>(k));
 }
 
@@ -161,7 +164,7 @@ void ExpandingPolytope::add_corner(const Corner& corner, std::uint32_t seen_by) 
 void ExpandingPolytope::add_hint(const VertexPair& vertices) {
     const Corner corner = placed(vertices);
     for (std::uint32_t f = 0; f < faces_.size(); ++f)
-        if (faces_[f].alive && above(faces_[f], corner.at) > rounding_) {
+        if (faces_[f].alive() && above(faces_[f], corner.at) > rounding_) {
             add_corner(corner, f);
             return;
         }
@@ -186,7 +189,7 @@ void ExpandingPolytope::finish(const Face& face, NearestBoundary& nearest) const
     if (least_sq <= rounding_ * rounding_)
         return;
     for (const Face& f : faces_)
-        if (f.alive && f.offset <= face.offset + rounding_)
+        if (f.offset <= face.offset + rounding_)
             try_face(f);
 }
 
@@ -209,9 +212,9 @@ NearestBoundary ExpandingPolytope::run(const DifferenceSimplex& start,
         const Corner corner = farthest_corner(face.normal);
         const double excess = above(face, corner.at);
         upper_ = std::min(upper_, face.offset + excess + rounding_);
-        const bool own = std::any_of(face.corners.begin(), face.corners.end(), [&](std::uint32_t c) {
-            return corners_[c].vertices == corner.vertices;
-        });
+        const bool own =
+            std::any_of(face.corners.begin(), face.corners.end(),
+                        [&](std::uint32_t c) { return corners_[c].vertices == corner.vertices; });
         if (excess <= rounding_ || own || nearest.steps == kMostSteps) {
             nearest.normal = face.normal;
             nearest.depth = std::max(0.0, face.offset + std::max(0.0, excess));

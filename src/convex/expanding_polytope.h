@@ -14,8 +14,8 @@ namespace abut {
 /// The boundary point of the difference of two polytopes that is nearest to the origin, and what
 /// proves it.
 struct NearestBoundary {
-    Vec3 normal;        ///< unit vector; the difference lies below its plane
-    double depth = 0;   ///< the plane's distance: no corner lies farther along the normal
+    Vec3 normal;         ///< unit vector; the difference lies below its plane
+    double depth = 0;    ///< the plane's distance: no corner lies farther along the normal
     double at_least = 0; ///< no plane around the difference is nearer
     std::array<VertexPair, 3> corners{}; ///< of the face that the point lies on
     std::array<double, 3> weights{};     ///< of the point
@@ -50,8 +50,12 @@ private:
     struct Face {
         std::array<std::uint32_t, 3> corners, across; ///< across[k]: beyond the edge from corner k
         Vec3 normal;
-        double offset; ///< of its plane from the origin
-        bool alive = true;
+        double offset; ///< of its plane from the origin; infinite once the face is gone
+
+        [[nodiscard]] bool alive() const {
+            return offset < std::numeric_limits<double>::infinity();
+        }
+        void remove() { offset = std::numeric_limits<double>::infinity(); }
     };
 
     [[nodiscard]] Corner farthest_corner(const Vec3& direction) const;

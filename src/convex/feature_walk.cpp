@@ -91,7 +91,8 @@ Measured measure_face_edge(const Triangle& t, const Vec3& q0, const Vec3& q1) {
     }
     if (pierces_plane)
         if (const TriangleFoot foot = foot_within(first_is_nearer ? q1 : q0, t); foot.within)
-            take(measured(foot.point, foot.gap, corners_with(foot.weights), first_is_nearer ? 2 : 1));
+            take(measured(foot.point, foot.gap, corners_with(foot.weights),
+                          first_is_nearer ? 2 : 1));
     constexpr Corners kEdgeCorners[3][4] = {{0, 1, 2, 3}, {0, 2, 4, 6}, {0, 4, 1, 5}};
     for (std::size_t k = 0; k < 3; ++k) {
         Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
@@ -130,8 +131,8 @@ inline Measured measure(const PolytopePair& pair, const HullFeature& a, const Hu
         return measure_edge_edge(corner0(pair.a, a), corner1(pair.a, a), corner0(pair.b, b),
                                  corner1(pair.b, b));
     case 5:
-        return turned(measure_face_edge(triangle(pair.b, b), corner0(pair.a, a),
-                                        corner1(pair.a, a)));
+        return turned(
+            measure_face_edge(triangle(pair.b, b), corner0(pair.a, a), corner1(pair.a, a)));
     case 6:
         return measure_face_vertex(triangle(pair.a, a), corner0(pair.b, b));
     default:

@@ -9,14 +9,17 @@ namespace abut {
 
 struct Polytope;
 
-/// For each cell of a grid over all directions, on the faces of a cube, the vertex that is farthest
-/// along the cell's middle: where to begin to climb.
+/// For each cell of a grid over all directions the vertex that is farthest along the cell's middle:
+/// where to begin to climb.
 ///
-/// Source      [Ehmann, Lin 2000] (SWIFT). Differs: cells on a cube.
+/// The sphere is projected on the octahedron |x| + |y| + |z| = 1, whose lower half is folded out
+/// around the upper one, so that both fill the square [-1, 1]^2.
+///
+/// Source      [Ehmann, Lin 2000] (SWIFT); the grid is that of [Meyer et al. 2010]'s unit vectors.
 class NormalTable {
 public:
     NormalTable() = default;
-    /// Of 6 resolution^2 cells.
+    /// Of resolution^2 cells.
     NormalTable(const Polytope& polytope, std::uint32_t resolution);
 
     /// In          any direction; of any length, zero included. A table without cells says 0.
@@ -25,8 +28,6 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& vertices() const { return vertices_; }
 
 private:
-    [[nodiscard]] std::size_t cell(std::uint32_t axis, double along, double u, double v) const;
-
     std::uint32_t resolution_ = 1;
     std::vector<std::uint32_t> vertices_;
 };

@@ -31,11 +31,11 @@ struct PlacedPolytope {
 struct PolytopePair {
     PolytopePair(const Polytope& polytope_a, const Transform& world_from_a,
                  const Polytope& polytope_b, const Transform& world_from_b)
-        : a{&polytope_a, &world_from_a, {}},
-          b{&polytope_b,
-            &world_from_b,
-            {world_from_b.m[9] - world_from_a.m[9], world_from_b.m[10] - world_from_a.m[10],
-             world_from_b.m[11] - world_from_a.m[11]}} {}
+        : a{&polytope_a, &world_from_a, {}}, b{&polytope_b,
+                                               &world_from_b,
+                                               {world_from_b.m[9] - world_from_a.m[9],
+                                                world_from_b.m[10] - world_from_a.m[10],
+                                                world_from_b.m[11] - world_from_a.m[11]}} {}
 
     PlacedPolytope a, b;
 };

@@ -29,9 +29,9 @@ std::vector<Corner> corners_by_vertex(std::span<const IndexTriangle> triangles) 
 void order_ring(std::span<Corner> ring) {
     const std::vector<Corner> sorted(ring.begin(), ring.end());
     for (std::size_t i = 1; i < ring.size(); ++i)
-        ring[i] = *std::lower_bound(
-            sorted.begin(), sorted.end(), ring[i - 1].apex,
-            [](const Corner& c, std::uint32_t vertex) { return c.to < vertex; });
+        ring[i] =
+            *std::lower_bound(sorted.begin(), sorted.end(), ring[i - 1].apex,
+                              [](const Corner& c, std::uint32_t vertex) { return c.to < vertex; });
 }
 
 void set_twins(Polytope& polytope) {
@@ -84,9 +84,13 @@ std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32
     for (;;) {
         const HullVertex& vertex = polytope.vertices[best];
         const std::uint32_t at = best;
-        for (std::uint32_t e = vertex.first_edge; e < vertex.first_edge + vertex.degree; ++e)
-            if (const double h = dot(direction, polytope.edges[e].to); h > height)
-                height = h, best = polytope.edges[e].target;
+        for (std::uint32_t e = vertex.first_edge; e < vertex.first_edge + vertex.degree; ++e) {
+            const HullEdge& edge = polytope.edges[e];
+            const double h = dot(direction, edge.to);
+            const bool higher = h > height; // as a choice of values, not a branch: it is a coin's
+            height = higher ? h : height;
+            best = higher ? edge.target : best;
+        }
         if (best == at)
             return best;
     }

@@ -23,7 +23,7 @@ struct SimplexState {
     Vec3 point_a;         ///< in the pair's frame: the weighted sum of the vertices of a
     Vec3 gap;             ///< to that of b
     double distance_sq = 0;
-    double excess = 0; ///< no point is nearer than the distance less this over the distance
+    double excess = 0;       ///< no point is nearer than the distance less this over the distance
     std::uint32_t steps = 0; ///< simplices that were measured
 };
 

@@ -87,7 +87,6 @@ struct Case {
     Transform world_a, world_b;
 };
 
-
 /// The largest n . p over the body, as placed.
 double farthest(const Convex& c, const Transform& world, const Vec3& n, const Vec3& from) {
     double most = -HUGE_VAL;
@@ -190,17 +189,17 @@ TEST_P(ConvexDistance, IsThatOfTheTriangles) {
             turn_a = turn_b = Transform();
             off = {std::round(off.x * 8) / 8, std::round(off.y * 8) / 8, std::round(off.z * 8) / 8};
         }
-        const Case c{a, b, compose(translation(scale * at.x, scale * at.y, scale * at.z),
-                                   compose(turn_a, size)),
-                     compose(translation(scale * (at.x + off.x), scale * (at.y + off.y),
-                                         scale * (at.z + off.z)),
-                             compose(turn_b, size))};
+        const Case c{
+            a, b,
+            compose(translation(scale * at.x, scale * at.y, scale * at.z), compose(turn_a, size)),
+            compose(
+                translation(scale * (at.x + off.x), scale * (at.y + off.y), scale * (at.z + off.z)),
+                compose(turn_b, size))};
         const double rounding = 0x1p-52 * scale * (2 + length(at) + length(off));
         const ConvexGap gap = distance(c.a, c.world_a, c.b, c.world_b);
         prove(c, gap, rounding);
         const Model model_a(a.mesh()), model_b(b.mesh());
-        const double surfaces =
-            distance(model_a, c.world_a, model_b, c.world_b).distance;
+        const double surfaces = distance(model_a, c.world_a, model_b, c.world_b).distance;
         if (gap.distance > 0) {
             EXPECT_NEAR(gap.distance, surfaces, 1e-12 * surfaces + 16 * rounding);
             ++features[static_cast<std::size_t>(gap.feature_a)]
@@ -212,9 +211,9 @@ TEST_P(ConvexDistance, IsThatOfTheTriangles) {
                     1e-12 * gap.distance + 16 * rounding);
         meet += gap.distance == 0 ? 1 : 0;
         ++cases;
-        ASSERT_FALSE(HasFailure()) << "case " << i << ", kinds " << kind_a << ' ' << kind_b
-                                   << ", distance " << gap.distance << ", of the surfaces "
-                                   << surfaces;
+        ASSERT_FALSE(HasFailure())
+            << "case " << i << ", kinds " << kind_a << ' ' << kind_b << ", distance "
+            << gap.distance << ", of the surfaces " << surfaces;
     }
     EXPECT_GT(meet, cases / 5);
     EXPECT_LT(meet, cases * 4 / 5);
@@ -246,8 +245,7 @@ TEST(ConvexPath, AWorkspaceChangesNothing) {
             Transform world_b = turn;
             world_b.m[9] = at.x, world_b.m[10] = at.y, world_b.m[11] = at.z;
             const Case c{a, b, Transform(), world_b};
-            const ConvexGap warm =
-                distance(a, c.world_a, b, c.world_b, {.workspace = &workspace});
+            const ConvexGap warm = distance(a, c.world_a, b, c.world_b, {.workspace = &workspace});
             const ConvexGap cold = distance(a, c.world_a, b, c.world_b);
             EXPECT_NEAR(warm.distance, cold.distance, 1e-12 * cold.distance + 1e-14);
             prove(c, warm, 1e-15);
