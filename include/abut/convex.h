@@ -60,7 +60,7 @@ private:
 
 /// A vertex of each of two bodies.
 struct VertexPair {
-    std::uint32_t a, b;
+    std::uint32_t a = 0, b = 0;
     friend bool operator==(const VertexPair&, const VertexPair&) = default;
 };
 

@@ -44,6 +44,7 @@ HullLevel coarser(const HullLevel& fine) {
     std::sort(kept.begin(), kept.end());
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     std::vector<Vec3> points;
+    points.reserve(kept.size());
     for (const std::uint32_t v : kept)
         points.push_back(all[v].at);
     // Vertices of a hull are vertices of the hull of some of them.

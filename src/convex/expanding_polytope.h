@@ -44,13 +44,14 @@ private:
     struct Corner {
         Vec3 at;
         VertexPair vertices;
-        std::uint32_t cone; ///< while a cone is built: its face that begins here
+        std::uint32_t cone = 0; ///< while a cone is built: its face that begins here
     };
     /// Counter-clockwise as seen from outside.
     struct Face {
-        std::array<std::uint32_t, 3> corners, across; ///< across[k]: beyond the edge from corner k
+        std::array<std::uint32_t, 3> corners{},
+            across{}; ///< across[k]: beyond the edge from corner k
         Vec3 normal;
-        double offset; ///< of its plane from the origin; infinite once the face is gone
+        double offset = 0; ///< of its plane from the origin; infinite once the face is gone
 
         [[nodiscard]] bool alive() const {
             return offset < std::numeric_limits<double>::infinity();

@@ -175,9 +175,9 @@ inline void shrink(const Polytope& p, Corners corners, HullFeature& f) {
 /// How much further along the gap than a feature a neighbour lies at most, and the feature grown
 /// towards it.
 struct Growth {
-    double excess;
+    double excess = 0;
     HullFeature feature;
-    bool possible;
+    bool possible = false;
 };
 
 /// `tolerance_sq`: the square of an excess that is rounding.

@@ -10,8 +10,8 @@ namespace abut {
 
 /// A polytope under a transform whose translation is replaced.
 struct PlacedPolytope {
-    const Polytope* polytope;
-    const Transform* linear; ///< its linear part
+    const Polytope* polytope = nullptr;
+    const Transform* linear = nullptr; ///< its linear part
     Vec3 offset;
 
     [[nodiscard]] Vec3 place(const Vec3& v) const { return apply_linear(*linear, v) + offset; }

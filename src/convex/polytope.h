@@ -14,13 +14,13 @@ namespace abut {
 /// look at all neighbours of a vertex touches one run of memory.
 struct HullEdge {
     Vec3 to;
-    std::uint32_t target;
-    std::uint32_t twin; ///< the same edge from the other end
+    std::uint32_t target = 0;
+    std::uint32_t twin = 0; ///< the same edge from the other end
 };
 
 struct HullVertex {
     Vec3 at;
-    std::uint32_t first_edge, degree;
+    std::uint32_t first_edge = 0, degree = 0;
 };
 
 /// A convex polytope as a graph for walking: every vertex with the ring of its edges,

@@ -12,8 +12,8 @@ namespace abut {
 /// Up to four corners of the difference of two polytopes b - a, and the point of their hull that is
 /// nearest to the origin.
 struct DifferenceSimplex {
-    std::array<VertexPair, 4> corners;
-    std::array<double, 4> weights; ///< of that point; positive, their sum is 1
+    std::array<VertexPair, 4> corners{};
+    std::array<double, 4> weights{}; ///< of that point; positive, their sum is 1
     std::uint32_t count = 0;
 };
 
