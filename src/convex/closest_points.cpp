@@ -55,7 +55,7 @@ void leap(const PolytopePair& pair, WalkState& at) {
 
 void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
                                       ClosestPointSearch& search) {
-    const SimplexState found = search_simplex(pair, search.simplex, rounding);
+    const SimplexState found = search_simplex(pair, *search.simplex, rounding);
     search.simplices += found.steps;
     search.simplex = found.simplex;
     WalkState& at = search.at;
@@ -89,8 +89,9 @@ void find_closest_points(const PolytopePair& pair, double rounding, ClosestPoint
     }
     if (search.at.end != WalkEnd::stuck)
         return;
-    search.simplex.corners[0] = {search.at.a.vertex, search.at.b.vertex};
-    search.simplex.count = 1;
+    search.simplex.emplace();
+    search.simplex->corners[0] = {search.at.a.vertex, search.at.b.vertex};
+    search.simplex->count = 1;
     find_closest_points_from_simplex(pair, rounding, search);
 }
 

@@ -5,6 +5,7 @@
 #include "convex/simplex_search.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace abut {
 
@@ -12,7 +13,7 @@ namespace abut {
 struct ClosestPointSearch {
     /// Where it begins, then the closest points. `end` is meeting or closest.
     WalkState at;
-    DifferenceSimplex simplex;   ///< if meeting, and found so: whose corners prove it
+    std::optional<DifferenceSimplex> simplex; ///< if meeting, and found so: it proves that
     std::uint32_t simplices = 0; ///< that were measured
 };
 

@@ -77,8 +77,8 @@ void name(const ConvexData& body, const HullFeature& f, Feature& kind, std::uint
 }
 
 void remember(const ClosestPointSearch& search, ConvexWorkspace& workspace) {
-    if (search.at.end == WalkEnd::meeting && search.simplex.count > 0) {
-        remember(search.simplex, workspace);
+    if (search.at.end == WalkEnd::meeting && search.simplex) {
+        remember(*search.simplex, workspace);
         return;
     }
     auto& pairs = workspace.pairs;

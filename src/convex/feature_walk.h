@@ -34,6 +34,8 @@ struct WalkState {
     WalkEnd end = WalkEnd::closest;
 };
 
+inline constexpr std::uint32_t kNoLimit = 0xffffffffU;
+
 /// Walks from a pair of features to the closest ones.
 ///
 /// A step measures the two features. If the gap g between them is in the normal cones of both, no
@@ -50,7 +52,6 @@ struct WalkState {
 /// Source      [Lin, Canny 1991], [Mirtich 1998] (V-Clip). Differs: normal cones in place of Voronoi
 ///             planes, which need nothing but the neighbours' positions and stay right under
 ///             any affine transform; a measured distance must shrink, so there is nothing to cycle.
-inline constexpr std::uint32_t kNoLimit = 0xffffffffU;
 void walk(const PolytopePair& pair, double rounding, std::uint32_t limit, WalkState& state);
 
 inline HullFeature vertex_feature(std::uint32_t vertex) {
