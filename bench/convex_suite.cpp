@@ -134,7 +134,8 @@ private:
                         their_answers[i] = ((*peer).*theirs)(i);
                 };
             }
-            const Turns turns = take_turns(poses.size(), kSteps, options_.rounds, work, peer_work);
+            const Turns turns =
+                take_turns(poses.size(), poses.size(), options_.rounds, work, peer_work);
             const double nanoseconds = 1e9 / static_cast<double>(poses.size());
             Row row{name, turns.ours * nanoseconds, {}, {}, "ns/query", 1, {}};
             if (error)

@@ -43,11 +43,15 @@ std::vector<std::uint32_t> vertices_of(const DifferenceSimplex& simplex,
 /// After so many pairs of features a search by the tables of normals may be shorter.
 constexpr std::uint32_t kLeap = 8;
 
-/// To the vertices that face each other along the gap, if they are nearer.
+/// To the vertices that face each other along the gap, if they are nearer. If there is no room
+/// between them along it, the polytopes are likely to meet, which simplices find sooner: stuck.
 void leap(const PolytopePair& pair, WalkState& at) {
     const std::uint32_t a = pair.a.polytope->starts.vertex(pair.a.pulled_back(at.gap)),
                         b = pair.b.polytope->starts.vertex(pair.b.pulled_back(-at.gap));
-    if (length_sq(pair.b.vertex(b) - pair.a.vertex(a)) < at.distance_sq)
+    const Vec3 gap = pair.b.vertex(b) - pair.a.vertex(a);
+    if (dot(gap, at.gap) < 0)
+        at.end = WalkEnd::stuck;
+    else if (length_sq(gap) < at.distance_sq)
         at.a = vertex_feature(a), at.b = vertex_feature(b);
 }
 
@@ -85,7 +89,8 @@ void find_closest_points(const PolytopePair& pair, double rounding, ClosestPoint
     walk(pair, rounding, kLeap, search.at);
     if (search.at.end == WalkEnd::limit) {
         leap(pair, search.at);
-        walk(pair, rounding, kNoLimit, search.at);
+        if (search.at.end == WalkEnd::limit)
+            walk(pair, rounding, kNoLimit, search.at);
     }
     if (search.at.end != WalkEnd::stuck)
         return;
