@@ -14,7 +14,7 @@ struct ClosestPointSearch {
     /// Where it begins, then the closest points. `end` is meeting or closest.
     WalkState at;
     std::optional<DifferenceSimplex> simplex; ///< if meeting, and found so: it proves that
-    std::uint32_t simplices = 0; ///< that were measured
+    std::uint32_t simplices = 0;              ///< that were measured
 };
 
 /// Walks from a pair of features, and leaves the cases in which walking ends early to the search by
