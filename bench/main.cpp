@@ -99,6 +99,18 @@ int run(int argc, char** argv) {
     shapes_suite->add_option("--seed", shapes.seed, "Of the queries");
     shapes_suite->callback([&] { report = run_shapes_suite(shapes); });
 
+    ConvexSuiteOptions convex;
+    CLI::App* convex_suite =
+        app.add_subcommand("convex", "Pairs of convex bodies, against FCL and Bullet");
+    convex_suite->add_option("files", convex.files, "Model files whose hulls are taken too");
+    convex_suite->add_option("--vertices", convex.vertices, "Of the ellipsoids");
+    convex_suite->add_option("--poses", convex.poses, "In each case");
+    convex_suite->add_option("--only", convex.only, "Cases whose name has this in it");
+    convex_suite->add_option("--rounds", convex.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    convex_suite->add_option("--seed", convex.seed, "Of bodies and poses");
+    convex_suite->callback([&] { report = run_convex_suite(convex); });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

@@ -87,4 +87,17 @@ struct ShapesSuiteOptions {
 /// Errors      as read_mesh.
 Report run_shapes_suite(const ShapesSuiteOptions& options);
 
+struct ConvexSuiteOptions {
+    std::vector<std::string> files;                    ///< models whose hulls are taken too
+    std::vector<std::size_t> vertices{100, 500, 2000}; ///< of the ellipsoids
+    std::size_t poses = 2000;                          ///< in each case
+    std::string only;                                  ///< run the cases whose name has this in it
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
+
+/// Pairs of convex bodies against FCL and Bullet.
+/// Errors      as read_mesh.
+Report run_convex_suite(const ConvexSuiteOptions& options);
+
 } // namespace abut::bench

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "convex_queries.h"
 #include "pair_query.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
 
 struct DistanceQuery : PairQuery {
     PosesOption poses;
+    bool convex = false; ///< of the models' hulls
     DistanceOptions options;
 
     [[nodiscard]] Gap ask(const TwoModels& m) const {
@@ -82,7 +84,17 @@ Subcommand add_distance(CLI::App& root, CommonOptions& common) {
         ->check(not_negative());
     app->add_flag("--signed", options.signed_distance,
                   "Negative, minus the depth, where the models go into each other");
-    return {app, [query, &common] { return run_one_or_many(*query, common); }};
+    CLI::Option* convex =
+        app->add_flag("--convex", query->convex, "Of the convex hulls, as solids");
+    for (const char* other : {"--relative-error", "--upper-bound", "--signed", "--volume"})
+        convex->excludes(app->get_option(other));
+    return {app, [query, &common] {
+                if (query->convex)
+                    return run_one_or_many(
+                        ConvexDistanceQuery{*query, query->poses, query->options.absolute_error},
+                        common);
+                return run_one_or_many(*query, common);
+            }};
 }
 
 } // namespace abut::command

@@ -1,6 +1,7 @@
 #include <abut/penetration.h>
 
 #include "commands.h"
+#include "convex_queries.h"
 #include "pair_query.h"
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ nlohmann::ordered_json describe_region(const ContactRegion& region) {
 
 struct PenetrationQuery : PairQuery {
     PenetrationOptions options;
+    bool convex = false; ///< of the models' hulls
 
     [[nodiscard]] Depth ask(const TwoModels& m) const {
         return penetration(m.a, m.world_from_a, m.b, m.world_from_b, options);
@@ -78,7 +80,13 @@ Subcommand add_penetration(CLI::App& root, CommonOptions& common) {
         "--no-separation", [&options = query->options] { options.separation = false; },
         "Do not look for a translation that separates them");
     add_fail_on(*app, query->fail_on, "penetration");
-    return {app, [query, &common] { return run(*query, common); }};
+    CLI::Option* convex = app->add_flag("--convex", query->convex, "Of the convex hulls");
+    for (const char* other : {"--accuracy", "--no-separation"})
+        convex->excludes(app->get_option(other));
+    return {app, [query, &common] {
+                return query->convex ? run(ConvexPenetrationQuery{*query}, common)
+                                     : run(*query, common);
+            }};
 }
 
 } // namespace abut::command

@@ -3,6 +3,7 @@
 /// The whole library. One header a subject; each can be included alone.
 #include <abut/batch.h>
 #include <abut/clash.h>
+#include <abut/convex.h>
 #include <abut/deformable.h>
 #include <abut/elementary_impact.h>
 #include <abut/error.h>

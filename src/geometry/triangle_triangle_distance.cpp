@@ -8,10 +8,6 @@ namespace abut {
 
 namespace {
 
-double clamp01(double v) {
-    return std::min(std::max(v, 0.0), 1.0);
-}
-
 void keep_nearer(ClosestPoints& best, const ClosestPoints& c) {
     if (c.distance_sq < best.distance_sq)
         best = c;
@@ -59,17 +55,6 @@ bool pierce(const Vec3& p, const Vec3& q, const Triangle& t, Vec3& point) {
 }
 
 } // namespace
-
-SegmentPoints nearest_on_segments(const Vec3& u, const Vec3& v, const Vec3& r) {
-    const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
-    const Vec3 n = cross(u, v);
-    const double nn = length_sq(n);
-    // Lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s for that t.
-    double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
-    const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
-    s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;
-    return {s, t, length_sq(r - s * u + t * v)};
-}
 
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1) {

@@ -24,6 +24,22 @@ TEST_F(TwoModelsTest, DistanceUnderATranslation) {
         EXPECT_TRUE(answer.contains(key)) << key;
 }
 
+TEST_F(TwoModelsTest, ConvexHulls) {
+    const auto answer = ask("distance", {"--pose-b", "3,0.5,0,1,0,0,0", "--convex", "--json"});
+    ASSERT_EQ(answer.status, 0) << answer.err;
+    EXPECT_EQ(answer.json()["distance"], 2.0);
+    EXPECT_EQ(answer.json()["status"], "exact");
+    EXPECT_TRUE(answer.json()["feature_a"].contains("id"));
+    EXPECT_NE(ask("distance", {"--convex"}).out.find("the hulls meet"), std::string::npos);
+    const auto depth = ask("penetration", {"--pose-b", "0.75,0,0,1,0,0,0", "--convex", "--json",
+                                           "--fail-on", "penetration"});
+    EXPECT_EQ(depth.status, 1);
+    EXPECT_EQ(depth.json()["depth"], 0.25);
+    EXPECT_EQ(depth.json()["direction"][0], 1.0);
+    EXPECT_EQ(ask("penetration", {"--pose-b", "3,0,0,1,0,0,0", "--convex"}).out, "apart\n");
+    EXPECT_EQ(ask("distance", {"--convex", "--signed"}).status, 2);
+}
+
 TEST_F(TwoModelsTest, DistanceNamesWhatThePointsLieOn) {
     // The corner (1, 1, 1) of A, the corner (2, 2, 2) of B.
     const auto answer = ask("distance", {"--pose-b", "2,2,2,1,0,0,0", "--json"}).json();

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <abut/mesh.h>
+#include <abut/types.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+/// Convex bodies: solid, and small enough in features that a query walks over them. All results are
+/// in the world frame that the transforms map to.
+namespace abut {
+
+class ConvexData;
+
+struct ConvexOptions {
+    /// Of a mesh: how deep a dent is still taken for rounding of its file, as a share of its box's
+    /// diagonal.
+    double relative_dent = 1e-6;
+};
+
+/// The convex hull of some points: a solid, or a polygon, a segment or a point where they span no
+/// more. Immutable once built: copies share the data, and any number of threads may query it.
+class Convex {
+public:
+    /// Errors      Error{bad_mesh} if there is no point, or a coordinate is not finite or beyond
+    ///             1e18.
+    /// Accuracy    exact: its vertices are those of the points that the hull of the others does not
+    ///             hold; what is coplanar exactly is one face.
+    /// Cost        O(n log n).
+    explicit Convex(std::span<const Vec3> points);
+
+    /// Takes a mesh that is convex already: its hull, if that is the mesh.
+    ///
+    /// Errors      as above; Error{bad_mesh} naming a triangle if the mesh is not closed, is
+    ///             turned inside out in part, or has a dent.
+    explicit Convex(const Mesh& mesh, const ConvexOptions& options = {});
+
+    [[nodiscard]] const std::vector<Vec3>& vertices() const noexcept;
+    /// Ends of each edge: numbers of vertices.
+    [[nodiscard]] const std::vector<std::array<std::uint32_t, 2>>& edges() const noexcept;
+    [[nodiscard]] std::size_t face_count() const noexcept;
+    /// Vertices of a face, counter-clockwise as seen from outside. A polygon has two faces.
+    [[nodiscard]] std::span<const std::uint32_t> face(std::size_t index) const;
+    /// Which of the points given (vertices of the mesh) each vertex is; of equal ones, one.
+    [[nodiscard]] const std::vector<std::uint32_t>& source() const noexcept;
+    /// 3, or 2 for a polygon, 1 for a segment, 0 for a point.
+    [[nodiscard]] int dimension() const noexcept;
+    /// Its surface in triangles; a segment and a point have one of zero area.
+    [[nodiscard]] Mesh mesh() const;
+    [[nodiscard]] std::size_t bytes() const noexcept;
+    [[nodiscard]] const ConvexData& data() const noexcept { return *data_; }
+
+private:
+    std::shared_ptr<const ConvexData> data_;
+};
+
+/// A vertex of each of two bodies.
+struct VertexPair {
+    std::uint32_t a = 0, b = 0;
+    friend bool operator==(const VertexPair&, const VertexPair&) = default;
+};
+
+/// What queries remember of two convex bodies from one pose to the next. A query that is given it
+/// walks on from there: the answer is the same, but for which of several closest pairs is found.
+///
+/// One a pair of bodies and a thread. Starts empty; what belongs to other bodies does no harm.
+struct ConvexWorkspace {
+    enum class Kind : std::uint8_t { empty, features, simplex };
+    Kind kind = Kind::empty;
+    /// simplex: pairs whose differences hold the origin. features: their vertices, edges, kinds.
+    std::array<VertexPair, 4> pairs{};
+    std::array<VertexPair, 3> deepest{}; ///< pairs at the end of the shortest way out
+};
+
+/// Work that a query did: the machine-independent part of its cost.
+struct ConvexCounters {
+    std::uint32_t feature_pairs = 0; ///< pairs of features that were measured
+    std::uint32_t simplices = 0;     ///< of the search that takes over where walking ends
+};
+
+/// A pair of closest points of two convex bodies, or a common point.
+struct ConvexGap {
+    double distance = std::numeric_limits<double>::infinity(); ///< 0 if they share a point
+    double at_least = 0; ///< no two points are closer: proven, to rounding
+    /// World frame. Where they share a point: one of them, in both, to rounding.
+    Vec3 point_a, point_b;
+    /// What the points lie on: numbers of a vertex, an edge, a face. Within an error that was
+    /// allowed: a vertex close by. Of no meaning at distance 0.
+    Feature feature_a = Feature::vertex, feature_b = Feature::vertex;
+    std::uint32_t id_a = 0, id_b = 0;
+    /// converged: between at_least and distance, within the error allowed; or at distance 0, nearer
+    /// than rounding can tell from touching.
+    Status status = Status::exact;
+    ConvexCounters counters;
+};
+
+struct ConvexDistanceOptions {
+    /// What the distance may exceed the true one by: a length. Simplified hulls inside of the
+    /// bodies, whose deviation is known, may then answer.
+    double max_error = 0;
+    ConvexWorkspace* workspace = nullptr;
+};
+
+/// How deep two convex bodies go into each other.
+struct ConvexDepth {
+    /// They share a point. False: all else is zero.
+    bool meet = false;
+    double depth = 0;    ///< length of the shortest translation that leaves them touching
+    double at_least = 0; ///< no shorter translation than that does: proven, to rounding
+    Vec3 direction;      ///< unit vector in which b moves by `depth`
+    /// On the surfaces, world frame: point_b meets point_a when b has moved.
+    Vec3 point_a, point_b;
+    Status status = Status::exact; ///< converged: the depth lies between at_least and depth
+    ConvexCounters counters;
+};
+
+/// Distance of two solid convex bodies, and one pair of points that realises it.
+///
+/// Degenerate  points, segments and polygons as any other; transforms may be any affine map,
+///             singular ones included.
+/// Accuracy    1e-12 of the distance, or a few roundings of the coordinates in a frame with the
+///             world's axes and the origin of `a`. What is nearer than that is at distance 0.
+/// Errors      Error{bad_argument} if a transform is not finite, or the error allowed is negative or
+///             NaN.
+/// Cost        with a workspace and small steps, constant; else a few steps a level of detail.
+/// Source      [Lin, Canny 1991], [Mirtich 1998], [Ehmann, Lin 2000]; docs/convex.md.
+ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
+                   const Transform& world_from_b, const ConvexDistanceOptions& options = {});
+
+/// The shortest translation that ends the overlap of two convex bodies.
+///
+/// Degenerate  as `distance`. Where they only touch, or one of them is flat, the depth may be 0.
+/// Accuracy    to a few roundings of the coordinates, as `distance`: of all translations, not of
+///             those in some directions.
+/// Errors      Error{bad_argument} if a transform is not finite.
+/// Source      [van den Bergen 2001], ended by certified bounds; docs/convex.md.
+ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
+                        const Transform& world_from_b, ConvexWorkspace* workspace = nullptr);
+
+} // namespace abut

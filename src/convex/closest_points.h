@@ -1,0 +1,30 @@
+#pragma once
+
+#include "convex/feature_walk.h"
+#include "convex/placed_polytope.h"
+#include "convex/simplex_search.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace abut {
+
+/// The closest points of two polytopes, or a common one.
+struct ClosestPointSearch {
+    /// Where it begins, then the closest points. `end` is meeting or closest.
+    WalkState at;
+    std::optional<DifferenceSimplex> simplex; ///< if meeting, and found so: it proves that
+    std::uint32_t simplices = 0;              ///< that were measured
+};
+
+/// Walks from a pair of features, and leaves the cases in which walking ends early to the search by
+/// simplices.
+///
+/// In/out      `search.at` and `rounding` as for `walk`.
+void find_closest_points(const PolytopePair& pair, double rounding, ClosestPointSearch& search);
+
+/// The same from `search.simplex`, as of polytopes that meet and may have moved since.
+void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
+                                      ClosestPointSearch& search);
+
+} // namespace abut

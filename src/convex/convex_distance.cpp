@@ -1,0 +1,169 @@
+#include <abut/convex.h>
+#include <abut/error.h>
+
+#include "convex/closest_points.h"
+#include "convex/convex_data.h"
+#include "convex/convex_query.h"
+#include "math/transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+/// Two bodies under their transforms, and the hulls of them that are to answer.
+struct PlacedBodies {
+    const ConvexData &a, &b;
+    const Transform &world_from_a, &world_from_b;
+    std::size_t level_a = 0, level_b = 0;
+
+    [[nodiscard]] PolytopePair at(std::size_t of_a, std::size_t of_b) const {
+        return {a.levels[of_a].polytope, world_from_a, b.levels[of_b].polytope, world_from_b};
+    }
+    /// What the distance of the hulls may exceed that of the bodies by.
+    [[nodiscard]] double deviation() const {
+        if (level_a == 0 && level_b == 0)
+            return 0;
+        return stretch_of(world_from_a).most * a.levels[level_a].deviation +
+               stretch_of(world_from_b).most * b.levels[level_b].deviation;
+    }
+};
+
+/// The coarsest hull of a body that deviates by no more, once it is placed.
+std::size_t coarsest_within(const ConvexData& body, const Transform& world, double error) {
+    const double most = stretch_of(world).most;
+    std::size_t level = body.levels.size() - 1;
+    while (level > 0 && !(most * body.levels[level].deviation <= error))
+        --level;
+    return level;
+}
+
+/// From the vertices that face each other along a direction.
+void search_along(const PolytopePair& pair, const Vec3& direction, double rounding,
+                  ClosestPointSearch& search) {
+    const VertexPair start = facing_vertices(pair, direction);
+    search.at.a = vertex_feature(start.a), search.at.b = vertex_feature(start.b);
+    find_closest_points(pair, rounding, search);
+}
+
+/// Without a workspace: first the hulls that are small enough to walk on from anywhere. Where these
+/// are closest, the tables of normals of the others begin. Whether it came to the others.
+bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& search) {
+    const std::size_t entry_a = std::max(bodies.a.entry, bodies.level_a),
+                      entry_b = std::max(bodies.b.entry, bodies.level_b);
+    const PolytopePair first = bodies.at(entry_a, entry_b);
+    search_along(first, between_middles(bodies.a, bodies.b, first), rounding, search);
+    // Hulls lie inside of the bodies: where they meet, so do these.
+    if (entry_a == bodies.level_a && entry_b == bodies.level_b)
+        return true;
+    if (search.at.end == WalkEnd::meeting)
+        return false;
+    search_along(bodies.at(bodies.level_a, bodies.level_b), search.at.gap, rounding, search);
+    return true;
+}
+
+/// The feature of the body that a feature of its triangulated surface is, or lies in.
+void name(const ConvexData& body, const HullFeature& f, Feature& kind, std::uint32_t& id) {
+    kind = f.kind;
+    id = f.vertex;
+    if (f.kind == Feature::edge)
+        id = body.edge_number[f.edge];
+    if (f.kind == Feature::face || id == kNoEdge) {
+        kind = Feature::face;
+        id = body.face_number[f.edge];
+    }
+}
+
+void remember(const ClosestPointSearch& search, ConvexWorkspace& workspace) {
+    if (search.at.end == WalkEnd::meeting && search.simplex) {
+        remember(*search.simplex, workspace);
+        return;
+    }
+    auto& pairs = workspace.pairs;
+    workspace.kind = ConvexWorkspace::Kind::features;
+    const HullFeature &a = search.at.a, &b = search.at.b;
+    pairs[0] = {a.vertex, b.vertex};
+    pairs[1] = {a.edge, b.edge};
+    pairs[2] = {static_cast<std::uint32_t>(a.kind), static_cast<std::uint32_t>(b.kind)};
+}
+
+/// Sets a feature to one that was remembered, if the polytope has it.
+void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, std::uint32_t kind,
+            HullFeature& f) {
+    if (vertex >= polytope.vertices.size())
+        return;
+    const HullVertex& v = polytope.vertices[vertex];
+    f.vertex = vertex;
+    f.edge = edge;
+    f.kind = edge - v.first_edge < v.degree ? static_cast<Feature>(kind) : Feature::vertex;
+}
+
+/// Goes on from where the last query ended.
+void go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& last,
+           ClosestPointSearch& search) {
+    const PolytopePair pair = bodies.at(bodies.level_a, bodies.level_b);
+    if (last.kind == ConvexWorkspace::Kind::simplex) {
+        search.simplex = first_simplex(bodies.a, bodies.b, pair, &last);
+        find_closest_points_from_simplex(pair, rounding, search);
+        return;
+    }
+    const auto& pairs = last.pairs;
+    recall(*pair.a.polytope, pairs[0].a, pairs[1].a, pairs[2].a, search.at.a);
+    recall(*pair.b.polytope, pairs[0].b, pairs[1].b, pairs[2].b, search.at.b);
+    find_closest_points(pair, rounding, search);
+}
+
+} // namespace
+
+ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
+                   const Transform& world_from_b, const ConvexDistanceOptions& options) {
+    PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b};
+    const double rounding = rounding_of(bodies.a, world_from_a, bodies.b, world_from_b);
+    if (!(options.max_error >= 0))
+        throw Error(ErrorCode::bad_argument, "the error allowed must not be negative");
+    if (options.max_error > 0) {
+        bodies.level_a = coarsest_within(bodies.a, world_from_a, options.max_error / 2);
+        bodies.level_b = coarsest_within(bodies.b, world_from_b, options.max_error / 2);
+    }
+    ConvexWorkspace* const workspace = options.workspace;
+    ClosestPointSearch search;
+    bool features_last = true;
+    if (workspace != nullptr && workspace->kind != ConvexWorkspace::Kind::empty)
+        go_on(bodies, rounding, *workspace, search);
+    else
+        features_last = descend(bodies, rounding, search);
+    if (workspace != nullptr && features_last)
+        remember(search, *workspace);
+
+    ConvexGap gap;
+    const WalkState& at = search.at;
+    gap.counters = {at.feature_pairs, search.simplices};
+    const Vec3 origin{world_from_a.m[9], world_from_a.m[10], world_from_a.m[11]};
+    gap.point_a = origin + at.point_a;
+    if (at.end == WalkEnd::meeting) {
+        gap.distance = 0;
+        gap.point_b = gap.point_a;
+        gap.status = at.distance_sq == 0 ? Status::exact : Status::converged;
+        return gap;
+    }
+    gap.point_b = origin + (at.point_a + at.gap);
+    gap.distance = gap.at_least = std::sqrt(at.distance_sq);
+    if (at.excess * at.excess > rounding * rounding * at.distance_sq) {
+        gap.at_least = std::max(0.0, gap.distance - at.excess / gap.distance);
+        gap.status = Status::converged;
+    }
+    if (const double deviation = bodies.deviation(); deviation > 0) {
+        gap.at_least = std::max(0.0, gap.at_least - deviation);
+        gap.status = Status::converged;
+        gap.id_a = bodies.a.levels[bodies.level_a].number[at.a.vertex];
+        gap.id_b = bodies.b.levels[bodies.level_b].number[at.b.vertex];
+        return gap;
+    }
+    name(bodies.a, at.a, gap.feature_a, gap.id_a);
+    name(bodies.b, at.b, gap.feature_b, gap.id_b);
+    return gap;
+}
+
+} // namespace abut

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <abut/convex.h>
+
+#include "convex/convex_data.h"
+#include "convex/simplex_search.h"
+
+/// What queries of two convex bodies have in common.
+namespace abut {
+
+/// No coordinate in the pair's frame is off by more: a length.
+///
+/// In          `pair`: the bodies' own polytopes.
+/// Errors      Error{bad_argument} if a transform is not finite.
+double rounding_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
+                   const Transform& world_from_b);
+
+/// From the middle of one body's box to that of the other, in the pair's frame.
+Vec3 between_middles(const ConvexData& a, const ConvexData& b, const PolytopePair& pair);
+
+/// The vertices that face each other along a direction, as the tables of normals say.
+VertexPair facing_vertices(const PolytopePair& pair, const Vec3& direction);
+
+/// A remembered pair, or the first vertices if the polytopes have no such.
+inline VertexPair recalled(const PolytopePair& pair, const VertexPair& last) {
+    return {last.a < pair.a.polytope->vertices.size() ? last.a : 0,
+            last.b < pair.b.polytope->vertices.size() ? last.b : 0};
+}
+
+/// Where a search for a common point begins: at the simplex that is remembered, else at the
+/// vertices that face each other.
+DifferenceSimplex first_simplex(const ConvexData& a, const ConvexData& b, const PolytopePair& pair,
+                                const ConvexWorkspace* workspace);
+
+/// A simplex that holds the origin.
+void remember(const DifferenceSimplex& simplex, ConvexWorkspace& workspace);
+
+} // namespace abut

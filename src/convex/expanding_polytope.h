@@ -1,0 +1,85 @@
+#pragma once
+
+#include "convex/placed_polytope.h"
+#include "convex/simplex_search.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// The boundary point of the difference of two polytopes that is nearest to the origin, and what
+/// proves it.
+struct NearestBoundary {
+    Vec3 normal;         ///< unit vector; the difference lies below its plane
+    double depth = 0;    ///< the plane's distance: no corner lies farther along the normal
+    double at_least = 0; ///< no plane around the difference is nearer
+    std::array<VertexPair, 3> corners{}; ///< of the face that the point lies on
+    std::array<double, 3> weights{};     ///< of the point
+    std::uint32_t steps = 0;             ///< corners that were added
+};
+
+/// A polytope inside the difference b - a of two polytopes that grows where its boundary is nearest
+/// to the origin, until that is the boundary of the difference.
+///
+/// Its nearest face is a lower bound of the depth, since it lies inside; the farthest corner of the
+/// difference along that face's normal is an upper bound, since its plane has all on one side. When
+/// both are equal, to rounding, that is the depth.
+///
+/// Source      [van den Bergen 2001]. Differs: it ends by both bounds, and the faces lie in one
+///             list; no heap: the upper bound leaves few to look at.
+class ExpandingPolytope {
+public:
+    /// In          `pair` and `rounding` as for `walk`; a simplex that holds the origin.
+    ExpandingPolytope(const PolytopePair& pair, double rounding);
+
+    /// `start`: a simplex that holds the origin, to rounding. `hints`: corners to begin with, such
+    /// as those of the last answer.
+    NearestBoundary run(const DifferenceSimplex& start, std::span<const VertexPair> hints);
+
+private:
+    struct Corner {
+        Vec3 at;
+        VertexPair vertices;
+        std::uint32_t cone = 0; ///< while a cone is built: its face that begins here
+    };
+    /// Counter-clockwise as seen from outside.
+    struct Face {
+        std::array<std::uint32_t, 3> corners{},
+            across{}; ///< across[k]: beyond the edge from corner k
+        Vec3 normal;
+        double offset = 0; ///< of its plane from the origin; infinite once the face is gone
+
+        [[nodiscard]] bool alive() const {
+            return offset < std::numeric_limits<double>::infinity();
+        }
+        void remove() { offset = std::numeric_limits<double>::infinity(); }
+    };
+
+    [[nodiscard]] Corner farthest_corner(const Vec3& direction) const;
+    [[nodiscard]] Corner placed(const VertexPair& vertices) const;
+    [[nodiscard]] double above(const Face& face, const Vec3& point) const {
+        return dot(face.normal, point) - face.offset;
+    }
+    bool complete(const DifferenceSimplex& start, NearestBoundary& flat);
+    void add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    std::uint32_t nearest_face();
+    void remove_visible(const Vec3& corner, std::uint32_t seen_by);
+    void add_corner(const Corner& corner, std::uint32_t seen_by);
+    void add_hint(const VertexPair& vertices);
+    void finish(const Face& face, NearestBoundary& nearest) const;
+
+    const PolytopePair& pair_;
+    double rounding_;
+    double upper_ = std::numeric_limits<double>::infinity(); ///< of the depth
+    std::vector<Corner> corners_;
+    std::vector<Face> faces_;
+    std::vector<std::uint32_t> open_;    ///< faces that may be the nearest, and some that went
+    std::vector<std::uint32_t> visible_; ///< faces
+    std::vector<std::uint32_t> horizon_; ///< edges, each as three times a face that goes plus k
+};
+
+} // namespace abut

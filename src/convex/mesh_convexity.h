@@ -1,0 +1,16 @@
+#pragma once
+
+#include <abut/mesh.h>
+
+#include "convex/convex_data.h"
+
+namespace abut {
+
+/// Checks that a mesh is the surface of its hull.
+///
+/// In          `hull`: that of its vertices. `dent`: a length; what lies no deeper is rounding.
+/// Errors      Error{bad_mesh} naming a triangle: the mesh is not closed, is flat, is turned inside
+///             out, or has a dent.
+void require_convex(const Mesh& mesh, const ConvexData& hull, double dent);
+
+} // namespace abut

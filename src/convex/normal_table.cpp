@@ -1,0 +1,51 @@
+#include "convex/normal_table.h"
+
+#include "convex/polytope.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+/// From the lower half of the octahedron, as seen from above, to where it is folded out, or back.
+void fold(double& u, double& v) {
+    const double folded = std::copysign(1 - std::abs(v), u);
+    v = std::copysign(1 - std::abs(u), v);
+    u = folded;
+}
+
+} // namespace
+
+NormalTable::NormalTable(const Polytope& polytope, std::uint32_t resolution)
+    : resolution_(resolution) {
+    vertices_.reserve(std::size_t{resolution} * resolution);
+    const auto middle = [&](std::uint32_t i) { return (2 * i + 1.0) / resolution - 1; };
+    std::uint32_t last = 0;
+    for (std::uint32_t i = 0; i < resolution; ++i)
+        for (std::uint32_t j = 0; j < resolution; ++j) {
+            double u = middle(i), v = middle(j);
+            const double z = 1 - std::abs(u) - std::abs(v);
+            if (z < 0)
+                fold(u, v);
+            last = climb(polytope, {u, v, z}, last);
+            vertices_.push_back(last);
+        }
+}
+
+std::uint32_t NormalTable::vertex(const Vec3& d) const {
+    const double size = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    if (!(size > 0) || vertices_.empty())
+        return 0;
+    double u = d.x / size, v = d.y / size;
+    if (d.z < 0)
+        fold(u, v);
+    const double half = 0.5 * resolution_;
+    const auto cell = [&](double w) {
+        return std::min(static_cast<std::uint32_t>(w * half + half), resolution_ - 1);
+    };
+    return vertices_[cell(u) * resolution_ + cell(v)];
+}
+
+} // namespace abut
