@@ -2,6 +2,7 @@
 
 /// The whole library. One header a subject; each can be included alone.
 #include <abut/batch.h>
+#include <abut/broad_phase.h>
 #include <abut/clash.h>
 #include <abut/deformable.h>
 #include <abut/elementary_impact.h>

@@ -1,0 +1,171 @@
+#include <abut/broad_phase.h>
+#include <abut/progress.h>
+
+#include "box_scene.h"
+#include "measure.h"
+#include "peer_boxes.h"
+#include "suites.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+namespace abut::bench {
+
+namespace {
+
+struct Layout {
+    BoxLayout layout;
+    const char* name;
+};
+constexpr std::array kLayouts{
+    Layout{BoxLayout::uniform, "uniform"}, Layout{BoxLayout::clustered, "clustered"},
+    Layout{BoxLayout::spanned, "uniform and one around the world"},
+    Layout{BoxLayout::planes, "on ten floors"}, Layout{BoxLayout::sizes, "of many sizes"}};
+
+std::vector<MakeBoxPeer> all_peers() {
+    std::vector<MakeBoxPeer> peers;
+    for (const auto& some :
+         {bullet_box_peers(), cgal_box_peers(), embree_box_peers(), fcl_box_peers()})
+        peers.insert(peers.end(), some.begin(), some.end());
+    return peers;
+}
+
+/// What one of them took.
+struct Times {
+    std::string name;
+    std::size_t pairs = 0; ///< in the last step
+    std::vector<double> seconds{};
+};
+
+class WorldSuite {
+public:
+    explicit WorldSuite(const WorldSuiteOptions& options) : options_(options) {
+        report_.suite = "world";
+        report_.notes.push_back("ms a step with all pairs, and what begins and ends for ours; "
+                                "processor time, one thread; 'theirs' is the fastest peer's");
+    }
+
+    Report run() && {
+        set_threads(1);
+        for (const Layout& layout : kLayouts)
+            for (const bool teleport : {false, true})
+                for (const std::size_t count : options_.counts) {
+                    const std::string name = fmt::format("{} {}, {}", count, layout.name,
+                                                         teleport ? "teleport" : "coherent");
+                    if (name.find(options_.only) != std::string::npos)
+                        run_case(name, layout.layout, teleport, count);
+                }
+        set_threads(0);
+        return std::move(report_);
+    }
+
+private:
+    void run_case(const std::string& name, BoxLayout layout, bool teleport, std::size_t count) {
+        BoxScene scene(layout, count, options_.seed);
+        const auto next = [&] { teleport ? scene.teleport() : scene.drift(); };
+        std::vector<BroadPhaseMethod> methods{BroadPhaseMethod::automatic};
+        if (options_.methods)
+            methods = {BroadPhaseMethod::automatic, BroadPhaseMethod::tree, BroadPhaseMethod::sweep,
+                       BroadPhaseMethod::sweep_and_prune};
+        std::vector<BroadPhase> phases;
+        std::vector<Times> ours;
+        for (const BroadPhaseMethod method : methods) {
+            phases.emplace_back(BroadPhaseOptions{method, {}});
+            phases.back().update(scene.boxes());
+            ours.push_back({to_string(method)});
+        }
+        std::vector<std::unique_ptr<BoxPeer>> peers;
+        std::vector<Times> theirs;
+        if (!options_.alone)
+            for (const MakeBoxPeer make : all_peers())
+                add_peer(make, scene, teleport, peers, theirs);
+        const int steps = steps_of(count);
+        for (int step = -1; step < steps; ++step) { // one step to warm up
+            next();
+            for (std::size_t i = 0; i < phases.size(); ++i)
+                time_step(step, ours[i], [&] {
+                    phases[i].update(scene.boxes());
+                    return phases[i].pairs().size();
+                });
+            for (std::size_t i = 0; i < peers.size(); ++i)
+                time_step(step, theirs[i], [&] { return peers[i]->step(scene.boxes()); });
+        }
+        for (const Times& peer : theirs)
+            last_seconds_[{peer.name, teleport}] = median(peer.seconds);
+        add_rows(name, count, ours, theirs);
+    }
+
+    [[nodiscard]] int steps_of(std::size_t count) const {
+        return std::max<int>(options_.steps, static_cast<int>(std::min<std::size_t>(
+                                                 200, 200'000 / std::max<std::size_t>(count, 1))));
+    }
+
+    /// Leaves out one that was too slow with fewer boxes.
+    void add_peer(MakeBoxPeer make, const BoxScene& scene, bool teleport,
+                  std::vector<std::unique_ptr<BoxPeer>>& peers, std::vector<Times>& theirs) {
+        const std::string name = make(std::span<const Box3>())->name();
+        for (const bool pattern : {false, teleport})
+            if (last_seconds_[{name, pattern}] > options_.peer_limit / 20)
+                return;
+        const double start = process_seconds();
+        peers.push_back(make(scene.boxes()));
+        peers.back()->step(scene.boxes());
+        if (process_seconds() - start > 10 * options_.peer_limit) {
+            peers.pop_back();
+            return;
+        }
+        theirs.push_back({name});
+    }
+
+    template <typename Step>
+    static void time_step(int step, Times& times, const Step& work) {
+        const double start = process_seconds();
+        times.pairs = work();
+        if (step >= 0)
+            times.seconds.push_back(process_seconds() - start);
+    }
+
+    void add_rows(const std::string& name, std::size_t count, const std::vector<Times>& ours,
+                  const std::vector<Times>& theirs) {
+        const Times* best = nullptr;
+        for (const Times& peer : theirs)
+            if (best == nullptr || median(peer.seconds) < median(best->seconds))
+                best = &peer;
+        for (const Times& our : ours) {
+            Row row{ours.size() > 1 ? name + ", " + our.name : name,
+                    1e3 * median(our.seconds),
+                    {},
+                    {},
+                    "ms/step",
+                    1,
+                    {}};
+            row.counters["pairs a box"] =
+                static_cast<double>(our.pairs) / static_cast<double>(count);
+            if (best != nullptr) {
+                row.peer = best->name;
+                row.theirs = 1e3 * median(best->seconds);
+            }
+            for (const Times& peer : theirs) {
+                row.counters[peer.name + ", ms"] = 1e3 * median(peer.seconds);
+                if (peer.pairs != our.pairs)
+                    row.counters[peer.name + ", pairs too many"] =
+                        static_cast<double>(peer.pairs) - static_cast<double>(our.pairs);
+            }
+            report_.rows.push_back(row);
+        }
+    }
+
+    const WorldSuiteOptions& options_;
+    Report report_;
+    std::map<std::pair<std::string, bool>, double> last_seconds_; ///< by peer; teleport?
+};
+
+} // namespace
+
+Report run_world_suite(const WorldSuiteOptions& options) {
+    return WorldSuite(options).run();
+}
+
+} // namespace abut::bench
