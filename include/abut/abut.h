@@ -19,3 +19,4 @@
 #include <abut/shapes.h>
 #include <abut/types.h>
 #include <abut/volume.h>
+#include <abut/world.h>

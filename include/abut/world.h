@@ -1,0 +1,162 @@
+#pragma once
+
+#include <abut/broad_phase.h>
+#include <abut/deformable.h>
+#include <abut/model.h>
+#include <abut/motion.h>
+#include <abut/rigid.h>
+#include <abut/shapes.h>
+#include <abut/types.h>
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+/// Many bodies that move: which of them meet, how near they are, when they may meet.
+/// docs/world.md tells how; docs/simulation-loop.md, how to use it in a simulator.
+namespace abut {
+
+/// A body of a world. Valid until the body is removed, and then never again.
+struct BodyId {
+    std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t generation = 0; ///< counts the bodies that have had the index
+    friend auto operator<=>(const BodyId&, const BodyId&) = default;
+};
+
+/// Two bodies, a.index < b.index.
+struct BodyPair {
+    BodyId a, b;
+    friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+};
+
+/// Which bodies a body can meet.
+struct BodyOptions {
+    bool is_static = false;   ///< static bodies do not meet each other
+    std::uint32_t groups = 1; ///< bits: the groups it belongs to
+    std::uint32_t mask = ~0U; ///< bits: the groups that it meets; both must agree
+};
+
+struct WorldOptions {
+    BroadPhaseMethod broad_phase = BroadPhaseMethod::automatic;
+    /// Pairs that may meet, a.index < b.index; all if empty. Called from any thread. What it says may
+    /// change only with `World::refilter`.
+    std::function<bool(BodyId a, BodyId b)> filter{};
+};
+
+/// How two bodies lie to each other, world frame.
+struct BodyGap {
+    BodyId a, b;
+    /// 0 if they touch; negative where one goes into the other: minus the depth.
+    double distance = 0;
+    Vec3 point_a, point_b; ///< on the bodies, that far apart
+    Vec3 normal;           ///< unit vector from a to b; zero where none is known
+    std::uint32_t triangle_a = 0, triangle_b = 0; ///< of models; else 0
+    /// exact: to rounding. bound_only: bodies that meet go at least so deep into each other.
+    Status status = Status::exact;
+};
+
+/// How a body moves in a step, and the pair that first meets.
+struct BodyMotion {
+    BodyId body;
+    Motion motion; ///< while t goes from 0 to 1; its start is where the body is
+};
+struct BodyImpact {
+    BodyId a, b;
+    Impact impact; ///< as `time_of_impact` of models; of other bodies, triangles are 0
+};
+
+/// How fast a body may move from now on, whatever it does.
+struct SpeedBounds {
+    Vec3 velocity;            ///< of the body's origin, now; lengths per unit of time
+    double acceleration = 0;  ///< the origin's, at most
+    double angular_speed = 0; ///< at most; radians per unit of time
+};
+
+class WorldData;
+
+/// Bodies, the pairs of them whose boxes overlap, and exact answers about these.
+///
+/// A model is its surface; spheres, capsules and boxes are solid. A deformable surface counts as it
+/// is at the start of its step. Models share their data with the world; a deformable belongs to the
+/// caller, who keeps it until the body is removed.
+///
+/// One thread at a time may use a world; its own work is done in parallel (`set_threads`). Results
+/// come sorted and are the same for any number of threads.
+class World {
+public:
+    explicit World(WorldOptions options = {});
+    ~World();
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+
+    /// Adds a body. Shapes are in the body's own frame, which the pose maps to the world.
+    ///
+    /// Errors      Error{bad_argument} if a value of pose or shape is not finite or a coordinate beyond
+    ///             1e18, a quaternion has zero length, a radius is negative, or a box is empty. The
+    ///             message begins with the id that the body would have had: "body 12: ".
+    BodyId add(const Model& model, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Sphere& sphere, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Capsule& capsule, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Box3& box, const Pose& pose, const BodyOptions& options = {});
+    BodyId add(const Deformable& surface, const BodyOptions& options = {});
+
+    /// Moves a body. Errors as `add`: nothing has changed then; also if the id is not valid.
+    void move(BodyId body, const Pose& pose);
+    /// Says that a deformable body's surface has another step.
+    void refresh(BodyId body);
+    /// Lists that were returned stay as they are; a query passes over bodies that have been removed.
+    void remove(BodyId body);
+    void set_options(BodyId body, const BodyOptions& options);
+    /// What the filter says has changed.
+    void refilter();
+
+    [[nodiscard]] bool is_valid(BodyId body) const noexcept;
+    [[nodiscard]] std::size_t size() const noexcept;
+    /// Errors, of both: Error{bad_argument} if the id is not valid.
+    [[nodiscard]] const Transform& world_from_body(BodyId body) const;
+    /// Encloses the body: that of its own box, turned.
+    [[nodiscard]] Box3 box(BodyId body) const;
+
+    /// Finds the pairs of bodies whose boxes overlap, and what has begun and ended since the last
+    /// update. Every query below does so first if a body has changed since.
+    void update();
+    [[nodiscard]] std::vector<BodyPair> pairs() const;
+    [[nodiscard]] std::vector<BodyPair> begun() const;
+    [[nodiscard]] std::vector<BodyPair> ended() const; ///< also of bodies that were removed
+
+    /// All pairs of bodies that share a point.
+    ///
+    /// Accuracy    of two models, and of a model and a box, exact; where spheres and capsules take
+    ///             part, and of two boxes, to rounding.
+    std::vector<BodyPair> touching();
+    /// The same, with how deep they go into each other, and where.
+    ///
+    /// Accuracy    of spheres, capsules and boxes, and a model with a sphere: to rounding. Of two models, and
+    ///             a model and a box: as `penetration` (bound_only). Of a model and a capsule whose
+    ///             axis crosses its surface: at least the radius (bound_only).
+    std::vector<BodyGap> contacts();
+    /// All pairs of bodies that are at most `distance` apart, and how far: exact as `distance`; 0 for
+    /// models that meet, negative for other bodies.
+    ///
+    /// Errors      Error{bad_argument} if the distance is negative or not finite.
+    std::vector<BodyGap> closer_than(double distance);
+
+    /// When bodies that move in this step first meet, each pair once, sorted; bodies that are not named
+    /// stay where they are, deformables are left out. Does not move anything.
+    ///
+    /// Accuracy    no time is later than the first contact, and no contact is missed: as
+    ///             `time_of_impact`.
+    /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; if an id is not valid
+    ///             or comes twice.
+    std::vector<BodyImpact> impacts(const std::vector<BodyMotion>& motions,
+                                    const ImpactOptions& options = {});
+
+private:
+    std::unique_ptr<WorldData> data_;
+};
+
+} // namespace abut
