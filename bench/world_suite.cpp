@@ -2,6 +2,7 @@
 #include <abut/progress.h>
 
 #include "box_scene.h"
+#include "flight_rows.h"
 #include "measure.h"
 #include "peer_boxes.h"
 #include "suites.h"
@@ -57,6 +58,8 @@ public:
                     if (name.find(options_.only) != std::string::npos)
                         run_case(name, layout.layout, teleport, count);
                 }
+        if (options_.only.empty() || options_.only == "flight")
+            add_flight_rows(report_, 1000, options_.seed);
         set_threads(0);
         return std::move(report_);
     }
@@ -107,7 +110,7 @@ private:
                   std::vector<std::unique_ptr<BoxPeer>>& peers, std::vector<Times>& theirs) {
         const std::string name = make(std::span<const Box3>())->name();
         for (const bool pattern : {false, teleport})
-            if (last_seconds_[{name, pattern}] > options_.peer_limit / 20)
+            if (last_seconds_[{name, pattern}] > options_.peer_limit / 100)
                 return;
         const double start = process_seconds();
         peers.push_back(make(scene.boxes()));

@@ -69,13 +69,22 @@ struct BodyImpact {
     Impact impact; ///< as `time_of_impact` of models; of other bodies, triangles are 0
 };
 
-/// How fast a body may move from now on, whatever it does.
+/// How a body may move from now on: its origin as x + v t + a t^2 / 2, but for another acceleration of
+/// at most `acceleration_bound`, and its angular speed at most so large.
 struct SpeedBounds {
-    Vec3 velocity;            ///< of the body's origin, now; lengths per unit of time
-    double acceleration = 0;  ///< the origin's, at most
-    double angular_speed = 0; ///< at most; radians per unit of time
+    Vec3 velocity, acceleration;
+    double acceleration_bound = 0;
+    double angular_speed = 0; ///< radians per unit of time
 };
 
+/// What the schedule of a world has done so far.
+struct ScheduleCounters {
+    std::uint64_t steps = 0;
+    std::uint64_t pairs = 0;            ///< at every step, all that may ever meet; summed
+    std::uint64_t distance_queries = 0; ///< of these, those that were due
+};
+
+class CollisionSchedule;
 class WorldData;
 
 /// Bodies, the pairs of them whose boxes overlap, and exact answers about these.
@@ -155,8 +164,32 @@ public:
     std::vector<BodyImpact> impacts(const std::vector<BodyMotion>& motions,
                                     const ImpactOptions& options = {});
 
+    /// How a body may move from now on: from where it is, and the time that `advance` has come to; so to
+    /// be told before it is moved. At rest if never told. A body that moves otherwise is looked at
+    /// anew, and so is one whose new bounds do not follow from the old ones: to say once more what is
+    /// known costs nothing.
+    ///
+    /// Errors      Error{bad_argument} if the id is not valid or a value not finite or a bound
+    ///             negative.
+    void set_speed(BodyId body, const SpeedBounds& bounds);
+    /// Lets time pass, to the places that the bodies have now, and returns all pairs that share a
+    /// point there, sorted. Only pairs that may have met by then are looked at.
+    ///
+    /// Accuracy    as `touching`; deformables are left out.
+    /// Errors      Error{bad_argument} if the time is negative or not finite.
+    /// Cost        constant for each body, a distance for each pair that is due; from time to time, a
+    ///             broad phase over boxes that enclose where the bodies may go.
+    /// Source      a heap of pairs by a lower bound of their time to collision, t = (sqrt(v^2 + 2 a d)
+    ///             - v) / a [Lin 1993; Cohen, Lin, Manocha, Ponamgi 1995].
+    std::vector<BodyPair> advance(double time);
+    /// For so long from the last `advance` on, no pair that does not touch now can begin to, as long
+    /// as the bodies keep to their bounds.
+    [[nodiscard]] double next_event() const;
+    [[nodiscard]] const ScheduleCounters& schedule_counters() const noexcept;
+
 private:
     std::unique_ptr<WorldData> data_;
+    std::unique_ptr<CollisionSchedule> schedule_;
 };
 
 } // namespace abut

@@ -126,7 +126,11 @@ Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& 
     return grown(apply(world_from_body, centre), turned + Vec3{error, error, error});
 }
 
-double reach_from(const Box3& own_bounds, const Vec3& point) {
+double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& point) {
+    if (const auto* box = std::get_if<RoundedBox>(&shape))
+        return (length(box->centre - point) + length({box->half[0], box->half[1], box->half[2]}) +
+                box->radius) *
+               (1 + kRounding);
     if (is_empty(own_bounds))
         return 0;
     return length(max(absolute(own_bounds.lower - point), absolute(own_bounds.upper - point))) *

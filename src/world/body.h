@@ -50,6 +50,6 @@ Box3 bounds_of(const BodyShape& shape);
 /// Encloses the shape under its transform, whatever rounds.
 Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& world_from_body);
 /// No point of the shape is farther from a point of its frame.
-double reach_from(const Box3& own_bounds, const Vec3& point);
+double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& point);
 
 } // namespace abut

@@ -13,7 +13,7 @@ namespace {
 /// A radius around the centre of the motion, in the body's frame, that no point lies beyond.
 double reach_of(const MovingBody& body) {
     const Transform start = body.motion.start;
-    return reach_from(body.own_bounds, apply(inverse(start), body.motion.centre));
+    return reach_from(body.shape, body.own_bounds, apply(inverse(start), body.motion.centre));
 }
 
 /// What rounding takes from a distance or a time, relative to what it was computed from.

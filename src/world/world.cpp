@@ -4,6 +4,7 @@
 #include "core/parallel.h"
 #include "rigid/shape_arguments.h"
 #include "world/body_impact.h"
+#include "world/collision_schedule.h"
 #include "world/world_data.h"
 
 #include <algorithm>
@@ -64,7 +65,9 @@ std::vector<Result> results_of(const std::vector<IndexPair>& pairs, const Find& 
 
 } // namespace
 
-World::World(WorldOptions options) : data_(std::make_unique<WorldData>(std::move(options))) {}
+World::World(WorldOptions options)
+    : data_(std::make_unique<WorldData>(std::move(options))),
+      schedule_(std::make_unique<CollisionSchedule>(*data_)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -104,9 +107,11 @@ void World::remove(BodyId body) {
 }
 void World::set_options(BodyId body, const BodyOptions& options) {
     data_->set_options(body, options);
+    schedule_->forget();
 }
 void World::refilter() {
     data_->refilter();
+    schedule_->forget();
 }
 
 bool World::is_valid(BodyId body) const noexcept {
@@ -216,6 +221,28 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
                 return std::nullopt;
             return BodyImpact{data_->id_of(pair.a()), data_->id_of(pair.b()), impact};
         });
+}
+
+void World::set_speed(BodyId body, const SpeedBounds& bounds) {
+    static_cast<void>(data_->body(body)); // checks it
+    naming(body, [&] {
+        require(is_finite(bounds.velocity) && is_finite(bounds.acceleration),
+                "velocity or acceleration is not finite");
+        require(bounds.acceleration_bound >= 0 && bounds.acceleration_bound < HUGE_VAL &&
+                    bounds.angular_speed >= 0 && bounds.angular_speed < HUGE_VAL,
+                "bounds of a speed must not be negative, and finite");
+    });
+    schedule_->set_speed(body.index, bounds);
+}
+
+std::vector<BodyPair> World::advance(double time) {
+    return schedule_->advance(time);
+}
+double World::next_event() const {
+    return schedule_->next_event();
+}
+const ScheduleCounters& World::schedule_counters() const noexcept {
+    return schedule_->counters();
 }
 
 } // namespace abut

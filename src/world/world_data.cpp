@@ -113,7 +113,7 @@ void WorldData::fit_box(std::uint32_t index) {
 
 void WorldData::update() {
     broad_phase_.update(boxes_, changed_);
-    carry_workspaces();
+    carry_over(workspaces_, broad_phase_, Workspace());
     for (const std::uint32_t index : changed_)
         is_changed_[index] = 0;
     changed_.clear();
@@ -124,26 +124,6 @@ void WorldData::update() {
 void WorldData::update_if_changed() {
     if (!changed_.empty())
         update();
-}
-
-void WorldData::carry_workspaces() {
-    const std::vector<IndexPair>&begun = broad_phase_.begun(), &ended = broad_phase_.ended();
-    if (begun.empty() && ended.empty())
-        return;
-    std::vector<Workspace> last = std::exchange(workspaces_, {});
-    workspaces_.reserve(broad_phase_.pairs().size());
-    auto next_begun = begun.begin(), next_ended = ended.begin();
-    std::size_t next = 0; // in `last`
-    for (const IndexPair pair : broad_phase_.pairs()) {
-        for (; next_ended != ended.end() && *next_ended < pair; ++next_ended)
-            ++next;
-        if (next_begun != begun.end() && *next_begun == pair) {
-            workspaces_.emplace_back();
-            ++next_begun;
-        } else {
-            workspaces_.push_back(last[next++]);
-        }
-    }
 }
 
 } // namespace abut

@@ -6,7 +6,7 @@
 #include "world/narrow_phase.h"
 
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -68,7 +68,6 @@ private:
     Body& changeable(BodyId id);
     void set_changed(std::uint32_t index);
     void fit_box(std::uint32_t index);
-    void carry_workspaces();
 
     WorldOptions options_;
     std::vector<Body> bodies_;
@@ -83,5 +82,28 @@ private:
     BroadPhase broad_phase_;
     std::vector<Workspace> workspaces_;
 };
+
+/// Values of the pairs, each its own: after an update of the broad phase, those of pairs that are new
+/// are `fresh`.
+template <typename Value>
+void carry_over(std::vector<Value>& values, const BroadPhase& phase, const Value& fresh) {
+    const std::vector<IndexPair>&begun = phase.begun(), &ended = phase.ended();
+    if (begun.empty() && ended.empty())
+        return;
+    const std::vector<Value> last = std::exchange(values, {});
+    values.reserve(phase.pairs().size());
+    auto next_begun = begun.begin(), next_ended = ended.begin();
+    std::size_t next = 0; // in `last`
+    for (const IndexPair pair : phase.pairs()) {
+        for (; next_ended != ended.end() && *next_ended < pair; ++next_ended)
+            ++next;
+        if (next_begun != begun.end() && *next_begun == pair) {
+            values.push_back(fresh);
+            ++next_begun;
+        } else {
+            values.push_back(last[next++]);
+        }
+    }
+}
 
 } // namespace abut
