@@ -167,9 +167,13 @@ bool is_point(const RoundedBox& box) {
 
 } // namespace
 
-SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b) {
+SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b, double upper_bound) {
     const bool points = is_point(a) && is_point(b);
     const LeastOverlap least = points ? LeastOverlap() : least_overlap(a, b);
+    // Slightly less than the axis tells: it is rounded.
+    const double apart = -least.overlap * (1 - 0x1p-40) - a.radius - b.radius;
+    if (!points && apart > upper_bound)
+        return {apart, {}, {}, least.normal};
     if (points || least.overlap < 0) {
         const Candidate nearest =
             points ? Candidate{length_sq(b.centre - a.centre), a.centre, b.centre}

@@ -122,7 +122,8 @@ bool meet(const PlacedSurface& a, const PlacedRounded& b, Workspace& /*workspace
 }
 
 bool meet(const PlacedRounded& a, const PlacedRounded& b, Workspace& /*workspace*/) {
-    return rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world)).distance <= 0;
+    return rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), 0).distance <=
+           0;
 }
 
 BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bound, Depths depths,
@@ -171,9 +172,10 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
     }
 }
 
-BodyGap measure(const PlacedRounded& a, const PlacedRounded& b, double /*upper_bound*/,
+BodyGap measure(const PlacedRounded& a, const PlacedRounded& b, double upper_bound,
                 Depths /*depths*/, Workspace& /*workspace*/) {
-    const SolidGap gap = rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world));
+    const SolidGap gap =
+        rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), upper_bound);
     BodyGap result;
     result.distance = gap.distance, result.normal = gap.normal;
     result.point_a = gap.point_a, result.point_b = gap.point_b;

@@ -158,9 +158,13 @@ std::vector<BodyGap> World::contacts() {
         data_->broad_phase().pairs(), [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
             const PlacedBody a = data_->placed(pair.a()), b = data_->placed(pair.b());
             Workspace& workspace = data_->workspaces()[k];
-            if (!touch(a, b, workspace))
+            // The gap of two convex bodies tells whether they touch.
+            const bool both_convex = is_convex(a.shape) && is_convex(b.shape);
+            if (!both_convex && !touch(a, b, workspace))
                 return std::nullopt;
-            BodyGap gap = gap_between(a, b, HUGE_VAL, Depths::yes, workspace);
+            BodyGap gap = gap_between(a, b, both_convex ? 0 : HUGE_VAL, Depths::yes, workspace);
+            if (both_convex && gap.distance > 0)
+                return std::nullopt;
             std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
             return gap;
         });
