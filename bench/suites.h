@@ -93,7 +93,7 @@ struct WorldSuiteOptions {
     bool alone = false;    ///< without peers
     bool methods = false;  ///< also each broad phase by itself
     std::string only;      ///< run the cases whose name has this in it
-    double peer_limit = 2; ///< seconds of a step, about, beyond which a peer is left out
+    double peer_limit = 4; ///< seconds of a step, about, beyond which a peer is left out
     std::uint64_t seed = 1;
 };
 

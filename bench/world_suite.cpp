@@ -8,6 +8,7 @@
 #include "suites.h"
 
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
@@ -39,6 +40,18 @@ struct Times {
     std::size_t pairs = 0; ///< in the last step
     std::vector<double> seconds{};
 };
+
+/// What a peer took last, and may take with more boxes: some take the square, some little more than
+/// their number.
+struct Experience {
+    std::size_t boxes = 0;
+    double seconds = 0;
+    [[nodiscard]] double expected(std::size_t count) const {
+        return seconds * std::pow(static_cast<double>(count) / static_cast<double>(boxes), 1.5);
+    }
+};
+/// So many steps may be worth one time of putting all boxes in.
+constexpr double kStepsOfBuild = 5;
 
 class WorldSuite {
 public:
@@ -95,8 +108,10 @@ private:
             for (std::size_t i = 0; i < peers.size(); ++i)
                 time_step(step, theirs[i], [&] { return peers[i]->step(scene.boxes()); });
         }
-        for (const Times& peer : theirs)
-            last_seconds_[{peer.name, teleport}] = median(peer.seconds);
+        for (const Times& peer : theirs) {
+            Experience& last = last_[{peer.name, teleport}];
+            last.seconds = std::max(last.seconds, median(peer.seconds));
+        }
         add_rows(name, count, ours, theirs);
     }
 
@@ -105,21 +120,22 @@ private:
                                                  200, 200'000 / std::max<std::size_t>(count, 1))));
     }
 
-    /// Leaves out one that was too slow with fewer boxes.
+    /// Leaves out one that would be too slow, by what it took with fewer boxes.
     void add_peer(MakeBoxPeer make, const BoxScene& scene, bool teleport,
                   std::vector<std::unique_ptr<BoxPeer>>& peers, std::vector<Times>& theirs) {
         const std::string name = make(std::span<const Box3>())->name();
-        for (const bool pattern : {false, teleport})
-            if (last_seconds_[{name, pattern}] > options_.peer_limit / 100)
+        const std::size_t count = scene.boxes().size();
+        for (const bool pattern : {false, teleport}) {
+            const auto last = last_.find({name, pattern});
+            if (last != last_.end() && last->second.expected(count) > options_.peer_limit)
                 return;
+        }
         const double start = process_seconds();
         peers.push_back(make(scene.boxes()));
         peers.back()->step(scene.boxes());
-        if (process_seconds() - start > 10 * options_.peer_limit) {
-            peers.pop_back();
-            return;
-        }
         theirs.push_back({name});
+        Experience& built = last_[{name, teleport}];
+        built = {count, (process_seconds() - start) / kStepsOfBuild};
     }
 
     template <typename Step>
@@ -162,7 +178,7 @@ private:
 
     const WorldSuiteOptions& options_;
     Report report_;
-    std::map<std::pair<std::string, bool>, double> last_seconds_; ///< by peer; teleport?
+    std::map<std::pair<std::string, bool>, Experience> last_; ///< by peer; teleport?
 };
 
 } // namespace
