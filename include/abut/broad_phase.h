@@ -2,7 +2,6 @@
 
 #include <abut/types.h>
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -28,7 +27,8 @@ public:
     [[nodiscard]] std::uint32_t b() const noexcept { return static_cast<std::uint32_t>(key_); }
     /// Grows with a, then with b.
     [[nodiscard]] std::uint64_t key() const noexcept { return key_; }
-    friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
+    friend bool operator==(const IndexPair&, const IndexPair&) = default;
+    friend bool operator<(const IndexPair& p, const IndexPair& q) { return p.key_ < q.key_; }
 
 private:
     std::uint64_t key_ = 0;
@@ -72,7 +72,8 @@ public:
     ///             changed then.
     /// Cost        some 200 ns a box with 5 pairs each, one thread; in parallel (`set_threads`).
     void update(std::span<const Box3> boxes);
-    /// The same, where only the boxes of these indices (in any order) may have changed, or are new.
+    /// The same, where only the boxes of these indices (in any order, each once) may have changed, or
+    /// are new.
     ///
     /// Cost        that of what changed, and of copying the list of pairs.
     void update(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);

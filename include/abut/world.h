@@ -8,7 +8,6 @@
 #include <abut/shapes.h>
 #include <abut/types.h>
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -24,13 +23,19 @@ namespace abut {
 struct BodyId {
     std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t generation = 0; ///< counts the bodies that have had the index
-    friend auto operator<=>(const BodyId&, const BodyId&) = default;
+    friend bool operator==(const BodyId&, const BodyId&) = default;
+    friend bool operator<(const BodyId& a, const BodyId& b) {
+        return a.index != b.index ? a.index < b.index : a.generation < b.generation;
+    }
 };
 
 /// Two bodies, a.index < b.index.
 struct BodyPair {
     BodyId a, b;
-    friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+    friend bool operator==(const BodyPair&, const BodyPair&) = default;
+    friend bool operator<(const BodyPair& p, const BodyPair& q) {
+        return p.a == q.a ? p.b < q.b : p.a < q.a;
+    }
 };
 
 /// Which bodies a body can meet.
@@ -115,12 +120,14 @@ public:
 
     /// Moves a body. Errors as `add`: nothing has changed then; also if the id is not valid.
     void move(BodyId body, const Pose& pose);
-    /// Says that a deformable body's surface has another step.
+    /// Says that a deformable body's surface has another step. Errors, of this and what follows:
+    /// Error{bad_argument} if the id is not valid.
     void refresh(BodyId body);
     /// Lists that were returned stay as they are; a query passes over bodies that have been removed.
     void remove(BodyId body);
+    /// Cost        the next update finds all pairs anew.
     void set_options(BodyId body, const BodyOptions& options);
-    /// What the filter says has changed.
+    /// What the filter says has changed. Cost as `set_options`.
     void refilter();
 
     [[nodiscard]] bool is_valid(BodyId body) const noexcept;

@@ -60,7 +60,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<PairSearch> make_automatic_search(PairFilter wanted) {
+std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& wanted) {
     return std::make_unique<AutomaticSearch>(wanted);
 }
 

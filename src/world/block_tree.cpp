@@ -2,6 +2,7 @@
 
 #include "core/parallel.h"
 #include "math/vector.h"
+#include "simd/simd.h"
 #include "world/median_order.h"
 
 #include <algorithm>
@@ -41,8 +42,8 @@ Middle middle_of(const Aabb& box, std::uint32_t index) {
 
 /// Both cache lines that a box may lie in.
 void prefetch(const Box3* box) {
-    __builtin_prefetch(&box->lower);
-    __builtin_prefetch(&box->upper.z);
+    hwy::Prefetch(&box->lower);
+    hwy::Prefetch(&box->upper.z);
 }
 
 /// Sum of the edges; 0 if empty.

@@ -87,9 +87,9 @@ struct alignas(64) BoxBlock {
 
 /// Which boxes of two blocks meet. Bit k of row i: box i of the first and box k of the second.
 struct BlockMeetings {
-    std::uint32_t rows; ///< bit i: row i below is set; the others are unspecified
-    std::array<std::uint32_t, BoxBlock::kWidth> meet;
-    std::array<std::uint32_t, BoxBlock::kWidth> touch; ///< of `meet`: some two bounds are equal
+    std::uint32_t rows = 0; ///< bit i: row i below is set; the others are unspecified
+    std::uint32_t meet[BoxBlock::kWidth];
+    std::uint32_t touch[BoxBlock::kWidth]; ///< of `meet`: some two bounds are equal
 };
 
 /// In          bounds_b: of b; rows: which boxes of a to look at. Those that miss the bounds are left

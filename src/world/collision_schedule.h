@@ -36,10 +36,10 @@ private:
         bool known = false; ///< false: its pairs are to be looked at
     };
     struct Due {
-        double time;
+        double time = 0;
         IndexPair pair;
         bool operator<(const Due& other) const { // the first one on top
-            return time != other.time ? time > other.time : pair > other.pair;
+            return time != other.time ? time > other.time : other.pair < pair;
         }
     };
 

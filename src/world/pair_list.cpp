@@ -27,8 +27,8 @@ Differences find_differences(Pairs a, Pairs b) {
         result.only_b[count_b] = y;
         count_a += x < y ? 1 : 0;
         count_b += y < x ? 1 : 0;
-        i += x <= y ? 1 : 0;
-        k += y <= x ? 1 : 0;
+        i += y < x ? 0 : 1;
+        k += x < y ? 0 : 1;
     }
     result.only_a.resize(count_a);
     result.only_b.resize(count_b);

@@ -47,6 +47,6 @@ std::unique_ptr<PairSearch> make_sweep_search(PairFilter wanted);
 std::unique_ptr<PairSearch> make_sweep_and_prune(PairFilter wanted);
 
 /// The one of these that suits the step.
-std::unique_ptr<PairSearch> make_automatic_search(PairFilter wanted);
+std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& wanted);
 
 } // namespace abut

@@ -50,8 +50,7 @@ void sort_run(std::span<IndexPair> run, const Runs& runs, std::vector<IndexPair>
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
     std::span<IndexPair> from = run, to(scratch);
     for (int pass = 0; pass < passes; ++pass) {
-        std::array<std::uint32_t, (1 << kMostBits) + 1> first;
-        std::fill_n(first.begin(), mask + 2, 0);
+        std::array<std::uint32_t, (1 << kMostBits) + 1> first{};
         const auto digit = [&](IndexPair pair) { return runs.rest(pair) >> pass * bits & mask; };
         for (const IndexPair pair : from)
             ++first[digit(pair) + 1];
