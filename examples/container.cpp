@@ -1,5 +1,6 @@
 #include "container.h"
 
+#include <cmath>
 #include <random>
 
 namespace drop {
@@ -40,7 +41,7 @@ Surfaces fill_container(Simulator& simulator, int bodies) {
         const double q[4] = {uniform(random), uniform(random), uniform(random), uniform(random)};
         const abut::Pose pose{{along(i % row) + 0.02 * uniform(random),
                                along(i / row % row) + 0.02 * uniform(random),
-                               0.3 + kSpacing * (i / (row * row))},
+                               0.3 + kSpacing * std::floor(static_cast<double>(i) / (row * row))},
                               {q[0], q[1], q[2], q[3]}};
         if (i % 3 == 0)
             add(abut::Sphere{{}, 0.1}, pose, kDensity);

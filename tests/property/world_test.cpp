@@ -306,6 +306,7 @@ TEST(World, RefusesBadBodiesByTheirIdAndStaysAsItWas) {
 TEST(World, IdsAreNeverGivenAgainAndBodiesMayGoWhilePairsAreLookedAt) {
     World world;
     std::vector<BodyId> ids;
+    ids.reserve(12);
     for (int i = 0; i < 6; ++i)
         ids.push_back(world.add(Sphere{{double(i), 0, 0}, 0.6}, {}));
     world.update();
