@@ -56,8 +56,9 @@ class PairSearch;
 
 /// The overlapping pairs of boxes that move, and which begin and end. A box is known by its index.
 ///
-/// Boxes are closed: touching ones overlap. A box with lower > upper on some axis is empty and
-/// overlaps nothing: so indices are free to be given away and taken back. Infinite boxes are allowed.
+/// Boxes are closed: touching ones overlap. A box with lower > upper on some axis, or that lies at
+/// infinity, has no point and overlaps nothing: so indices are free to be given away and taken back.
+/// Boxes may reach to infinity.
 class BroadPhase {
 public:
     explicit BroadPhase(BroadPhaseOptions options = {});

@@ -12,9 +12,15 @@
 
 namespace abut {
 
-/// Whether lower <= upper on every axis. False for one that is not a number, too.
+/// Whether the box has a point: lower <= upper on every axis, and some of it is not at infinity. False
+/// for one that is not a number, too.
 inline bool takes_part(const Box3& box) {
-    return box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto along = [](double lower, double upper) {
+        return lower <= upper && lower < kInfinity && upper > -kInfinity;
+    };
+    return along(box.lower.x, box.upper.x) && along(box.lower.y, box.upper.y) &&
+           along(box.lower.z, box.upper.z);
 }
 /// Whether two closed boxes that take part share a point. Exact.
 inline bool meet(const Box3& a, const Box3& b) {

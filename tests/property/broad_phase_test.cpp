@@ -25,7 +25,8 @@ using Pairs = std::vector<IndexPair>;
 
 bool share_a_point(const Box3& a, const Box3& b) {
     const auto along = [](double la, double ua, double lb, double ub) {
-        return la <= ua && lb <= ub && la <= ub && lb <= ua;
+        const double from = std::max(la, lb), to = std::min(ua, ub);
+        return la <= ua && lb <= ub && from <= to && from < HUGE_VAL && to > -HUGE_VAL;
     };
     return along(a.lower.x, a.upper.x, b.lower.x, b.upper.x) &&
            along(a.lower.y, a.upper.y, b.lower.y, b.upper.y) &&
@@ -237,6 +238,36 @@ TEST(BroadPhase, DriftsLongEnoughToWearTheTreeAndToTryTheAxes) {
         }
         EXPECT_GT(changes, 2000U);
     }
+}
+
+TEST(BroadPhase, ManyBoxesHaveTheSamePairsForEveryMethodAndAnyThreads) {
+    Random random(5006);
+    for (const SceneKind& kind : kKinds) {
+        SCOPED_TRACE(kind.name);
+        Script script(random, kind, 20000);
+        BroadPhase tree({BroadPhaseMethod::tree, {}}), sweep({BroadPhaseMethod::sweep, {}}),
+            automatic;
+        std::size_t pairs = 0;
+        for (int step = 0; step < 4; ++step) {
+            const auto changed = script.step();
+            for (BroadPhase* phase : {&tree, &automatic}) {
+                set_threads(random.integer(1, 4));
+                step == 0 ? phase->update(script.boxes()) : phase->update(script.boxes(), changed);
+            }
+            set_threads(1);
+            sweep.update(script.boxes());
+            // Too many for gtest to print.
+            EXPECT_TRUE(tree.pairs() == sweep.pairs());
+            EXPECT_TRUE(tree.begun() == sweep.begun());
+            EXPECT_TRUE(tree.ended() == sweep.ended());
+            EXPECT_TRUE(automatic.pairs() == sweep.pairs());
+            EXPECT_TRUE(automatic.ended() == sweep.ended());
+            EXPECT_TRUE(std::is_sorted(tree.pairs().begin(), tree.pairs().end()));
+            pairs += tree.pairs().size();
+        }
+        EXPECT_GT(pairs, 20000U);
+    }
+    set_threads(0);
 }
 
 TEST(BroadPhase, FindsPairsWithinAGap) {
