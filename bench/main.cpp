@@ -103,7 +103,7 @@ int run(int argc, char** argv) {
     CLI::App* world_suite = app.add_subcommand(
         "world", "Overlapping pairs of moving boxes, against Bullet, CGAL, Embree and FCL");
     world_suite->add_option("--boxes", world.counts, "Numbers of boxes");
-    world_suite->add_option("--steps", world.steps, "At least, of each case; medians are taken")
+    world_suite->add_option("--steps", world.steps, "At least, of each case; means are taken")
         ->check(CLI::Range(1, 100000));
     world_suite->add_option("--only", world.only, "Cases whose name has this in it");
     world_suite->add_flag("--alone", world.alone, "Without peers");

@@ -89,7 +89,7 @@ Report run_shapes_suite(const ShapesSuiteOptions& options);
 
 struct WorldSuiteOptions {
     std::vector<std::size_t> counts{1000, 10000, 100000, 1000000};
-    int steps = 7;         ///< at least, of each case
+    int steps = 20;        ///< at least, of each case
     bool alone = false;    ///< without peers
     bool methods = false;  ///< also each broad phase by itself
     std::string only;      ///< run the cases whose name has this in it
