@@ -31,8 +31,12 @@ BoxScene::BoxScene(BoxLayout layout, std::size_t count, std::uint64_t seed)
         const double v = 0.02 * side_;
         velocities_.push_back({draw(-v, v), draw(-v, v), draw(-v, v)});
     }
-    if (layout == BoxLayout::spanned)
-        boxes_[count / 2] = {{0, 0, 0}, {1, 1, 1}};
+    add_spanning_box();
+}
+
+void BoxScene::add_spanning_box() {
+    if (layout_ == BoxLayout::spanned)
+        boxes_[boxes_.size() / 2] = {{0, 0, 0}, {1, 1, 1}};
 }
 
 double BoxScene::draw(double low, double high) {
@@ -55,7 +59,7 @@ Box3 BoxScene::draw_box() {
     if (layout_ == BoxLayout::clustered) // a thousand boxes' partners, at a deviation of side_
         side *= 0.38;
     if (layout_ == BoxLayout::sizes)
-        side *= 0.2 * std::pow(1000.0, draw(0, 1) * draw(0, 1));
+        side *= 0.1 * std::pow(1000.0, 0.6 * draw(0, 1) * draw(0, 1));
     const Vec3 h{0.5 * side * draw(0.5, 1.5), 0.5 * side * draw(0.5, 1.5),
                  0.5 * side * draw(0.5, 1.5)};
     if (layout_ == BoxLayout::planes) {
@@ -83,6 +87,7 @@ void BoxScene::drift() {
 
 void BoxScene::teleport() {
     std::generate(boxes_.begin(), boxes_.end(), [&] { return draw_box(); });
+    add_spanning_box();
 }
 
 } // namespace abut::bench

@@ -16,7 +16,7 @@ enum class BoxLayout : std::uint8_t {
     clustered, ///< a thousand to a cluster, clusters anywhere
     spanned,   ///< uniform, and one box around the world
     planes,    ///< standing on ten floors: equal coordinates
-    sizes,     ///< uniform, sizes over three orders of magnitude
+    sizes,     ///< uniform, sides from a tenth of the mean to six times it
 };
 
 /// Boxes in motion, about ten partners each.
@@ -34,6 +34,7 @@ private:
     double draw(double low, double high);
     Vec3 draw_point();
     Box3 draw_box();
+    void add_spanning_box();
 
     BoxLayout layout_;
     std::mt19937_64 random_;
