@@ -111,6 +111,20 @@ int run(int argc, char** argv) {
     convex_suite->add_option("--seed", convex.seed, "Of bodies and poses");
     convex_suite->callback([&] { report = run_convex_suite(convex); });
 
+    WorldSuiteOptions world;
+    CLI::App* world_suite = app.add_subcommand(
+        "world", "Overlapping pairs of moving boxes, against Bullet, CGAL, Embree and FCL");
+    world_suite->add_option("--boxes", world.counts, "Numbers of boxes");
+    world_suite->add_option("--steps", world.steps, "At least, of each case; means are taken")
+        ->check(CLI::Range(1, 100000));
+    world_suite->add_option("--only", world.only, "Cases whose name has this in it");
+    world_suite->add_flag("--alone", world.alone, "Without peers");
+    world_suite->add_flag("--methods", world.methods, "Also each broad phase by itself");
+    world_suite->add_option("--peer-limit", world.peer_limit, "Seconds a step, about")
+        ->check(CLI::NonNegativeNumber);
+    world_suite->add_option("--seed", world.seed, "Of the boxes");
+    world_suite->callback([&] { report = run_world_suite(world); });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

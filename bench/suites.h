@@ -100,4 +100,17 @@ struct ConvexSuiteOptions {
 /// Errors      as read_mesh.
 Report run_convex_suite(const ConvexSuiteOptions& options);
 
+struct WorldSuiteOptions {
+    std::vector<std::size_t> counts{1000, 10000, 100000, 1000000};
+    int steps = 20;        ///< at least, of each case
+    bool alone = false;    ///< without peers
+    bool methods = false;  ///< also each broad phase by itself
+    std::string only;      ///< run the cases whose name has this in it
+    double peer_limit = 4; ///< seconds of a step, about, beyond which a peer is left out
+    std::uint64_t seed = 1;
+};
+
+/// Overlapping pairs of moving boxes, against Bullet, CGAL, Embree and FCL.
+Report run_world_suite(const WorldSuiteOptions& options);
+
 } // namespace abut::bench

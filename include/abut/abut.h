@@ -2,6 +2,7 @@
 
 /// The whole library. One header a subject; each can be included alone.
 #include <abut/batch.h>
+#include <abut/broad_phase.h>
 #include <abut/clash.h>
 #include <abut/convex.h>
 #include <abut/deformable.h>
@@ -19,3 +20,4 @@
 #include <abut/shapes.h>
 #include <abut/types.h>
 #include <abut/volume.h>
+#include <abut/world.h>

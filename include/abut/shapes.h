@@ -27,6 +27,12 @@ struct Sphere {
     double radius = 0; ///< not negative; 0: a point
 };
 
+/// Closed solid: all points at most `radius` from a segment.
+struct Capsule {
+    Segment axis;
+    double radius = 0; ///< not negative; 0: the segment
+};
+
 /// A solid box in a frame of its own. Its corners are those of `box`, mapped as Transform says.
 ///
 /// The solid is bounded by twelve triangles between these eight points, each face cut along the

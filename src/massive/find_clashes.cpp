@@ -1,3 +1,4 @@
+#include <abut/broad_phase.h>
 #include <abut/clash.h>
 #include <abut/error.h>
 #include <abut/progress.h>
@@ -8,7 +9,6 @@
 #include "massive/part_instances.h"
 #include "massive/rule_match.h"
 #include "math/vector.h"
-#include "world/broad_phase.h"
 
 #include <algorithm>
 #include <chrono>
@@ -109,7 +109,8 @@ private:
         const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
             return !across || parts_.parts[i].model != parts_.parts[j].model;
         };
-        for (const auto& [i, j] : overlapping_boxes(boxes, largest, wanted)) {
+        for (const IndexPair pair : overlapping_boxes(boxes, largest, wanted)) {
+            const std::uint32_t i = pair.a(), j = pair.b();
             const Scene &model_i = models_[parts_.parts[i].model],
                         &model_j = models_[parts_.parts[j].model];
             const auto terms = terms_of(options_, model_i, part(i), model_j, part(j));

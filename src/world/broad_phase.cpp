@@ -1,41 +1,119 @@
-#include "world/broad_phase.h"
+#include <abut/broad_phase.h>
+#include <abut/error.h>
 
-#include "core/parallel.h"
 #include "math/vector.h"
-#include "tree/traverse_one.h"
-#include "tree/tree.h"
+#include "world/box_block.h"
+#include "world/pair_list.h"
+#include "world/pair_search.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
 
 namespace abut {
 
-std::vector<std::pair<std::uint32_t, std::uint32_t>>
+namespace {
+
+void require_numbers(const Box3& box, std::size_t index) {
+    const double sum = box.lower.x * 0 + box.lower.y * 0 + box.lower.z * 0 + box.upper.x * 0 +
+                       box.upper.y * 0 + box.upper.z * 0;
+    if (sum == 0)
+        return;
+    for (const double bound :
+         {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z})
+        if (std::isnan(bound))
+            throw Error(ErrorCode::bad_argument,
+                        "box " + std::to_string(index) + " has a bound that is not a number");
+}
+
+std::unique_ptr<PairSearch> make_search(BroadPhaseOptions options) {
+    switch (options.method) {
+    case BroadPhaseMethod::tree:
+        return make_tree_search(std::move(options.wanted));
+    case BroadPhaseMethod::sweep:
+        return make_sweep_search(std::move(options.wanted));
+    case BroadPhaseMethod::sweep_and_prune:
+        return make_sweep_and_prune(std::move(options.wanted));
+    case BroadPhaseMethod::automatic:
+        break;
+    }
+    return make_automatic_search(std::move(options.wanted));
+}
+
+/// The box with half of the gap around it, and what rounding takes from it.
+Box3 widened(const Box3& box, double gap) {
+    const auto outward = [&](double x) { return 0.5 * gap + 0x1p-50 * (std::abs(x) + gap); };
+    const auto &l = box.lower, &u = box.upper;
+    return {{l.x - outward(l.x), l.y - outward(l.y), l.z - outward(l.z)},
+            {u.x + outward(u.x), u.y + outward(u.y), u.z + outward(u.z)}};
+}
+
+} // namespace
+
+const char* to_string(BroadPhaseMethod method) {
+    constexpr std::array kNames{"automatic", "tree", "sweep", "sweep_and_prune"};
+    return kNames[static_cast<std::size_t>(method)];
+}
+
+BroadPhase::BroadPhase(BroadPhaseOptions options)
+    : search_(make_search(std::move(options))), list_(std::make_unique<PairList>()) {}
+BroadPhase::~BroadPhase() = default;
+BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
+BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
+
+void BroadPhase::update(std::span<const Box3> boxes) {
+    std::vector<std::uint32_t> all(boxes.size());
+    std::iota(all.begin(), all.end(), 0);
+    update(boxes, all);
+}
+
+void BroadPhase::update(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
+    for (const std::uint32_t i : changed)
+        require_numbers(boxes[i], i);
+    if (forgotten_ || boxes.size() < boxes_)
+        search_->restart(boxes, *list_);
+    else
+        search_->update({boxes, changed}, *list_);
+    forgotten_ = false;
+    boxes_ = boxes.size();
+}
+
+void BroadPhase::forget() {
+    forgotten_ = true;
+}
+
+const std::vector<IndexPair>& BroadPhase::pairs() const noexcept {
+    return list_->pairs();
+}
+const std::vector<IndexPair>& BroadPhase::begun() const noexcept {
+    return list_->begun();
+}
+const std::vector<IndexPair>& BroadPhase::ended() const noexcept {
+    return list_->ended();
+}
+
+std::vector<IndexPair>
 overlapping_boxes(std::span<const Box3> boxes, double gap,
                   const std::function<bool(std::uint32_t, std::uint32_t)>& wanted) {
-    std::vector<std::uint32_t> used; // primitive of the tree -> box
-    std::vector<Aabb> aabbs;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (!is_empty(boxes[i])) {
-            used.push_back(i);
-            aabbs.emplace_back(boxes[i]);
-        }
-    const Tree tree = build_tree(aabbs);
-
-    std::vector<std::vector<std::uint32_t>> partners(boxes.size());
-    parallel_for(used.size(), 64, [&](std::size_t k) {
-        const std::uint32_t i = used[k];
-        for_each_overlap(tree, Aabb(boxes[i], gap), [&](std::uint32_t slot) {
-            const std::uint32_t j = used[tree.order[slot]];
-            if (i < j && overlap(boxes[i], boxes[j], gap) && wanted(i, j))
-                partners[i].push_back(j);
-        });
-        std::sort(partners[i].begin(), partners[i].end());
-    });
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        for (const std::uint32_t j : partners[i])
-            pairs.emplace_back(i, j);
-    return pairs;
+    if (!(gap >= 0) || std::isinf(gap))
+        throw Error(ErrorCode::bad_argument, "gap of boxes must be a length, not negative");
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        require_numbers(boxes[i], i);
+    PairList list;
+    if (gap == 0) {
+        make_tree_search(wanted)->restart(boxes, list);
+        return list.pairs();
+    }
+    std::vector<Box3> wide;
+    wide.reserve(boxes.size());
+    for (const Box3& box : boxes)
+        wide.push_back(takes_part(box) ? widened(box, gap) : Box3());
+    make_tree_search([&](std::uint32_t i, std::uint32_t k) {
+        return overlap(boxes[i], boxes[k], gap) && (!wanted || wanted(i, k));
+    })->restart(wide, list);
+    return list.pairs();
 }
 
 } // namespace abut

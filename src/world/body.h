@@ -1,0 +1,63 @@
+#pragma once
+
+#include <abut/convex.h>
+#include <abut/deformable.h>
+#include <abut/model.h>
+#include <abut/shapes.h>
+#include <abut/types.h>
+#include <abut/world.h>
+
+#include "geometry/rounded_box_distance.h"
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <variant>
+
+namespace abut {
+
+/// A model of a deformable surface, as it is at the start of its step; made when first asked for.
+class Snapshot {
+public:
+    explicit Snapshot(const Deformable& surface) : surface_(surface) {}
+    [[nodiscard]] const Model& model() const;
+
+private:
+    const Deformable& surface_;
+    mutable std::once_flag once_;
+    mutable std::optional<Model> model_;
+};
+
+/// A deformable surface: a new snapshot with each of its steps.
+struct DeformableShape {
+    const Deformable* surface;
+    std::shared_ptr<const Snapshot> snapshot;
+};
+
+/// A convex body, and its surface for queries with models.
+struct ConvexShape {
+    Convex solid;
+    Model surface;
+};
+
+/// What a body is, in its own frame.
+using BodyShape = std::variant<Model, ConvexShape, RoundedBox, DeformableShape>;
+
+/// Errors, of all: Error{bad_argument} for values that are not finite or out of range.
+BodyShape shape_of(const Convex& convex);
+BodyShape shape_of(const Sphere& sphere);
+BodyShape shape_of(const Capsule& capsule);
+BodyShape shape_of(const Box3& box);
+BodyShape shape_of(const Deformable& surface);
+
+/// The solid in the world.
+RoundedBox placed(const RoundedBox& box, const Transform& world_from_body);
+
+/// Box of a shape in its own frame; empty for a model without triangles.
+Box3 bounds_of(const BodyShape& shape);
+/// Encloses the shape under its transform, whatever rounds.
+Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& world_from_body);
+/// No point of the shape is farther from a point of its frame.
+double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& point);
+
+} // namespace abut

@@ -1,0 +1,128 @@
+#include "world/body_impact.h"
+
+#include "math/transform.h"
+#include "world/narrow_phase.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+/// A radius around the centre of the motion, in the body's frame, that no point lies beyond.
+double reach_of(const MovingBody& body) {
+    const Transform start = body.motion.start;
+    return reach_from(body.shape, body.own_bounds, apply(inverse(start), body.motion.centre));
+}
+
+/// What rounding takes from a distance or a time, relative to what it was computed from.
+constexpr double kRounding = 0x1p-44;
+
+class Advancement {
+public:
+    Advancement(const MovingBody& a, const MovingBody& b, const ImpactOptions& options)
+        : a_(a), b_(b), reach_a_(reach_of(a)), reach_b_(reach_of(b)),
+          convex_(is_convex(a.shape) && is_convex(b.shape)) {
+        const double size = std::max(reach_a_, reach_b_);
+        scale_ = size + max_abs(a.motion.centre) + max_abs(b.motion.centre) +
+                 max_abs(a.motion.velocity) + max_abs(b.motion.velocity);
+        tolerance_ = std::max(options.tolerance.value_or(1e-6 * size), 4 * kRounding * scale_);
+    }
+
+    Impact run() const {
+        constexpr int kMostSteps = 1000;
+        double time = 0;
+        BodyGap gap = gap_at(0);
+        for (int step = 0; step < kMostSteps; ++step) {
+            if (gap.distance <= tolerance_)
+                return hit(time, gap);
+            const double speed = closing_speed(gap);
+            const double free = gap.distance - kRounding * scale_;
+            if (speed <= 0 || time + free / speed > 1)
+                return miss();
+            // Stops short by half of the tolerance, so that what is reported is before contact.
+            time += (free - 0.5 * tolerance_) / speed * (1 - kRounding);
+            gap = gap_at(time);
+        }
+        Impact impact = hit(time, gap);
+        impact.status = Status::bound_only;
+        return impact;
+    }
+
+private:
+    [[nodiscard]] BodyGap gap_at(double time) const {
+        const Transform world_a = at(a_.motion, time), world_b = at(b_.motion, time);
+        PairWorkspace workspace;
+        return gap_between({a_.shape, world_a}, {b_.shape, world_b}, HUGE_VAL, Depths::no,
+                           workspace);
+    }
+
+    /// No faster do points of the bodies come nearer: at all, or along the gap, beyond which neither
+    /// of two convex bodies reaches.
+    [[nodiscard]] double closing_speed(const BodyGap& gap) const {
+        const Vec3 relative = a_.motion.velocity - b_.motion.velocity;
+        const Vec3 &turn_a = a_.motion.angular_velocity, &turn_b = b_.motion.angular_velocity;
+        const double speed =
+            convex_ ? dot(relative, gap.normal) + reach_a_ * length(cross(turn_a, gap.normal)) +
+                          reach_b_ * length(cross(turn_b, gap.normal))
+                    : length(relative) + reach_a_ * length(turn_a) + reach_b_ * length(turn_b);
+        return speed + kRounding * scale_;
+    }
+
+    [[nodiscard]] static Impact miss() { return {}; }
+
+    [[nodiscard]] Impact hit(double time, const BodyGap& gap) const {
+        Impact impact;
+        impact.hit = true, impact.time = time, impact.gap = std::max(gap.distance, 0.0);
+        impact.point_a = gap.point_a, impact.point_b = gap.point_b, impact.normal = gap.normal;
+        impact.triangle_a = gap.triangle_a, impact.triangle_b = gap.triangle_b;
+        impact.status = Status::bound_only;
+        for (const double contact : {time, time_beyond(time, gap)})
+            if (contact <= 1 && gap_at(contact).distance <= 0) {
+                impact.contact_time = contact;
+                impact.status = Status::exact;
+                break;
+            }
+        return impact;
+    }
+    /// When the gap may be closed, and a little more.
+    [[nodiscard]] double time_beyond(double time, const BodyGap& gap) const {
+        const double speed = closing_speed(gap);
+        return speed > 0 ? std::min(1.0, time + 2 * tolerance_ / speed) : 1;
+    }
+
+    const MovingBody &a_, &b_;
+    double reach_a_, reach_b_;
+    bool convex_;
+    double scale_ = 0; ///< of the coordinates
+    double tolerance_ = 0;
+};
+
+const Model& model_of(const BodyShape& shape) {
+    return std::get<Model>(shape);
+}
+
+} // namespace
+
+Box3 swept_bounds(const MovingBody& body) {
+    const Transform start = body.motion.start;
+    const Box3 box = bounds_of(body.shape, body.own_bounds, start);
+    if (is_empty(box))
+        return box;
+    const double reach = reach_of(body);
+    // A point turns by at most the arc, and stays on its sphere.
+    const double turned = std::min(length(body.motion.angular_velocity), 2.0) * reach;
+    const double by = turned + kRounding * (max_abs(box.lower) + max_abs(box.upper) + turned +
+                                            max_abs(body.motion.velocity));
+    const Vec3 margin{by, by, by}, &way = body.motion.velocity;
+    return {min(box.lower, box.lower + way) - margin, max(box.upper, box.upper + way) + margin};
+}
+
+Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options) {
+    if (std::holds_alternative<Model>(a.shape) && std::holds_alternative<Model>(b.shape))
+        return time_of_impact(model_of(a.shape), a.motion, model_of(b.shape), b.motion, options);
+    return Advancement(a, b, options).run();
+}
+
+} // namespace abut

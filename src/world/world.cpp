@@ -1,0 +1,256 @@
+#include <abut/error.h>
+#include <abut/world.h>
+
+#include "core/parallel.h"
+#include "rigid/shape_arguments.h"
+#include "world/body_impact.h"
+#include "world/collision_schedule.h"
+#include "world/world_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+/// Calls work(); an error's message then begins with the body's index.
+template <typename Work>
+auto naming(BodyId id, const Work& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        throw Error(error.code(), "body " + std::to_string(id.index) + ": " + error.what());
+    }
+}
+
+template <typename Shape>
+BodyId add_to(WorldData& data, const Shape& make_shape, const Pose& pose,
+              const BodyOptions& options) {
+    return naming(data.next_id(), [&] {
+        require_point(pose.translation, "position");
+        return data.add(make_shape(), pose, options);
+    });
+}
+
+std::vector<BodyPair> with_ids(const WorldData& data, const std::vector<IndexPair>& pairs) {
+    std::vector<BodyPair> result;
+    result.reserve(pairs.size());
+    for (const IndexPair pair : pairs)
+        result.push_back(data.ids_of(pair));
+    return result;
+}
+
+/// find(pair, k) for the k-th of all pairs, in parallel; the results that are something, in order.
+template <typename Result, typename Find>
+std::vector<Result> results_of(const std::vector<IndexPair>& pairs, const Find& find) {
+    constexpr std::size_t kPairsOfTask = 16;
+    std::vector<std::vector<Result>> found((pairs.size() + kPairsOfTask - 1) / kPairsOfTask);
+    parallel_for(found.size(), 1, [&](std::size_t task) {
+        const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
+        for (std::size_t k = task * kPairsOfTask; k < end; ++k)
+            if (std::optional<Result> result = find(pairs[k], k))
+                found[task].push_back(*result);
+    });
+    std::vector<Result> results;
+    for (auto& some : found)
+        std::move(some.begin(), some.end(), std::back_inserter(results));
+    return results;
+}
+
+} // namespace
+
+World::World(WorldOptions options)
+    : data_(std::make_unique<WorldData>(std::move(options))),
+      schedule_(std::make_unique<CollisionSchedule>(*data_)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+BodyId World::add(const Model& model, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return BodyShape(model); }, pose, options);
+}
+BodyId World::add(const Convex& convex, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(convex); }, pose, options);
+}
+BodyId World::add(const Sphere& sphere, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(sphere); }, pose, options);
+}
+BodyId World::add(const Capsule& capsule, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(capsule); }, pose, options);
+}
+BodyId World::add(const Box3& box, const Pose& pose, const BodyOptions& options) {
+    return add_to(
+        *data_, [&] { return shape_of(box); }, pose, options);
+}
+BodyId World::add(const Deformable& surface, const BodyOptions& options) {
+    return data_->add(shape_of(surface), {}, options);
+}
+
+void World::move(BodyId body, const Pose& pose) {
+    static_cast<void>(data_->body(body)); // an id that is not valid has no name
+    naming(body, [&] {
+        require_point(pose.translation, "position");
+        data_->move(body, pose);
+    });
+}
+void World::refresh(BodyId body) {
+    data_->refresh(body);
+}
+void World::remove(BodyId body) {
+    data_->remove(body);
+}
+void World::set_options(BodyId body, const BodyOptions& options) {
+    data_->set_options(body, options);
+    schedule_->forget();
+}
+void World::refilter() {
+    data_->refilter();
+    schedule_->forget();
+}
+
+bool World::is_valid(BodyId body) const noexcept {
+    return data_->is_valid(body);
+}
+std::size_t World::size() const noexcept {
+    return data_->size();
+}
+const Transform& World::world_from_body(BodyId body) const {
+    return data_->body(body).world_from_body;
+}
+Box3 World::box(BodyId body) const {
+    static_cast<void>(data_->body(body)); // checks it
+    return data_->boxes()[body.index];
+}
+
+void World::update() {
+    data_->update();
+}
+std::vector<BodyPair> World::pairs() const {
+    return with_ids(*data_, data_->broad_phase().pairs());
+}
+std::vector<BodyPair> World::begun() const {
+    return with_ids(*data_, data_->broad_phase().begun());
+}
+std::vector<BodyPair> World::ended() const {
+    return with_ids(*data_, data_->broad_phase().ended());
+}
+
+std::vector<BodyPair> World::touching() {
+    data_->update_if_changed();
+    return results_of<BodyPair>(
+        data_->broad_phase().pairs(),
+        [&](IndexPair pair, std::size_t k) -> std::optional<BodyPair> {
+            if (!touch(data_->placed(pair.a()), data_->placed(pair.b()), data_->workspaces()[k]))
+                return std::nullopt;
+            return data_->ids_of(pair);
+        });
+}
+
+std::vector<BodyGap> World::contacts() {
+    data_->update_if_changed();
+    return results_of<BodyGap>(
+        data_->broad_phase().pairs(), [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
+            const PlacedBody a = data_->placed(pair.a()), b = data_->placed(pair.b());
+            PairWorkspace& workspace = data_->workspaces()[k];
+            // The gap of two convex bodies tells whether they touch.
+            const bool both_convex = is_convex(a.shape) && is_convex(b.shape);
+            if (!both_convex && !touch(a, b, workspace))
+                return std::nullopt;
+            BodyGap gap = gap_between(a, b, both_convex ? 0 : HUGE_VAL, Depths::yes, workspace);
+            if (both_convex && gap.distance > 0)
+                return std::nullopt;
+            std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
+            return gap;
+        });
+}
+
+std::vector<BodyGap> World::closer_than(double distance) {
+    require(distance >= 0 && distance < HUGE_VAL, "distance must be a length, not negative");
+    const std::vector<IndexPair> near =
+        overlapping_boxes(data_->boxes(), distance,
+                          [&](std::uint32_t i, std::uint32_t k) { return data_->may_meet(i, k); });
+    return results_of<BodyGap>(
+        near, [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyGap> {
+            PairWorkspace workspace;
+            // Beyond the bound a distance may be the bound itself: so one just above.
+            BodyGap gap = gap_between(data_->placed(pair.a()), data_->placed(pair.b()),
+                                      std::nextafter(distance, HUGE_VAL), Depths::no, workspace);
+            if (gap.distance > distance)
+                return std::nullopt;
+            std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
+            return gap;
+        });
+}
+
+std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
+                                       const ImpactOptions& options) {
+    const std::vector<Body>& bodies = data_->bodies();
+    std::vector<Motion> motion_of(bodies.size());
+    std::vector<std::uint8_t> moves(bodies.size(), 0);
+    for (const BodyMotion& each : motions) {
+        static_cast<void>(data_->body(each.body)); // checks it
+        naming(each.body, [&] {
+            require(moves[each.body.index] == 0, "moves twice in one step");
+            static_cast<void>(at(each.motion, 1)); // checks it
+        });
+        motion_of[each.body.index] = each.motion;
+        moves[each.body.index] = 1;
+    }
+    std::vector<Box3> swept(bodies.size());
+    parallel_for(bodies.size(), 64, [&](std::size_t i) {
+        const Body& body = bodies[i];
+        if (!body.alive || std::holds_alternative<DeformableShape>(body.shape))
+            return;
+        if (moves[i] == 0)
+            motion_of[i] = Motion::fixed(body.pose);
+        swept[i] = swept_bounds({body.shape, body.own_bounds, motion_of[i]});
+    });
+    const std::vector<IndexPair> pairs =
+        overlapping_boxes(swept, 0, [&](std::uint32_t i, std::uint32_t k) {
+            return (moves[i] != 0 || moves[k] != 0) && data_->may_meet(i, k);
+        });
+    return results_of<BodyImpact>(
+        pairs, [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyImpact> {
+            const Body &a = bodies[pair.a()], &b = bodies[pair.b()];
+            const Impact impact =
+                body_impact({a.shape, a.own_bounds, motion_of[pair.a()]},
+                            {b.shape, b.own_bounds, motion_of[pair.b()]}, options);
+            if (!impact.hit)
+                return std::nullopt;
+            return BodyImpact{data_->id_of(pair.a()), data_->id_of(pair.b()), impact};
+        });
+}
+
+void World::set_speed(BodyId body, const SpeedBounds& bounds) {
+    static_cast<void>(data_->body(body)); // checks it
+    naming(body, [&] {
+        require(is_finite(bounds.velocity) && is_finite(bounds.acceleration),
+                "velocity or acceleration is not finite");
+        require(bounds.acceleration_bound >= 0 && bounds.acceleration_bound < HUGE_VAL &&
+                    bounds.angular_speed >= 0 && bounds.angular_speed < HUGE_VAL,
+                "bounds of a speed must not be negative, and finite");
+    });
+    schedule_->set_speed(body.index, bounds);
+}
+
+std::vector<BodyPair> World::advance(double time) {
+    return schedule_->advance(time);
+}
+double World::next_event() const {
+    return schedule_->next_event();
+}
+const ScheduleCounters& World::schedule_counters() const noexcept {
+    return schedule_->counters();
+}
+
+} // namespace abut

@@ -1,0 +1,105 @@
+// Distances of rounded boxes against what is known by other ways: points sampled on both, meshes of
+// boxes, and translations that must part or join them.
+
+#include "geometry/rounded_box_distance.h"
+#include "tests/support/random.h"
+#include "tests/support/rounds.h"
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+RoundedBox random_box(Random& random, double reach) {
+    RoundedBox box;
+    const Transform t = random.pose(reach);
+    box.centre = {t.m[9], t.m[10], t.m[11]};
+    for (std::size_t k = 0; k < 3; ++k) {
+        box.axis[k] = {t.m[3 * k], t.m[3 * k + 1], t.m[3 * k + 2]};
+        box.half[k] = random.chance(0.4) ? 0 : random.uniform(0.1, 1);
+    }
+    box.radius = random.chance(0.4) ? 0 : random.uniform(0.05, 0.5);
+    return box;
+}
+
+Vec3 point_inside(Random& random, const RoundedBox& box) {
+    Vec3 p = box.centre + box.radius * random.uniform(0, 1) * random.direction();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double t = random.chance(0.3) ? double(random.integer(-1, 1)) : random.uniform(-1, 1);
+        p = p + t * box.half[k] * box.axis[k];
+    }
+    return p;
+}
+
+RoundedBox moved(RoundedBox box, const Vec3& by) {
+    box.centre = box.centre + by;
+    return box;
+}
+
+TEST(RoundedBox, NoPointsAreNearerThanTheDistanceAndTheWitnessesAreThatFar) {
+    Random random(5101);
+    int apart = 0, meeting = 0, near = 0;
+    for (int round = 0; round < many(4000); ++round) {
+        const RoundedBox a = random_box(random, 1.2), b = random_box(random, 1.2);
+        const SolidGap gap = rounded_box_distance(a, b);
+        SCOPED_TRACE(round);
+        EXPECT_NEAR(length(gap.normal), 1, 1e-12);
+        const Vec3 way = gap.point_b - gap.point_a;
+        EXPECT_NEAR(length(way - gap.distance * gap.normal), 0, 1e-9);
+        gap.distance > 0 ? ++apart : ++meeting;
+        double sampled = HUGE_VAL;
+        for (int i = 0; i < 30; ++i)
+            sampled = std::min(sampled, length(point_inside(random, a) - point_inside(random, b)));
+        EXPECT_GT(sampled, gap.distance - 1e-9);
+        near += sampled < gap.distance + 0.3 ? 1 : 0;
+    }
+    EXPECT_GT(apart, 400);
+    EXPECT_GT(meeting, 400);
+    EXPECT_GT(near, 400);
+}
+
+TEST(RoundedBox, TheTranslationPartsThemAndNoShorterOneDoes) {
+    Random random(5102);
+    int deep = 0;
+    for (int round = 0; round < many(2000); ++round) {
+        const RoundedBox a = random_box(random, 0.6), b = random_box(random, 0.6);
+        const SolidGap gap = rounded_box_distance(a, b);
+        SCOPED_TRACE(round);
+        const double touching =
+            rounded_box_distance(a, moved(b, -gap.distance * gap.normal)).distance;
+        EXPECT_NEAR(touching, 0, 1e-9);
+        if (gap.distance > -1e-3)
+            continue;
+        ++deep;
+        for (int i = 0; i < 40; ++i) {
+            const Vec3 way = 0.999 * -gap.distance * random.direction();
+            EXPECT_LE(rounded_box_distance(a, moved(b, way)).distance, 1e-9);
+        }
+    }
+    EXPECT_GT(deep, 300);
+}
+
+TEST(RoundedBox, IsTheSameTurnedRound) {
+    Random random(5103);
+    for (int round = 0; round < many(2000); ++round) {
+        const RoundedBox a = random_box(random, 1), b = random_box(random, 1);
+        EXPECT_NEAR(rounded_box_distance(a, b).distance, rounded_box_distance(b, a).distance, 1e-9);
+    }
+}
+
+TEST(RoundedBox, SpheresAndCoincidentOnes) {
+    RoundedBox a, b;
+    a.radius = 1, b.radius = 2, b.centre = {5, 0, 0};
+    EXPECT_DOUBLE_EQ(rounded_box_distance(a, b).distance, 2);
+    EXPECT_EQ(rounded_box_distance(a, b).point_a, (Vec3{1, 0, 0}));
+    b.centre = {};
+    EXPECT_DOUBLE_EQ(rounded_box_distance(a, b).distance, -3);
+    a.half = b.half = {1, 2, 3};
+    a.radius = b.radius = 0;
+    EXPECT_DOUBLE_EQ(rounded_box_distance(a, b).distance, -2); // along x
+    RoundedBox point, other;
+    EXPECT_EQ(rounded_box_distance(point, other).distance, 0);
+}
+
+} // namespace
+} // namespace abut::test
