@@ -39,7 +39,7 @@ std::unique_ptr<PairSearch> make_search(BroadPhaseOptions options) {
     case BroadPhaseMethod::automatic:
         break;
     }
-    return make_automatic_search(std::move(options.wanted));
+    return make_automatic_search(options.wanted);
 }
 
 /// The box with half of the gap around it, and what rounding takes from it.
