@@ -53,9 +53,9 @@ TEST(RoundedBox, NoPointsAreNearerThanTheDistanceAndTheWitnessesAreThatFar) {
         EXPECT_GT(sampled, gap.distance - 1e-9);
         near += sampled < gap.distance + 0.3 ? 1 : 0;
     }
-    EXPECT_GT(apart, 400);
-    EXPECT_GT(meeting, 400);
-    EXPECT_GT(near, 400);
+    EXPECT_GT(apart, many(4000) / 10);
+    EXPECT_GT(meeting, many(4000) / 10);
+    EXPECT_GT(near, many(4000) / 10);
 }
 
 TEST(RoundedBox, TheTranslationPartsThemAndNoShorterOneDoes) {
@@ -76,7 +76,7 @@ TEST(RoundedBox, TheTranslationPartsThemAndNoShorterOneDoes) {
             EXPECT_LE(rounded_box_distance(a, moved(b, way)).distance, 1e-9);
         }
     }
-    EXPECT_GT(deep, 300);
+    EXPECT_GT(deep, many(2000) / 8);
 }
 
 TEST(RoundedBox, IsTheSameTurnedRound) {
