@@ -20,7 +20,7 @@ constexpr std::size_t kEntry = 3000;
 double reach_of(std::span<const Vec3> points) {
     double reach = 0;
     for (const Vec3& p : points)
-        reach = std::max(reach, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
+        reach = std::max(reach, sum_of_sizes(p));
     return reach;
 }
 

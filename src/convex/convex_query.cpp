@@ -7,17 +7,6 @@
 
 namespace abut {
 
-namespace {
-
-double sum_of_sizes(const Transform& t) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 9; ++i)
-        sum += std::abs(t.m[i]);
-    return sum;
-}
-
-} // namespace
-
 double rounding_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
                    const Transform& world_from_b) {
     double offset = 0;

@@ -17,11 +17,7 @@ struct PlacedPolytope {
     [[nodiscard]] Vec3 place(const Vec3& v) const { return apply_linear(*linear, v) + offset; }
     [[nodiscard]] Vec3 vertex(std::uint32_t v) const { return place(polytope->vertices[v].at); }
     /// The direction d for which d . v = n . (linear part of v): n turned back, if it is a rotation.
-    [[nodiscard]] Vec3 pulled_back(const Vec3& n) const {
-        const auto& m = linear->m;
-        return {m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
-                m[6] * n.x + m[7] * n.y + m[8] * n.z};
-    }
+    [[nodiscard]] Vec3 pulled_back(const Vec3& n) const { return pull_back(*linear, n); }
 };
 
 /// Two polytopes in a common frame: the world's axes, with the origin where the first transform puts

@@ -108,7 +108,9 @@ private:
         gap_ = {};
         if (holds_origin_)
             return;
-        const bool sound = std::abs(shares[0] + shares[1] + shares[2] + shares[3] - 1) < 1e-9;
+        // Only which faces are worth a look: what the search proves in the end rests on no share.
+        constexpr double kSound = 1e-9;
+        const bool sound = std::abs(shares[0] + shares[1] + shares[2] + shares[3] - 1) < kSound;
         double best_sq = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < 4; ++i) {
             if (sound && shares[i] > 0)

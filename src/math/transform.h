@@ -21,6 +21,21 @@ inline Vec3 apply_linear(const Transform& t, const Vec3& v) {
             m[2] * v.x + m[5] * v.y + m[8] * v.z};
 }
 
+/// By the transposed linear part L: the direction d with d . v = n . (L v) for all v.
+inline Vec3 pull_back(const Transform& t, const Vec3& n) {
+    const auto& m = t.m;
+    return {m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
+            m[6] * n.x + m[7] * n.y + m[8] * n.z};
+}
+
+/// Of the entries of the linear part.
+inline double sum_of_sizes(const Transform& t) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 9; ++i)
+        sum += std::abs(t.m[i]);
+    return sum;
+}
+
 /// First b, then a: rounded, so for bounds only.
 Transform compose(const Transform& a, const Transform& b);
 

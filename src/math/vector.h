@@ -48,6 +48,10 @@ inline double max_abs(const Vec3& a) {
     return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
 
+inline double sum_of_sizes(const Vec3& a) {
+    return std::abs(a.x) + std::abs(a.y) + std::abs(a.z);
+}
+
 inline double component(const Vec3& a, int axis) {
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }

@@ -12,10 +12,6 @@ constexpr int kDirections = 4;
 /// Nothing that is not smaller is lost where products underflow.
 constexpr double kSmallest = 0x1p-900;
 
-double size_sum(const Vec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 /// A model's support in the world.
 class PlacedSupport {
 public:
@@ -25,11 +21,7 @@ public:
     [[nodiscard]] const Vec3& middle() const { return middle_; }
 
     /// A direction of the world as the model sees it.
-    [[nodiscard]] Vec3 seen(const Vec3& n) const {
-        const auto& m = world_.m;
-        return {m[0] * n.x + m[1] * n.y + m[2] * n.z, m[3] * n.x + m[4] * n.y + m[5] * n.z,
-                m[6] * n.x + m[7] * n.y + m[8] * n.z};
-    }
+    [[nodiscard]] Vec3 seen(const Vec3& n) const { return pull_back(world_, n); }
     /// From the middle, along a direction that the model sees: as SupportBound.
     [[nodiscard]] double height(const Vec3& seen) const { return support_.height(seen); }
     [[nodiscard]] Vec3 support(const Vec3& seen) const {
@@ -38,11 +30,8 @@ public:
 
     /// No world coordinate, and no sum on the way to one, is larger.
     [[nodiscard]] double reach() const {
-        double entries = 0;
-        for (std::size_t i = 0; i < 9; ++i)
-            entries += std::abs(world_.m[i]);
-        return entries * (support_.size() + size_sum(support_.middle())) +
-               size_sum({world_.m[9], world_.m[10], world_.m[11]});
+        return sum_of_sizes(world_) * (support_.size() + sum_of_sizes(support_.middle())) +
+               sum_of_sizes(Vec3{world_.m[9], world_.m[10], world_.m[11]});
     }
 
 private:
@@ -68,7 +57,8 @@ bool far_apart(const ModelData& model_a, const Transform& world_from_a, const Mo
     Vec3 nearest = between;
     for (int i = 0; i < kDirections; ++i) {
         const Vec3 n = nearest, n_a = a.seen(n), n_b = b.seen(-n);
-        const double apart = dot(n, between) - a.height(n_a) - b.height(n_b) - margin * size_sum(n);
+        const double apart =
+            dot(n, between) - a.height(n_a) - b.height(n_b) - margin * sum_of_sizes(n);
         const double n_sq = length_sq(n);
         if (!(apart > kSmallest) || !(n_sq > kSmallest))
             return false;

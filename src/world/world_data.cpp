@@ -89,8 +89,7 @@ void WorldData::set_options(BodyId id, const BodyOptions& options) {
 
 void WorldData::refilter() {
     broad_phase_.forget();
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i)
-        set_changed(i);
+    refiltered_ = true;
 }
 
 bool WorldData::may_meet(std::uint32_t i, std::uint32_t k) const {
@@ -117,12 +116,13 @@ void WorldData::update() {
     for (const std::uint32_t index : changed_)
         is_changed_[index] = 0;
     changed_.clear();
+    refiltered_ = false;
     free_.insert(free_.end(), ended_.begin(), ended_.end());
     ended_ = std::exchange(removed_, {});
 }
 
 void WorldData::update_if_changed() {
-    if (!changed_.empty())
+    if (refiltered_ || !changed_.empty())
         update();
 }
 

@@ -78,6 +78,7 @@ private:
     std::vector<std::uint32_t> removed_, ended_;
     std::vector<std::uint32_t> changed_; ///< since the last update, each once
     std::vector<std::uint8_t> is_changed_;
+    bool refiltered_ = false; ///< since the last update
     std::size_t alive_ = 0;
     BroadPhase broad_phase_;
     std::vector<PairWorkspace> workspaces_;

@@ -42,10 +42,6 @@ Vec3 any_direction(Random& random) {
     return {n.x - 2, n.y - 2, n.z - 2};
 }
 
-double sum_of_sizes(const Vec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
 TEST(SupportBound, NoPointReachesFarther) {
     Random random(2301);
     int tight = 0, cases = 0;
