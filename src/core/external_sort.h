@@ -1,0 +1,115 @@
+#pragma once
+
+#include "core/temporary_file.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <queue>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace abut {
+
+/// Sorts any number of records in bounded memory: sorted runs on the disk, then one merge of them
+/// all. What fits into the memory never touches the disk.
+///
+/// In          records with operator<, an order in which no two are equal: else their order would
+///             depend on the memory.
+/// Cost        each record is written and read once.
+template <typename Record>
+class ExternalSort {
+    static_assert(std::is_trivially_copyable_v<Record>);
+
+public:
+    ExternalSort(std::string folder, std::size_t memory)
+        : folder_(std::move(folder)),
+          capacity_(std::max<std::size_t>(memory / sizeof(Record), kLeastRecords)) {}
+
+    /// Errors      Error{cannot_write} if the disk is full.
+    void push(const Record& record) {
+        if (records_.size() == capacity_)
+            spill();
+        if (records_.size() == records_.capacity())
+            records_.reserve(std::min(capacity_, std::max<std::size_t>(2 * records_.size(), 1024)));
+        records_.push_back(record);
+    }
+
+    /// Calls take(record) for all of them in ascending order. To be called once, after the last push.
+    template <typename Take>
+    void drain(const Take& take) {
+        if (runs_.empty()) {
+            std::sort(records_.begin(), records_.end());
+            for (const Record& record : records_)
+                take(record);
+        } else {
+            spill();
+            merge(take);
+        }
+        records_ = {};
+    }
+
+private:
+    static constexpr std::size_t kLeastRecords = 1024;
+
+    /// Records of the file from `next` to `end`, sorted; `buffer` holds those that come next.
+    struct Run {
+        std::uint64_t next = 0, end = 0;
+        std::vector<Record> buffer;
+        std::size_t at = 0;
+    };
+
+    void spill() {
+        std::sort(records_.begin(), records_.end());
+        if (!file_)
+            file_.emplace(folder_);
+        const std::uint64_t start = runs_.empty() ? 0 : runs_.back().end;
+        file_->write(start * sizeof(Record), std::as_bytes(std::span(records_)));
+        runs_.push_back({start, start + records_.size(), {}, 0});
+        records_.clear();
+    }
+
+    /// False if the run is at its end.
+    bool refill(Run& run, std::size_t most) {
+        const std::size_t count = std::min<std::uint64_t>(most, run.end - run.next);
+        run.buffer.resize(count);
+        run.at = 0;
+        file_->read(run.next * sizeof(Record), std::as_writable_bytes(std::span(run.buffer)));
+        run.next += count;
+        return count > 0;
+    }
+
+    template <typename Take>
+    void merge(const Take& take) {
+        records_ = {};
+        const std::size_t most = std::max<std::size_t>(capacity_ / runs_.size(), 64);
+        const auto later = [&](std::size_t a, std::size_t b) {
+            return runs_[b].buffer[runs_[b].at] < runs_[a].buffer[runs_[a].at];
+        };
+        std::priority_queue<std::size_t, std::vector<std::size_t>, decltype(later)> heads(later);
+        for (std::size_t i = 0; i < runs_.size(); ++i)
+            if (refill(runs_[i], most))
+                heads.push(i);
+        while (!heads.empty()) {
+            const std::size_t i = heads.top();
+            heads.pop();
+            Run& run = runs_[i];
+            take(run.buffer[run.at++]);
+            if (run.at < run.buffer.size() || refill(run, most))
+                heads.push(i);
+        }
+        runs_.clear();
+        file_.reset();
+    }
+
+    std::string folder_;
+    std::size_t capacity_;
+    std::vector<Record> records_;
+    std::vector<Run> runs_;
+    std::optional<TemporaryFile> file_;
+};
+
+} // namespace abut

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace abut {
+
+/// 128 bits that stand for a content: that two contents share them by chance is not to be expected
+/// before some 10^18 of them.
+struct Hash128 {
+    std::uint64_t low = 0, high = 0;
+    friend auto operator<=>(const Hash128&, const Hash128&) = default;
+};
+
+/// Source      XXH3 [Collet], unseeded: the same on every machine. Not for adversaries who look for
+///             collisions.
+Hash128 hash_128(std::span<const std::byte> bytes);
+std::uint64_t hash_64(std::span<const std::byte> bytes);
+
+/// The hash of a content that comes in pieces; how it is cut makes no difference.
+class Hasher {
+public:
+    Hasher();
+    ~Hasher();
+    Hasher(const Hasher&) = delete;
+    Hasher& operator=(const Hasher&) = delete;
+
+    void add(std::span<const std::byte> bytes);
+    template <typename Value>
+    void add_value(const Value& value) {
+        add(std::as_bytes(std::span(&value, 1)));
+    }
+    [[nodiscard]] Hash128 value() const;
+    [[nodiscard]] std::uint64_t value_64() const { return value().low; }
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace abut

@@ -1,0 +1,93 @@
+#include "core/temporary_file.h"
+
+#include <abut/error.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <unistd.h>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+int open_without_name(const std::string& folder) {
+    const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
+        return file;
+    // Some file systems (network ones among them) have none without a name: it loses its own here.
+    std::string name = folder + "/.abut-XXXXXX";
+    const int named = mkostemp(name.data(), O_CLOEXEC);
+    if (named >= 0)
+        unlink(name.c_str());
+    return named;
+}
+
+} // namespace
+
+TemporaryFile::TemporaryFile(std::string folder) : folder_(std::move(folder)) {
+    if (folder_.empty())
+        folder_ = ".";
+    descriptor_ = open_without_name(folder_);
+    if (descriptor_ < 0)
+        throw Error(ErrorCode::cannot_write, folder_,
+                    std::string("holds no temporary file: ") + std::strerror(errno));
+}
+
+TemporaryFile::~TemporaryFile() {
+    close(descriptor_);
+}
+
+void TemporaryFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count =
+            pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            throw Error(ErrorCode::cannot_write, folder_,
+                        std::string("a temporary file cannot be written: ") + std::strerror(errno));
+        at += static_cast<std::uint64_t>(count);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+}
+
+void TemporaryFile::read(std::uint64_t at, std::span<std::byte> bytes) const {
+    while (!bytes.empty()) {
+        const ssize_t count =
+            pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            throw Error(ErrorCode::unreadable, folder_, "a temporary file cannot be read");
+        at += static_cast<std::uint64_t>(count);
+        bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+}
+
+TemporaryWriter::TemporaryWriter(TemporaryFile& file, std::uint64_t at, std::size_t buffer_bytes)
+    : file_(file), buffer_(buffer_bytes), written_(at) {}
+
+void TemporaryWriter::append(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const std::byte*>(data);
+    while (size > 0) {
+        if (used_ == buffer_.size())
+            flush();
+        const std::size_t count = std::min(size, buffer_.size() - used_);
+        std::memcpy(buffer_.data() + used_, bytes, count);
+        used_ += count;
+        bytes += count;
+        size -= count;
+    }
+}
+
+void TemporaryWriter::flush() {
+    file_.write(written_, std::span(buffer_).first(used_));
+    written_ += used_;
+    used_ = 0;
+}
+
+} // namespace abut
