@@ -2,10 +2,10 @@
 
 #include <abut/error.h>
 
+#include "io/part_checks.h"
 #include "io/scene_stream.h"
-#include "math/predicates.h"
-#include "math/transform.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -119,33 +119,12 @@ Part decode_part(Cursor& cursor, std::size_t meshes, const std::string& file) {
     return part;
 }
 
-/// False if a coordinate of a part could leave the range of doubles. Positions are in the range of
-/// floats.
-bool stays_finite(const Transform& transform) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    for (std::size_t row = 0; row < 3; ++row) {
-        double reach = std::fabs(transform.m[row + 9]);
-        for (std::size_t column = 0; column < 3; ++column)
-            reach += std::fabs(transform.m[3 * column + row]) * kLargest;
-        if (!std::isfinite(reach))
-            return false;
-    }
-    return true;
-}
-
 /// Whether one triangle at least, in world coordinates, is not exactly degenerate. In any usual
 /// file the first one is.
 bool any_triangle_has_area(const Scene& scene) {
-    for (const Part& part : scene.parts) {
-        const Mesh& mesh = scene.meshes[part.mesh];
-        const auto world = [&](std::uint32_t vertex) {
-            return apply(part.world_from_mesh, mesh.positions[vertex]);
-        };
-        for (const auto& [a, b, c] : mesh.triangles)
-            if (!collinear(world(a), world(b), world(c)))
-                return true;
-    }
-    return false;
+    return std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
+        return has_area(scene.meshes[part.mesh], part.world_from_mesh);
+    });
 }
 
 void make_ids_unique(std::vector<Part>& parts) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <abut/types.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace abut {
+
+/// What both readers of glTF, the isolated one and the one that streams, take from its JSON alike.
+///
+/// Layout of a GLB file:
+///
+///     header  u32 magic "glTF" | u32 version | u32 length of the file
+///     chunk   u32 length | u32 kind | bytes …    the first is JSON, the second binary
+inline constexpr std::uint32_t kGlbMagic = 0x46546c67;    // "glTF"
+inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a;   // "JSON"
+inline constexpr std::uint32_t kBinaryChunk = 0x004e4942; // "BIN"
+inline constexpr std::uint64_t kGlbHeaderBytes = 12;
+inline constexpr std::uint64_t kChunkHeaderBytes = 8;
+
+/// A member of an object; an empty array where there is none.
+const nlohmann::json& member_or_empty(const nlohmann::json& object, const char* key);
+
+/// Errors      Fault malformed if it is there and no number that an index or a size can be.
+std::uint64_t number_or(const nlohmann::json& object, const char* key, std::uint64_t fallback);
+
+/// Empty where it is not there, or is no text.
+std::string text_or_empty(const nlohmann::json& object, const char* key);
+
+/// parent_from_node, from the node's matrix or its translation, rotation and scale.
+///
+/// Errors      Fault malformed: other counts of numbers, a projective matrix, a rotation of zero
+///             length.
+Transform gltf_transform(const nlohmann::json& node);
+
+/// Extensions that a file may require although they are ignored: they change no position.
+bool is_harmless_gltf_extension(std::string_view name);
+
+} // namespace abut

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace abut {
+
+/// A file that is read at any place, from any thread.
+class RandomAccessFile {
+public:
+    /// Errors      Fault as readable_size.
+    explicit RandomAccessFile(const std::string& path);
+    ~RandomAccessFile();
+    RandomAccessFile(const RandomAccessFile&) = delete;
+    RandomAccessFile& operator=(const RandomAccessFile&) = delete;
+
+    [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+
+    /// Errors      Fault unreadable, also if the file has become shorter.
+    void read(std::uint64_t at, std::span<std::byte> bytes) const;
+
+    template <typename Value>
+    [[nodiscard]] Value value(std::uint64_t at) const {
+        Value result{};
+        read(at, std::as_writable_bytes(std::span(&result, 1)));
+        return result;
+    }
+
+private:
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+} // namespace abut
