@@ -1,7 +1,9 @@
+#include <abut/error.h>
 #include <abut/mesh.h>
 #include <abut/scene.h>
 
 #include "commands.h"
+#include "info_store.h"
 #include "interrupt.h"
 
 #include <algorithm>
@@ -15,6 +17,7 @@ namespace {
 struct InfoArguments {
     std::vector<std::string> files;
     bool parts = false;
+    bool verify = false;
     double unit = 0;
 };
 
@@ -154,6 +157,14 @@ std::string table(const Scene& scene, const std::vector<MeshReport>& reports, co
 }
 
 int run(const InfoArguments& arguments, const CommonOptions& common) {
+    const auto stores = static_cast<std::size_t>(
+        std::count_if(arguments.files.begin(), arguments.files.end(), looks_like_store));
+    if (stores == arguments.files.size())
+        return describe_stores(arguments.files, arguments.verify, common);
+    if (stores > 0)
+        throw Error(ErrorCode::bad_argument, "info takes models or stores, not both at once");
+    if (arguments.verify)
+        throw Error(ErrorCode::bad_argument, "--verify is for stores");
     ProgressBar bar(common.progress_style());
     std::vector<Scene> scenes;
     {
@@ -184,10 +195,11 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_info(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<InfoArguments>();
-    CLI::App* app =
-        add_subcommand(root, common, "info", "What models hold: parts, triangles, bounds, defects");
-    app->add_option("MODEL", arguments->files, "Models to look at")->required();
+    CLI::App* app = add_subcommand(root, common, "info",
+                                   "What models or stores hold: parts, triangles, bounds, defects");
+    app->add_option("MODEL", arguments->files, "Models, or stores, to look at")->required();
     app->add_flag("--parts", arguments->parts, "A row for each part");
+    app->add_flag("--verify", arguments->verify, "Of stores: check every page, row and block");
     add_unit_option(*app, arguments->unit);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

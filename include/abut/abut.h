@@ -18,6 +18,7 @@
 #include <abut/scene.h>
 #include <abut/shape_queries.h>
 #include <abut/shapes.h>
+#include <abut/store.h>
 #include <abut/types.h>
 #include <abut/volume.h>
 #include <abut/world.h>

@@ -5,37 +5,9 @@
 #include "core/parallel.h"
 #include "math/transform.h"
 #include "mesh/topology.h"
+#include "mesh/used_positions.h"
 
 namespace abut {
-
-namespace {
-
-/// Positions that a triangle uses. Shares the mesh's own where it uses all of them.
-class UsedPositions {
-public:
-    explicit UsedPositions(const Mesh& mesh) : all_(&mesh.positions) {
-        std::vector<bool> used(mesh.positions.size());
-        std::size_t count = 0;
-        for (const auto& t : mesh.triangles)
-            for (const std::uint32_t v : t) {
-                count += used[v] ? 0 : 1;
-                used[v] = true;
-            }
-        if (count == used.size())
-            return;
-        all_ = nullptr;
-        for (std::size_t v = 0; v < used.size(); ++v)
-            if (used[v])
-                some_.push_back(mesh.positions[v]);
-    }
-    [[nodiscard]] const std::vector<Vec3>& get() const { return all_ != nullptr ? *all_ : some_; }
-
-private:
-    const std::vector<Vec3>* all_;
-    std::vector<Vec3> some_;
-};
-
-} // namespace
 
 PartInstances gather_parts(const std::vector<Scene>& models) {
     PartInstances result;
@@ -65,8 +37,7 @@ PartInstances gather_parts(const std::vector<Scene>& models) {
             for (const std::uint32_t i : parts_of_mesh[k]) {
                 PartInstance& part = result.parts[i];
                 require_finite(part.world_from_mesh, "a part's transform");
-                for (const Vec3& p : used.get())
-                    extend(part.box, apply(part.world_from_mesh, p));
+                part.box = world_box(used.get(), part.world_from_mesh);
             }
         } catch (const Error& error) {
             throw Error(ErrorCode::bad_mesh, file, error.what());

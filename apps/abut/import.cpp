@@ -1,0 +1,125 @@
+#include <abut/error.h>
+#include <abut/progress.h>
+#include <abut/store.h>
+
+#include "commands.h"
+#include "interrupt.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <memory>
+
+namespace abut::command {
+
+namespace {
+
+struct ImportArguments {
+    std::vector<std::string> files; ///< the store last
+    std::string memory = "512M";
+    double unit = 0;
+};
+
+/// "512M": bytes, with K, M or G for powers of 1024.
+std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
+    std::uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, fault] = std::from_chars(text.data(), end, value);
+    const std::string unit(rest, end);
+    int shift = 0;
+    if (unit == "K" || unit == "k")
+        shift = 10;
+    else if (unit == "M" || unit == "m")
+        shift = 20;
+    else if (unit == "G" || unit == "g")
+        shift = 30;
+    else if (!unit.empty())
+        shift = -1;
+    if (fault != std::errc() || shift < 0 || value > (~std::uint64_t{0} >> 1 >> shift))
+        throw Error(ErrorCode::bad_argument,
+                    option + " must be a number of bytes, as 512M, not '" + text + "'");
+    return value << shift;
+}
+
+nlohmann::ordered_json describe(const ImportReport& report, const std::string& store) {
+    nlohmann::ordered_json models = nlohmann::ordered_json::array();
+    for (const ImportedModel& model : report.models)
+        models.push_back({{"file", model.file},
+                          {"outcome", to_string(model.outcome)},
+                          {"streamed", model.streamed},
+                          {"bytes", model.bytes},
+                          {"parts", model.parts},
+                          {"triangles", model.triangles},
+                          {"added", model.added},
+                          {"changed", model.changed},
+                          {"removed", model.removed},
+                          {"seconds", model.seconds}});
+    return {{"store", store},
+            {"models", std::move(models)},
+            {"new_meshes", report.new_meshes},
+            {"removed_meshes", report.removed_meshes},
+            {"seconds", report.seconds},
+            {"peak_rss_mb", peak_resident_mib()}};
+}
+
+std::string table(const ImportReport& report, const std::string& store) {
+    std::size_t widest = 0;
+    for (const ImportedModel& model : report.models)
+        widest = std::max(widest, model.file.size());
+    std::string text;
+    for (const ImportedModel& model : report.models) {
+        text +=
+            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {}", model.file, widest,
+                        grouped(model.parts), grouped(model.triangles), to_string(model.outcome));
+        if (model.outcome == ImportOutcome::changed)
+            text += fmt::format(": {} added, {} changed, {} removed", grouped(model.added),
+                                grouped(model.changed), grouped(model.removed));
+        text += '\n';
+    }
+    return text + fmt::format("{}  {} new meshes, {} removed\n"
+                              "seconds     {:.2f}\npeak memory {:.0f} MiB\n",
+                              store, grouped(report.new_meshes), grouped(report.removed_meshes),
+                              report.seconds, peak_resident_mib());
+}
+
+int run(const ImportArguments& arguments, const CommonOptions& common) {
+    if (arguments.files.size() < 2)
+        throw Error(ErrorCode::bad_argument, "import needs a model and a store: MODEL... STORE");
+    const std::vector<std::string> models(arguments.files.begin(), arguments.files.end() - 1);
+    const std::string& store = arguments.files.back();
+    ProgressBar bar(common.progress_style());
+    ImportReport report;
+    {
+        const InterruptScope scope(OnInterrupt::ask);
+        report = import_models(models, store,
+                               {.memory = parse_bytes("--memory", arguments.memory),
+                                .unit = arguments.unit,
+                                .progress = bar.progress()});
+    }
+    bar.finish();
+    throw_if_interrupted();
+    if (common.json)
+        print(dump(describe(report, store)));
+    else if (!common.quiet)
+        print(table(report, store));
+    return kExitDone;
+}
+
+} // namespace
+
+Subcommand add_import(CLI::App& root, CommonOptions& common) {
+    auto arguments = std::make_shared<ImportArguments>();
+    CLI::App* app = add_subcommand(root, common, "import",
+                                   "Bring models into a store, for jobs on more than "
+                                   "fits into the memory");
+    app->add_option("FILES", arguments->files,
+                    "Models, and the store last: made if it is not there, else brought up to date")
+        ->required();
+    app->add_option("--memory", arguments->memory,
+                    "Bytes to keep to, with K, M or G (default 512M)")
+        ->check(not_empty("BYTES"));
+    add_unit_option(*app, arguments->unit);
+    return {app, [arguments, &common] { return run(*arguments, common); }};
+}
+
+} // namespace abut::command

@@ -1,0 +1,101 @@
+#include "info_store.h"
+
+#include <abut/error.h>
+#include <abut/store.h>
+
+#include "interrupt.h"
+
+#include <fmt/format.h>
+
+namespace abut::command {
+
+namespace {
+
+nlohmann::ordered_json describe(const StoreSummary& summary, bool verified) {
+    nlohmann::ordered_json models = nlohmann::ordered_json::array();
+    for (const StoreSummary::Model& model : summary.models)
+        models.push_back({{"file", model.file},
+                          {"complete", model.complete},
+                          {"parts", model.parts},
+                          {"triangles", model.triangles},
+                          {"generation", model.generation}});
+    nlohmann::ordered_json store{{"store", summary.path},
+                                 {"version", summary.version},
+                                 {"complete", summary.complete},
+                                 {"generation", summary.generation},
+                                 {"models", std::move(models)},
+                                 {"parts", summary.parts},
+                                 {"triangles", summary.triangles},
+                                 {"meshes", summary.meshes},
+                                 {"stored_triangles", summary.stored_triangles},
+                                 {"blocks", summary.blocks},
+                                 {"raw_bytes", summary.raw_bytes},
+                                 {"stored_bytes", summary.stored_bytes},
+                                 {"file_bytes", summary.file_bytes},
+                                 {"unused_bytes", summary.unused_bytes}};
+    // Of nothing there are no bounds: JSON has no infinity.
+    if (summary.bounds.lower.x <= summary.bounds.upper.x)
+        store["bounds"] = {{"lower", to_json(summary.bounds.lower)},
+                           {"upper", to_json(summary.bounds.upper)}};
+    if (verified)
+        store["verified"] = true;
+    return store;
+}
+
+std::string table(const StoreSummary& summary, bool verified) {
+    std::string text =
+        fmt::format("{}\n"
+                    "  store       {:>14}  version, generation {}, {}\n",
+                    summary.path, summary.version, summary.generation,
+                    summary.complete ? "complete" : "incomplete: import again to go on");
+    for (const StoreSummary::Model& model : summary.models)
+        text += fmt::format("  model       {:>14}  parts, {} triangles, {}{}\n",
+                            grouped(model.parts), grouped(model.triangles), model.file,
+                            model.complete ? "" : " (import has not ended)");
+    text += fmt::format("  parts       {:>14}  {} triangles\n"
+                        "  meshes      {:>14}  {} triangles in {} blocks\n"
+                        "  geometry    {:>14}  bytes, {} before compression\n"
+                        "  file        {:>14}  bytes, {} of them unused\n",
+                        grouped(summary.parts), grouped(summary.triangles), grouped(summary.meshes),
+                        grouped(summary.stored_triangles), grouped(summary.blocks),
+                        grouped(summary.stored_bytes), grouped(summary.raw_bytes),
+                        grouped(summary.file_bytes), grouped(summary.unused_bytes));
+    const Vec3 &lower = summary.bounds.lower, &upper = summary.bounds.upper;
+    if (lower.x <= upper.x)
+        text += fmt::format("  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n",
+                            lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
+    return text + (verified ? "  verified    all pages, rows and blocks\n" : "");
+}
+
+} // namespace
+
+bool looks_like_store(const std::string& file) {
+    return is_store(file) || file.ends_with(".abut");
+}
+
+int describe_stores(const std::vector<std::string>& files, bool verify,
+                    const CommonOptions& common) {
+    nlohmann::ordered_json stores = nlohmann::ordered_json::array();
+    std::string text;
+    for (const std::string& file : files) {
+        const Store store = open_store(file);
+        if (verify) {
+            ProgressBar bar(common.progress_style());
+            const InterruptScope scope(OnInterrupt::ask);
+            abut::verify(store, bar.progress());
+        }
+        throw_if_interrupted();
+        const StoreSummary found = summary(store);
+        if (common.json)
+            stores.push_back(describe(found, verify));
+        else
+            text += (text.empty() ? "" : "\n") + table(found, verify);
+    }
+    if (common.json)
+        print(dump({{"stores", std::move(stores)}}));
+    else if (!common.quiet)
+        print(text);
+    return kExitDone;
+}
+
+} // namespace abut::command

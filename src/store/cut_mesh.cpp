@@ -1,0 +1,120 @@
+#include "store/cut_mesh.h"
+
+#include "math/vector.h"
+
+#include <algorithm>
+
+namespace abut {
+
+namespace {
+
+constexpr int kAxisBits = 21;
+
+/// The bits of a number, two apart.
+std::uint64_t spread(std::uint64_t v) {
+    v = (v | v << 32) & 0x001f00000000ffff;
+    v = (v | v << 16) & 0x001f0000ff0000ff;
+    v = (v | v << 8) & 0x100f00f00f00f00f;
+    v = (v | v << 4) & 0x10c30c30c30c30c3;
+    return (v | v << 2) & 0x1249249249249249;
+}
+
+/// A third of the sum of three coordinates as a step along an axis. The order of triangles is all
+/// that hangs on it: rounding does no harm.
+std::uint64_t step(double lower, double upper, double sum) {
+    constexpr double kSteps = (1 << kAxisBits) - 1;
+    const double share = upper > lower ? (sum / 3 - lower) / (upper - lower) : 0;
+    return static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kSteps);
+}
+
+} // namespace
+
+std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 &l = bounds.lower, &u = bounds.upper;
+    return spread(step(l.x, u.x, a.x + b.x + c.x)) | spread(step(l.y, u.y, a.y + b.y + c.y)) << 1 |
+           spread(step(l.z, u.z, a.z + b.z + c.z)) << 2;
+}
+
+void PieceCutter::add(const PieceTriangle& triangle) {
+    triangles_.push_back(triangle);
+    if (triangles_.size() == kPieceTriangles)
+        emit_triangles();
+}
+
+void PieceCutter::add_unused(std::uint32_t vertex) {
+    unused_.push_back(vertex);
+    if (unused_.size() == kLargestWhole)
+        emit_unused();
+}
+
+void PieceCutter::finish() {
+    if (!triangles_.empty())
+        emit_triangles();
+    if (!unused_.empty())
+        emit_unused();
+}
+
+void PieceCutter::emit_triangles() {
+    // By their numbers, which are kept as differences.
+    std::sort(triangles_.begin(), triangles_.end(),
+              [](const PieceTriangle& a, const PieceTriangle& b) { return a.id < b.id; });
+    MeshBlock block;
+    for (const PieceTriangle& triangle : triangles_) {
+        block.triangle_ids.push_back(triangle.id);
+        block.vertex_ids.insert(block.vertex_ids.end(), triangle.corners.begin(),
+                                triangle.corners.end());
+    }
+    std::vector<std::uint32_t>& ids = block.vertex_ids;
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    for (const std::uint32_t id : ids)
+        block.mesh.positions.push_back(position_(id));
+    for (const PieceTriangle& triangle : triangles_) {
+        auto& local = block.mesh.triangles.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k)
+            local.at(k) = static_cast<std::uint32_t>(
+                std::lower_bound(ids.begin(), ids.end(), triangle.corners.at(k)) - ids.begin());
+    }
+    triangles_.clear();
+    emit_(block);
+}
+
+void PieceCutter::emit_unused() {
+    MeshBlock block;
+    block.vertex_ids = std::move(unused_);
+    unused_ = {};
+    for (const std::uint32_t id : block.vertex_ids)
+        block.mesh.positions.push_back(position_(id));
+    emit_(block);
+}
+
+void cut_mesh(const Mesh& mesh, const std::function<void(const MeshBlock&)>& emit) {
+    if (std::max(mesh.positions.size(), mesh.triangles.size()) <= kLargestWhole) {
+        emit({mesh, {}, {}});
+        return;
+    }
+    Box3 bounds;
+    for (const Vec3& p : mesh.positions)
+        extend(bounds, p);
+    std::vector<PieceTriangle> triangles;
+    triangles.reserve(mesh.triangles.size());
+    std::vector<bool> used(mesh.positions.size());
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& t = mesh.triangles[i];
+        triangles.push_back(
+            {spatial_key(bounds, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]),
+             i, t});
+        for (const std::uint32_t v : t)
+            used[v] = true;
+    }
+    std::sort(triangles.begin(), triangles.end());
+    PieceCutter cutter([&](std::uint32_t v) { return mesh.positions[v]; }, emit);
+    for (const PieceTriangle& triangle : triangles)
+        cutter.add(triangle);
+    for (std::uint32_t v = 0; v < used.size(); ++v)
+        if (!used[v])
+            cutter.add_unused(v);
+    cutter.finish();
+}
+
+} // namespace abut

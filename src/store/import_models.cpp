@@ -1,0 +1,248 @@
+#include <abut/error.h>
+#include <abut/store.h>
+
+#include "core/progress.h"
+#include "io/input_file.h"
+#include "io/scene_source.h"
+#include "store/import_geometry.h"
+#include "store/merge_parts.h"
+#include "store/model_file.h"
+#include "store/schema.h"
+#include "store/store_writer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+namespace abut {
+
+namespace {
+
+constexpr std::uint64_t kLeastMemory = std::uint64_t{16} << 20;
+
+class StopWatch {
+public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string folder_of(const std::string& path) {
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+/// Other files belong to such a model: its own size and time say nothing of those.
+bool refers_to_files(const std::string& file) {
+    return lower_extension(file) == ".gltf";
+}
+
+/// All that can be refused before the store is touched.
+std::vector<ModelFile> check_files(const std::vector<std::string>& files,
+                                   const std::string& store) {
+    std::error_code missing;
+    std::vector<ModelFile> found;
+    for (const std::string& file : files) {
+        found.push_back(look_at(file));
+        if (std::filesystem::equivalent(file, store, missing) || is_store(file))
+            throw Error(ErrorCode::bad_argument, file,
+                        "is a store: models are imported from their files");
+        for (std::size_t i = 0; i + 1 < found.size(); ++i)
+            if (found[i].path == found.back().path)
+                throw Error(ErrorCode::bad_argument, file, "is given twice");
+    }
+    return found;
+}
+
+class StoreImport {
+public:
+    StoreImport(const std::string& store, const ImportOptions& options)
+        : store_(store), options_(options), writer_(store, page_cache(options.memory)) {}
+
+    ImportReport run(const std::vector<std::string>& files, const std::vector<ModelFile>& found) {
+        const StopWatch watch;
+        ImportReport report;
+        generation_ = static_cast<std::uint64_t>(
+                          writer_.database().number("SELECT max(generation) FROM model")) +
+                      1;
+        for (std::size_t i = 0; i < files.size(); ++i)
+            report.models.push_back(import(files[i], found[i]));
+        // While an import is to be continued, its meshes wait for their parts.
+        const bool is_complete =
+            writer_.database().number("SELECT count(*) FROM model WHERE importing") == 0;
+        if (is_complete && may_have_unused_)
+            report.removed_meshes = writer_.remove_unused_meshes();
+        report.new_meshes = writer_.new_meshes();
+        report.seconds = watch.seconds();
+        return report;
+    }
+
+    /// Models that were brought in.
+    [[nodiscard]] std::size_t complete() const noexcept { return complete_; }
+
+private:
+    /// Of the memory, what SQLite may use.
+    static std::uint64_t page_cache(std::uint64_t memory) {
+        return std::clamp<std::uint64_t>(memory / 8, std::uint64_t{2} << 20,
+                                         std::uint64_t{64} << 20);
+    }
+
+    std::optional<ModelRow> known_model(const std::string& path) {
+        Statement find(writer_.database(),
+                       std::string("SELECT ") + kModelColumns + " FROM model WHERE path = ?");
+        find.bind(path);
+        if (!find.step())
+            return std::nullopt;
+        return read_model_row(find, store_);
+    }
+
+    ImportedModel import(const std::string& file, const ModelFile& found) {
+        const StopWatch watch;
+        ImportedModel result;
+        result.file = file;
+        result.bytes = found.bytes;
+        const std::optional<ModelRow> known = known_model(found.path);
+        const bool was_complete = known && !known->importing;
+        const bool as_before =
+            was_complete && known->unit == options_.unit && !refers_to_files(file);
+        ModelRow model = known.value_or(ModelRow());
+        may_have_unused_ = may_have_unused_ || (known && known->importing);
+        if (as_before && known->bytes == found.bytes && known->modified == found.modified) {
+            finish_unchanged(*known, result, watch);
+            return result;
+        }
+        const Hash128 hash = content_hash(file, options_.progress);
+        const bool same_content = as_before && known->hash_low == hash.low &&
+                                  known->hash_high == hash.high && known->bytes == found.bytes;
+        model.modified = found.modified;
+        if (same_content) {
+            put_model(model, writer_.database());
+            finish_unchanged(model, result, watch);
+            return result;
+        }
+        model.file = file;
+        model.path = found.path;
+        model.bytes = found.bytes;
+        model.hash_low = hash.low;
+        model.hash_high = hash.high;
+        model.unit = options_.unit;
+        mark_as_importing(known, model);
+        PartChanges changes;
+        try {
+            changes = import_content(file, model, result);
+        } catch (const Error& error) {
+            if (error.code() != ErrorCode::interrupted)
+                take_mark_back(known, model);
+            throw;
+        }
+        ++complete_;
+        result.outcome = !was_complete   ? ImportOutcome::added
+                         : changes.any() ? ImportOutcome::changed
+                                         : ImportOutcome::unchanged;
+        result.added = changes.added;
+        result.changed = changes.changed;
+        result.removed = changes.removed;
+        result.parts = model.parts;
+        result.triangles = model.triangles;
+        result.seconds = watch.seconds();
+        return result;
+    }
+
+    static void finish_unchanged(const ModelRow& known, ImportedModel& result,
+                                 const StopWatch& watch) {
+        result.parts = known.parts;
+        result.triangles = known.triangles;
+        result.seconds = watch.seconds();
+    }
+
+    /// Until its parts are merged, a model stays as it was, but says that an import is under way.
+    void mark_as_importing(const std::optional<ModelRow>& known, ModelRow& model) {
+        ModelRow row = known.value_or(model);
+        if (!known)
+            row.model = model.model = writer_.database().number("SELECT max(model) FROM model") + 1;
+        row.importing = true;
+        put_model(row, writer_.database());
+    }
+
+    /// The file is at fault, or the disk: the next import need not go on with it.
+    void take_mark_back(const std::optional<ModelRow>& known, const ModelRow& model) {
+        try {
+            writer_.commit();
+            if (known) {
+                put_model(*known, writer_.database());
+            } else {
+                Statement remove(writer_.database(), "DELETE FROM model WHERE model = ?");
+                remove.bind(model.model).run();
+                (void)writer_.remove_unused_meshes();
+            }
+        } catch (const Error&) { // NOLINT: the first error is told; the store says "incomplete"
+        }
+    }
+
+    PartChanges import_content(const std::string& file, ModelRow& model, ImportedModel& result) {
+        const std::string folder = folder_of(store_);
+        const std::uint64_t memory = options_.memory - page_cache(options_.memory);
+        const auto source =
+            open_scene_source(file, {options_.unit, folder, memory / 2, options_.progress});
+        result.streamed = source->streams();
+        ImportedGeometry geometry(folder);
+        import_geometry(*source, file, memory * 3 / 4, options_.progress, writer_, geometry);
+        const ModelFile after = look_at(file);
+        if (after.bytes != model.bytes || after.modified != model.modified)
+            throw Error(ErrorCode::unreadable, file, "has changed while it was read");
+        const PartChanges changes = merge_parts(*source, geometry, generation_, options_.progress,
+                                                model, writer_.database());
+        may_have_unused_ = may_have_unused_ || changes.changed + changes.removed > 0;
+        return changes;
+    }
+
+    const std::string& store_;
+    const ImportOptions& options_;
+    StoreWriter writer_;
+    std::size_t complete_ = 0;
+    std::uint64_t generation_ = 0;
+    bool may_have_unused_ = false;
+};
+
+} // namespace
+
+const char* to_string(ImportOutcome outcome) {
+    switch (outcome) {
+    case ImportOutcome::added:
+        return "added";
+    case ImportOutcome::changed:
+        return "changed";
+    case ImportOutcome::unchanged:
+        break;
+    }
+    return "unchanged";
+}
+
+ImportReport import_models(const std::vector<std::string>& files, const std::string& store,
+                           const ImportOptions& options) {
+    if (options.memory < kLeastMemory)
+        throw Error(ErrorCode::bad_argument, "an import needs at least 16 MiB of memory");
+    const std::vector<ModelFile> found = check_files(files, store);
+    const bool is_new = !std::filesystem::exists(store);
+    std::optional<StoreImport> import;
+    try {
+        import.emplace(store, options);
+        return import->run(files, found);
+    } catch (const Error& error) {
+        // Nothing came of it, and nothing is to be gone on with.
+        const bool is_empty = is_new && (!import || import->complete() == 0);
+        import.reset();
+        if (is_empty && error.code() != ErrorCode::interrupted) {
+            std::error_code ignored;
+            std::filesystem::remove(store, ignored);
+            std::filesystem::remove(store + "-journal", ignored);
+        }
+        throw;
+    }
+}
+
+} // namespace abut

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <abut/types.h>
+
+#include "store/sqlite.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace abut {
+
+inline constexpr int kStoreVersion = 1;
+/// Of the file's header, for `file` and the like: "Abut".
+inline constexpr std::int64_t kApplicationId = 0x41627574;
+
+/// Rows of the tables, with the checksum that each carries. docs/store.md says what columns mean.
+struct ModelRow {
+    std::int64_t model = 0;
+    std::string file, path;
+    std::uint64_t bytes = 0;
+    std::int64_t modified = 0; ///< nanoseconds since 1970
+    std::uint64_t hash_low = 0, hash_high = 0;
+    double unit = 0;
+    bool importing = false;
+    std::uint64_t parts = 0, triangles = 0, generation = 0;
+    std::uint64_t parts_sum = 0; ///< of the checksums of its parts, modulo 2^64
+
+    [[nodiscard]] std::uint64_t checksum() const;
+};
+
+struct MeshRow {
+    std::int64_t mesh = 0;
+    std::uint64_t hash_low = 0, hash_high = 0;
+    std::uint64_t vertices = 0, triangles = 0;
+    std::int64_t first_block = 0;
+    std::uint64_t blocks = 0;
+    std::uint64_t raw_bytes = 0, stored_bytes = 0;
+    std::optional<bool> closed;
+    Box3 box; ///< of the vertices that triangles use
+
+    [[nodiscard]] std::uint64_t checksum() const;
+};
+
+struct BlockRow {
+    std::int64_t block = 0, mesh = 0;
+    std::uint64_t vertices = 0, triangles = 0;
+    std::uint64_t raw_bytes = 0;
+    Box3 box; ///< of the vertices that its triangles use
+    std::uint64_t data_checksum = 0;
+
+    [[nodiscard]] std::uint64_t checksum() const;
+};
+
+struct PartRow {
+    std::int64_t part = 0, model = 0;
+    std::uint64_t number = 0;
+    std::int64_t mesh = 0;
+    std::string id, name, type;
+    Transform world_from_mesh;
+    Box3 box;
+    std::uint64_t generation = 0;
+
+    [[nodiscard]] std::uint64_t checksum() const;
+};
+
+/// Columns in the order that the read_… functions and the writer's statements have them.
+inline constexpr const char* kModelColumns =
+    "model, file, path, bytes, modified, hash, unit, importing, parts, triangles, generation, "
+    "parts_sum, checksum";
+inline constexpr const char* kMeshColumns =
+    "mesh, hash, vertices, triangles, first_block, blocks, raw_bytes, stored_bytes, closed, "
+    "x0, y0, z0, x1, y1, z1, checksum";
+inline constexpr const char* kBlockColumns =
+    "block, mesh, vertices, triangles, raw_bytes, x0, y0, z0, x1, y1, z1, data_checksum, checksum, "
+    "data";
+/// The same without the data.
+inline constexpr const char* kBlockRowColumns =
+    "block, mesh, vertices, triangles, raw_bytes, x0, y0, z0, x1, y1, z1, data_checksum, checksum";
+inline constexpr const char* kPartColumns =
+    "part, model, number, mesh, id, name, type, x0, y0, z0, x1, y1, z1, world_from_mesh, "
+    "generation, checksum";
+
+/// The row that a statement stands on; its columns are those above.
+///
+/// Errors      Error{malformed}, naming the store and the row, if it is not what its checksum says.
+ModelRow read_model_row(const Statement& row, const std::string& store);
+MeshRow read_mesh_row(const Statement& row, const std::string& store);
+PartRow read_part_row(const Statement& row, const std::string& store);
+BlockRow read_block_row(const Statement& row, const std::string& store);
+/// The compressed bytes of the block; valid until the statement's next step.
+std::span<const std::byte> read_block_data(const Statement& row, const BlockRow& block,
+                                           const std::string& store);
+
+/// Makes the tables of an empty file.
+void create_schema(Database& database);
+
+/// Errors      Error: malformed if the file is no store; unsupported if a newer version wrote it.
+void check_schema(Database& database);
+
+/// -0 becomes 0, since SQLite keeps no sign of zero.
+Box3 without_negative_zero(const Box3& box);
+
+} // namespace abut

@@ -1,0 +1,172 @@
+#include "store/sqlite.h"
+
+#include <abut/error.h>
+
+#include <sqlite3.h>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+struct Verdict {
+    ErrorCode code;
+    const char* text;
+};
+
+Verdict verdict_of(int status) {
+    switch (status & 0xff) {
+    case SQLITE_CORRUPT:
+        return {ErrorCode::malformed, "is damaged"};
+    case SQLITE_NOTADB:
+        return {ErrorCode::malformed, "is no store of Abut, or its first page is damaged"};
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+        return {ErrorCode::unreadable, "is in use by another process"};
+    case SQLITE_FULL:
+        return {ErrorCode::cannot_write, "cannot be written: the disk is full"};
+    case SQLITE_READONLY:
+        return {ErrorCode::cannot_write, "cannot be written: it is read-only"};
+    case SQLITE_CANTOPEN:
+        return {ErrorCode::unreadable, "cannot be opened"};
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+        return {ErrorCode::unreadable, "cannot be opened: no permission"};
+    case SQLITE_NOMEM:
+        return {ErrorCode::unreadable, "cannot be read: out of memory"};
+    case SQLITE_TOOBIG:
+        return {ErrorCode::cannot_write, "cannot be written: a text or block is too large"};
+    case SQLITE_IOERR:
+        if (status == SQLITE_IOERR_WRITE || status == SQLITE_IOERR_FSYNC ||
+            status == SQLITE_IOERR_TRUNCATE || status == SQLITE_IOERR_DELETE)
+            return {ErrorCode::cannot_write, "cannot be written"};
+        if (status == SQLITE_IOERR_SHORT_READ)
+            return {ErrorCode::malformed, "is truncated"};
+        return {ErrorCode::unreadable, "cannot be read"};
+    default:
+        return {ErrorCode::malformed, "is damaged, or no store of Abut"};
+    }
+}
+
+} // namespace
+
+Database::Database(std::string path, OpenMode mode) : path_(std::move(path)) {
+    int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
+    flags |= mode == OpenMode::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+    flags |= mode == OpenMode::create ? SQLITE_OPEN_CREATE : 0;
+    const int status = sqlite3_open_v2(path_.c_str(), &handle_, flags, nullptr);
+    if (status != SQLITE_OK) {
+        const Verdict verdict = verdict_of(status);
+        sqlite3_close(handle_);
+        throw Error(verdict.code, path_, verdict.text);
+    }
+}
+
+Database::~Database() {
+    sqlite3_close(handle_);
+}
+
+void Database::run(const char* sql) {
+    const int status = sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr);
+    if (status != SQLITE_OK)
+        fail(status);
+}
+
+std::int64_t Database::number(const char* sql) {
+    Statement statement(*this, sql);
+    return statement.step() ? statement.integer(0) : 0;
+}
+
+std::int64_t Database::last_row() const {
+    return sqlite3_last_insert_rowid(handle_);
+}
+
+void Database::fail(int status) const {
+    const Verdict verdict = verdict_of(status);
+    std::string text = verdict.text;
+    if (verdict.code == ErrorCode::malformed || (status & 0xff) == SQLITE_IOERR)
+        text += std::string(" (") + sqlite3_errmsg(handle_) + ")";
+    throw Error(verdict.code, path_, text);
+}
+
+Statement::Statement(Database& database, std::string_view sql) : database_(database) {
+    check(sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()), &handle_,
+                             nullptr));
+}
+
+Statement::~Statement() {
+    sqlite3_finalize(handle_);
+}
+
+void Statement::check(int status) const {
+    if (status != SQLITE_OK && status != SQLITE_ROW && status != SQLITE_DONE)
+        database_.fail(status);
+}
+
+bool Statement::step() {
+    const int status = sqlite3_step(handle_);
+    if (status != SQLITE_ROW && status != SQLITE_DONE) {
+        sqlite3_reset(handle_);
+        check(status);
+    }
+    return status == SQLITE_ROW;
+}
+
+void Statement::reset() {
+    sqlite3_reset(handle_);
+}
+
+std::int64_t Statement::integer(int column) const {
+    return sqlite3_column_int64(handle_, column);
+}
+
+double Statement::real(int column) const {
+    return sqlite3_column_double(handle_, column);
+}
+
+std::string Statement::text(int column) const {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
+    return text == nullptr
+               ? std::string()
+               : std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(handle_, column)));
+}
+
+std::span<const std::byte> Statement::bytes(int column) const {
+    const auto* data = static_cast<const std::byte*>(sqlite3_column_blob(handle_, column));
+    return {data,
+            data == nullptr ? 0 : static_cast<std::size_t>(sqlite3_column_bytes(handle_, column))};
+}
+
+bool Statement::is_null(int column) const {
+    return sqlite3_column_type(handle_, column) == SQLITE_NULL;
+}
+
+void Statement::bind_one(int at, std::int64_t value) {
+    check(sqlite3_bind_int64(handle_, at, value));
+}
+
+void Statement::bind_one(int at, double value) {
+    check(sqlite3_bind_double(handle_, at, value));
+}
+
+void Statement::bind_one(int at, std::string_view value) {
+    check(sqlite3_bind_text64(handle_, at, value.empty() ? "" : value.data(), value.size(),
+                              SQLITE_STATIC, SQLITE_UTF8));
+}
+
+void Statement::bind_one(int at, std::span<const std::byte> value) {
+    check(sqlite3_bind_blob64(handle_, at,
+                              value.empty() ? "" : static_cast<const void*>(value.data()),
+                              value.size(), SQLITE_STATIC));
+}
+
+void Statement::bind_one(int at, std::nullptr_t) {
+    check(sqlite3_bind_null(handle_, at));
+}
+
+Transaction::~Transaction() {
+    if (open_)
+        sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+} // namespace abut

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace abut {
+
+enum class OpenMode : std::uint8_t {
+    read_only,
+    read_write,
+    create, ///< read_write, and made if it is not there
+};
+
+/// A connection to an SQLite file. One thread at a time.
+///
+/// Errors      of all members: Error, naming the file: malformed if it is damaged, unreadable if
+///             another process has it, cannot_write if it is read-only or the disk is full.
+class Database {
+public:
+    Database(std::string path, OpenMode mode);
+    ~Database();
+    Database(const Database&) = delete;
+    Database& operator=(const Database&) = delete;
+
+    /// Runs statements that give no rows, or whose rows do not matter.
+    void run(const char* sql);
+    /// The first column of the first row of a statement.
+    std::int64_t number(const char* sql);
+
+    [[nodiscard]] const std::string& path() const noexcept { return path_; }
+    [[nodiscard]] sqlite3* handle() const noexcept { return handle_; }
+    [[nodiscard]] std::int64_t last_row() const;
+    [[noreturn]] void fail(int status) const;
+
+private:
+    std::string path_;
+    sqlite3* handle_ = nullptr;
+};
+
+/// A prepared statement, run again and again: bind values in order, then step through its rows.
+class Statement {
+public:
+    Statement(Database& database, std::string_view sql);
+    ~Statement();
+    Statement(const Statement&) = delete;
+    Statement& operator=(const Statement&) = delete;
+
+    /// Binds all parameters anew; text and bytes must live until the last step.
+    template <typename... Values>
+    Statement& bind(const Values&... values) {
+        reset();
+        int at = 0;
+        (bind_one(++at, values), ...);
+        return *this;
+    }
+    /// False after the last row.
+    bool step();
+    /// Runs it to its end.
+    void run() {
+        while (step()) {
+        }
+        reset();
+    }
+    void reset();
+
+    [[nodiscard]] std::int64_t integer(int column) const;
+    [[nodiscard]] double real(int column) const;
+    [[nodiscard]] std::string text(int column) const;
+    /// Valid until the next step.
+    [[nodiscard]] std::span<const std::byte> bytes(int column) const;
+    [[nodiscard]] bool is_null(int column) const;
+
+private:
+    void bind_one(int at, std::int64_t value);
+    void bind_one(int at, std::uint64_t value) { bind_one(at, static_cast<std::int64_t>(value)); }
+    void bind_one(int at, std::uint32_t value) { bind_one(at, static_cast<std::int64_t>(value)); }
+    void bind_one(int at, int value) { bind_one(at, static_cast<std::int64_t>(value)); }
+    void bind_one(int at, double value);
+    void bind_one(int at, std::string_view value);
+    void bind_one(int at, const std::string& value) { bind_one(at, std::string_view(value)); }
+    void bind_one(int at, std::span<const std::byte> value);
+    void bind_one(int at, const std::vector<std::byte>& value) {
+        bind_one(at, std::span<const std::byte>(value));
+    }
+    void bind_one(int at, std::nullptr_t);
+    void check(int status) const;
+
+    Database& database_;
+    sqlite3_stmt* handle_ = nullptr;
+};
+
+/// What is done within it is kept as a whole, after commit(), or not at all.
+class Transaction {
+public:
+    explicit Transaction(Database& database) : database_(database) {
+        database_.run("BEGIN IMMEDIATE");
+    }
+    ~Transaction();
+    Transaction(const Transaction&) = delete;
+    Transaction& operator=(const Transaction&) = delete;
+
+    void commit() {
+        database_.run("COMMIT");
+        open_ = false;
+    }
+
+private:
+    Database& database_;
+    bool open_ = true;
+};
+
+} // namespace abut

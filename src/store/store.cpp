@@ -1,0 +1,142 @@
+#include <abut/error.h>
+#include <abut/store.h>
+
+#include "core/progress.h"
+#include "io/fault.h"
+#include "io/input_file.h"
+#include "math/vector.h"
+#include "store/mesh_draft.h"
+#include "store/store_file.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <unordered_map>
+
+namespace abut {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kMagic = "SQLite format 3\0"sv;
+
+/// What SQLite itself can tell of its pages and indices.
+void check_pages(StoreFile& file) {
+    file.with_connection([&](Database& database) {
+        Statement check(database, "PRAGMA quick_check(1)");
+        if (check.step() && check.text(0) != "ok")
+            throw Error(ErrorCode::malformed, file.path(), "is damaged: " + check.text(0));
+        Statement boxes(database, "SELECT rtreecheck('part_box')");
+        if (boxes.step() && boxes.text(0) != "ok")
+            throw Error(ErrorCode::malformed, file.path(), "is damaged: " + boxes.text(0));
+    });
+}
+
+/// The mesh of a row once more, against the hash that it is known by.
+void check_mesh(StoreFile& file, const MeshRow& row) {
+    const Mesh mesh = file.read_mesh(row.mesh);
+    const Hash128 hash = mesh_hash(
+        mesh.positions.size(), hash_128(std::as_bytes(std::span<const Vec3>(mesh.positions))),
+        mesh.triangles.size(),
+        hash_128(std::as_bytes(std::span<const std::array<std::uint32_t, 3>>(mesh.triangles))));
+    if (hash != Hash128{row.hash_low, row.hash_high})
+        throw Error(ErrorCode::malformed, file.path(),
+                    "is damaged: mesh " + std::to_string(row.mesh) + " is not what its hash says");
+}
+
+/// Boxes in the index are those of the parts, rounded outwards.
+void check_boxes(StoreFile& file) {
+    file.with_connection([&](Database& database) {
+        const std::int64_t wrong = database.number(
+            "SELECT count(*) FROM part LEFT JOIN part_box AS b USING (part) "
+            "WHERE part.x0 <= part.x1 AND NOT coalesce("
+            "b.x0 <= part.x0 AND b.x1 >= part.x1 AND b.y0 <= part.y0 AND b.y1 >= part.y1 AND "
+            "b.z0 <= part.z0 AND b.z1 >= part.z1, 0)");
+        if (wrong != 0)
+            throw Error(ErrorCode::malformed, file.path(),
+                        "is damaged: the index of boxes misses " + std::to_string(wrong) +
+                            " parts");
+    });
+}
+
+} // namespace
+
+bool is_store(const std::string& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::array<char, kMagic.size()> start{};
+    return stream.read(start.data(), start.size()) &&
+           std::string_view(start.data(), start.size()) == kMagic;
+}
+
+Store open_store(const std::string& path, const StoreOptions& options) {
+    try {
+        (void)readable_size(path);
+    } catch (const Fault& fault) {
+        throw Error(fault.code(), path, fault.what());
+    }
+    if (!is_store(path))
+        throw Error(ErrorCode::malformed, path,
+                    "is no store of Abut, or its first page is damaged");
+    return Store(std::make_shared<StoreFile>(path, options.read_only));
+}
+
+StoreSummary summary(const Store& store) {
+    StoreFile& file = store.file();
+    StoreSummary result;
+    result.path = file.path();
+    result.version = kStoreVersion;
+    result.complete = true;
+    for (const ModelRow& model : file.models()) {
+        result.models.push_back(
+            {model.file, !model.importing, model.parts, model.triangles, model.generation});
+        result.complete = result.complete && !model.importing;
+        result.generation = std::max(result.generation, model.generation);
+        result.parts += model.parts;
+        result.triangles += model.triangles;
+    }
+    file.for_each_part([&](const PartRow& part) {
+        result.bounds.lower = min(result.bounds.lower, part.box.lower);
+        result.bounds.upper = max(result.bounds.upper, part.box.upper);
+    });
+    file.for_each_mesh([&](const MeshRow& mesh) {
+        ++result.meshes;
+        result.stored_triangles += mesh.triangles;
+        result.blocks += mesh.blocks;
+        result.raw_bytes += mesh.raw_bytes;
+        result.stored_bytes += mesh.stored_bytes;
+    });
+    file.with_connection([&](Database& database) {
+        const auto page = static_cast<std::uint64_t>(database.number("PRAGMA page_size"));
+        result.file_bytes = page * static_cast<std::uint64_t>(database.number("PRAGMA page_count"));
+        result.unused_bytes =
+            page * static_cast<std::uint64_t>(database.number("PRAGMA freelist_count"));
+    });
+    return result;
+}
+
+void verify(const Store& store, const Progress& progress) {
+    StoreFile& file = store.file();
+    std::vector<MeshRow> meshes;
+    file.for_each_mesh([&](const MeshRow& mesh) { meshes.push_back(mesh); });
+    ProgressMeter meter(progress, "verify", meshes.size() + 3);
+    check_pages(file);
+    meter.advance();
+    std::unordered_map<std::int64_t, bool> known;
+    for (const MeshRow& mesh : meshes) {
+        check_mesh(file, mesh);
+        known[mesh.mesh] = true;
+        meter.advance();
+    }
+    file.for_each_part([&](const PartRow& part) {
+        if (!known.contains(part.mesh))
+            throw Error(ErrorCode::malformed, file.path(),
+                        "is damaged: part " + part.id + " shows a mesh that is missing");
+    });
+    meter.advance();
+    check_boxes(file);
+    meter.advance();
+}
+
+} // namespace abut

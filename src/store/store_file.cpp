@@ -1,0 +1,226 @@
+#include "store/store_file.h"
+
+#include <abut/error.h>
+
+#include "io/fault.h"
+
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+std::string select(const char* columns, const char* rest) {
+    return std::string("SELECT ") + columns + " FROM " + rest;
+}
+
+} // namespace
+
+StoreFile::Connection::Connection(const std::string& path, OpenMode mode)
+    : database(path, mode),
+      block((check_schema(database), database), select(kBlockColumns, "block WHERE block = ?")),
+      block_row(database, select(kBlockRowColumns, "block WHERE block = ?")),
+      mesh(database, select(kMeshColumns, "mesh WHERE mesh = ?")),
+      part(database, select(kPartColumns, "part WHERE part = ?")) {
+    // Blocks are read once and kept by whoever asked for them: no second copy in a cache of pages.
+    database.run("PRAGMA cache_size = -512");
+}
+
+StoreFile::Lease::Lease(StoreFile& file) : owner(file) {
+    {
+        const std::scoped_lock lock(file.mutex_);
+        if (!file.idle_.empty()) {
+            connection = std::move(file.idle_.back());
+            file.idle_.pop_back();
+        }
+    }
+    if (connection == nullptr)
+        connection = std::make_unique<Connection>(file.path_, file.mode_);
+}
+
+StoreFile::Lease::~Lease() {
+    connection->block.reset();
+    connection->block_row.reset();
+    connection->mesh.reset();
+    connection->part.reset();
+    const std::scoped_lock lock(owner.mutex_);
+    owner.idle_.push_back(std::move(connection));
+}
+
+StoreFile::StoreFile(std::string path, bool read_only)
+    : path_(std::move(path)), mode_(read_only ? OpenMode::read_only : OpenMode::read_write) {
+    const Lease lease(*this);
+}
+
+StoreFile::~StoreFile() = default;
+
+std::vector<ModelRow> StoreFile::models() {
+    return with_connection([&](Database& database) {
+        std::vector<ModelRow> models;
+        Statement rows(database, select(kModelColumns, "model ORDER BY model"));
+        while (rows.step())
+            models.push_back(read_model_row(rows, path_));
+        return models;
+    });
+}
+
+void StoreFile::for_each_part(const std::function<void(const PartRow&)>& take) {
+    for (const ModelRow& model : models())
+        for_each_part(model, take);
+}
+
+void StoreFile::for_each_part(const ModelRow& model,
+                              const std::function<void(const PartRow&)>& take) {
+    with_connection([&](Database& database) {
+        Statement rows(database,
+                       select(kPartColumns, "part INDEXED BY part_by_number WHERE model = ? "
+                                            "ORDER BY model, number"));
+        std::uint64_t count = 0, sum = 0;
+        rows.bind(model.model);
+        while (rows.step()) {
+            const PartRow part = read_part_row(rows, path_);
+            if (part.number != count)
+                break;
+            ++count;
+            sum += part.checksum();
+            take(part);
+        }
+        // What a damaged page hides is missed here.
+        if (count != model.parts || sum != model.parts_sum)
+            throw Error(ErrorCode::malformed, path_,
+                        "is damaged: parts of model " + model.file + " are missing");
+    });
+}
+
+PartRow StoreFile::part(std::int64_t part) {
+    Lease lease(*this);
+    Statement& row = lease.connection->part;
+    if (!row.bind(part).step())
+        throw Error(ErrorCode::bad_argument, path_, "has no part " + std::to_string(part));
+    return read_part_row(row, path_);
+}
+
+void StoreFile::for_each_mesh(const std::function<void(const MeshRow&)>& take) {
+    with_connection([&](Database& database) {
+        Statement rows(database, select(kMeshColumns, "mesh ORDER BY mesh"));
+        while (rows.step())
+            take(read_mesh_row(rows, path_));
+    });
+}
+
+MeshRow StoreFile::mesh(std::int64_t mesh) {
+    Lease lease(*this);
+    Statement& row = lease.connection->mesh;
+    if (!row.bind(mesh).step())
+        throw Error(ErrorCode::bad_argument, path_, "has no mesh " + std::to_string(mesh));
+    return read_mesh_row(row, path_);
+}
+
+std::vector<BlockRow> StoreFile::blocks(const MeshRow& mesh) {
+    Lease lease(*this);
+    Statement& row = lease.connection->block_row;
+    std::vector<BlockRow> blocks;
+    for (std::uint64_t i = 0; i < mesh.blocks; ++i) {
+        if (!row.bind(mesh.first_block + static_cast<std::int64_t>(i)).step())
+            throw Error(ErrorCode::malformed, path_,
+                        "is damaged: a block of mesh " + std::to_string(mesh.mesh) + " is missing");
+        blocks.push_back(read_block_row(row, path_));
+    }
+    return blocks;
+}
+
+MeshBlock StoreFile::decode(const Statement& row) {
+    const BlockRow block = read_block_row(row, path_);
+    const std::span<const std::byte> data = read_block_data(row, block, path_);
+    bytes_read_ += data.size();
+    ++blocks_read_;
+    try {
+        MeshBlock result = decode_block(data, block.raw_bytes);
+        if (result.mesh.positions.size() != block.vertices ||
+            result.mesh.triangles.size() != block.triangles)
+            malformed("it has other sizes than its row says");
+        return result;
+    } catch (const Fault& fault) {
+        throw Error(ErrorCode::malformed, path_,
+                    "is damaged: block " + std::to_string(block.block) + ": " + fault.what());
+    }
+}
+
+MeshBlock StoreFile::read_block(std::int64_t block) {
+    Lease lease(*this);
+    Statement& row = lease.connection->block;
+    if (!row.bind(block).step())
+        throw Error(ErrorCode::malformed, path_,
+                    "is damaged: block " + std::to_string(block) + " is missing");
+    return decode(row);
+}
+
+namespace {
+
+/// Puts the pieces of a mesh together.
+class MeshAssembly {
+public:
+    explicit MeshAssembly(const MeshRow& row)
+        : has_vertex_(row.vertices), has_triangle_(row.triangles) {
+        mesh_.positions.resize(row.vertices);
+        mesh_.triangles.resize(row.triangles);
+    }
+
+    /// False if the piece does not belong to the mesh.
+    bool add(const MeshBlock& piece) {
+        const std::vector<std::uint32_t>& ids = piece.vertex_ids;
+        if ((!ids.empty() && ids.back() >= mesh_.positions.size()) ||
+            (!piece.triangle_ids.empty() && piece.triangle_ids.back() >= mesh_.triangles.size()) ||
+            ids.size() != piece.mesh.positions.size() ||
+            piece.triangle_ids.size() != piece.mesh.triangles.size())
+            return false;
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            mesh_.positions[ids[i]] = piece.mesh.positions[i];
+            vertices_ += has_vertex_[ids[i]] ? 0 : 1;
+            has_vertex_[ids[i]] = true;
+        }
+        for (std::size_t i = 0; i < piece.triangle_ids.size(); ++i) {
+            const std::uint32_t id = piece.triangle_ids[i];
+            const auto& [a, b, c] = piece.mesh.triangles[i];
+            mesh_.triangles[id] = {ids[a], ids[b], ids[c]};
+            triangles_ += has_triangle_[id] ? 0 : 1;
+            has_triangle_[id] = true;
+        }
+        return true;
+    }
+    [[nodiscard]] bool is_whole() const {
+        return vertices_ == mesh_.positions.size() && triangles_ == mesh_.triangles.size();
+    }
+    Mesh take() { return std::move(mesh_); }
+
+private:
+    Mesh mesh_;
+    std::vector<bool> has_vertex_, has_triangle_;
+    std::size_t vertices_ = 0, triangles_ = 0;
+};
+
+} // namespace
+
+Mesh StoreFile::read_mesh(std::int64_t mesh) {
+    const MeshRow row = this->mesh(mesh);
+    const auto damaged = [&](const char* what) {
+        throw Error(ErrorCode::malformed, path_, "is damaged: mesh " + std::to_string(mesh) + what);
+    };
+    if (row.blocks == 1) {
+        MeshBlock block = read_block(row.first_block);
+        if (block.mesh.positions.size() != row.vertices ||
+            block.mesh.triangles.size() != row.triangles)
+            damaged(" has other sizes than its block");
+        if (block.vertex_ids.empty() && block.triangle_ids.empty())
+            return std::move(block.mesh);
+    }
+    MeshAssembly assembly(row);
+    for (std::uint64_t i = 0; i < row.blocks; ++i)
+        if (!assembly.add(read_block(row.first_block + static_cast<std::int64_t>(i))))
+            damaged(" has a piece that does not belong to it");
+    if (!assembly.is_whole())
+        damaged(" is not whole");
+    return assembly.take();
+}
+
+} // namespace abut

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <abut/mesh.h>
+#include <abut/types.h>
+
+#include "store/mesh_codec.h"
+#include "store/schema.h"
+#include "store/sqlite.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace abut {
+
+/// A store that is read: what jobs that do not fit into the memory work on. Every row and block is
+/// checked against its checksum when it is read.
+///
+/// All members may be called from any thread; each call takes a connection of its own from a pool.
+///
+/// Errors      of all members: Error, naming the store: malformed for damage, unreadable while
+///             another process writes, bad_argument for a number that is not in the store.
+class StoreFile {
+public:
+    StoreFile(std::string path, bool read_only);
+    ~StoreFile();
+    StoreFile(const StoreFile&) = delete;
+    StoreFile& operator=(const StoreFile&) = delete;
+
+    [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+    /// In the order of their numbers, which is that of their first import.
+    std::vector<ModelRow> models();
+
+    /// All parts of complete models: by model, then in the order of its file. Checks that none is
+    /// missing.
+    void for_each_part(const std::function<void(const PartRow&)>& take);
+    void for_each_part(const ModelRow& model, const std::function<void(const PartRow&)>& take);
+    PartRow part(std::int64_t part);
+
+    void for_each_mesh(const std::function<void(const MeshRow&)>& take);
+    MeshRow mesh(std::int64_t mesh);
+
+    /// All of a mesh, bit for bit as it was imported.
+    Mesh read_mesh(std::int64_t mesh);
+
+    /// What is known of the blocks of a mesh without reading their data: their boxes above all.
+    std::vector<BlockRow> blocks(const MeshRow& mesh);
+    /// One block: of a mesh that was cut, a piece with the numbers that its vertices and triangles
+    /// have in the whole.
+    MeshBlock read_block(std::int64_t block);
+
+    /// Since the store was opened: compressed bytes of blocks, and how many.
+    [[nodiscard]] std::uint64_t bytes_read() const noexcept { return bytes_read_; }
+    [[nodiscard]] std::uint64_t blocks_read() const noexcept { return blocks_read_; }
+
+    /// Runs work(database) with a connection of the pool.
+    template <typename Work>
+    auto with_connection(const Work& work) {
+        Lease lease(*this);
+        return work(lease.connection->database);
+    }
+
+private:
+    struct Connection {
+        Connection(const std::string& path, OpenMode mode);
+        Database database;
+        Statement block, block_row, mesh, part;
+    };
+    struct Lease {
+        explicit Lease(StoreFile& file);
+        ~Lease();
+        Lease(const Lease&) = delete;
+        Lease& operator=(const Lease&) = delete;
+        StoreFile& owner;
+        std::unique_ptr<Connection> connection;
+    };
+
+    MeshBlock decode(const Statement& row);
+
+    std::string path_;
+    OpenMode mode_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Connection>> idle_;
+    std::atomic<std::uint64_t> bytes_read_{0}, blocks_read_{0};
+};
+
+} // namespace abut
