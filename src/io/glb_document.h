@@ -2,16 +2,13 @@
 
 #include "io/part_spool.h"
 #include "io/random_access_file.h"
+#include "io/scene_source.h"
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace abut {
-
-/// Thrown for a file that holds what the streaming readers leave to the isolated one, which also
-/// finds the words for what is wrong.
-struct NotStreamable {};
 
 /// What the JSON of a GLB file says, in a few bytes an element: nodes lie on the disk.
 struct GlbDocument {

@@ -2,6 +2,7 @@
 
 #include <abut/scene.h>
 
+#include "io/fault.h"
 #include "io/part_spool.h"
 
 #include <array>
@@ -69,11 +70,18 @@ struct SourceOptions {
 std::unique_ptr<SceneSource> open_scene_source(const std::string& path,
                                                const SourceOptions& options);
 
+/// Thrown for a file that holds what the streaming readers leave to the isolated one, which also
+/// finds the words for what is wrong. Past the opening it can only mean what its text says.
+struct NotStreamable : Fault {
+    NotStreamable() : Fault(ErrorCode::unreadable, "has changed while it was read") {}
+};
+
 /// The streaming readers. Null: the file has something that only the isolated reader knows, or
 /// judges.
 ///
 /// Errors      Fault.
 std::unique_ptr<SceneSource> open_glb_source(const std::string& path, const SourceOptions& options);
+std::unique_ptr<SceneSource> open_obj_source(const std::string& path, const SourceOptions& options);
 std::unique_ptr<SceneSource> open_stl_source(const std::string& path, const SourceOptions& options);
 
 } // namespace abut

@@ -187,7 +187,7 @@ private:
         const std::string folder = folder_of(store_);
         const std::uint64_t memory = options_.memory - page_cache(options_.memory);
         const auto source =
-            open_scene_source(file, {options_.unit, folder, memory / 2, options_.progress});
+            open_scene_source(file, {options_.unit, folder, memory / 8, options_.progress});
         result.streamed = source->streams();
         ImportedGeometry geometry(folder);
         import_geometry(*source, file, memory * 3 / 4, options_.progress, writer_, geometry);

@@ -25,7 +25,7 @@ constexpr std::string_view kMagic = "SQLite format 3\0"sv;
 /// What SQLite itself can tell of its pages and indices.
 void check_pages(StoreFile& file) {
     file.with_connection([&](Database& database) {
-        Statement check(database, "PRAGMA quick_check(1)");
+        Statement check(database, "PRAGMA integrity_check(1)");
         if (check.step() && check.text(0) != "ok")
             throw Error(ErrorCode::malformed, file.path(), "is damaged: " + check.text(0));
         Statement boxes(database, "SELECT rtreecheck('part_box')");

@@ -4,11 +4,27 @@
 
 #include "io/fault.h"
 
+#include <filesystem>
 #include <utility>
 
 namespace abut {
 
 namespace {
+
+/// A killed import may have left a transaction half done, which only a writer can roll back.
+void mend(const std::string& path) {
+    if (!std::filesystem::exists(path + "-journal"))
+        return;
+    try {
+        Database(path, OpenMode::read_write).number("SELECT count(*) FROM sqlite_schema");
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::cannot_write)
+            throw Error(ErrorCode::unreadable, path,
+                        "was left half written by a killed import, and cannot be mended here: it "
+                        "is read-only");
+        throw;
+    }
+}
 
 std::string select(const char* columns, const char* rest) {
     return std::string("SELECT ") + columns + " FROM " + rest;
@@ -49,6 +65,8 @@ StoreFile::Lease::~Lease() {
 
 StoreFile::StoreFile(std::string path, bool read_only)
     : path_(std::move(path)), mode_(read_only ? OpenMode::read_only : OpenMode::read_write) {
+    if (read_only)
+        mend(path_);
     const Lease lease(*this);
 }
 

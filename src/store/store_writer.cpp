@@ -11,7 +11,7 @@ namespace abut {
 namespace {
 
 /// What a killed import loses at most, and what one transaction may have to roll back.
-constexpr std::uint64_t kTransactionBytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kTransactionBytes = std::uint64_t{16} << 20;
 
 constexpr const char* kAddMesh = "INSERT INTO mesh VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 constexpr const char* kAddBlock = "INSERT INTO block VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)";

@@ -6,7 +6,7 @@
 #include "io/reader/joined_vertices.h"
 #include "io/reader/node_parts.h"
 #include "io/reader/promise.h"
-#include "io/reader/triangulate.h"
+#include "io/triangulate.h"
 #include "io/scene_stream.h"
 
 #include <algorithm>

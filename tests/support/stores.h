@@ -1,0 +1,78 @@
+#pragma once
+
+#include <abut/scene.h>
+#include <abut/store.h>
+
+#include "massive/part_instances.h"
+#include "store/store_file.h"
+
+#include <bit>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace abut::test {
+
+inline bool same_bits(const Mesh& a, const Mesh& b) {
+    return a.positions.size() == b.positions.size() && a.triangles == b.triangles &&
+           (a.positions.empty() || std::memcmp(a.positions.data(), b.positions.data(),
+                                               a.positions.size() * sizeof(Vec3)) == 0);
+}
+
+/// All that a store says of one model, as read_scene would say it, and the boxes of its parts.
+struct StoredScene {
+    Scene scene;
+    std::vector<Box3> boxes;
+    std::vector<std::uint64_t> generations;
+};
+
+inline StoredScene stored_scene(StoreFile& file, const ModelRow& model) {
+    StoredScene result;
+    result.scene.file = model.file;
+    std::map<std::int64_t, std::uint32_t> number_of;
+    file.for_each_part(model, [&](const PartRow& row) {
+        const auto [found, is_new] =
+            number_of.try_emplace(row.mesh, static_cast<std::uint32_t>(result.scene.meshes.size()));
+        if (is_new)
+            result.scene.meshes.push_back(file.read_mesh(row.mesh));
+        result.scene.parts.push_back(
+            {row.id, row.name, row.type, found->second, row.world_from_mesh});
+        result.boxes.push_back(row.box);
+        result.generations.push_back(row.generation);
+    });
+    return result;
+}
+
+/// The same parts with the same geometry, bit for bit; meshes may be numbered otherwise, since a
+/// store has equal ones once.
+inline void expect_same_scene(const Scene& a, const Scene& b) {
+    ASSERT_EQ(a.parts.size(), b.parts.size());
+    for (std::size_t i = 0; i < a.parts.size(); ++i) {
+        const Part &p = a.parts[i], &q = b.parts[i];
+        ASSERT_EQ(p.id, q.id);
+        ASSERT_EQ(p.name, q.name);
+        ASSERT_EQ(p.type, q.type);
+        ASSERT_EQ(std::memcmp(p.world_from_mesh.m.data(), q.world_from_mesh.m.data(),
+                              sizeof p.world_from_mesh.m),
+                  0)
+            << "transform of " << p.id;
+        ASSERT_TRUE(same_bits(a.meshes.at(p.mesh), b.meshes.at(q.mesh))) << "mesh of " << p.id;
+    }
+}
+
+/// The store holds this scene as its model number `index`, with the boxes of the clash job.
+inline void expect_stored(const std::string& store, const Scene& scene, std::size_t index = 0) {
+    StoreFile file(store, true);
+    const std::vector<ModelRow> models = file.models();
+    ASSERT_LT(index, models.size());
+    EXPECT_FALSE(models[index].importing);
+    const StoredScene stored = stored_scene(file, models[index]);
+    expect_same_scene(scene, stored.scene);
+    const PartInstances instances = gather_parts({scene});
+    for (std::size_t i = 0; i < scene.parts.size(); ++i)
+        ASSERT_EQ(instances.parts[i].box, stored.boxes.at(i)) << scene.parts[i].id;
+}
+
+} // namespace abut::test
