@@ -2,11 +2,12 @@
 
 #include <abut/mesh.h>
 
+#include "io/byte_stream.h"
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace abut {
@@ -15,8 +16,8 @@ namespace abut {
 ///
 /// Errors      Fault: malformed, unsupported, bad_mesh for an index out of range. Coordinates are
 ///             not looked at.
-Mesh read_obj_frame(std::string_view content);
-Mesh read_ply_frame(std::string_view content);
+Mesh read_obj_frame(ByteStream& content);
+Mesh read_ply_frame(ByteStream& content);
 
 /// A polygon as the fan of its first corner; nothing for less than three corners.
 ///

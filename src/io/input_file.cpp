@@ -21,7 +21,7 @@ std::string lower_extension(const std::string& path) {
     return extension;
 }
 
-std::uint64_t readable_size(const std::string& path) {
+OpenFile open_readable(const std::string& path) {
     // O_NONBLOCK: a named pipe without a writer must not hold us up.
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) {
@@ -31,13 +31,19 @@ std::uint64_t readable_size(const std::string& path) {
     }
     struct stat status {};
     const bool known = fstat(descriptor, &status) == 0;
+    if (known && S_ISREG(status.st_mode) && status.st_size > 0)
+        return {descriptor, static_cast<std::uint64_t>(status.st_size)};
     close(descriptor);
-    if (!known || !S_ISREG(status.st_mode))
-        throw Fault(ErrorCode::unreadable,
-                    known && S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
-    if (status.st_size == 0)
+    if (known && S_ISREG(status.st_mode))
         malformed("is empty");
-    return static_cast<std::uint64_t>(status.st_size);
+    throw Fault(ErrorCode::unreadable,
+                known && S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
+}
+
+std::uint64_t readable_size(const std::string& path) {
+    const OpenFile file = open_readable(path);
+    close(file.descriptor);
+    return file.size;
 }
 
 std::string read_file(const std::string& path) {

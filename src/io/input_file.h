@@ -8,6 +8,15 @@ namespace abut {
 /// A path's extension in lower case, with its dot.
 std::string lower_extension(const std::string& path);
 
+/// A regular file, open for reading.
+struct OpenFile {
+    int descriptor = -1; ///< the caller closes it
+    std::uint64_t size = 0;
+};
+
+/// Errors      as readable_size.
+OpenFile open_readable(const std::string& path);
+
 /// Opens a file to learn whether it can be read; its size in bytes.
 ///
 /// Errors      Fault: file_not_found; unreadable, if only because it is no regular file; malformed

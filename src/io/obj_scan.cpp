@@ -76,7 +76,7 @@ private:
 
 } // namespace
 
-void scan_obj(std::string_view content,
+void scan_obj(ByteStream& content,
               const std::function<void(std::string_view rest, const LineScan& lines)>& vertex,
               const std::function<void(std::span<const std::uint64_t> corners)>& face) {
     LineScan lines(content);

@@ -16,7 +16,7 @@ namespace abut {
 ///             trusted only once the scan has returned, since a face may come before its vertices.
 /// Errors      Fault malformed for a face of less than three corners or one that is no number,
 ///             bad_mesh for a corner that no vertex is for; what vertex and face throw.
-void scan_obj(std::string_view content,
+void scan_obj(ByteStream& content,
               const std::function<void(std::string_view rest, const LineScan& lines)>& vertex,
               const std::function<void(std::span<const std::uint64_t> corners)>& face);
 

@@ -7,7 +7,7 @@ namespace abut {
 bool PlyBody::skip(const PlyType& type, std::uint64_t count) {
     if (is_text()) {
         for (; count > 0; --count) {
-            const std::string_view word = take_word(rest_);
+            const std::string_view word = take_word(data_);
             if (word.empty())
                 return false;
             if (!looks_like_number(word))
@@ -15,9 +15,15 @@ bool PlyBody::skip(const PlyType& type, std::uint64_t count) {
         }
         return true;
     }
-    if (count > rest_.size() / type.bytes)
+    if (count > data_.left() / type.bytes)
         return false;
-    rest_.remove_prefix(count * type.bytes);
+    for (std::uint64_t left = count * type.bytes; left > 0;) {
+        if (data_.ahead().empty() && !data_.more())
+            return false;
+        const auto taken = std::min<std::uint64_t>(left, data_.ahead().size());
+        data_.take(taken);
+        left -= taken;
+    }
     return true;
 }
 
@@ -43,11 +49,11 @@ std::uint64_t PlyBody::most(const PlyElement& element) const {
     // A list may be empty; in text a value is one character or more.
     for (const PlyProperty& property : element.properties)
         bytes += is_text() ? 1 : (property.is_list ? property.length : property.value).bytes;
-    return bytes == 0 ? 0 : std::min(element.count, rest_.size() / bytes);
+    return bytes == 0 ? 0 : std::min(element.count, data_.left() / bytes);
 }
 
-bool PlyBody::at_end() const {
-    return is_text() ? std::all_of(rest_.begin(), rest_.end(), is_blank) : rest_.empty();
+bool PlyBody::at_end() {
+    return is_text() ? take_word(data_).empty() : !data_.has(1);
 }
 
 namespace {

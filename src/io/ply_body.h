@@ -22,7 +22,8 @@ namespace abut {
 ///             that is a real number. The end of the data is no fault here, but false.
 class PlyBody {
 public:
-    explicit PlyBody(const PlyHeader& header) : rest_(header.body), encoding_(header.encoding) {}
+    /// In          data: what follows the header; must outlive the body.
+    PlyBody(const PlyHeader& header, ByteStream& data) : data_(data), encoding_(header.encoding) {}
 
     /// One integer: the length of a list, or an index. False at the end of the data.
     bool take(const PlyType& type, std::int64_t& value);
@@ -40,7 +41,7 @@ public:
     [[nodiscard]] std::uint64_t most(const PlyElement& element) const;
 
     /// Nothing follows; in text, nothing but blanks.
-    [[nodiscard]] bool at_end() const;
+    [[nodiscard]] bool at_end();
 
 private:
     [[nodiscard]] bool is_text() const { return encoding_ == PlyEncoding::text; }
@@ -50,7 +51,7 @@ private:
     template <typename Number>
     bool take_word_as(Number& value);
 
-    std::string_view rest_;
+    ByteStream& data_;
     PlyEncoding encoding_;
 };
 
@@ -82,20 +83,21 @@ void take_ply_elements(const PlyElement& element, const Take& take) {
 }
 
 inline bool PlyBody::take_bits(const PlyType& type, std::uint64_t& bits) {
-    if (rest_.size() < type.bytes)
+    if (!data_.has(type.bytes))
         return false;
+    const std::string_view ahead = data_.ahead();
     bits = 0;
     for (std::size_t i = 0; i < type.bytes; ++i) {
         const std::size_t at = encoding_ == PlyEncoding::big_endian ? i : type.bytes - 1 - i;
-        bits = bits << 8 | static_cast<unsigned char>(rest_[at]);
+        bits = bits << 8 | static_cast<unsigned char>(ahead[at]);
     }
-    rest_.remove_prefix(type.bytes);
+    data_.take(type.bytes);
     return true;
 }
 
 template <typename Number>
 bool PlyBody::take_word_as(Number& value) {
-    const std::string_view word = take_word(rest_);
+    const std::string_view word = take_word(data_);
     if (word.empty())
         return false;
     const auto number = to_number<Number>(word);

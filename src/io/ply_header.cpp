@@ -75,7 +75,7 @@ std::uint64_t PlyHeader::vertices() const {
     return count;
 }
 
-PlyHeader read_ply_header(std::string_view content) {
+PlyHeader read_ply_header(ByteStream& content) {
     LineScan lines(content);
     std::string_view line;
     PlyHeader header;
@@ -88,7 +88,6 @@ PlyHeader read_ply_header(std::string_view content) {
         if (word == "end_header") {
             if (!has_format)
                 malformed("its header names no format");
-            header.body = lines.rest();
             return header;
         }
         if (word == "format") {

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "io/byte_stream.h"
+
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace abut {
@@ -32,16 +33,15 @@ struct PlyElement {
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::text;
     std::vector<PlyElement> elements; ///< in the order of their data
-    std::string_view body;            ///< the data: the rest of the content
 
     /// How many vertices there are; 0 if the file says nothing of any.
     [[nodiscard]] std::uint64_t vertices() const;
 };
 
-/// In          content: the whole file; must outlive the header.
+/// In/out      content: the file from its beginning; afterwards, its data are ahead.
 /// Errors      Fault malformed.
 /// Source      [Turk 1994, The PLY Polygon File Format]; names of types with their sizes (float32)
 ///             are a later custom.
-PlyHeader read_ply_header(std::string_view content);
+PlyHeader read_ply_header(ByteStream& content);
 
 } // namespace abut

@@ -36,7 +36,7 @@ Mesh read_unchecked(const std::string& path) {
     const std::string extension = lower_extension(path);
     if (extension != ".obj" && extension != ".ply")
         throw Fault(ErrorCode::unsupported, "frames are read from .obj and .ply files only");
-    const std::string content = read_file(path);
+    ByteStream content = ByteStream::open(path);
     return extension == ".obj" ? read_obj_frame(content) : read_ply_frame(content);
 }
 

@@ -15,7 +15,7 @@ double take_number(std::string_view& rest, const LineScan& lines) {
 
 } // namespace
 
-Mesh read_obj_frame(std::string_view content) {
+Mesh read_obj_frame(ByteStream& content) {
     Mesh mesh;
     const auto take_vertex = [&](std::string_view rest, const LineScan& lines) {
         const double x = take_number(rest, lines), y = take_number(rest, lines),

@@ -45,9 +45,9 @@ void take_vertices(PlyBody& body, const PlyElement& element, std::vector<Vec3>& 
 
 } // namespace
 
-Mesh read_ply_frame(std::string_view content) {
+Mesh read_ply_frame(ByteStream& content) {
     const PlyHeader header = read_ply_header(content);
-    PlyBody body(header);
+    PlyBody body(header, content);
     Mesh mesh;
     for (const PlyElement& element : header.elements) {
         if (element.name == "vertex") {

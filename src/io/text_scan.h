@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/byte_stream.h"
+
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -13,15 +15,22 @@ namespace abut {
 /// Lines of a text, numbered from 1, without their ends (\n or \r\n).
 class LineScan {
 public:
-    explicit LineScan(std::string_view text) : rest_(text) {}
+    /// In          text: must outlive the scan. What has not been taken as a line stays there.
+    explicit LineScan(ByteStream& text) : text_(text) {}
 
-    /// False at the end of the text.
+    /// False at the end of the text. The line stays where it is until the next one is asked for.
     bool next(std::string_view& line) {
-        if (rest_.empty())
+        std::size_t searched = 0, end = text_.ahead().find('\n');
+        while (end == std::string_view::npos) {
+            searched = text_.ahead().size();
+            if (!text_.more())
+                break;
+            end = text_.ahead().find('\n', searched);
+        }
+        if (text_.ahead().empty())
             return false;
-        const std::size_t end = rest_.find('\n');
-        line = rest_.substr(0, end);
-        rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+        line = text_.ahead().substr(0, end);
+        text_.take(end == std::string_view::npos ? line.size() : end + 1);
         if (!line.empty() && line.back() == '\r')
             line.remove_suffix(1);
         ++number_;
@@ -30,11 +39,9 @@ public:
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
     /// "line 12", for messages.
     [[nodiscard]] std::string place() const { return "line " + std::to_string(number_); }
-    /// What follows the lines that were taken.
-    [[nodiscard]] std::string_view rest() const noexcept { return rest_; }
 
 private:
-    std::string_view rest_;
+    ByteStream& text_;
     std::uint64_t number_ = 0;
 };
 
@@ -53,6 +60,24 @@ inline std::string_view take_word(std::string_view& text) {
     const std::string_view word = text.substr(start, end - start);
     text.remove_prefix(end);
     return word;
+}
+
+/// The same of a text that comes piece by piece. The word stays where it is until the next one is
+/// asked for.
+inline std::string_view take_word(ByteStream& text) {
+    while (true) {
+        std::string_view rest = text.ahead();
+        std::string_view word = take_word(rest);
+        text.take(text.ahead().size() - rest.size() - word.size()); // blanks
+        // What ends where the bytes in memory end may go on.
+        if (rest.empty()) {
+            if (text.more())
+                continue;
+            word = text.ahead();
+        }
+        text.take(word.size());
+        return word;
+    }
 }
 
 /// A whole word as a number; none if it is beyond the range of the type.

@@ -2,6 +2,7 @@
 
 #include "math/transform.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace abut {
@@ -9,6 +10,9 @@ namespace abut {
 namespace {
 
 constexpr int kDirections = 4;
+/// Where models overlap by more than this share of their distance along a direction, others hardly
+/// ever tell them apart.
+constexpr double kHopeless = 0.125;
 /// Nothing that is not smaller is lost where products underflow.
 constexpr double kSmallest = 0x1p-900;
 
@@ -40,11 +44,9 @@ private:
     Vec3 middle_;
 };
 
-/// The point of the segment nearest to the origin.
-Vec3 nearest_to_origin(const Vec3& p, const Vec3& q) {
-    const Vec3 along = q - p;
-    const double share = -dot(p, along) / length_sq(along);
-    return p + std::min(1.0, share) * along;
+/// How far along a segment its point nearest to the origin lies, in lengths of it.
+double nearest_to_origin(const Vec3& p, const Vec3& along) {
+    return std::clamp(-dot(p, along) / length_sq(along), 0.0, 1.0);
 }
 
 } // namespace
@@ -58,14 +60,15 @@ bool far_apart(const ModelData& model_a, const Transform& world_from_a, const Mo
     for (int i = 0; i < kDirections; ++i) {
         const Vec3 n = nearest, n_a = a.seen(n), n_b = b.seen(-n);
         const double apart =
-            dot(n, between) - a.height(n_a) - b.height(n_b) - margin * sum_of_sizes(n);
+            (dot(n, between) - margin * sum_of_sizes(n)) - (a.height(n_a) + b.height(n_b));
         const double n_sq = length_sq(n);
-        if (!(apart > kSmallest) || !(n_sq > kSmallest))
+        if (!(apart > -kHopeless * n_sq) || !(n_sq > kSmallest))
             return false;
-        if (apart * apart > gap * gap * n_sq * (1 + 0x1p-40))
+        if (apart > kSmallest && apart * apart > gap * gap * n_sq * (1 + 0x1p-40))
             return true;
-        const Vec3 point = between + b.support(n_b) - a.support(n_a);
-        nearest = nearest_to_origin(nearest, point);
+        const Vec3 along = between + b.support(n_b) - a.support(n_a) - nearest;
+        // From the middle, half the step: the first support is far to one side.
+        nearest = nearest + (i == 0 ? 0.5 : 1) * nearest_to_origin(nearest, along) * along;
     }
     return false;
 }

@@ -2,6 +2,7 @@
 
 #include "math/vector.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,17 +10,20 @@
 
 namespace abut {
 
-/// How far points reach in any direction, bounded by how far they reach in 26.
+/// How far points reach in any direction, bounded by how far they reach in 98.
 ///
-/// A direction lies in a cone of three of the normals {-1, 0, 1}^3: with L >= M >= S the sizes of
-/// its coordinates, and signs and axes put aside,
+/// These directions are the nodes of a grid of 4 x 4 cells on each face of a cube. A direction n
+/// lies in the cone of three nodes, of a cell that is cut in two,
 ///
-///     (L, M, S) = (L - M) (1, 0, 0) + (M - S) (1, 1, 0) + S (1, 1, 1),
+///     n = w_0 n_0 + w_1 n_1 + w_2 n_2, no weight negative,
 ///
-/// so no point reaches farther than the same sum of the heights along these normals.
-/// Source      [Klosowski et al. 1998], the 26-DOP. Differs: no vertices of it are asked for.
+/// and no point reaches farther than the same sum of the heights along the nodes.
+/// Source      [Klosowski et al. 1998], the k-DOP. Differs: no vertices of it are asked for.
 class SupportBound {
 public:
+    static constexpr std::size_t kCells = 4; ///< along a face's edge
+    static constexpr std::size_t kNodes = kCells + 1;
+
     /// In          finite points. Of none, heights are not finite.
     explicit SupportBound(std::span<const Vec3> points);
 
@@ -31,55 +35,75 @@ public:
     /// n . (p - middle) is not larger for any of the points p, to rounding: 2^-49 size() times the
     /// sum of the sizes of n's coordinates. Not a number where n is not finite.
     [[nodiscard]] double height(const Vec3& n) const {
-        const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-        const double largest = std::max({x, y, z}), least = std::min({x, y, z}),
-                     middle = std::max(std::min(x, y), std::min(std::max(x, y), z));
-        const Cone cone = cone_of(n);
-        return (largest - middle) * cone.height[0] + (middle - least) * cone.height[1] +
-               least * cone.height[2] + 0 * (n.x + n.y + n.z);
+        const Cone c = cone_of(n);
+        return c.size * c.height + c.far * c.first_way + c.near * c.second_way +
+               0 * (n.x + n.y + n.z);
     }
 
     /// A point s with n . s = height(n), to rounding.
     [[nodiscard]] Vec3 support(const Vec3& n) const {
-        const Cone cone = cone_of(n);
-        const std::array<double, 3> more{cone.height[0], cone.height[1] - cone.height[0],
-                                         cone.height[2] - cone.height[1]};
-        return {std::copysign(1.0, n.x) * more[cone.rank[0]],
-                std::copysign(1.0, n.y) * more[cone.rank[1]],
-                std::copysign(1.0, n.z) * more[cone.rank[2]]};
+        const Cone c = cone_of(n);
+        const double along_u = c.u_first ? c.first_way : c.second_way,
+                     along_v = c.u_first ? c.second_way : c.first_way;
+        // What the height gains from the middle of the face to the cell, it loses on the way back.
+        const double forward = c.height + c.to_middle_u * along_u + c.to_middle_v * along_v;
+        std::array<double, 3> s{};
+        s[c.axis] = c.negative ? -forward : forward;
+        s[(c.axis + 1) % 3] = kHalf * along_u;
+        s[(c.axis + 2) % 3] = kHalf * along_v;
+        return {s[0], s[1], s[2]};
     }
 
 private:
-    /// The three normals around a direction: the axis of its largest coordinate first, the diagonal
-    /// of all three last.
-    struct Cone {
-        std::array<double, 3> height;
-        std::array<std::size_t, 3> rank; ///< how many coordinates are larger
-    };
-    [[nodiscard]] Cone cone_of(const Vec3& n) const {
-        const bool y_over_x = std::abs(n.y) > std::abs(n.x),
-                   z_over_x = std::abs(n.z) > std::abs(n.x),
-                   z_over_y = std::abs(n.z) > std::abs(n.y);
-        // Of equal coordinates, the first counts as larger.
-        const std::array<std::size_t, 3> rank{std::size_t{y_over_x} + std::size_t{z_over_x},
-                                              std::size_t{!y_over_x} + std::size_t{z_over_y},
-                                              std::size_t{!z_over_x} + std::size_t{!z_over_y}};
-        std::array<std::ptrdiff_t, 3> step{};
-        step[rank[0]] = std::signbit(n.x) ? -1 : 1;
-        step[rank[1]] = std::signbit(n.y) ? -3 : 3;
-        step[rank[2]] = std::signbit(n.z) ? -9 : 9;
-        const float* const at = height_.data() + kMiddle;
-        return {{double{at[step[0]]}, double{at[step[0] + step[1]]},
-                 double{at[step[0] + step[1] + step[2]]}},
-                rank};
-    }
+    static constexpr double kHalf = 0.5 * kCells;
 
-    static constexpr std::ptrdiff_t kMiddle = 13;
+    /// Where a direction leaves the cube. On its face, both other axes, u and v, are measured in
+    /// cells. From a cell's first corner, the way to the direction goes along the axis on which it
+    /// is farther, and then along the other: heights are linear in both.
+    struct Cone {
+        std::size_t axis; ///< of the face
+        bool negative;    ///< of its two faces
+        bool u_first;
+        double to_middle_u, to_middle_v; ///< cells from the first corner to the face's middle
+        double size;                     ///< of the direction: its largest coordinate's
+        double far, near;                ///< how far along both axes, times the size
+        double height;                   ///< at the first corner
+        double first_way, second_way;    ///< what a whole cell's way adds to it
+    };
+    // Without branches, since what comes in has no order that could be foretold, and without
+    // quotients, since all else would wait for them.
+    [[nodiscard]] Cone cone_of(const Vec3& n) const {
+        const std::array<double, 5> c{n.x, n.y, n.z, n.x, n.y};
+        const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z), xy = std::max(x, y);
+        const bool y_over_x = y > x, z_over_both = z > xy;
+        Cone cone{};
+        cone.axis = std::size_t{y_over_x && !z_over_both} + 2 * std::size_t{z_over_both};
+        cone.negative = std::signbit(c[cone.axis]);
+        cone.size = std::max(xy, z);
+        const double u = c[cone.axis + 1], v = c[cone.axis + 2], line = 0.5 * cone.size;
+        const std::size_t i = std::size_t{u > -line} + std::size_t{u > 0} + std::size_t{u > line},
+                          j = std::size_t{v > -line} + std::size_t{v > 0} + std::size_t{v > line};
+        cone.to_middle_u = kToMiddle[i], cone.to_middle_v = kToMiddle[j];
+        const double u_in = kHalf * u + cone.to_middle_u * cone.size,
+                     v_in = kHalf * v + cone.to_middle_v * cone.size;
+        cone.u_first = u_in > v_in;
+        cone.far = std::max(u_in, v_in), cone.near = std::min(u_in, v_in);
+        const float* const at =
+            heights_.data() + ((2 * cone.axis + std::size_t{cone.negative}) * kNodes + j) * kNodes +
+            i;
+        const double between = at[1 + kCells * std::size_t{!cone.u_first}];
+        cone.height = at[0];
+        cone.first_way = between - cone.height;
+        cone.second_way = at[kNodes + 1] - between;
+        return cone;
+    }
+    static constexpr std::array<double, kCells> kToMiddle{2, 1, 0, -1};
 
     Vec3 middle_;
     double size_ = 0;
-    /// Along the normal (i, j, k), at kMiddle + i + 3 j + 9 k; rounded up.
-    std::array<float, 27> height_{};
+    /// At each node of the positive and the negative face of each axis, v by v: along the direction
+    /// to that node, 1 to the face; rounded up.
+    std::array<float, 6 * kNodes * kNodes> heights_{};
 };
 
 } // namespace abut

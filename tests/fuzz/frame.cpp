@@ -11,7 +11,8 @@ namespace {
 template <typename Read>
 void check(Read read, const std::string& content) {
     try {
-        const abut::Mesh mesh = read(content);
+        abut::ByteStream stream(content);
+        const abut::Mesh mesh = read(stream);
         // A bounded number for each byte of the file.
         if (mesh.positions.size() + mesh.triangles.size() > content.size())
             std::abort();

@@ -20,7 +20,9 @@ std::vector<Vec3> cloud(Random& random) {
     const Vec3 u = random.direction(), v = random.direction(), w = random.direction();
     const double size = std::ldexp(1.0, random.integer(-60, 40));
     const Vec3 at = random.chance(0.3) ? 1e6 * size * random.direction() : Vec3{};
-    std::vector<Vec3> points(static_cast<std::size_t>(random.integer(1, 40)));
+    // Few, or more than a block of them.
+    const int most = random.chance(0.9) ? 40 : 1000;
+    std::vector<Vec3> points(static_cast<std::size_t>(random.integer(1, most)));
     for (Vec3& p : points) {
         const Vec3 s = random.in_cube(size);
         p = at;
@@ -76,8 +78,9 @@ TEST(SupportBound, AlongItsNormalsItIsTheHeight) {
                     double most = -HUGE_VAL;
                     for (const Vec3& p : points)
                         most = std::max(most, dot(n, p - bound.middle()));
-                    // Rounded up to single precision.
-                    ASSERT_NEAR(bound.height(n), most, 0x1p-22 * bound.size());
+                    // In single precision, and rounded up.
+                    ASSERT_GE(bound.height(n), most);
+                    ASSERT_NEAR(bound.height(n), most, 0x1p-20 * bound.size());
                 }
     }
 }
@@ -153,11 +156,11 @@ TEST(SeparatingPlane, WhatItTellsApartIsApart) {
     EXPECT_GT(near, many(20000) / 40);
 }
 
-TEST(SeparatingPlane, BetweenBoxesItIsExactToRounding) {
+TEST(SeparatingPlane, BetweenBoxesItIsExactToSinglePrecision) {
     const Model box(box_mesh({-1, -1, -1}, {1, 1, 1}));
-    for (const double gap : {1e-6, 0.5, 1e3}) {
+    for (const double gap : {1e-3, 0.5, 1e3}) {
         const Transform there = Pose{{0, 2 + gap, 0}};
-        EXPECT_TRUE(far_apart(box.data(), {}, box.data(), there, gap * (1 - 1e-6)));
+        EXPECT_TRUE(far_apart(box.data(), {}, box.data(), there, gap - 0x1p-18));
         EXPECT_FALSE(far_apart(box.data(), {}, box.data(), there, there.m[10] - 2));
     }
     EXPECT_FALSE(far_apart(box.data(), {}, box.data(), Pose{{0, 2, 0}}, 0));

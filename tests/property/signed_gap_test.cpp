@@ -38,7 +38,11 @@ TEST(SignedGap, ChangesNoFasterThanTheModelMoves) {
     const Body torus(torus_mesh(1, 0.5, 30, 16)), ball(sphere_mesh(0.3, 14, 8));
     int inside = 0, across = 0, outside = 0;
     for (int path = 0; path < 8; ++path) {
-        const Vec3 from = 1.9 * random.direction(), to = random.in_cube(1.5);
+        // Anywhere, or to the middle of the tube.
+        const double angle = random.uniform(0, 2 * std::numbers::pi);
+        const Vec3 from = 1.9 * random.direction(),
+                   to = path % 2 == 0 ? random.in_cube(1.5)
+                                      : Vec3{std::cos(angle), std::sin(angle), 0};
         const Transform turn = random.pose(0);
         constexpr int kSteps = 60;
         double before = 0;

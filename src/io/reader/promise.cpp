@@ -14,7 +14,8 @@ constexpr std::size_t kStlHeaderBytes = 84;
 constexpr std::size_t kStlTriangleBytes = 50;
 
 std::uint64_t promised_by_text_stl(std::string_view content) {
-    LineScan lines(content);
+    ByteStream text(content);
+    LineScan lines(text);
     std::string_view line;
     std::uint64_t facets = 0;
     std::uint64_t vertices = 0;
@@ -65,15 +66,16 @@ std::optional<std::uint64_t> promised_by_stl(std::string_view content) {
 
 std::optional<std::uint64_t> promised_triangles(const std::string& file,
                                                 const std::string& extension) {
-    if (extension == ".obj")
-        return promised_by_obj(read_file(file));
-    if (extension == ".off")
-        return promised_by_off(read_file(file));
-    if (extension == ".ply")
-        return promised_by_ply(read_file(file));
     if (extension == ".stl")
         return promised_by_stl(read_file(file));
-    return std::nullopt;
+    const auto promised = extension == ".obj"   ? promised_by_obj
+                          : extension == ".off" ? promised_by_off
+                          : extension == ".ply" ? promised_by_ply
+                                                : nullptr;
+    if (promised == nullptr)
+        return std::nullopt;
+    ByteStream content = ByteStream::open(file);
+    return promised(content);
 }
 
 } // namespace abut

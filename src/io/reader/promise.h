@@ -1,5 +1,7 @@
 #pragma once
 
+#include "io/byte_stream.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,9 +24,9 @@ std::optional<std::uint64_t> promised_triangles(const std::string& file,
 
 /// The same for one format each, from the file's content; none where the format has faces of a kind
 /// that is not counted.
-std::optional<std::uint64_t> promised_by_obj(std::string_view content);
-std::optional<std::uint64_t> promised_by_off(std::string_view content);
-std::optional<std::uint64_t> promised_by_ply(std::string_view content);
+std::optional<std::uint64_t> promised_by_obj(ByteStream& content);
+std::optional<std::uint64_t> promised_by_off(ByteStream& content);
+std::optional<std::uint64_t> promised_by_ply(ByteStream& content);
 std::optional<std::uint64_t> promised_by_stl(std::string_view content);
 
 } // namespace abut

@@ -4,7 +4,7 @@
 
 namespace abut {
 
-std::optional<std::uint64_t> promised_by_obj(std::string_view content) {
+std::optional<std::uint64_t> promised_by_obj(ByteStream& content) {
     std::uint64_t triangles = 0;
     const auto check_vertex = [](std::string_view rest, const LineScan& lines) {
         for (int i = 0; i < 3; ++i)

@@ -40,7 +40,7 @@ std::uint64_t face_corners(std::string_view rest, std::uint64_t vertices, const 
 
 } // namespace
 
-std::optional<std::uint64_t> promised_by_off(std::string_view content) {
+std::optional<std::uint64_t> promised_by_off(ByteStream& content) {
     LineScan lines(content);
     std::string_view rest;
     if (!next_content(lines, rest))

@@ -3,9 +3,9 @@
 
 namespace abut {
 
-std::optional<std::uint64_t> promised_by_ply(std::string_view content) {
+std::optional<std::uint64_t> promised_by_ply(ByteStream& content) {
     const PlyHeader header = read_ply_header(content);
-    PlyBody body(header);
+    PlyBody body(header, content);
     std::uint64_t triangles = 0;
     bool all_counted = true;
     for (const PlyElement& element : header.elements) {
