@@ -1,7 +1,6 @@
 #include "core/paged_array.h"
 #include "io/assimp_number.h"
 #include "io/fault.h"
-#include "io/file_lines.h"
 #include "io/one_part_source.h"
 #include "io/text_scan.h"
 #include "io/triangulate.h"
@@ -99,7 +98,8 @@ private:
 
     /// Looks whether the file is one mesh of plain statements, and how large it is.
     void scan() {
-        FileLines lines(file_);
+        ByteStream content = ByteStream::open(path_);
+        LineScan lines(content);
         std::string_view line;
         std::vector<std::uint64_t> corners;
         std::string name;
@@ -143,7 +143,8 @@ private:
     /// Calls take(corners' positions) for each face.
     template <typename Take>
     void for_each_face(PagedArray<FloatPosition>& positions, const Take& take) const {
-        FileLines lines(file_);
+        ByteStream content = ByteStream::open(path_);
+        LineScan lines(content);
         std::string_view line;
         std::vector<std::uint64_t> corners;
         std::vector<Vec3> polygon;

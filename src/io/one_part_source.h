@@ -1,6 +1,5 @@
 #pragma once
 
-#include "io/random_access_file.h"
 #include "io/scene_source.h"
 
 #include <algorithm>
@@ -19,7 +18,7 @@ public:
 
 protected:
     OnePartSource(const std::string& path, const SourceOptions& options)
-        : SceneSource(options.folder), file_(path), unit_(options.unit) {}
+        : SceneSource(options.folder), path_(path), unit_(options.unit) {}
 
     void set_part(const std::string& id, const Size& size) {
         size_ = size;
@@ -55,7 +54,7 @@ protected:
         }
     }
 
-    RandomAccessFile file_; // NOLINT: read by those who know the format
+    std::string path_; // NOLINT: read by those who know the format
 
 private:
     double unit_;

@@ -46,6 +46,8 @@ std::unique_ptr<SceneSource> open_scene_source(const std::string& path,
             source = open_glb_source(path, options);
         else if (extension == ".obj")
             source = open_obj_source(path, options);
+        else if (extension == ".ply")
+            source = open_ply_source(path, options);
         else if (extension == ".stl")
             source = open_stl_source(path, options);
         if (source != nullptr)

@@ -82,6 +82,7 @@ struct NotStreamable : Fault {
 /// Errors      Fault.
 std::unique_ptr<SceneSource> open_glb_source(const std::string& path, const SourceOptions& options);
 std::unique_ptr<SceneSource> open_obj_source(const std::string& path, const SourceOptions& options);
+std::unique_ptr<SceneSource> open_ply_source(const std::string& path, const SourceOptions& options);
 std::unique_ptr<SceneSource> open_stl_source(const std::string& path, const SourceOptions& options);
 
 } // namespace abut

@@ -1,7 +1,7 @@
 #include "io/assimp_number.h"
 #include "io/fault.h"
-#include "io/file_lines.h"
 #include "io/one_part_source.h"
+#include "io/random_access_file.h"
 #include "io/text_scan.h"
 
 #include <cstring>
@@ -20,7 +20,7 @@ constexpr std::size_t kPieceTriangles = 4096;
 class StlSource : public OnePartSource {
 public:
     StlSource(const std::string& path, const SourceOptions& options)
-        : OnePartSource(path, options) {
+        : OnePartSource(path, options), file_(path) {
         std::uint32_t count = 0;
         if (file_.size() >= kHeaderBytes)
             count = file_.value<std::uint32_t>(kHeaderBytes - sizeof count);
@@ -70,7 +70,8 @@ private:
     /// In/out      name: of the solid; sink: takes the vertices, if there is one. The number of
     ///             triangles.
     std::uint64_t scan_text(std::string& name, MeshSink* sink) const {
-        FileLines lines(file_);
+        ByteStream content = ByteStream::open(path_);
+        LineScan lines(content);
         std::string_view line;
         std::uint64_t facets = 0, vertices = 0;
         int solids = 0, ends = 0;
@@ -110,6 +111,7 @@ private:
         return facets;
     }
 
+    RandomAccessFile file_;
     bool is_text_ = false;
 };
 

@@ -52,7 +52,8 @@ TEST_F(Stream, EveryFormatIsRead) {
     for (const auto& [name, content] : sample_files()) {
         const std::string path = folder_.file(name, content);
         const std::string extension = std::filesystem::path(path).extension();
-        const bool own = extension == ".glb" || extension == ".obj" || extension == ".stl";
+        const bool own = extension == ".glb" || extension == ".obj" || extension == ".stl" ||
+                         (extension == ".ply" && content.find("format binary") < 20);
         expect_same(path, own ? Way::streamed : Way::isolated);
         expect_same(path, own ? Way::streamed : Way::isolated, 0.001);
     }
@@ -299,6 +300,59 @@ TEST_F(Stream, BinaryStlFiles) {
         }
         expect_same(folder_.file("model.stl", bytes), Way::streamed);
     }
+}
+
+template <typename Value>
+void append_as(std::string& bytes, Value value, bool big_endian) {
+    std::string word;
+    append(word, value);
+    if (big_endian)
+        std::reverse(word.begin(), word.end());
+    bytes += word;
+}
+
+TEST_F(Stream, BinaryPlyFiles) {
+    Random random(4);
+    std::size_t polygons = 0;
+    for (int round = 0; round < many(30); ++round) {
+        const bool big = random.chance(0.3), wide = random.chance(0.4);
+        const int vertices = random.integer(4, 60), faces = random.integer(1, 80);
+        std::string bytes = fmt::format(
+            "ply\nformat binary_{}_endian 1.0\ncomment by hand\nelement vertex {}\n"
+            "property {} x\nproperty uchar red\nproperty {} y\nproperty {} z\n"
+            "element face {}\nproperty list uchar {} vertex_ind{}\nend_header\n",
+            big ? "big" : "little", vertices, wide ? "double" : "float", wide ? "double" : "float",
+            wide ? "float" : "float32", faces + 1, wide ? "ushort" : "int", wide ? "ex" : "ices");
+        for (int i = 0; i < vertices; ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                // The first three make a triangle of some area.
+                const double value =
+                    i < 3 ? (i == axis ? 1 : 0) : random.integer(-9, 9) * random.uniform(0.9, 1);
+                if (wide && axis < 2)
+                    append_as(bytes, value, big);
+                else
+                    append_as(bytes, static_cast<float>(value), big);
+                if (axis == 0)
+                    bytes += static_cast<char>(random.integer(0, 255));
+            }
+        const bool triangles_only = random.chance(0.4);
+        for (int i = 0; i <= faces; ++i) {
+            const int corners = i == 0 || triangles_only ? 3 : random.integer(3, 6);
+            polygons += corners > 3 ? 1 : 0;
+            bytes += static_cast<char>(corners);
+            for (int k = 0; k < corners; ++k) {
+                const int index = i == 0 ? k : random.integer(0, vertices - 1);
+                if (wide)
+                    append_as(bytes, static_cast<std::uint16_t>(index), big);
+                else
+                    append_as(bytes, static_cast<std::int32_t>(index), big);
+            }
+        }
+        expect_same(folder_.file("model.ply", bytes), Way::streamed);
+        if (HasFailure())
+            return;
+    }
+    EXPECT_GT(polygons, 50U);
 }
 
 } // namespace
