@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/parallel.h"
 #include "core/temporary_file.h"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ public:
     template <typename Take>
     void drain(const Take& take) {
         if (runs_.empty()) {
-            std::sort(records_.begin(), records_.end());
+            parallel_sort(records_.begin(), records_.end());
             for (const Record& record : records_)
                 take(record);
         } else {
@@ -63,7 +64,7 @@ private:
     };
 
     void spill() {
-        std::sort(records_.begin(), records_.end());
+        parallel_sort(records_.begin(), records_.end());
         if (!file_)
             file_.emplace(folder_);
         const std::uint64_t start = runs_.empty() ? 0 : runs_.back().end;

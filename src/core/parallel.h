@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #ifdef __SANITIZE_THREAD__
 #include <algorithm>
@@ -55,6 +56,16 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
                           for (std::size_t i = range.begin(); i != range.end(); ++i)
                               body(i);
                       });
+#endif
+}
+
+/// Sorts as std::sort does.
+template <typename Iterator>
+void parallel_sort(Iterator begin, Iterator end) {
+#ifdef __SANITIZE_THREAD__
+    std::sort(begin, end);
+#else
+    tbb::parallel_sort(begin, end);
 #endif
 }
 

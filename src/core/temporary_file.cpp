@@ -56,16 +56,38 @@ void TemporaryFile::write(std::uint64_t at, std::span<const std::byte> bytes) {
 }
 
 void TemporaryFile::read(std::uint64_t at, std::span<std::byte> bytes) const {
-    while (!bytes.empty()) {
-        const ssize_t count =
-            pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+    if (read_some(at, bytes) != bytes.size())
+        throw Error(ErrorCode::unreadable, folder_, "a temporary file cannot be read");
+}
+
+std::size_t TemporaryFile::read_some(std::uint64_t at, std::span<std::byte> bytes) const {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t count = pread(descriptor_, bytes.data() + done, bytes.size() - done,
+                                    static_cast<off_t>(at + done));
         if (count < 0 && errno == EINTR)
             continue;
         if (count <= 0)
-            throw Error(ErrorCode::unreadable, folder_, "a temporary file cannot be read");
-        at += static_cast<std::uint64_t>(count);
-        bytes = bytes.subspan(static_cast<std::size_t>(count));
+            break;
+        done += static_cast<std::size_t>(count);
     }
+    return done;
+}
+
+void TemporaryReader::read(std::uint64_t at, std::span<std::byte> bytes) {
+    if (bytes.size() > kWindowBytes) {
+        file_.read(at, bytes);
+        return;
+    }
+    if (at < start_ || at + bytes.size() > start_ + window_.size()) {
+        window_.resize(kWindowBytes);
+        window_.resize(file_.read_some(at, window_));
+        start_ = at;
+        if (bytes.size() > window_.size())
+            throw Error(ErrorCode::unreadable, file_.folder(), "a temporary file cannot be read");
+    }
+    std::copy_n(window_.begin() + static_cast<std::ptrdiff_t>(at - start_), bytes.size(),
+                bytes.begin());
 }
 
 TemporaryWriter::TemporaryWriter(TemporaryFile& file, std::uint64_t at, std::size_t buffer_bytes)

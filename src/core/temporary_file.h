@@ -28,11 +28,30 @@ public:
     /// Errors      Error{unreadable}, naming the folder.
     void read(std::uint64_t at, std::span<std::byte> bytes) const;
 
+    /// As many of the bytes as the file has; how many.
+    std::size_t read_some(std::uint64_t at, std::span<std::byte> bytes) const;
+
     [[nodiscard]] const std::string& folder() const noexcept { return folder_; }
 
 private:
     std::string folder_;
     int descriptor_ = -1;
+};
+
+/// Reads a temporary file through a window: cheap where places follow each other. One thread.
+class TemporaryReader {
+public:
+    explicit TemporaryReader(const TemporaryFile& file) : file_(file) {}
+
+    /// Errors      as TemporaryFile::read.
+    void read(std::uint64_t at, std::span<std::byte> bytes);
+
+private:
+    static constexpr std::size_t kWindowBytes = std::size_t{1} << 16;
+
+    const TemporaryFile& file_;
+    std::vector<std::byte> window_;
+    std::uint64_t start_ = 0;
 };
 
 /// Writes to the end of a temporary file through a buffer.

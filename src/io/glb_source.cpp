@@ -43,6 +43,7 @@ void walk(const GlbDocument& document, const Take& take) {
         Transform world_from_parent;
     };
     const std::uint64_t nodes = document.nodes.size();
+    PartSpool::Cursor cursor(document.nodes);
     std::vector<bool> has_parent(nodes);
     std::vector<Visit> open;
     const auto push = [&](std::uint32_t node, const Transform& world) {
@@ -58,7 +59,7 @@ void walk(const GlbDocument& document, const Take& take) {
         while (!open.empty()) {
             const Visit visit = open.back();
             open.pop_back();
-            const Part node = document.nodes.part(visit.node);
+            const Part node = cursor.part(visit.node);
             Transform world = compose(visit.world_from_parent, node.world_from_mesh);
             // As the isolated reader composes, whose sums turn -0 into 0.
             for (std::size_t i = 0; i < 9; ++i)

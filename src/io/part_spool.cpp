@@ -39,31 +39,46 @@ void PartSpool::finish() {
     text_writer_.flush();
 }
 
-PartSpool::Record PartSpool::record(std::uint64_t number) const {
+template <typename Reader>
+PartSpool::Record PartSpool::read_record(Reader& records, std::uint64_t number) {
     Record record;
-    records_.read(number * sizeof record, std::as_writable_bytes(std::span(&record, 1)));
+    records.read(number * sizeof record, std::as_writable_bytes(std::span(&record, 1)));
     return record;
 }
 
-Part PartSpool::placement(std::uint64_t number) const {
-    const Record found = record(number);
+Part PartSpool::placement_of(const Record& record) {
     Part part;
-    part.mesh = found.mesh;
-    part.world_from_mesh = found.world_from_mesh;
+    part.mesh = record.mesh;
+    part.world_from_mesh = record.world_from_mesh;
     return part;
 }
 
-Part PartSpool::part(std::uint64_t number) const {
-    const Record found = record(number);
-    Part part;
-    part.mesh = found.mesh;
-    part.world_from_mesh = found.world_from_mesh;
-    std::string texts(std::size_t{found.id_size} + found.name_size + found.type_size, '\0');
-    texts_.read(found.text, std::as_writable_bytes(std::span(texts)));
-    part.id = texts.substr(0, found.id_size);
-    part.name = texts.substr(found.id_size, found.name_size);
-    part.type = texts.substr(std::size_t{found.id_size} + found.name_size);
+template <typename Reader>
+Part PartSpool::read_part(Reader& records, Reader& texts, std::uint64_t number) {
+    const Record record = read_record(records, number);
+    Part part = placement_of(record);
+    std::string text(std::size_t{record.id_size} + record.name_size + record.type_size, '\0');
+    texts.read(record.text, std::as_writable_bytes(std::span(text)));
+    part.id = text.substr(0, record.id_size);
+    part.name = text.substr(record.id_size, record.name_size);
+    part.type = text.substr(std::size_t{record.id_size} + record.name_size);
     return part;
+}
+
+Part PartSpool::placement(std::uint64_t number) const {
+    return placement_of(read_record(records_, number));
+}
+
+Part PartSpool::part(std::uint64_t number) const {
+    return read_part(records_, texts_, number);
+}
+
+Part PartSpool::Cursor::placement(std::uint64_t number) {
+    return placement_of(read_record(records_, number));
+}
+
+Part PartSpool::Cursor::part(std::uint64_t number) {
+    return read_part(records_, texts_, number);
 }
 
 } // namespace abut

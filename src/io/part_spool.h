@@ -27,6 +27,17 @@ public:
     /// Without its texts.
     [[nodiscard]] Part placement(std::uint64_t number) const;
 
+    /// Reads parts one after the other, or nearly so, in a fraction of the time. One thread.
+    class Cursor {
+    public:
+        explicit Cursor(const PartSpool& spool) : records_(spool.records_), texts_(spool.texts_) {}
+        [[nodiscard]] Part part(std::uint64_t number);
+        [[nodiscard]] Part placement(std::uint64_t number);
+
+    private:
+        TemporaryReader records_, texts_;
+    };
+
 private:
     struct Record {
         Transform world_from_mesh;
@@ -34,7 +45,11 @@ private:
         std::uint32_t mesh = 0;
         std::uint32_t id_size = 0, name_size = 0, type_size = 0;
     };
-    [[nodiscard]] Record record(std::uint64_t number) const;
+    template <typename Reader>
+    static Record read_record(Reader& records, std::uint64_t number);
+    template <typename Reader>
+    static Part read_part(Reader& records, Reader& texts, std::uint64_t number);
+    static Part placement_of(const Record& record);
 
     TemporaryFile records_, texts_;
     TemporaryWriter record_writer_, text_writer_;

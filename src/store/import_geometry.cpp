@@ -30,9 +30,10 @@ struct PartsOfMeshes {
 
     explicit PartsOfMeshes(const SceneSource& source)
         : first(std::size_t{source.meshes()} + 1), parts(source.parts().size()) {
+        PartSpool::Cursor cursor(source.parts());
         std::vector<std::uint32_t> mesh_of(parts.size());
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            mesh_of[i] = source.parts().placement(i).mesh;
+            mesh_of[i] = cursor.placement(i).mesh;
             ++first.at(mesh_of[i] + std::size_t{1});
         }
         std::partial_sum(first.begin(), first.end(), first.begin());

@@ -24,11 +24,19 @@ public:
     void set_box(std::uint64_t part, const Box3& box) {
         boxes_.write(part * sizeof box, std::as_bytes(std::span(&box, 1)));
     }
-    [[nodiscard]] Box3 box(std::uint64_t part) const {
-        Box3 box;
-        boxes_.read(part * sizeof box, std::as_writable_bytes(std::span(&box, 1)));
-        return box;
-    }
+    /// The box of a part: of one after the other.
+    class BoxCursor {
+    public:
+        explicit BoxCursor(const ImportedGeometry& geometry) : reader_(geometry.boxes_) {}
+        [[nodiscard]] Box3 box(std::uint64_t part) {
+            Box3 box;
+            reader_.read(part * sizeof box, std::as_writable_bytes(std::span(&box, 1)));
+            return box;
+        }
+
+    private:
+        TemporaryReader reader_;
+    };
 
 private:
     TemporaryFile boxes_;

@@ -18,8 +18,8 @@ class PartMerge {
 public:
     PartMerge(const SceneSource& source, const ImportedGeometry& geometry, std::uint64_t generation,
               const Progress& progress, ModelRow& model, Database& database)
-        : source_(source), geometry_(geometry), generation_(generation), progress_(progress),
-          model_(model), database_(database),
+        : source_(source), geometry_(geometry), parts_(source.parts()), boxes_(geometry),
+          generation_(generation), progress_(progress), model_(model), database_(database),
           find_(database,
                 std::string("SELECT ") + kPartColumns + " FROM part WHERE model = ? AND id = ?"),
           put_(database, "INSERT OR REPLACE INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
@@ -36,7 +36,6 @@ public:
         model_.triangles = model_.parts_sum = 0;
         for (std::uint64_t i = 0; i < source_.parts().size(); ++i) {
             PartRow part = row_of(i);
-            model_.triangles += geometry_.triangles[source_.parts().placement(i).mesh];
             if (const auto before = known.empty() ? std::nullopt : find(part.id)) {
                 seen[static_cast<std::size_t>(
                     std::lower_bound(known.begin(), known.end(), before->part) - known.begin())] =
@@ -69,7 +68,8 @@ private:
     }
 
     PartRow row_of(std::uint64_t number) {
-        Part part = source_.parts().part(number);
+        Part part = parts_.part(number);
+        model_.triangles += geometry_.triangles[part.mesh];
         PartRow row;
         row.model = model_.model;
         row.number = number;
@@ -78,7 +78,7 @@ private:
         row.name = std::move(part.name);
         row.type = std::move(part.type);
         row.world_from_mesh = part.world_from_mesh;
-        row.box = without_negative_zero(geometry_.box(number));
+        row.box = without_negative_zero(boxes_.box(number));
         return row;
     }
 
@@ -139,6 +139,8 @@ private:
 
     const SceneSource& source_;
     const ImportedGeometry& geometry_;
+    PartSpool::Cursor parts_;
+    ImportedGeometry::BoxCursor boxes_;
     std::uint64_t generation_;
     const Progress& progress_;
     ModelRow& model_;
