@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include "scenes/plant_distinct.h"
 #include "scenes/plant_unit.h"
 
 #include <algorithm>
@@ -147,7 +148,10 @@ Plant make_plant(const PlantOptions& options) {
         const Box3 all = plant.first->bounds();
         fill_laydown_yard(*plant.first, 0, std::floor(all.lower.z) - 10, options.triangles);
     }
-    return plant.first->finish();
+    Plant result = plant.first->finish();
+    if (options.distinct)
+        make_distinct(result);
+    return result;
 }
 
 } // namespace abut

@@ -21,6 +21,9 @@ struct PlantOptions {
     /// Metres, in [0, 0.25]: up to this clearance the planted pairs are all that there is. Below
     /// 1/64 no pair of kind `clearance` is planted: it would have no room.
     double clearance = 0.05;
+    /// Every part has a mesh of its own: the same triangles, in an order of their own. As a model of
+    /// which little is instanced, for jobs that do not fit into the memory.
+    bool distinct = false;
 };
 
 /// Two parts that a clash job must report, and nothing else.

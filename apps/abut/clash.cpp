@@ -1,6 +1,8 @@
 #include <abut/clash.h>
 #include <abut/error.h>
 #include <abut/scene.h>
+#include <abut/store.h>
+#include <abut/store_clash.h>
 
 #include "clash_summary.h"
 #include "commands.h"
@@ -21,6 +23,7 @@ struct ClashArguments {
     std::vector<std::string> files;
     ClashOptions options; ///< clearance, touch, self; the rest is filled by run()
     std::string rules, out, fail_on;
+    std::optional<std::string> memory;
     double unit = 0;
 };
 
@@ -66,6 +69,21 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
     outputs.commit();
 }
 
+/// Appended to the report's members.
+std::string out_of_core_member(const OutOfCoreCounters& c) {
+    return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
+                       "\"bytes_needed\": {}, \"bytes_read\": {}, \"peak_model_bytes\": {}}}\n",
+                       c.units, c.meshes, c.mesh_loads, c.bytes_needed, c.bytes_read, c.peak_bytes);
+}
+
+std::string out_of_core_summary(const OutOfCoreCounters& c) {
+    return fmt::format(
+        "out of core {} units, {} meshes loaded for {} that are needed, {} bytes read "
+        "for {}\n",
+        grouped(c.units), grouped(c.mesh_loads), grouped(c.meshes), grouped(c.bytes_read),
+        grouped(c.bytes_needed));
+}
+
 int run(const ClashArguments& arguments, const CommonOptions& common) {
     const Stopwatch watch;
     // Everything that can be refused without reading a model is refused first.
@@ -79,17 +97,33 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         outputs.emplace(arguments.out,
                         std::vector<std::string>{"report.html", "report.json", "report.csv"});
 
+    const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
+    if (arguments.memory && !from_store)
+        throw Error(ErrorCode::bad_argument, "--memory",
+                    "is for a store alone: bring the models into one with abut import");
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
     std::vector<Scene> models;
     ClashReport report;
+    std::optional<OutOfCoreCounters> out_of_core;
     {
         const InterruptScope scope(OnInterrupt::ask);
-        models =
-            read_scenes(arguments.files, {.unit = arguments.unit, .progress = options.progress});
-        const double seconds_import = watch.seconds();
-        report = find_clashes(models, options);
-        report.seconds.import = seconds_import;
+        if (from_store) {
+            OutOfCoreOptions limits;
+            if (arguments.memory)
+                limits.memory = parse_bytes("--memory", *arguments.memory);
+            StoreClashReport found =
+                find_clashes(open_store(arguments.files.front()), options, limits);
+            report = std::move(found.report);
+            models = std::move(found.models);
+            out_of_core = found.counters;
+        } else {
+            models = read_scenes(arguments.files,
+                                 {.unit = arguments.unit, .progress = options.progress});
+            const double seconds_import = watch.seconds();
+            report = find_clashes(models, options);
+            report.seconds.import = seconds_import;
+        }
         report.seconds.total = watch.seconds();
     }
     bar.finish();
@@ -101,9 +135,13 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         std::string text = abut::to_json(report, models);
         if (text.empty() || text.back() != '\n')
             text += '\n';
+        if (out_of_core)
+            text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
         print(text);
     } else if (!common.quiet) {
         std::string text = summary(report, models);
+        if (out_of_core)
+            text += out_of_core_summary(*out_of_core);
         if (outputs)
             text += fmt::format("\nreport      {}, .json, .csv\n", outputs->path("report.html"));
         print(text);
@@ -120,7 +158,12 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ClashArguments>();
     CLI::App* app = add_subcommand(root, common, "clash",
                                    "Every clash and clearance between the parts of models");
-    app->add_option("MODEL", arguments->files, "Models in one world frame")->required();
+    app->add_option("MODEL", arguments->files,
+                    "Models in one world frame, or a store of them (abut import)")
+        ->required();
+    app->add_option("--memory", arguments->memory,
+                    "A store: bytes to keep to, with K, M or G (default 512M)")
+        ->check(not_empty("BYTES"));
     app->add_option("--clearance", arguments->options.clearance,
                     "Report parts that are nearer than this, in metres (default 0: off)")
         ->check(not_negative());

@@ -126,6 +126,26 @@ CLI::Validator whole_number(std::uint64_t lowest, std::uint64_t highest) {
         "N");
 }
 
+std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
+    std::uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, fault] = std::from_chars(text.data(), end, value);
+    const std::string unit(rest, end);
+    int shift = 0;
+    if (unit == "K" || unit == "k")
+        shift = 10;
+    else if (unit == "M" || unit == "m")
+        shift = 20;
+    else if (unit == "G" || unit == "g")
+        shift = 30;
+    else if (!unit.empty())
+        shift = -1;
+    if (fault != std::errc() || shift < 0 || value > (~std::uint64_t{0} >> 1 >> shift))
+        throw Error(ErrorCode::bad_argument,
+                    option + " must be a number of bytes, as 512M, not '" + text + "'");
+    return value << shift;
+}
+
 std::vector<std::string> parse_words(const std::string& option, const std::string& text,
                                      const std::vector<std::string>& known) {
     std::vector<std::string> words;

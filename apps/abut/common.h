@@ -62,6 +62,11 @@ CLI::Validator not_negative();
 CLI::Validator positive();
 CLI::Validator whole_number(std::uint64_t lowest, std::uint64_t highest);
 
+/// "512M": bytes, with K, M or G for powers of 1024.
+///
+/// Errors      Error{bad_argument}, naming the option.
+std::uint64_t parse_bytes(const std::string& option, const std::string& text);
+
 /// Value of a set of words (comma-separated) of which each must be known.
 ///
 /// Errors      Error{bad_argument} naming the option.

@@ -6,7 +6,6 @@
 #include "interrupt.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <memory>
 
@@ -19,27 +18,6 @@ struct ImportArguments {
     std::string memory = "512M";
     double unit = 0;
 };
-
-/// "512M": bytes, with K, M or G for powers of 1024.
-std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
-    std::uint64_t value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, fault] = std::from_chars(text.data(), end, value);
-    const std::string unit(rest, end);
-    int shift = 0;
-    if (unit == "K" || unit == "k")
-        shift = 10;
-    else if (unit == "M" || unit == "m")
-        shift = 20;
-    else if (unit == "G" || unit == "g")
-        shift = 30;
-    else if (!unit.empty())
-        shift = -1;
-    if (fault != std::errc() || shift < 0 || value > (~std::uint64_t{0} >> 1 >> shift))
-        throw Error(ErrorCode::bad_argument,
-                    option + " must be a number of bytes, as 512M, not '" + text + "'");
-    return value << shift;
-}
 
 nlohmann::ordered_json describe(const ImportReport& report, const std::string& store) {
     nlohmann::ordered_json models = nlohmann::ordered_json::array();

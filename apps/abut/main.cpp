@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
                               add_overlap(root, common),
                               add_contains(root, common),
                               add_clash(root, common),
+                              add_graph(root, common),
                               add_ccd(root, common),
                               add_ccd_query(root, common),
                               add_scene(root, common)};

@@ -25,6 +25,7 @@ struct SceneArguments {
     std::optional<int> clashes;
     std::optional<double> clearance;
     std::uint64_t seed = 1;
+    bool distinct = false;
 };
 
 /// Errors      Error{bad_argument} if the option is given.
@@ -42,6 +43,7 @@ int make_plant_scene(const SceneArguments& arguments, const CommonOptions& commo
     options.clashes = arguments.clashes.value_or(options.clashes);
     options.clearance = arguments.clearance.value_or(options.clearance);
     options.seed = arguments.seed;
+    options.distinct = arguments.distinct;
     return make_plant_files(arguments.out, options, common);
 }
 
@@ -49,6 +51,7 @@ int make_deforming(const DeformingSceneInfo& scene, const SceneArguments& argume
                    const CommonOptions& common) {
     refuse("--clashes", arguments.clashes, arguments.name);
     refuse("--clearance", arguments.clearance, arguments.name);
+    refuse("--distinct", arguments.distinct ? std::optional(true) : std::nullopt, arguments.name);
     return make_frame_files(
         arguments.name, arguments.out, arguments.frames.value_or(scene.frames),
         {.triangles = arguments.triangles.value_or(scene.triangles), .seed = arguments.seed},
@@ -102,6 +105,8 @@ Subcommand add_scene(CLI::App& root, CommonOptions& common) {
     app->add_option("--clearance", arguments->clearance,
                     "Up to this clearance, in metres, nothing but the planted pairs is near; plant")
         ->check(not_negative());
+    app->add_flag("--distinct", arguments->distinct,
+                  "Every part has a mesh of its own, none is shared; plant");
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -19,6 +19,7 @@
 #include <abut/shape_queries.h>
 #include <abut/shapes.h>
 #include <abut/store.h>
+#include <abut/store_clash.h>
 #include <abut/types.h>
 #include <abut/volume.h>
 #include <abut/world.h>

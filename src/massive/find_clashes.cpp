@@ -5,53 +5,19 @@
 
 #include "core/parallel.h"
 #include "core/progress.h"
+#include "core/stop_watch.h"
+#include "massive/clash_identity.h"
 #include "massive/classify_pair.h"
 #include "massive/part_instances.h"
 #include "massive/rule_match.h"
 #include "math/vector.h"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 #include <optional>
 
 namespace abut {
 
 namespace {
-
-/// Seconds since it was last asked.
-class StopWatch {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// The same text gives the same number everywhere. Source: [Fowler, Noll, Vo], FNV-1a, 64 bits.
-class StableHash {
-public:
-    void add(std::string_view text) {
-        for (const char c : text)
-            step(static_cast<unsigned char>(c));
-        step(0xff); // in no UTF-8 text: "ab", "c" differs from "a", "bc"
-    }
-    [[nodiscard]] std::uint64_t value() const { return value_; }
-
-private:
-    void step(unsigned char byte) { value_ = (value_ ^ byte) * 0x100000001b3U; }
-    std::uint64_t value_ = 0xcbf29ce484222325U;
-};
-
-void require_length(double value, const char* what) {
-    if (!(value >= 0) || value == std::numeric_limits<double>::infinity())
-        throw Error(ErrorCode::bad_argument, std::string(what) + " must be a length, not negative");
-}
 
 struct Candidate {
     std::uint32_t a, b; ///< in PartInstances::parts
@@ -98,9 +64,6 @@ private:
         ProgressMeter progress(options_.progress, "broad phase", 2);
         parts_ = gather_parts(models_);
         progress.advance();
-        double largest = options_.clearance;
-        for (const ClashRule& rule : options_.rules)
-            largest = std::max(largest, rule.clearance.value_or(0));
         std::vector<Box3> boxes;
         boxes.reserve(parts_.parts.size());
         for (const PartInstance& p : parts_.parts)
@@ -109,7 +72,7 @@ private:
         const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
             return !across || parts_.parts[i].model != parts_.parts[j].model;
         };
-        for (const IndexPair pair : overlapping_boxes(boxes, largest, wanted)) {
+        for (const IndexPair pair : overlapping_boxes(boxes, largest_clearance(options_), wanted)) {
             const std::uint32_t i = pair.a(), j = pair.b();
             const Scene &model_i = models_[parts_.parts[i].model],
                         &model_j = models_[parts_.parts[j].model];
@@ -167,18 +130,8 @@ private:
         clash.part = {a.part, b.part};
         if (c.terms.rule != nullptr)
             clash.rule = c.terms.rule->name;
-        StableHash hash;
-        hash.add(file_name(models_[a.model].file));
-        hash.add(part(c.a).id);
-        hash.add(file_name(models_[b.model].file));
-        hash.add(part(c.b).id);
-        hash.add(to_string(clash.kind));
-        clash.id = hash.value();
-    }
-
-    /// Without folders: an id survives that a model moves.
-    static std::string_view file_name(std::string_view path) {
-        return path.substr(path.find_last_of('/') + 1);
+        clash.id = clash_identity(models_[a.model].file, part(c.a).id, models_[b.model].file,
+                                  part(c.b).id, clash.kind);
     }
 
     const std::vector<Scene>& models_;
@@ -192,12 +145,7 @@ private:
 } // namespace
 
 ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options) {
-    require_length(options.clearance, "clearance");
-    require_length(options.touch, "touch tolerance");
-    for (const ClashRule& rule : options.rules) {
-        require_length(rule.clearance.value_or(0), "a rule's clearance");
-        require_length(rule.touch.value_or(0), "a rule's touch tolerance");
-    }
+    require_tolerances(options);
     return ClashJob(models, options).run();
 }
 

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <abut/clash.h>
+#include <abut/scene.h>
+#include <abut/store.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// The clash job on a store: models of any size in little memory. docs/massive.md tells how.
+namespace abut {
+
+/// How the work is put into an order.
+enum class WorkOrder : std::uint8_t {
+    partition, ///< the overlap graph is cut into subgraphs that fit the memory
+    random,    ///< to show what the partition saves
+};
+
+struct OutOfCoreOptions {
+    /// Bytes for geometry, hierarchies and the tables of parts and pairs; at least 16 MiB. The
+    /// program and its libraries come on top, some 64 MiB.
+    std::uint64_t memory = std::uint64_t{512} << 20;
+    WorkOrder order = WorkOrder::partition;
+};
+
+/// What a job out of core did.
+struct OutOfCoreCounters {
+    std::uint64_t units = 0;        ///< pieces of work that fit into the memory
+    std::uint64_t meshes = 0;       ///< that a candidate needs
+    std::uint64_t mesh_loads = 0;   ///< each time that one was read and its hierarchy built
+    std::uint64_t bytes_needed = 0; ///< of those meshes in the store, each once
+    std::uint64_t bytes_read = 0;   ///< of the store's blocks
+    std::uint64_t peak_bytes = 0;   ///< of models in memory at once
+};
+
+struct StoreClashReport {
+    ClashReport report;
+    /// For the writers of reports: the store's models, with the parts that clash alone; the clashes
+    /// of the report name parts by their index here. No meshes.
+    std::vector<Scene> models;
+    OutOfCoreCounters counters;
+};
+
+/// As find_clashes of the models in memory, in the order in which they were first imported: the same
+/// clashes, to the last bit.
+///
+/// Errors      as find_clashes and open_store; Error{bad_argument}: an import into the store has
+///             not ended, or `memory` does not hold the tables, or two meshes that are to be compared.
+/// Cost        each mesh is read about once if `memory` holds a fair share of what a neighbourhood
+///             needs; while one piece of work is done, the next one's meshes are read.
+StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
+                              const OutOfCoreOptions& out_of_core = {});
+
+/// The graph of a store's parts: an edge where boxes are at most the clearance apart.
+struct GraphReport {
+    std::uint64_t nodes = 0; ///< parts
+    std::uint64_t edges = 0;
+    std::uint64_t components = 0; ///< of parts that have an edge
+    std::uint64_t isolated = 0;   ///< parts without an edge
+    std::uint64_t largest_component = 0, highest_valence = 0;
+    double mean_valence = 0; ///< of parts that have an edge
+    std::uint64_t bytes = 0; ///< of the models that an edge needs, each once
+    struct Unit {
+        std::uint64_t parts = 0, edges = 0, meshes = 0, bytes = 0;
+        Box3 bounds; ///< of its parts' middles
+    };
+    std::vector<Unit> units;     ///< in the order of work
+    std::uint64_t cut_edges = 0; ///< between parts that a partition put apart
+    struct Line {
+        Vec3 a, b; ///< middles of both parts' boxes
+        std::uint32_t unit = 0;
+    };
+    std::vector<Line> lines; ///< some of the edges, to draw
+    double seconds = 0;
+};
+
+/// In          lines: of about how many edges, evenly chosen, the ends are wanted.
+/// Errors      as find_clashes of a store.
+GraphReport overlap_graph(const Store& store, const ClashOptions& options,
+                          const OutOfCoreOptions& out_of_core = {}, std::uint64_t lines = 0);
+
+} // namespace abut

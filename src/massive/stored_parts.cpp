@@ -1,0 +1,82 @@
+#include "massive/stored_parts.h"
+
+#include <abut/error.h>
+
+#include "massive/clash_identity.h"
+#include "massive/rule_match.h"
+#include "math/vector.h"
+#include "volume/aabb.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace abut {
+
+namespace {
+
+/// Measured on meshes of 12 to 1,000,000 triangles: 92 to 103 bytes a triangle, vertices included,
+/// and what even an empty model has.
+constexpr std::uint64_t kBytesPerTriangle = 72, kBytesPerVertex = 60, kBytesPerModel = 2048;
+
+} // namespace
+
+StoredParts gather_parts(StoreFile& store, bool with_names) {
+    StoredParts result;
+    std::unordered_map<std::int64_t, std::uint32_t> mesh_index;
+    store.for_each_mesh([&](const MeshRow& mesh) {
+        mesh_index.emplace(mesh.mesh, static_cast<std::uint32_t>(result.meshes.size()));
+        result.meshes.push_back(
+            {mesh.mesh,
+             kBytesPerTriangle * mesh.triangles + kBytesPerVertex * mesh.vertices + kBytesPerModel,
+             mesh.stored_bytes});
+    });
+    result.models = store.models();
+    std::uint64_t parts = 0;
+    for (const ModelRow& model : result.models) {
+        if (model.importing)
+            throw Error(ErrorCode::bad_argument, store.path(),
+                        "is incomplete: the import of " + model.file + " has not ended");
+        parts += model.parts;
+    }
+    result.parts.reserve(parts);
+    for (std::uint32_t m = 0; m < result.models.size(); ++m) {
+        Scene& scene = result.scenes.emplace_back();
+        scene.file = result.models[m].file;
+        store.for_each_part(result.models[m], [&](const PartRow& part) {
+            const auto mesh = mesh_index.find(part.mesh);
+            if (mesh == mesh_index.end())
+                throw Error(ErrorCode::malformed, store.path(),
+                            "is damaged: part " + part.id + " shows a mesh that is missing");
+            result.parts.push_back(
+                {part.box, part.part, mesh->second, m, static_cast<std::uint32_t>(part.number)});
+            if (with_names)
+                scene.parts.push_back({part.id, part.name, part.type, 0, {}});
+        });
+    }
+    return result;
+}
+
+std::vector<IndexPair> find_candidates(const StoredParts& stored, const ClashOptions& options) {
+    std::vector<Box3> boxes;
+    boxes.reserve(stored.parts.size());
+    for (const StoredPart& part : stored.parts)
+        boxes.push_back(part.box);
+    const bool across = stored.models.size() > 1 && !options.self;
+    const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
+        return !across || stored.parts[i].model != stored.parts[j].model;
+    };
+    std::vector<IndexPair> pairs = overlapping_boxes(boxes, largest_clearance(options), wanted);
+    if (options.rules.empty())
+        return pairs;
+    const auto out_of_reach = [&](const IndexPair& pair) {
+        const StoredPart &a = stored.parts[pair.a()], &b = stored.parts[pair.b()];
+        const Scene &model_a = stored.scenes[a.model], &model_b = stored.scenes[b.model];
+        const auto terms =
+            terms_of(options, model_a, model_a.parts[a.number], model_b, model_b.parts[b.number]);
+        return !terms || !overlap(a.box, b.box, terms->clearance);
+    };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_reach), pairs.end());
+    return pairs;
+}
+
+} // namespace abut

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <abut/broad_phase.h>
+#include <abut/clash.h>
+#include <abut/scene.h>
+#include <abut/types.h>
+
+#include "store/store_file.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+/// What a job out of core keeps of a part.
+struct StoredPart {
+    Box3 box;               ///< world
+    std::int64_t row = 0;   ///< of the store
+    std::uint32_t mesh = 0; ///< index in StoredParts::meshes
+    std::uint32_t model = 0;
+    std::uint32_t number = 0; ///< in its model
+};
+
+struct StoredMesh {
+    std::int64_t mesh = 0;          ///< of the store
+    std::uint64_t bytes = 0;        ///< of a Model of it, estimated
+    std::uint64_t stored_bytes = 0; ///< of its blocks
+};
+
+struct StoredParts {
+    std::vector<ModelRow> models;
+    std::vector<StoredPart> parts; ///< by model, then as in its file
+    std::vector<StoredMesh> meshes;
+    /// With their parts, but without meshes; no parts where names were not asked for.
+    std::vector<Scene> scenes;
+
+    [[nodiscard]] std::uint64_t bytes() const {
+        return parts.capacity() * sizeof(StoredPart) + meshes.capacity() * sizeof(StoredMesh);
+    }
+};
+
+/// In          with_names: ids, names and types of all parts too, which rules ask for.
+/// Errors      those of the store; Error{bad_argument}, naming it, if an import has not ended.
+StoredParts gather_parts(StoreFile& store, bool with_names);
+
+/// The pairs of parts that are to be looked at, in order: boxes in reach of each other, and of
+/// interest to the options and their rules.
+std::vector<IndexPair> find_candidates(const StoredParts& parts, const ClashOptions& options);
+
+} // namespace abut

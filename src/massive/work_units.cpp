@@ -1,0 +1,233 @@
+#include "massive/work_units.h"
+
+#include <abut/error.h>
+
+#include "massive/graph_cut.h"
+#include "math/vector.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <random>
+
+namespace abut {
+
+namespace {
+
+/// A partition of more nodes than this would itself take some 100 MB: space is halved first.
+constexpr std::size_t kMostNodes = 250'000;
+constexpr std::uint64_t kMostSubgraphs = 64; ///< of one partition
+/// METIS balances the weights to some per cent, and meshes are shared between subgraphs.
+constexpr double kRoom = 1.25;
+
+class Partition {
+public:
+    Partition(const StoredParts& stored, std::uint64_t budget, const std::string& store)
+        : stored_(stored), budget_(budget), local_(stored.parts.size()),
+          mesh_stamp_(stored.meshes.size()), shown_(stored.meshes.size()) {
+        store_ = store;
+    }
+
+    void cut(std::vector<IndexPair> pairs, bool is_cut = false) {
+        if (pairs.empty())
+            return;
+        WorkUnit unit = unit_of(std::move(pairs), is_cut);
+        if (unit.bytes <= budget_) {
+            units_.push_back(std::move(unit));
+            return;
+        }
+        std::vector<std::vector<IndexPair>> lists = split(unit);
+        const std::size_t all = unit.pairs.size();
+        if (std::any_of(lists.begin(), lists.end(),
+                        [&](const auto& list) { return list.size() == all; })) {
+            fill_in_order(std::move(unit.pairs), is_cut);
+            return;
+        }
+        unit = WorkUnit();
+        for (std::size_t i = 0; i < lists.size(); ++i)
+            cut(std::move(lists[i]), is_cut || i + 1 == lists.size());
+    }
+
+    /// Units of pairs as they come.
+    void fill_in_order(std::vector<IndexPair> pairs, bool is_cut = false) {
+        std::vector<IndexPair> some;
+        std::uint64_t bytes = 0;
+        ++stamp_;
+        const auto cost = [&](const IndexPair& pair) {
+            const std::uint32_t a = mesh_of(pair.a()), b = mesh_of(pair.b());
+            return (mesh_stamp_[a] == stamp_ ? 0 : bytes_of(a)) +
+                   (mesh_stamp_[b] == stamp_ || a == b ? 0 : bytes_of(b));
+        };
+        for (const IndexPair& pair : pairs) {
+            if (bytes + cost(pair) > budget_ && !some.empty()) {
+                units_.push_back(unit_of(std::exchange(some, {}), is_cut));
+                ++stamp_;
+                bytes = 0;
+            }
+            bytes += cost(pair);
+            if (bytes > budget_)
+                fail(bytes);
+            mesh_stamp_[mesh_of(pair.a())] = mesh_stamp_[mesh_of(pair.b())] = stamp_;
+            some.push_back(pair);
+        }
+        if (!some.empty())
+            units_.push_back(unit_of(std::move(some), is_cut));
+    }
+
+    std::vector<WorkUnit> take() { return std::move(units_); }
+
+private:
+    [[nodiscard]] std::uint32_t mesh_of(std::uint32_t part) const {
+        return stored_.parts[part].mesh;
+    }
+    [[nodiscard]] std::uint64_t bytes_of(std::uint32_t mesh) const {
+        return stored_.meshes[mesh].bytes;
+    }
+    [[noreturn]] void fail(std::uint64_t bytes) const {
+        throw Error(ErrorCode::bad_argument, store_,
+                    "has two parts that need " + std::to_string(bytes >> 20) +
+                        " MiB together; the memory leaves " + std::to_string(budget_ >> 20) +
+                        " MiB");
+    }
+
+    WorkUnit unit_of(std::vector<IndexPair> pairs, bool is_cut) {
+        WorkUnit unit;
+        unit.pairs = std::move(pairs);
+        unit.cut = is_cut;
+        std::sort(unit.pairs.begin(), unit.pairs.end());
+        ++stamp_;
+        for (const IndexPair& pair : unit.pairs)
+            for (const std::uint32_t mesh : {mesh_of(pair.a()), mesh_of(pair.b())})
+                if (mesh_stamp_[mesh] != stamp_) {
+                    mesh_stamp_[mesh] = stamp_;
+                    unit.meshes.push_back(mesh);
+                    unit.bytes += bytes_of(mesh);
+                }
+        std::sort(unit.meshes.begin(), unit.meshes.end());
+        return unit;
+    }
+
+    /// The pairs within each subgraph; last, those that were cut.
+    std::vector<std::vector<IndexPair>> split(const WorkUnit& unit) {
+        std::vector<std::uint32_t> nodes;
+        for (const IndexPair& pair : unit.pairs)
+            nodes.insert(nodes.end(), {pair.a(), pair.b()});
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        for (std::uint32_t i = 0; i < nodes.size(); ++i)
+            local_[nodes[i]] = i;
+        const auto subgraphs = static_cast<int>(std::min(
+            kMostSubgraphs, static_cast<std::uint64_t>(kRoom * static_cast<double>(unit.bytes) /
+                                                       static_cast<double>(budget_)) +
+                                1));
+        const std::vector<std::int32_t> part =
+            nodes.size() > kMostNodes ? halve(nodes) : subgraphs_of(unit, nodes, subgraphs);
+        std::vector<std::vector<IndexPair>> lists(
+            static_cast<std::size_t>(nodes.size() > kMostNodes ? 2 : std::max(2, subgraphs)) + 1);
+        for (const IndexPair& pair : unit.pairs) {
+            const std::int32_t a = part[local_[pair.a()]], b = part[local_[pair.b()]];
+            (a == b ? lists[static_cast<std::size_t>(a)] : lists.back()).push_back(pair);
+        }
+        return lists;
+    }
+
+    std::vector<std::int32_t> subgraphs_of(const WorkUnit& unit,
+                                           const std::vector<std::uint32_t>& nodes, int subgraphs) {
+        std::vector<GraphEdge> edges;
+        edges.reserve(unit.pairs.size());
+        for (const IndexPair& pair : unit.pairs)
+            edges.push_back({local_[pair.a()], local_[pair.b()]});
+        // A mesh's bytes are borne by all the parts that show it; all weights together are below 2^30.
+        for (const std::uint32_t node : nodes)
+            shown_[mesh_of(node)] = 0;
+        for (const std::uint32_t node : nodes)
+            ++shown_[mesh_of(node)];
+        const std::uint64_t unit_bytes = 1 + unit.bytes / (std::uint64_t{1} << 29);
+        std::vector<std::int32_t> weights;
+        weights.reserve(nodes.size());
+        for (const std::uint32_t node : nodes)
+            weights.push_back(static_cast<std::int32_t>(
+                1 + bytes_of(mesh_of(node)) / shown_[mesh_of(node)] / unit_bytes));
+        return cut_graph(weights, edges, std::max(2, subgraphs));
+    }
+
+    /// By the middles of the boxes, across where they reach farthest.
+    std::vector<std::int32_t> halve(const std::vector<std::uint32_t>& nodes) const {
+        const auto middle = [&](std::uint32_t node) {
+            const Box3& box = stored_.parts[node].box;
+            return 0.5 * box.lower + 0.5 * box.upper;
+        };
+        Box3 bounds;
+        for (const std::uint32_t node : nodes) {
+            bounds.lower = min(bounds.lower, middle(node));
+            bounds.upper = max(bounds.upper, middle(node));
+        }
+        const Vec3 extent = bounds.upper - bounds.lower;
+        const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                         : extent.y >= extent.z                       ? 1
+                                                                      : 2;
+        std::vector<std::uint32_t> order(nodes.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::nth_element(order.begin(),
+                         order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2), order.end(),
+                         [&](std::uint32_t i, std::uint32_t k) {
+                             const double at = component(middle(nodes[i]), axis),
+                                          other = component(middle(nodes[k]), axis);
+                             return at != other ? at < other : i < k;
+                         });
+        std::vector<std::int32_t> half(nodes.size(), 0);
+        for (std::size_t i = order.size() / 2; i < order.size(); ++i)
+            half[order[i]] = 1;
+        return half;
+    }
+
+    const StoredParts& stored_;
+    std::uint64_t budget_;
+    std::string store_;
+    std::vector<WorkUnit> units_;
+    std::vector<std::uint32_t> local_;      ///< of a part: its node
+    std::vector<std::uint32_t> mesh_stamp_; ///< of a mesh: the last list that it was found in
+    std::vector<std::uint64_t> shown_;      ///< by how many nodes
+    std::uint32_t stamp_ = 0;
+};
+
+/// Each unit after one that shares as many bytes with it as any that is left.
+std::vector<WorkUnit> in_order_of_sharing(std::vector<WorkUnit> units, const StoredParts& stored) {
+    std::vector<std::vector<std::uint32_t>> users(stored.meshes.size());
+    for (std::uint32_t u = 0; u < units.size(); ++u)
+        for (const std::uint32_t mesh : units[u].meshes)
+            users[mesh].push_back(u);
+    std::vector<WorkUnit> result;
+    std::vector<bool> done(units.size());
+    std::size_t first_left = 0, at = 0;
+    while (result.size() < units.size()) {
+        done[at] = true;
+        std::vector<std::uint64_t> shared(units.size());
+        for (const std::uint32_t mesh : units[at].meshes)
+            for (const std::uint32_t user : users[mesh])
+                shared[user] += done[user] ? 0 : stored.meshes[mesh].bytes;
+        result.push_back(std::move(units[at]));
+        const auto most = std::max_element(shared.begin(), shared.end());
+        while (first_left < done.size() && done[first_left])
+            ++first_left;
+        at = *most > 0 ? static_cast<std::size_t>(most - shared.begin()) : first_left;
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<WorkUnit> make_work_units(const StoredParts& stored, std::vector<IndexPair> pairs,
+                                      std::uint64_t budget, WorkOrder order,
+                                      const std::string& store) {
+    Partition partition(stored, budget, store);
+    if (order == WorkOrder::random) {
+        std::shuffle(pairs.begin(), pairs.end(), std::mt19937_64(1));
+        partition.fill_in_order(std::move(pairs));
+        return partition.take();
+    }
+    partition.cut(std::move(pairs));
+    return in_order_of_sharing(partition.take(), stored);
+}
+
+} // namespace abut
