@@ -18,8 +18,8 @@ enum class WorkOrder : std::uint8_t {
 };
 
 struct OutOfCoreOptions {
-    /// Bytes for geometry, hierarchies and the tables of parts and pairs; at least 16 MiB. The
-    /// program and its libraries come on top, some 64 MiB.
+    /// Bytes for geometry, hierarchies and the tables of parts and pairs. The program and its
+    /// libraries come on top, some 64 MiB.
     std::uint64_t memory = std::uint64_t{512} << 20;
     WorkOrder order = WorkOrder::partition;
 };

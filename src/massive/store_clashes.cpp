@@ -23,7 +23,8 @@ namespace abut {
 
 namespace {
 
-constexpr std::uint64_t kLeastMemory = std::uint64_t{16} << 20;
+/// For pairs and rows of the unit at hand.
+constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 10;
 
 std::uint64_t bytes_for_models(const StoredParts& parts, const std::vector<IndexPair>& pairs,
                                const OutOfCoreOptions& options, const std::string& store) {

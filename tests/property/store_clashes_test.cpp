@@ -1,0 +1,255 @@
+// The clash job out of core finds what the one in core finds, in whatever memory; its pieces of work
+// hold every pair once and fit.
+
+#include <abut/clash.h>
+#include <abut/error.h>
+#include <abut/model.h>
+#include <abut/store_clash.h>
+
+#include "massive/stored_parts.h"
+#include "massive/work_units.h"
+#include "tests/support/random.h"
+#include "tests/support/rounds.h"
+#include "tests/support/shapes.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <set>
+#include <unistd.h>
+
+namespace abut::test {
+namespace {
+
+class Folder {
+public:
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "abut-job-XXXXXX").string();
+        path_ = mkdtemp(name.data());
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+Mesh some_body(Random& random) {
+    const double size = random.uniform(0.1, 0.5);
+    const Vec3 half{size, random.uniform(0.1, 0.5), random.uniform(0.1, 0.5)};
+    switch (random.integer(0, 3)) {
+    case 0:
+        return box_mesh({-half.x, -half.y, -half.z}, half);
+    case 1:
+        return sphere_mesh(size, random.integer(5, 30), random.integer(4, 15));
+    case 2:
+        return torus_mesh(size, 0.3 * size, random.integer(5, 40), random.integer(4, 15));
+    default:
+        return soup_mesh(random, random.integer(1, 30), size, 0.2);
+    }
+}
+
+/// Parts in a flat box, so crowded that about every third pair of boxes in reach is a clash.
+Scene some_scene(Random& random, int parts, double reach) {
+    Scene scene;
+    for (int i = 0; i < parts; ++i) {
+        if (scene.meshes.empty() || random.chance(0.7))
+            scene.meshes.push_back(some_body(random));
+        Transform world = random.pose(0);
+        world.m[9] = random.uniform(-reach, reach);
+        world.m[10] = random.uniform(-1, 1);
+        world.m[11] = random.uniform(-reach, reach);
+        scene.parts.push_back({"part" + std::to_string(i), "name" + std::to_string(i % 7),
+                               "type" + std::to_string(i % 3),
+                               static_cast<std::uint32_t>(
+                                   random.integer(0, static_cast<int>(scene.meshes.size()) - 1)),
+                               world});
+    }
+    return scene;
+}
+
+std::vector<ClashRule> some_rules(Random& random) {
+    if (random.chance(0.5))
+        return {};
+    ClashRule first, rest;
+    first.name = "first";
+    first.a.type = {"type0"};
+    first.clearance = 0.2;
+    first.ignore.same_name_prefix = 5;
+    rest.name = "rest";
+    return {first, rest};
+}
+
+void expect_equal(const ClashReport& report, const std::vector<Scene>& models,
+                  const ClashReport& truth, const std::vector<Scene>& truth_models) {
+    ASSERT_EQ(report.candidates, truth.candidates);
+    ASSERT_EQ(report.counts, truth.counts);
+    ASSERT_EQ(report.clashes.size(), truth.clashes.size());
+    ASSERT_EQ(report.models.size(), truth.models.size());
+    for (std::size_t i = 0; i < truth.models.size(); ++i) {
+        ASSERT_EQ(report.models[i].file, truth.models[i].file);
+        ASSERT_EQ(report.models[i].parts, truth.models[i].parts);
+        ASSERT_EQ(report.models[i].triangles, truth.models[i].triangles);
+    }
+    for (std::size_t i = 0; i < truth.clashes.size(); ++i) {
+        const Clash &a = report.clashes[i], &b = truth.clashes[i];
+        ASSERT_EQ(a.id, b.id);
+        ASSERT_EQ(a.kind, b.kind);
+        ASSERT_EQ(a.model, b.model);
+        ASSERT_EQ(a.distance, b.distance);
+        ASSERT_EQ(a.point_a, b.point_a);
+        ASSERT_EQ(a.point_b, b.point_b);
+        ASSERT_EQ(a.direction, b.direction);
+        ASSERT_EQ(a.triangle_pairs, b.triangle_pairs);
+        ASSERT_EQ(a.rule, b.rule);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Part &p = models.at(a.model.at(side)).parts.at(a.part.at(side)),
+                       &q = truth_models.at(b.model.at(side)).parts.at(b.part.at(side));
+            ASSERT_EQ(p.id, q.id);
+            ASSERT_EQ(p.name, q.name);
+            ASSERT_EQ(p.type, q.type);
+        }
+    }
+}
+
+TEST(OutOfCore, FindsWhatIsFoundInCore) {
+    Random random(6101);
+    std::size_t clashes = 0, cut_up = 0, loaded_again = 0, runs = 0;
+    for (int round = 0; round < many(5); ++round) {
+        const Folder folder;
+        const std::string store = folder / "models.abut";
+        std::vector<std::string> files;
+        const int models = random.integer(1, 2);
+        for (int m = 0; m < models; ++m) {
+            files.push_back(folder / ("model" + std::to_string(m) + ".glb"));
+            write_glb(some_scene(random, random.integer(60, 200), 4), files.back());
+        }
+        (void)import_models(files, store);
+        const std::vector<Scene> scenes = read_scenes(files);
+        ClashOptions options;
+        options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.1);
+        options.touch = random.chance(0.5) ? 0 : 1e-3;
+        options.self = random.chance(0.3);
+        options.rules = some_rules(random);
+        const ClashReport truth = find_clashes(scenes, options);
+        clashes += truth.clashes.size();
+        const Store opened = open_store(store);
+        std::uint64_t memory = std::uint64_t{4} << 20;
+        // Down to where two models that are to be compared do not fit any more.
+        for (bool fits = true; fits; memory = memory / 2 < memory - 100'000 ? memory / 2 : 0) {
+            for (const WorkOrder order : {WorkOrder::partition, WorkOrder::random}) {
+                try {
+                    const StoreClashReport found =
+                        find_clashes(opened, options, {.memory = memory, .order = order});
+                    expect_equal(found.report, found.models, truth, scenes);
+                    ASSERT_LE(found.counters.peak_bytes, memory);
+                    ASSERT_GE(found.counters.mesh_loads, found.counters.meshes);
+                    ASSERT_GE(found.counters.bytes_read, found.counters.bytes_needed);
+                    ++runs;
+                    cut_up += found.counters.units > 1 ? 1 : 0;
+                    loaded_again += found.counters.mesh_loads > found.counters.meshes ? 1 : 0;
+                } catch (const Error& error) {
+                    ASSERT_EQ(error.code(), ErrorCode::bad_argument) << error.what();
+                    ASSERT_LT(memory, std::uint64_t{2} << 20) << error.what();
+                    fits = false;
+                }
+            }
+        }
+    }
+    std::cout << clashes << " clashes; of " << runs << " runs " << cut_up << " in several units, "
+              << loaded_again << " read meshes again\n";
+    EXPECT_GT(clashes, 100U);
+    EXPECT_GT(cut_up, runs / 4);
+    EXPECT_GT(loaded_again, runs / 8);
+}
+
+TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
+    Random random(6102);
+    for (int round = 0; round < many(3); ++round) {
+        const Folder folder;
+        Scene scene = some_scene(random, 60, 4);
+        scene.meshes.push_back(torus_mesh(1, 0.3, 300, 150));
+        scene.parts.front().mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+        write_glb(scene, folder / "a.glb");
+        (void)import_models({folder / "a.glb"}, folder / "a.abut");
+        const Store store = open_store(folder / "a.abut");
+        for (const StoredMesh& mesh : gather_parts(store.file(), false).meshes) {
+            const Model model(store.file().read_mesh(mesh.mesh));
+            ASSERT_LE(model.bytes(), mesh.bytes);
+            ASSERT_GE(2 * model.bytes() + 2048, mesh.bytes);
+        }
+    }
+}
+
+TEST(WorkUnits, HoldEveryPairOnceAndFit) {
+    Random random(6103);
+    std::size_t units = 0, refused = 0;
+    for (int round = 0; round < many(200); ++round) {
+        StoredParts stored;
+        const int parts = random.integer(2, 300), meshes = random.integer(1, parts);
+        for (int i = 0; i < meshes; ++i)
+            stored.meshes.push_back(
+                {i + 1, static_cast<std::uint64_t>(random.integer(1, 1000)), 1});
+        for (int i = 0; i < parts; ++i) {
+            StoredPart part;
+            part.mesh = static_cast<std::uint32_t>(random.integer(0, meshes - 1));
+            const Vec3 at = random.in_cube(5);
+            part.box = {at, at};
+            stored.parts.push_back(part);
+        }
+        std::set<IndexPair> pairs;
+        const int wanted = random.integer(0, 4 * parts);
+        for (int i = 0; i < wanted; ++i) {
+            const int a = random.integer(0, parts - 1),
+                      b = random.chance(0.8) ? std::min(parts - 1, a + random.integer(1, 5))
+                                             : random.integer(0, parts - 1);
+            if (a != b)
+                pairs.insert(
+                    IndexPair(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)));
+        }
+        std::uint64_t largest = 0;
+        for (const IndexPair& pair : pairs) {
+            const std::uint32_t a = stored.parts[pair.a()].mesh, b = stored.parts[pair.b()].mesh;
+            largest =
+                std::max(largest, stored.meshes[a].bytes + (a == b ? 0 : stored.meshes[b].bytes));
+        }
+        const auto budget = static_cast<std::uint64_t>(random.integer(1, 20'000));
+        const WorkOrder order = random.chance(0.3) ? WorkOrder::random : WorkOrder::partition;
+        try {
+            std::set<IndexPair> seen;
+            for (const WorkUnit& unit :
+                 make_work_units(stored, {pairs.begin(), pairs.end()}, budget, order, "s")) {
+                ++units;
+                ASSERT_LE(unit.bytes, budget);
+                ASSERT_TRUE(std::is_sorted(unit.pairs.begin(), unit.pairs.end()));
+                std::set<std::uint32_t> needed;
+                for (const IndexPair& pair : unit.pairs) {
+                    ASSERT_TRUE(seen.insert(pair).second);
+                    needed.insert({stored.parts[pair.a()].mesh, stored.parts[pair.b()].mesh});
+                }
+                ASSERT_EQ(std::vector(needed.begin(), needed.end()), unit.meshes);
+                std::uint64_t bytes = 0;
+                for (const std::uint32_t mesh : unit.meshes)
+                    bytes += stored.meshes[mesh].bytes;
+                ASSERT_EQ(bytes, unit.bytes);
+            }
+            ASSERT_EQ(seen, pairs);
+            ASSERT_LE(largest, budget);
+        } catch (const Error& error) {
+            ASSERT_EQ(error.code(), ErrorCode::bad_argument);
+            ASSERT_GT(largest, budget);
+            ++refused;
+        }
+    }
+    std::cout << units << " units, " << refused << " refused\n";
+    EXPECT_GT(units, static_cast<std::size_t>(many(200)) * 5);
+    EXPECT_GT(refused, static_cast<std::size_t>(many(200)) / 50);
+}
+
+} // namespace
+} // namespace abut::test
