@@ -125,6 +125,16 @@ int run(int argc, char** argv) {
     world_suite->add_option("--seed", world.seed, "Of the boxes");
     world_suite->callback([&] { report = run_world_suite(world); });
 
+    MassiveSuiteOptions massive;
+    CLI::App* massive_suite = app.add_subcommand(
+        "massive", "Models beyond the memory: import into a store, against reading them whole");
+    massive_suite->add_option("--plants", massive.plants, "Triangles of each plant");
+    massive_suite->add_option("--sheet", massive.sheet, "Triangles of the one large mesh; 0: none");
+    massive_suite->add_option("--memory", massive.memory, "Bytes that the import keeps to");
+    massive_suite->add_option("--rounds", massive.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    massive_suite->callback([&] { report = run_massive_suite(massive); });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

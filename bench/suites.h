@@ -30,6 +30,17 @@ struct ImportSuiteOptions {
 /// Errors      as read_scene.
 Report run_import_suite(const ImportSuiteOptions& options);
 
+struct MassiveSuiteOptions {
+    std::vector<std::uint64_t> plants = {2'000'000}; ///< triangles of each, instances counted
+    std::uint64_t sheet = 2'000'000;                 ///< triangles of one mesh; 0: none
+    std::uint64_t memory = std::uint64_t{512} << 20; ///< of the import
+    int rounds = 3;
+};
+
+/// Imports into a store, against `read_scene` of the same files, which keeps all in memory.
+/// Errors      as import_models.
+Report run_massive_suite(const MassiveSuiteOptions& options);
+
 struct RigidSuiteOptions {
     std::vector<std::string> files; ///< two a pair
     /// Triangles of each model of a generated pair; 100,000 and 1,000,000 where nothing is given.

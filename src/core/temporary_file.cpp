@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <unistd.h>
-#include <utility>
 
 namespace abut {
 
@@ -28,9 +27,8 @@ int open_without_name(const std::string& folder) {
 
 } // namespace
 
-TemporaryFile::TemporaryFile(std::string folder) : folder_(std::move(folder)) {
-    if (folder_.empty())
-        folder_ = ".";
+TemporaryFile::TemporaryFile(const std::string& folder)
+    : folder_(folder.empty() ? std::string(1, '.') : folder) {
     descriptor_ = open_without_name(folder_);
     if (descriptor_ < 0)
         throw Error(ErrorCode::cannot_write, folder_,

@@ -16,7 +16,7 @@ class TemporaryFile {
 public:
     /// In          folder: where the disk space is taken from.
     /// Errors      Error{cannot_write}, naming the folder.
-    explicit TemporaryFile(std::string folder);
+    explicit TemporaryFile(const std::string& folder);
     ~TemporaryFile();
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;

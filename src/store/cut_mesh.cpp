@@ -21,18 +21,21 @@ std::uint64_t spread(std::uint64_t v) {
 
 /// A third of the sum of three coordinates as a step along an axis. The order of triangles is all
 /// that hangs on it: rounding does no harm.
-std::uint64_t step(double lower, double upper, double sum) {
+std::uint64_t step(double lower, double extent, double sum) {
     constexpr double kSteps = (1 << kAxisBits) - 1;
-    const double share = upper > lower ? (sum / 3 - lower) / (upper - lower) : 0;
+    const double share = extent > 0 ? (sum / 3 - lower) / extent : 0;
     return static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kSteps);
 }
 
 } // namespace
 
 std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 &l = bounds.lower, &u = bounds.upper;
-    return spread(step(l.x, u.x, a.x + b.x + c.x)) | spread(step(l.y, u.y, a.y + b.y + c.y)) << 1 |
-           spread(step(l.z, u.z, a.z + b.z + c.z)) << 2;
+    const Vec3& l = bounds.lower;
+    // One scale for all axes: pieces of a long mesh are short, not thin.
+    const double extent = max_abs(bounds.upper - l);
+    return spread(step(l.x, extent, a.x + b.x + c.x)) |
+           spread(step(l.y, extent, a.y + b.y + c.y)) << 1 |
+           spread(step(l.z, extent, a.z + b.z + c.z)) << 2;
 }
 
 void PieceCutter::add(const PieceTriangle& triangle) {

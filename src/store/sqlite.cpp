@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include <algorithm>
 #include <sqlite3.h>
 #include <utility>
 
@@ -50,6 +51,12 @@ Verdict verdict_of(int status) {
 
 } // namespace
 
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    return text;
+}
+
 Database::Database(std::string path, OpenMode mode) : path_(std::move(path)) {
     int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
     flags |= mode == OpenMode::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
@@ -85,7 +92,7 @@ void Database::fail(int status) const {
     const Verdict verdict = verdict_of(status);
     std::string text = verdict.text;
     if (verdict.code == ErrorCode::malformed || (status & 0xff) == SQLITE_IOERR)
-        text += std::string(" (") + sqlite3_errmsg(handle_) + ")";
+        text += " (" + one_line(sqlite3_errmsg(handle_)) + ")";
     throw Error(verdict.code, path_, text);
 }
 

@@ -19,6 +19,9 @@ enum class OpenMode : std::uint8_t {
     create, ///< read_write, and made if it is not there
 };
 
+/// A text of SQLite's as a part of one line.
+std::string one_line(std::string text);
+
 /// A connection to an SQLite file. One thread at a time.
 ///
 /// Errors      of all members: Error, naming the file: malformed if it is damaged, unreadable if

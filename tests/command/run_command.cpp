@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <stdlib.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace abut::test {
@@ -111,6 +112,14 @@ Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std
     });
     EXPECT_TRUE(sent) << "neither output ever held '" << sign << "': " << outcome.err;
     return outcome;
+}
+
+Outcome run_abut_and_kill(const std::vector<std::string>& arguments,
+                          std::chrono::microseconds after) {
+    const Running running = start(arguments);
+    std::this_thread::sleep_for(after);
+    kill(running.process, SIGKILL);
+    return finish(running, std::chrono::seconds(60), [](const Outcome&) {});
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -24,6 +25,10 @@ Outcome run_abut(const std::vector<std::string>& arguments);
 /// A run that ends before, or needs more than a minute, fails the test.
 Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,
                             int signal);
+
+/// Runs `abut ARGUMENTS` and kills it (SIGKILL) so long after its start, unless it has ended by then.
+Outcome run_abut_and_kill(const std::vector<std::string>& arguments,
+                          std::chrono::microseconds after);
 
 /// A folder of its own, removed with everything in it.
 class TemporaryFolder {

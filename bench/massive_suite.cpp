@@ -1,0 +1,121 @@
+#include <abut/error.h>
+#include <abut/scene.h>
+#include <abut/store.h>
+
+#include "measure.h"
+#include "scenes/plant.h"
+#include "suites.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <stdlib.h>
+
+namespace abut::bench {
+
+namespace {
+
+/// Gone with all that it holds.
+class ScratchFolder {
+public:
+    ScratchFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "abut-bench-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Error(ErrorCode::cannot_write, name, "cannot be made");
+        path_ = name;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// A wavy sheet as binary STL: every triangle with three vertices of its own, to be joined.
+void write_sheet(const std::string& path, std::uint64_t triangles) {
+    const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 2));
+    const auto at = [](std::uint32_t i, std::uint32_t k) {
+        const double x = 0.01 * i, y = 0.01 * k;
+        return std::array<float, 3>{
+            static_cast<float>(x), static_cast<float>(y),
+            static_cast<float>(0.3 * std::sin(1.3 * x) * std::cos(1.7 * y))};
+    };
+    std::ofstream file(path, std::ios::binary);
+    file << std::string(80, ' ');
+    const std::uint32_t count = 2 * side * side;
+    file.write(reinterpret_cast<const char*>(&count), sizeof count);
+    for (std::uint32_t i = 0; i < side; ++i)
+        for (std::uint32_t k = 0; k < side; ++k)
+            for (const bool upper : {false, true}) {
+                const std::array corners{upper ? at(i + 1, k + 1) : at(i, k), at(i + 1, k),
+                                         at(i, k + 1)};
+                char record[50] = {};
+                std::memcpy(record + 12, corners.data(), sizeof corners);
+                file.write(record, sizeof record);
+            }
+    if (!file.flush())
+        throw Error(ErrorCode::cannot_write, path, "cannot be written");
+}
+
+Row import_row(const std::string& name, const ScratchFolder& folder, const std::string& model,
+               const MassiveSuiteOptions& options) {
+    Row row{name, 0, "read_scene", 0, "s", 1, {}};
+    const std::string store = folder / "store.abut";
+    const auto import = [&] {
+        std::filesystem::remove(store);
+        (void)import_models({model}, store, {.memory = options.memory});
+    };
+    const Turns turns = take_turns(options.rounds, import, [&] { (void)read_scene(model); });
+    row.ours = turns.ours;
+    row.theirs = turns.theirs;
+    const StoreSummary found = summary(open_store(store));
+    const auto bytes = static_cast<double>(std::filesystem::file_size(model));
+    row.counters["file, MB"] = bytes / 1e6;
+    row.counters["MB/s"] = bytes / 1e6 / turns.ours;
+    row.counters["parts"] = static_cast<double>(found.parts);
+    row.counters["triangles"] = static_cast<double>(found.triangles);
+    row.counters["stored triangles"] = static_cast<double>(found.stored_triangles);
+    row.counters["geometry, bytes a stored triangle"] =
+        static_cast<double>(found.stored_bytes) / static_cast<double>(found.stored_triangles);
+    row.counters["store, bytes a triangle"] =
+        static_cast<double>(found.file_bytes) / static_cast<double>(found.triangles);
+    const double start = wall_seconds();
+    (void)import_models({model}, store, {.memory = options.memory});
+    row.counters["again, unchanged, ms"] = 1e3 * (wall_seconds() - start);
+    const double before = wall_seconds();
+    verify(open_store(store));
+    row.counters["verify, s"] = wall_seconds() - before;
+    return row;
+}
+
+} // namespace
+
+Report run_massive_suite(const MassiveSuiteOptions& options) {
+    Report report{"massive", {}, {}};
+    const ScratchFolder folder;
+    for (const std::uint64_t triangles : options.plants) {
+        const std::string model = folder / "plant.glb";
+        write_glb(make_plant({.triangles = triangles}).scene, model);
+        report.rows.push_back(
+            import_row(fmt::format("import, plant of {}", triangles), folder, model, options));
+    }
+    if (options.sheet > 0) {
+        const std::string model = folder / "sheet.stl";
+        write_sheet(model, options.sheet);
+        report.rows.push_back(import_row(fmt::format("import, one mesh of {} (STL)", options.sheet),
+                                         folder, model, options));
+    }
+    report.notes.push_back(fmt::format(
+        "wall time; import writes a store and keeps to {} MiB, read_scene ends with all in memory",
+        options.memory >> 20));
+    return report;
+}
+
+} // namespace abut::bench

@@ -1,0 +1,311 @@
+/// abut import and abut info of stores, and what befalls a store: kills, a full disk, damage, locks.
+#include <abut/error.h>
+#include <abut/store.h>
+
+#include "store/sqlite.h"
+#include "store/store_writer.h"
+#include "tests/command/models.h"
+#include "tests/command/run_command.h"
+#include "tests/support/random.h"
+#include "tests/support/rounds.h"
+#include "tests/support/stores.h"
+
+#include <csignal>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace abut::test {
+namespace {
+
+TEST(Import, MakesAStoreAndBringsItUpToDate) {
+    const TemporaryFolder folder;
+    const std::string model = folder / "boxes.glb", store = folder / "boxes.abut";
+    Scene scene;
+    scene.meshes = {unit_box(), ball(4), unit_box()};
+    for (int i = 0; i < 3; ++i)
+        scene.parts.push_back(
+            part("box" + std::to_string(i), "Box", i == 2 ? 2 : 0, placed(2 * i, 0, 0)));
+    scene.parts.push_back(part("ball", "Ball", 1, placed(0, 5, 0)));
+    write_glb(scene, model);
+
+    Outcome outcome = run_abut({"import", model, store, "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    auto report = outcome.json();
+    EXPECT_EQ(report["store"], store);
+    EXPECT_EQ(report["models"][0]["file"], model);
+    EXPECT_EQ(report["models"][0]["outcome"], "added");
+    EXPECT_EQ(report["models"][0]["streamed"], true);
+    EXPECT_EQ(report["models"][0]["parts"], 4);
+    EXPECT_EQ(report["models"][0]["added"], 4);
+    EXPECT_EQ(report["new_meshes"], 2); // the two boxes are one
+    EXPECT_EQ(folder.list(), (std::vector<std::string>{"boxes.abut", "boxes.glb"}));
+
+    outcome = run_abut({"import", model, store, "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.json()["models"][0]["outcome"], "unchanged");
+
+    scene.parts.pop_back();
+    scene.parts[0].type = "Crate";
+    write_glb(scene, model);
+    outcome = run_abut({"import", model, store, "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    report = outcome.json();
+    EXPECT_EQ(report["models"][0]["outcome"], "changed");
+    EXPECT_EQ(report["models"][0]["changed"], 1);
+    EXPECT_EQ(report["models"][0]["removed"], 1);
+    EXPECT_EQ(report["removed_meshes"], 1); // the ball
+
+    outcome = run_abut({"info", store, "--json", "--verify"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto info = outcome.json()["stores"][0];
+    EXPECT_EQ(info["store"], store);
+    EXPECT_EQ(info["complete"], true);
+    EXPECT_EQ(info["verified"], true);
+    EXPECT_EQ(info["generation"], 2);
+    EXPECT_EQ(info["parts"], 3);
+    EXPECT_EQ(info["triangles"], 36);
+    EXPECT_EQ(info["meshes"], 1);
+    EXPECT_EQ(info["stored_triangles"], 12);
+    EXPECT_EQ(info["models"][0]["complete"], true);
+    EXPECT_EQ(info["bounds"]["upper"], nlohmann::json({5.0, 1.0, 1.0}));
+    EXPECT_NE(run_abut({"info", store}).out.find("complete"), std::string::npos);
+}
+
+TEST(Import, KeepsModelsThatAreNotNamedAndTakesAUnit) {
+    const TemporaryFolder folder;
+    const std::string store = folder / "s.abut";
+    const std::string a = folder.write("a.obj", box_obj()), b = folder.write("b.obj", box_obj());
+    ASSERT_EQ(run_abut({"import", a, store}).status, 0);
+    ASSERT_EQ(run_abut({"import", b, store, "--unit", "0.5"}).status, 0);
+    const auto info = run_abut({"info", store, "--json"}).json()["stores"][0];
+    EXPECT_EQ(info["models"].size(), 2U);
+    EXPECT_EQ(info["meshes"], 1);
+    // Another unit is another model.
+    const auto again = run_abut({"import", a, store, "--unit", "0.5", "--json"}).json();
+    EXPECT_EQ(again["models"][0]["changed"], 1);
+    expect_stored(store, read_scene(a, {.unit = 0.5}), 0);
+    expect_stored(store, read_scene(b, {.unit = 0.5}), 1);
+}
+
+TEST(Import, RefusesWhatItCannotDo) {
+    const TemporaryFolder folder;
+    const std::string box = folder.write("box.obj", box_obj()), store = folder / "s.abut";
+    expect_refused(run_abut({"import", box}), {"MODEL... STORE"});
+    expect_refused(run_abut({"import", box, store, "--memory", "1M"}), {"16 MiB"});
+    expect_refused(run_abut({"import", box, store, "--memory", "12X"}), {"--memory", "12X"});
+    expect_refused(run_abut({"import", folder / "none.obj", store}), {"none.obj", "no such file"});
+    expect_refused(run_abut({"import", box, box, store}), {"box.obj", "twice"});
+    expect_refused(run_abut({"import", folder.write("bad.obj", "v 0 0 0\nf 1 2 3\n"), store}),
+                   {"bad.obj"});
+    expect_refused(run_abut({"import", box, folder / "none/s.abut"}), {"s.abut"});
+    EXPECT_EQ(folder.list(), (std::vector<std::string>{"bad.obj", "box.obj"}));
+    ASSERT_EQ(run_abut({"import", box, store}).status, 0);
+    expect_refused(run_abut({"import", store, folder / "t.abut"}), {"s.abut", "is a store"});
+    expect_refused(run_abut({"info", store, box}), {"not both"});
+    expect_refused(run_abut({"info", box, "--verify"}), {"--verify"});
+    // A model that turns bad takes nothing away from the store.
+    (void)folder.write("box.obj", "v 0 0 0\nf 1 2 3\n");
+    expect_refused(run_abut({"import", box, store}), {"box.obj"});
+    const auto info = run_abut({"info", store, "--json"}).json()["stores"][0];
+    EXPECT_EQ(info["complete"], true);
+    EXPECT_EQ(info["triangles"], 12);
+}
+
+TEST(Import, SaysWhatIsWrongWithAStore) {
+    const TemporaryFolder folder;
+    const std::string box = folder.write("box.obj", box_obj()), store = folder / "s.abut";
+    const auto expect_both_refused = [&](const std::string& path,
+                                         const std::vector<std::string>& words) {
+        expect_refused(run_abut({"info", path}), words);
+        expect_refused(run_abut({"import", box, path}), words);
+    };
+    expect_both_refused(folder.write("text.abut", std::string(5000, 'x')),
+                        {"text.abut", "is no store"});
+    {
+        Database other(folder / "other.abut", OpenMode::create);
+        other.run("CREATE TABLE t(a)");
+    }
+    expect_both_refused(folder / "other.abut", {"other.abut", "is no store of Abut"});
+    ASSERT_EQ(run_abut({"import", box, store}).status, 0);
+    const std::string whole = read_file(store);
+    (void)folder.write("short.abut", whole.substr(0, whole.size() / 2));
+    expect_both_refused(folder / "short.abut", {"short.abut", "is damaged"});
+    {
+        Database newer(folder.write("newer.abut", whole), OpenMode::read_write);
+        newer.run("PRAGMA user_version = 7");
+    }
+    expect_both_refused(folder / "newer.abut", {"newer.abut", "version 7", "newer"});
+    {
+        const StoreWriter writer(store, std::uint64_t{2} << 20);
+        expect_both_refused(store, {"s.abut", "in use by another process"});
+    }
+    EXPECT_EQ(run_abut({"info", store, "--verify"}).status, 0);
+}
+
+/// Runs a shell command as someone whom permissions bind.
+int run_as_nobody(const std::string& command) {
+    const std::string as = geteuid() == 0 ? "setpriv --reuid 65534 --clear-groups " : "";
+    const int status = std::system((as + command).c_str()); // NOLINT: the shell redirects
+    return WEXITSTATUS(status);
+}
+
+TEST(Import, AReadOnlyStoreIsReadAndNotWritten) {
+    const TemporaryFolder folder;
+    const std::string box = folder.write("box.obj", box_obj()), store = folder / "s.abut";
+    ASSERT_EQ(run_abut({"import", box, store}).status, 0);
+    (void)folder.write("box.obj", box_obj() + "# changed\n");
+    chmod((folder / "").c_str(), 0555);
+    chmod(store.c_str(), 0444);
+    const std::string abut = ABUT_COMMAND;
+    const TemporaryFolder outputs;
+    chmod((outputs / "").c_str(), 0777);
+    const std::string err = outputs / "err";
+    if (run_as_nobody("test -x " + abut) != 0)
+        GTEST_SKIP() << "nobody may not run " << abut;
+    EXPECT_EQ(run_as_nobody(abut + " info " + store + " --verify >/dev/null 2>" + err), 0);
+    EXPECT_EQ(run_as_nobody(abut + " import " + box + " " + store + " 2>" + err), 2);
+    EXPECT_NE(read_file(err).find("read-only"), std::string::npos) << read_file(err);
+    chmod((folder / "").c_str(), 0755);
+}
+
+/// Meshes that hardly shrink: an import of many transactions.
+Scene noise(Random& random, int meshes) {
+    Scene scene;
+    for (int m = 0; m < meshes; ++m) {
+        Mesh mesh;
+        for (int i = 0; i < 9000; ++i) {
+            const Vec3 p = random.in_cube(1);
+            mesh.positions.push_back(
+                {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        }
+        for (std::uint32_t i = 0; i + 2 < mesh.positions.size(); i += 3)
+            mesh.triangles.push_back({i, i + 1, i + 2});
+        scene.parts.push_back(part("part " + std::to_string(m), "Noise",
+                                   static_cast<std::uint32_t>(m), placed(m, 0, 0)));
+        scene.meshes.push_back(std::move(mesh));
+    }
+    return scene;
+}
+
+TEST(Import, SurvivesAFullDisk) {
+    Random random(1);
+    const TemporaryFolder folder;
+    const std::string model = folder / "noise.glb", store = folder / "s.abut";
+    write_glb(noise(random, 60), model);
+    const std::string box = folder.write("box.obj", box_obj());
+    ASSERT_EQ(run_abut({"import", box, store}).status, 0);
+    // Files of at most 3 MB: writes beyond it fail, as on a full disk.
+    const std::string command = "trap '' XFSZ; ulimit -f 3000; exec " + std::string(ABUT_COMMAND) +
+                                " import " + model + " " + store + " 2>" + (folder / "err");
+    EXPECT_EQ(WEXITSTATUS(std::system(("bash -c \"" + command + "\"").c_str())), 2); // NOLINT
+    const std::string err = read_file(folder / "err");
+    EXPECT_NE(err.find("cannot be written"), std::string::npos) << err;
+    EXPECT_EQ(run_abut({"info", store, "--verify"}).status, 0);
+    expect_stored(store, read_scene(box), 0);
+    ASSERT_EQ(run_abut({"import", model, store}).status, 0);
+    expect_stored(store, read_scene(model), 1);
+    EXPECT_EQ(run_abut({"info", store, "--verify"}).status, 0);
+}
+
+TEST(Import, SurvivesKillsAtAnyMoment) {
+    Random random(2);
+    const TemporaryFolder folder;
+    const std::string model = folder / "noise.glb", store = folder / "s.abut";
+    write_glb(noise(random, 300), model);
+    const Scene scene = read_scene(model);
+    std::size_t opened = 0, incomplete = 0, kept = 0, killed = 0;
+    double whole = 1.5e6; // microseconds, until one has been seen to its end
+    const int rounds = many(20);
+    for (int round = 0; round < rounds; ++round) {
+        if (random.chance(0.4)) {
+            std::filesystem::remove(store);
+            std::filesystem::remove(store + "-journal");
+        }
+        const Outcome outcome = run_abut_and_kill(
+            {"import", model, store},
+            std::chrono::microseconds(static_cast<std::int64_t>(random.uniform(0, whole))));
+        if (outcome.status == 0) {
+            whole *= 0.7; // killed too late
+            expect_stored(store, scene);
+            std::filesystem::remove(store);
+            continue;
+        }
+        ++killed;
+        std::error_code missing;
+        if (std::filesystem::file_size(store, missing) == 0 || missing)
+            continue; // it had not begun
+        try {
+            const Store found = open_store(store);
+            ++opened;
+            verify(found);
+            const StoreSummary content = summary(found);
+            incomplete += content.complete ? 0 : 1;
+            kept += content.meshes > 0 && !content.complete ? 1 : 0;
+            ASSERT_TRUE(content.models.empty() || !content.complete || content.parts == 300U);
+        } catch (const Error& error) {
+            // Nothing was committed yet: not even the tables.
+            ASSERT_NE(std::string(error.what()).find("is no store"), std::string::npos)
+                << error.what();
+        }
+    }
+    ASSERT_EQ(run_abut({"import", model, store}).status, 0);
+    expect_stored(store, scene);
+    const auto info = run_abut({"info", store, "--verify", "--json"}).json()["stores"][0];
+    EXPECT_EQ(info["complete"], true);
+    EXPECT_EQ(info["meshes"], 300);
+    EXPECT_EQ(info["blocks"], 300);
+    EXPECT_EQ(folder.list(), (std::vector<std::string>{"noise.glb", "s.abut"}));
+    std::cout << killed << " killed, " << opened << " opened, " << incomplete << " incomplete, "
+              << kept << " with meshes kept\n";
+    EXPECT_GT(killed, static_cast<std::size_t>(rounds) / 3);
+    EXPECT_GT(incomplete, 0U);
+    EXPECT_GT(kept, 0U) << "no kill came between two transactions";
+}
+
+TEST(Import, AnInterruptedImportGoesOn) {
+    Random random(3);
+    const TemporaryFolder folder;
+    const std::string model = folder / "noise.glb", store = folder / "s.abut";
+    write_glb(noise(random, 200), model);
+    const Outcome outcome =
+        run_abut_and_signal({"import", model, store, "--progress"}, "geometry", SIGINT);
+    EXPECT_EQ(outcome.status, 130);
+    EXPECT_EQ(outcome.out, "");
+    const auto info = run_abut({"info", store, "--json"}).json()["stores"][0];
+    EXPECT_EQ(info["complete"], false);
+    ASSERT_EQ(run_abut({"import", model, store}).status, 0);
+    expect_stored(store, read_scene(model));
+}
+
+TEST(Import, KeepsToItsMemory) {
+    const TemporaryFolder folder;
+    constexpr std::uint32_t kTriangles = 1'200'000;
+    {
+        std::ofstream file(folder / "sheet.stl", std::ios::binary);
+        file << std::string(80, ' ');
+        file.write(reinterpret_cast<const char*>(&kTriangles), sizeof kTriangles);
+        for (std::uint32_t i = 0; i < kTriangles; ++i) {
+            const auto x = static_cast<float>(i % 1000), y = static_cast<float>(i / 1000);
+            const float values[12] = {0, 0, 1, x, y, 0, x + 1, y, 0, x, y + 1, 0};
+            char record[50] = {};
+            std::memcpy(record, values, sizeof values);
+            file.write(record, sizeof record);
+        }
+    }
+    // Through a shell that forks: a process that this one forks would begin with the peak of this one.
+    const std::string command =
+        fmt::format("'{}' import '{}' '{}' --memory 32M --json >'{}'; exit $?", ABUT_COMMAND,
+                    folder / "sheet.stl", folder / "s.abut", folder / "out");
+    ASSERT_EQ(std::system(command.c_str()), 0); // NOLINT: the shell redirects
+    const auto report = nlohmann::json::parse(read_file(folder / "out"));
+    EXPECT_EQ(report["models"][0]["streamed"], true);
+    EXPECT_EQ(report["models"][0]["triangles"], kTriangles);
+    EXPECT_LT(report["peak_rss_mb"], 32 + 64);
+    EXPECT_EQ(run_abut({"info", folder / "s.abut", "--verify"}).status, 0);
+}
+
+} // namespace
+} // namespace abut::test

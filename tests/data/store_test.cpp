@@ -1,0 +1,40 @@
+/// Real buildings: the store gives back what read_scene gives, and every file is streamed.
+#include <abut/scene.h>
+#include <abut/store.h>
+
+#include "tests/support/stores.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace abut::test {
+namespace {
+
+TEST(StoreOfData, IsTheSameAsReadScene) {
+    const std::filesystem::path data = std::filesystem::path(ABUT_SHARED_DATA) / "bim";
+    if (!std::filesystem::exists(data))
+        GTEST_SKIP() << data << " is not there";
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(data))
+        if (entry.path().extension() == ".glb")
+            files.push_back(entry.path().string());
+    std::sort(files.begin(), files.end());
+    ASSERT_FALSE(files.empty());
+    std::string folder = (std::filesystem::temp_directory_path() / "abut-data-XXXXXX").string();
+    ASSERT_NE(mkdtemp(folder.data()), nullptr);
+    const std::string store = folder + "/s.abut";
+    const ImportReport report =
+        import_models(files, store, {.memory = std::uint64_t{64} << 20});
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        SCOPED_TRACE(files[i]);
+        EXPECT_TRUE(report.models.at(i).streamed);
+        expect_stored(store, read_scene(files[i]), i);
+    }
+    verify(open_store(store));
+    std::filesystem::remove_all(folder);
+}
+
+} // namespace
+} // namespace abut::test

@@ -1,0 +1,174 @@
+/// Stores worked by hand, and the questions of docs/store.md.
+#include <abut/error.h>
+#include <abut/scene.h>
+#include <abut/store.h>
+
+#include "io/unique_ids.h"
+#include "store/cut_mesh.h"
+#include "store/mesh_codec.h"
+#include "store/mesh_draft.h"
+#include "store/store_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <sstream>
+#include <unistd.h>
+
+namespace abut {
+namespace {
+
+class StoreOf : public testing::Test {
+protected:
+    StoreOf() {
+        std::string name = (std::filesystem::temp_directory_path() / "abut-unit-XXXXXX").string();
+        folder_ = mkdtemp(name.data());
+        store_ = (folder_ / "s.abut").string();
+    }
+    ~StoreOf() override {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    /// Two tetrahedra, one of them 10 up, and an open triangle.
+    void import() {
+        Scene scene;
+        scene.meshes = {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                         {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
+                        {{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {9, 9, 9}}, {{0, 1, 2}}}};
+        scene.parts = {{"low", "Low one", "Solid", 0, {}},
+                       {"high", "High one", "Solid", 0, Pose{.translation = {0, 10, 0}}},
+                       {"flat", "Flat one", "Shell", 1, {}}};
+        const std::string file = (folder_ / "a.glb").string();
+        write_glb(scene, file);
+        import_models({file}, store_);
+    }
+    std::filesystem::path folder_;
+    std::string store_;
+};
+
+TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
+    import();
+    const Store store = open_store(store_);
+    const StoreSummary found = summary(store);
+    EXPECT_TRUE(found.complete);
+    EXPECT_EQ(found.version, 1);
+    EXPECT_EQ(found.generation, 1U);
+    EXPECT_EQ(found.parts, 3U);
+    EXPECT_EQ(found.triangles, 9U);
+    EXPECT_EQ(found.meshes, 2U);
+    EXPECT_EQ(found.stored_triangles, 5U);
+    EXPECT_EQ(found.blocks, 2U);
+    // A header of 16 bytes, vertices of three floats, triangles of three indices.
+    EXPECT_EQ(found.raw_bytes, 16U + 4 * 12 + 4 * 12 + 16 + 4 * 12 + 1 * 12);
+    // The vertex at (9, 9, 9) is in no triangle.
+    EXPECT_EQ(found.bounds, (Box3{{0, 0, 0}, {3, 11, 1}}));
+
+    StoreFile& file = store.file();
+    const MeshRow solid = file.mesh(1), shell = file.mesh(2);
+    EXPECT_EQ(solid.closed, true);
+    EXPECT_EQ(shell.closed, false);
+    EXPECT_EQ(shell.vertices, 4U);
+    EXPECT_EQ(shell.box, (Box3{{0, 0, 0}, {3, 3, 0}}));
+    EXPECT_EQ(file.part(2).box, (Box3{{0, 10, 0}, {1, 11, 1}}));
+    EXPECT_EQ(file.bytes_read(), 0U) << "rows alone have been read";
+    EXPECT_EQ(file.read_mesh(2).positions.back(), (Vec3{9, 9, 9}));
+    EXPECT_EQ(file.blocks_read(), 1U);
+    EXPECT_EQ(file.bytes_read(), shell.stored_bytes);
+    EXPECT_THROW(file.mesh(3), Error);
+    EXPECT_THROW(file.part(4), Error);
+}
+
+TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
+    import();
+    std::ifstream page(std::string(ABUT_SOURCE_DIR) + "/docs/store.md");
+    const std::string text{std::istreambuf_iterator<char>(page), {}};
+    const std::size_t mark = text.find("<!-- sql -->");
+    ASSERT_NE(mark, std::string::npos);
+    const std::size_t start = text.find("```sql\n", mark) + 7;
+    std::istringstream sql(text.substr(start, text.find("```", start) - start));
+    Database database(store_, OpenMode::read_only);
+    std::vector<int> rows;
+    for (std::string statement; std::getline(sql, statement, ';');) {
+        if (statement.find("SELECT") == std::string::npos)
+            continue;
+        Statement question(database, statement);
+        rows.push_back(0);
+        while (question.step())
+            ++rows.back();
+    }
+    // In the box: none. Two types, two meshes, three parts of the last import, one open shell.
+    EXPECT_EQ(rows, (std::vector<int>{0, 2, 2, 3, 1, 0}));
+}
+
+TEST_F(StoreOf, NothingIsRefused) {
+    EXPECT_THROW(open_store(store_), Error);
+    std::ofstream(store_).close();
+    EXPECT_THROW(open_store(store_), Error);
+    EXPECT_FALSE(is_store(store_));
+    EXPECT_THROW(import_models({store_}, store_), Error);
+}
+
+TEST(MeshCodec, ASheetInOrderCostsNothingForItsCorners) {
+    // New vertices are zeros, which are compressed away: what is left is the positions.
+    MeshBlock block;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        block.mesh.positions.push_back({0, 0, 0});
+        if (i % 3 == 2)
+            block.mesh.triangles.push_back({i - 2, i - 1, i});
+    }
+    const EncodedBlock encoded = encode_block(block);
+    EXPECT_EQ(encoded.raw_bytes, 16U + 3000 * 12 + 1000 * 12);
+    EXPECT_LT(encoded.data.size(), 64U);
+}
+
+TEST(MeshCodec, RefusesWhatIsNoBlock) {
+    MeshBlock block;
+    block.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    const EncodedBlock encoded = encode_block(block);
+    EXPECT_THROW(decode_block(encoded.data, encoded.raw_bytes + 1), std::runtime_error);
+    EXPECT_THROW(decode_block(std::span(encoded.data).first(9), encoded.raw_bytes),
+                 std::runtime_error);
+    EXPECT_THROW(decode_block({}, 0), std::runtime_error);
+}
+
+TEST(CutMesh, SmallMeshesStayWholeAndLargeOnesAreCut) {
+    const auto strip = [](std::uint32_t triangles) {
+        Mesh mesh;
+        for (std::uint32_t i = 0; i < triangles + 2; ++i)
+            mesh.positions.push_back({static_cast<double>(i), static_cast<double>(i % 2), 0});
+        for (std::uint32_t i = 0; i < triangles; ++i)
+            mesh.triangles.push_back({i, i + 1, i + 2});
+        return mesh;
+    };
+    std::vector<std::size_t> sizes;
+    const auto count = [&](const MeshBlock& block) {
+        sizes.push_back(block.mesh.triangles.size());
+    };
+    cut_mesh(strip(60000), count);
+    EXPECT_EQ(sizes, (std::vector<std::size_t>{60000}));
+    sizes.clear();
+    cut_mesh(strip(70000), count);
+    EXPECT_EQ(sizes, (std::vector<std::size_t>{32768, 32768, 70000 - 65536}));
+    // Along a strip the pieces follow each other.
+    double end = 0;
+    cut_mesh(strip(70000), [&](const MeshBlock& block) {
+        EXPECT_EQ(encode_draft(block).row.box.lower.x, end);
+        end = encode_draft(block).row.box.upper.x - 1;
+    });
+}
+
+TEST(UniqueIds, AsInAScene) {
+    UniqueIds ids;
+    const std::vector<std::string> given{"a", "a", "a#2", "a", "b", "b"};
+    for (const std::string& id : given)
+        ids.announce(id);
+    ids.finish();
+    std::vector<std::string> unique;
+    for (const std::string& id : given)
+        unique.push_back(ids.unique(id));
+    EXPECT_EQ(unique, (std::vector<std::string>{"a", "a#3", "a#2", "a#4", "b", "b#2"}));
+}
+
+} // namespace
+} // namespace abut
