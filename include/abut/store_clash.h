@@ -22,16 +22,21 @@ struct OutOfCoreOptions {
     /// libraries come on top, some 64 MiB.
     std::uint64_t memory = std::uint64_t{512} << 20;
     WorkOrder order = WorkOrder::partition;
+    /// What is done is kept in the store, if it can be written to: a job that is killed goes on where
+    /// it was, and one that has ended is not done again as long as its parts are the same.
+    bool keep = true;
 };
 
 /// What a job out of core did.
 struct OutOfCoreCounters {
-    std::uint64_t units = 0;        ///< pieces of work that fit into the memory
-    std::uint64_t meshes = 0;       ///< that a candidate needs
-    std::uint64_t mesh_loads = 0;   ///< each time that one was read and its hierarchy built
-    std::uint64_t bytes_needed = 0; ///< of those meshes in the store, each once
-    std::uint64_t bytes_read = 0;   ///< of the store's blocks
-    std::uint64_t peak_bytes = 0;   ///< of models in memory at once
+    std::uint64_t units = 0;          ///< pieces of work that fit into the memory
+    std::uint64_t meshes = 0;         ///< that a candidate needs
+    std::uint64_t mesh_loads = 0;     ///< each time that one was read and its hierarchy built
+    std::uint64_t bytes_needed = 0;   ///< of those meshes in the store, each once
+    std::uint64_t bytes_read = 0;     ///< of the store's blocks
+    std::uint64_t peak_bytes = 0;     ///< of models in memory at once
+    bool kept = false;                ///< in the store
+    std::uint64_t recalled_pairs = 0; ///< done before, by a job that was stopped or has ended
 };
 
 struct StoreClashReport {

@@ -6,6 +6,7 @@
 #include "core/stop_watch.h"
 #include "massive/clash_identity.h"
 #include "massive/classify_pair.h"
+#include "massive/job_record.h"
 #include "massive/model_cache.h"
 #include "massive/rule_match.h"
 #include "massive/stored_parts.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <future>
+#include <iterator>
 #include <map>
 #include <tbb/global_control.h>
 #include <unordered_map>
@@ -41,10 +43,22 @@ struct Plan {
     StoredParts stored;
     std::vector<WorkUnit> units;
     std::uint64_t candidates = 0;
-    std::uint64_t budget = 0; ///< bytes of models
+    std::uint64_t budget = 0;          ///< bytes of models
+    std::unique_ptr<JobRecord> record; ///< may be none
 };
 
-Plan make_plan(StoreFile& store, const ClashOptions& options, const OutOfCoreOptions& out_of_core) {
+/// What the answer depends on: the question and the parts.
+Hash128 key_of(const StoredParts& stored, const ClashOptions& options) {
+    Hasher hasher;
+    for (const ModelRow& model : stored.models)
+        hasher.add_value(model.checksum());
+    hasher.add_value(question_hash(options));
+    return hasher.value();
+}
+
+/// In          recorded: what the store knows of this job counts, and it is to be kept there.
+Plan make_plan(StoreFile& store, const ClashOptions& options, const OutOfCoreOptions& out_of_core,
+               bool recorded) {
     require_tolerances(options);
     ProgressMeter progress(options.progress, "broad phase", 3);
     Plan plan;
@@ -53,10 +67,18 @@ Plan make_plan(StoreFile& store, const ClashOptions& options, const OutOfCoreOpt
     std::vector<IndexPair> pairs = find_candidates(plan.stored, options);
     plan.candidates = pairs.size();
     progress.advance();
+    if (recorded && out_of_core.keep)
+        plan.record =
+            JobRecord::open(store.path(), {key_of(plan.stored, options), options, plan.candidates});
+    if (plan.record != nullptr)
+        if (auto left = plan.record->pairs_left())
+            pairs = std::move(*left);
     plan.budget = bytes_for_models(plan.stored, pairs, out_of_core, store.path());
     // One unit is tested while the next one's models come into memory.
     plan.units = make_work_units(plan.stored, std::move(pairs), plan.budget / 2, out_of_core.order,
                                  store.path());
+    if (plan.record != nullptr)
+        plan.record->plan(plan.units);
     progress.advance();
     return plan;
 }
@@ -69,8 +91,9 @@ public:
 
     StoreClashReport run() {
         StopWatch total, watch;
-        plan_ = make_plan(store_, options_, out_of_core_);
+        plan_ = make_plan(store_, options_, out_of_core_, true);
         summarise();
+        recall();
         result_.report.seconds.broad = watch.lap();
         work();
         result_.report.seconds.narrow = watch.lap();
@@ -103,6 +126,7 @@ private:
 
     void work() {
         ProgressMeter progress(options_.progress, "narrow phase", plan_.candidates);
+        progress.advance(result_.counters.recalled_pairs);
         ModelCache cache(store_, plan_.stored.meshes, plan_.units, plan_.budget);
         const std::uint64_t read_before = store_.bytes_read();
         // On one thread, that thread does all.
@@ -119,10 +143,51 @@ private:
             test(plan_.units[u], cache, progress);
             if (next.valid())
                 next.get();
+            // Nothing is being read now: the store may be written to.
+            record(u);
         }
         result_.counters.mesh_loads = cache.loads();
         result_.counters.bytes_read = store_.bytes_read() - read_before;
         result_.counters.peak_bytes = cache.peak_bytes();
+    }
+
+    /// What was found before the job was stopped.
+    void recall() {
+        if (plan_.record == nullptr)
+            return;
+        std::uint64_t left = 0;
+        for (const WorkUnit& unit : plan_.units)
+            left += unit.pairs.size();
+        result_.counters.kept = true;
+        result_.counters.recalled_pairs = plan_.candidates - left;
+        for (FoundClash& found : plan_.record->found()) {
+            if (found.pair.b() >= plan_.stored.parts.size())
+                throw Error(ErrorCode::malformed, store_.path(),
+                            "is damaged: a clash of a job names parts that are not there");
+            for (const std::uint32_t part : {found.pair.a(), found.pair.b()})
+                name(part, store_.part(plan_.stored.parts[part].row));
+            found.clash.model = models_of(found.pair);
+            clashes_.push_back(std::move(found));
+        }
+    }
+
+    void record(std::size_t unit) {
+        if (plan_.record != nullptr) {
+            std::vector<std::pair<std::int64_t, std::int64_t>> rows;
+            for (const FoundClash& found : fresh_)
+                rows.emplace_back(plan_.stored.parts[found.pair.a()].row,
+                                  plan_.stored.parts[found.pair.b()].row);
+            plan_.record->commit(unit, fresh_, rows);
+        }
+        std::move(fresh_.begin(), fresh_.end(), std::back_inserter(clashes_));
+        fresh_.clear();
+    }
+
+    void name(std::uint32_t part, const PartRow& row) {
+        named_.try_emplace(part, Part{row.id, row.name, row.type, 0, {}});
+    }
+    [[nodiscard]] std::array<std::uint32_t, 2> models_of(const IndexPair& pair) const {
+        return {plan_.stored.parts[pair.a()].model, plan_.stored.parts[pair.b()].model};
     }
 
     void test(const WorkUnit& unit, const ModelCache& cache, ProgressMeter& progress) {
@@ -149,11 +214,9 @@ private:
         for (std::size_t k = 0; k < found.size(); ++k)
             if (found[k]) {
                 const IndexPair& pair = unit.pairs[k];
-                for (const std::uint32_t part : {pair.a(), pair.b()}) {
-                    const PartRow& row = rows.at(part);
-                    named_.try_emplace(part, Part{row.id, row.name, row.type, 0, {}});
-                }
-                clashes_.emplace_back(pair, std::move(*found[k]));
+                for (const std::uint32_t part : {pair.a(), pair.b()})
+                    name(part, rows.at(part));
+                fresh_.push_back({pair, std::move(*found[k])});
             }
     }
 
@@ -169,7 +232,7 @@ private:
 
     void identify(Clash& clash, const IndexPair& pair, const PartRow& a, const PartRow& b,
                   const PairTerms& terms) const {
-        clash.model = {plan_.stored.parts[pair.a()].model, plan_.stored.parts[pair.b()].model};
+        clash.model = models_of(pair);
         if (terms.rule != nullptr)
             clash.rule = terms.rule->name;
         const auto file = [&](std::size_t side) -> const std::string& {
@@ -180,6 +243,8 @@ private:
 
     /// Clashes in the order of their parts, which are known by their places among those that clash.
     void finish() {
+        if (plan_.record != nullptr)
+            plan_.record->finish();
         for (const ModelRow& model : plan_.stored.models)
             result_.models.emplace_back().file = model.file;
         std::unordered_map<std::uint32_t, std::uint32_t> place;
@@ -189,7 +254,7 @@ private:
             parts.push_back(std::move(named));
         }
         std::sort(clashes_.begin(), clashes_.end(),
-                  [](const auto& a, const auto& b) { return a.first < b.first; });
+                  [](const FoundClash& a, const FoundClash& b) { return a.pair < b.pair; });
         for (auto& [pair, clash] : clashes_) {
             clash.part = {place.at(pair.a()), place.at(pair.b())};
             ++result_.report.counts.at(static_cast<std::size_t>(clash.kind));
@@ -203,7 +268,8 @@ private:
     Plan plan_;
     StoreClashReport result_;
     std::map<std::uint32_t, Part> named_; ///< parts that clash
-    std::vector<std::pair<IndexPair, Clash>> clashes_;
+    std::vector<FoundClash> fresh_;       ///< of the piece of work at hand
+    std::vector<FoundClash> clashes_;
 };
 
 Vec3 middle_of(const Box3& box) {
@@ -247,7 +313,7 @@ StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
 GraphReport overlap_graph(const Store& store, const ClashOptions& options,
                           const OutOfCoreOptions& out_of_core, std::uint64_t lines) {
     StopWatch watch;
-    const Plan plan = make_plan(store.file(), options, out_of_core);
+    const Plan plan = make_plan(store.file(), options, out_of_core, false);
     GraphReport report;
     report.nodes = plan.stored.parts.size();
     report.edges = plan.candidates;

@@ -13,6 +13,7 @@
 #include "tests/support/shapes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
@@ -120,7 +121,7 @@ void expect_equal(const ClashReport& report, const std::vector<Scene>& models,
 TEST(OutOfCore, FindsWhatIsFoundInCore) {
     Random random(6101);
     std::size_t clashes = 0, cut_up = 0, loaded_again = 0, runs = 0;
-    for (int round = 0; round < many(5); ++round) {
+    for (int round = 0; round < many(3); ++round) {
         const Folder folder;
         const std::string store = folder / "models.abut";
         std::vector<std::string> files;
@@ -145,7 +146,7 @@ TEST(OutOfCore, FindsWhatIsFoundInCore) {
             for (const WorkOrder order : {WorkOrder::partition, WorkOrder::random}) {
                 try {
                     const StoreClashReport found =
-                        find_clashes(opened, options, {.memory = memory, .order = order});
+                        find_clashes(opened, options, {.memory = memory, .order = order, .keep = false});
                     expect_equal(found.report, found.models, truth, scenes);
                     ASSERT_LE(found.counters.peak_bytes, memory);
                     ASSERT_GE(found.counters.mesh_loads, found.counters.meshes);
@@ -166,6 +167,63 @@ TEST(OutOfCore, FindsWhatIsFoundInCore) {
     EXPECT_GT(clashes, 100U);
     EXPECT_GT(cut_up, runs / 4);
     EXPECT_GT(loaded_again, runs / 8);
+}
+
+/// A job that is stopped again and again, each time after some more pairs, ends with the same.
+TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
+    Random random(6104);
+    std::size_t stops = 0, recalled = 0;
+    for (int round = 0; round < many(4); ++round) {
+        const Folder folder;
+        const std::string model = folder / "a.glb", store = folder / "a.abut";
+        Scene scene = some_scene(random, 150, 4);
+        write_glb(scene, model);
+        (void)import_models({model}, store);
+        std::vector<Scene> scenes = read_scenes({model});
+        ClashOptions options;
+        options.clearance = 0.02;
+        options.rules = some_rules(random);
+        const ClashReport truth = find_clashes(scenes, options);
+        const OutOfCoreOptions little{.memory = 800'000};
+        bool first = true;
+        for (bool done = false; !done;) {
+            std::atomic<bool> stop = false;
+            ClashOptions stopped = options;
+            stopped.progress.stop = &stop;
+            const double share = first ? random.uniform(0.1, 0.9) : random.uniform(0.2, 1.2);
+            first = false;
+            stopped.progress.report = [&](std::string_view stage, double at) {
+                if (stage == "narrow phase" && at >= share)
+                    stop = true;
+            };
+            try {
+                const StoreClashReport found = find_clashes(open_store(store), stopped, little);
+                expect_equal(found.report, found.models, truth, scenes);
+                EXPECT_TRUE(found.counters.kept);
+                recalled += found.counters.recalled_pairs > 0 ? 1 : 0;
+                done = true;
+            } catch (const Error& error) {
+                ASSERT_EQ(error.code(), ErrorCode::interrupted) << error.what();
+                ++stops;
+            }
+        }
+        // Asked once more, it is known; of other parts it is not.
+        const StoreClashReport again = find_clashes(open_store(store), options, little);
+        expect_equal(again.report, again.models, truth, scenes);
+        EXPECT_EQ(again.counters.recalled_pairs, truth.candidates);
+        EXPECT_EQ(again.counters.mesh_loads, 0U);
+        scene.parts.pop_back();
+        write_glb(scene, model);
+        (void)import_models({model}, store);
+        scenes = read_scenes({model});
+        const StoreClashReport fewer = find_clashes(open_store(store), options, little);
+        expect_equal(fewer.report, fewer.models, find_clashes(scenes, options), scenes);
+        EXPECT_EQ(fewer.counters.recalled_pairs, 0U);
+        verify(open_store(store));
+    }
+    std::cout << stops << " stops, " << recalled << " jobs went on\n";
+    EXPECT_GE(stops, static_cast<std::size_t>(many(4)) / 2);
+    EXPECT_GT(recalled, 0U);
 }
 
 TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
