@@ -127,10 +127,13 @@ int run(int argc, char** argv) {
 
     MassiveSuiteOptions massive;
     CLI::App* massive_suite = app.add_subcommand(
-        "massive", "Models beyond the memory: import into a store, against reading them whole");
+        "massive",
+        "Models beyond the memory: import into a store and its clashes, against the same in core");
     massive_suite->add_option("--plants", massive.plants, "Triangles of each plant");
     massive_suite->add_option("--sheet", massive.sheet, "Triangles of the one large mesh; 0: none");
     massive_suite->add_option("--memory", massive.memory, "Bytes that the import keeps to");
+    massive_suite->add_option("--clash-memory", massive.clash_memory,
+                              "Bytes that the clash job keeps to, each in turn");
     massive_suite->add_option("--rounds", massive.rounds, "Passes; medians are printed")
         ->check(CLI::Range(1, 1000));
     massive_suite->callback([&] { report = run_massive_suite(massive); });

@@ -1,11 +1,14 @@
+#include <abut/clash.h>
 #include <abut/error.h>
 #include <abut/scene.h>
 #include <abut/store.h>
+#include <abut/store_clash.h>
 
 #include "measure.h"
 #include "scenes/plant.h"
 #include "suites.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -95,6 +98,54 @@ Row import_row(const std::string& name, const ScratchFolder& folder, const std::
     return row;
 }
 
+/// The clash job of a store against the one in core, import and reading left out. In order and at
+/// random: what the partition saves.
+void add_clash_rows(const std::string& name, const std::string& store, const std::string& model,
+                    const MassiveSuiteOptions& options, Report& report) {
+    const Store opened = open_store(store);
+    const std::vector<Scene> models{read_scene(model)};
+    for (const double clearance : {0.005, 1.0})
+        for (const std::uint64_t memory : options.clash_memory)
+            for (const WorkOrder order : {WorkOrder::partition, WorkOrder::random}) {
+                ClashOptions clash;
+                clash.clearance = clearance;
+                StoreClashReport found;
+                ClashReport truth;
+                const bool in_order = order == WorkOrder::partition;
+                Row row{fmt::format("{}, clash {} m, {} MiB, {}", name, clearance, memory >> 20,
+                                    in_order ? "partition" : "random order"),
+                        0,
+                        in_order ? "in core" : "",
+                        0,
+                        "s",
+                        1,
+                        {}};
+                const auto in_core = [&] { truth = find_clashes(models, clash); };
+                const Turns turns = take_turns(
+                    options.rounds,
+                    [&] {
+                        found = find_clashes(opened, clash,
+                                             {.memory = memory, .order = order, .keep = false});
+                    },
+                    in_order ? in_core : std::function<void()>());
+                row.ours = turns.ours;
+                row.theirs = turns.theirs;
+                const OutOfCoreCounters& work = found.counters;
+                row.counters["candidates"] = static_cast<double>(found.report.candidates);
+                row.counters["clashes"] = static_cast<double>(found.report.clashes.size());
+                if (in_order)
+                    row.counters["clashes in core"] = static_cast<double>(truth.clashes.size());
+                row.counters["units"] = static_cast<double>(work.units);
+                row.counters["meshes"] = static_cast<double>(work.meshes);
+                row.counters["mesh loads"] = static_cast<double>(work.mesh_loads);
+                row.counters["bytes read for one needed"] =
+                    static_cast<double>(work.bytes_read) /
+                    std::max(1.0, static_cast<double>(work.bytes_needed));
+                row.counters["peak of models, MiB"] = static_cast<double>(work.peak_bytes >> 20);
+                report.rows.push_back(row);
+            }
+}
+
 } // namespace
 
 Report run_massive_suite(const MassiveSuiteOptions& options) {
@@ -105,6 +156,10 @@ Report run_massive_suite(const MassiveSuiteOptions& options) {
         write_glb(make_plant({.triangles = triangles}).scene, model);
         report.rows.push_back(
             import_row(fmt::format("import, plant of {}", triangles), folder, model, options));
+        write_glb(make_plant({.triangles = triangles, .distinct = true}).scene, model);
+        const std::string name = fmt::format("plant of {}, nothing shared", triangles);
+        report.rows.push_back(import_row("import, " + name, folder, model, options));
+        add_clash_rows(name, folder / "store.abut", model, options, report);
     }
     if (options.sheet > 0) {
         const std::string model = folder / "sheet.stl";

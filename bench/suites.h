@@ -34,10 +34,12 @@ struct MassiveSuiteOptions {
     std::vector<std::uint64_t> plants = {2'000'000}; ///< triangles of each, instances counted
     std::uint64_t sheet = 2'000'000;                 ///< triangles of one mesh; 0: none
     std::uint64_t memory = std::uint64_t{512} << 20; ///< of the import
+    std::vector<std::uint64_t> clash_memory = {std::uint64_t{512} << 20, std::uint64_t{64} << 20};
     int rounds = 3;
 };
 
-/// Imports into a store, against `read_scene` of the same files, which keeps all in memory.
+/// Imports into a store, against `read_scene` of the same files, which keeps all in memory; clashes
+/// of the store, against the job in core.
 /// Errors      as import_models.
 Report run_massive_suite(const MassiveSuiteOptions& options);
 

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <future>
 #include <iterator>
+#include <malloc.h>
 #include <map>
 #include <tbb/global_control.h>
 #include <unordered_map>
@@ -79,6 +80,8 @@ Plan make_plan(StoreFile& store, const ClashOptions& options, const OutOfCoreOpt
                                  store.path());
     if (plan.record != nullptr)
         plan.record->plan(plan.units);
+    // What the broad phase and the partition needed is free for models, and not in small pieces.
+    malloc_trim(0);
     progress.advance();
     return plan;
 }

@@ -8,7 +8,6 @@
 #include "volume/aabb.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace abut {
 
@@ -22,9 +21,8 @@ constexpr std::uint64_t kBytesPerTriangle = 72, kBytesPerVertex = 60, kBytesPerM
 
 StoredParts gather_parts(StoreFile& store, bool with_names) {
     StoredParts result;
-    std::unordered_map<std::int64_t, std::uint32_t> mesh_index;
+
     store.for_each_mesh([&](const MeshRow& mesh) {
-        mesh_index.emplace(mesh.mesh, static_cast<std::uint32_t>(result.meshes.size()));
         result.meshes.push_back(
             {mesh.mesh,
              kBytesPerTriangle * mesh.triangles + kBytesPerVertex * mesh.vertices + kBytesPerModel,
@@ -43,12 +41,15 @@ StoredParts gather_parts(StoreFile& store, bool with_names) {
         Scene& scene = result.scenes.emplace_back();
         scene.file = result.models[m].file;
         store.for_each_part(result.models[m], [&](const PartRow& part) {
-            const auto mesh = mesh_index.find(part.mesh);
-            if (mesh == mesh_index.end())
+            // Meshes come in the order of their numbers.
+            const auto mesh =
+                std::ranges::lower_bound(result.meshes, part.mesh, {}, &StoredMesh::mesh);
+            if (mesh == result.meshes.end() || mesh->mesh != part.mesh)
                 throw Error(ErrorCode::malformed, store.path(),
                             "is damaged: part " + part.id + " shows a mesh that is missing");
-            result.parts.push_back(
-                {part.box, part.part, mesh->second, m, static_cast<std::uint32_t>(part.number)});
+            result.parts.push_back({part.box, part.part,
+                                    static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
+                                    static_cast<std::uint32_t>(part.number)});
             if (with_names)
                 scene.parts.push_back({part.id, part.name, part.type, 0, {}});
         });
