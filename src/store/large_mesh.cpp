@@ -26,13 +26,17 @@ struct FloatPosition {
 struct VertexByPosition {
     std::array<std::uint32_t, 3> bits{};
     std::uint32_t number = 0;
-    friend auto operator<=>(const VertexByPosition&, const VertexByPosition&) = default;
+    friend bool operator<(const VertexByPosition& a, const VertexByPosition& b) {
+        return a.bits != b.bits ? a.bits < b.bits : a.number < b.number;
+    }
 };
 
 /// A vertex and the first one at the same position.
 struct VertexAndFirst {
     std::uint32_t number = 0, first = 0;
-    friend auto operator<=>(const VertexAndFirst&, const VertexAndFirst&) = default;
+    friend bool operator<(const VertexAndFirst& a, const VertexAndFirst& b) {
+        return a.number < b.number;
+    }
 };
 
 class LargeMeshImport : public MeshSink {
