@@ -252,7 +252,7 @@ LargeMesh import_large_mesh(const SceneSource& source, std::uint32_t mesh,
                             std::span<const Transform> placements, std::uint64_t memory,
                             const Progress& progress, StoreWriter& writer) {
     const SceneSource::Size size = source.size(mesh);
-    const std::string folder = source.folder();
+    const std::string& folder = source.folder();
     LargeMeshImport import(size, placements, folder, memory, progress, writer);
     source.read(mesh, import);
     return import.finish();
