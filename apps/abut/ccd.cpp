@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <memory>
+#include <utility>
 
 namespace abut::command {
 
@@ -82,23 +83,16 @@ public:
         CcdStep step;
         step.from = from;
         step.to = to;
-        Mesh frame = read_frame(to);
-        const std::string change = topology_change(surface_, frame);
-        step.topology_changed = !change.empty();
-        if (step.topology_changed && !allow_topology_changes_)
-            throw Error(
-                ErrorCode::bad_mesh, to,
-                fmt::format("has {} as {} has (see --allow-topology-changes)", change, from));
-        const Stopwatch refit;
-        if (step.topology_changed) {
-            surface_.set_mesh(std::move(frame));
-        } else {
-            std::vector<std::array<std::uint32_t, 3>>().swap(frame.triangles); // the surface's
-            surface_.advance(frame.positions);
-        }
-        step.seconds_refit = refit.seconds();
-        if (!step.topology_changed)
+        auto positions = read_frame_positions(to, surface_.vertex_count(), surface_.triangles());
+        step.topology_changed = !positions;
+        if (positions) {
+            const Stopwatch refit;
+            surface_.advance(std::move(*positions));
+            step.seconds_refit = refit.seconds();
             detect(step);
+        } else {
+            change_topology(from, to, step);
+        }
         step.vertices = surface_.vertex_count();
         step.edges = surface_.edges().size();
         step.triangles = surface_.triangles().size();
@@ -108,6 +102,20 @@ public:
     }
 
 private:
+    void change_topology(const std::string& from, const std::string& to, CcdStep& step) {
+        Mesh frame = read_frame(to);
+        const std::string change = topology_change(surface_, frame);
+        if (change.empty()) // it had others a moment ago
+            throw Error(ErrorCode::unreadable, to, "is being written to");
+        if (!allow_topology_changes_)
+            throw Error(
+                ErrorCode::bad_mesh, to,
+                fmt::format("has {} as {} has (see --allow-topology-changes)", change, from));
+        const Stopwatch refit;
+        surface_.set_mesh(std::move(frame));
+        step.seconds_refit = refit.seconds();
+    }
+
     void detect(CcdStep& step) {
         const Stopwatch watch;
         const Impacts impacts = self_impacts(surface_, options_);

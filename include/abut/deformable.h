@@ -128,6 +128,8 @@ public:
     void set_motion(std::span<const Vec3> start, std::span<const Vec3> end);
     /// The next step: what was the end is the start. Errors and cost as set_motion.
     void advance(std::span<const Vec3> end);
+    /// The same; the memory of the positions is free before the hierarchy is fitted.
+    void advance(std::vector<Vec3>&& end);
 
     /// Takes another mesh, at rest: cutting, fracture, remeshing. What is represented by a triangle
     /// that has the same three vertices in the same order at the same index stays so.

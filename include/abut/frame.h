@@ -2,7 +2,13 @@
 
 #include <abut/mesh.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace abut {
 
@@ -20,8 +26,16 @@ namespace abut {
 ///             triangle strips, an index that is a real number); malformed (not of its format, cut
 ///             short, or going on after its last element); bad_mesh (an index out of range, a
 ///             coordinate that is not finite or beyond 1e18, no triangles).
-/// Cost        linear; memory for the file and for the mesh.
+/// Cost        linear; memory for the mesh, and some 512 KiB of the file at a time.
 Mesh read_frame(const std::string& path);
+
+/// The positions of a frame that has so many vertices and these triangles, as another of its
+/// sequence has; none if it has others. They are compared as they are read, and not held again.
+///
+/// Errors      as read_frame; of a frame that has others, not all are found.
+std::optional<std::vector<Vec3>>
+read_frame_positions(const std::string& path, std::size_t vertices,
+                     std::span<const std::array<std::uint32_t, 3>> triangles);
 
 /// Writes a frame as binary little-endian PLY, atomically, so that `read_frame` gives the same mesh:
 /// positions as floats if all of them are floats exactly, else as doubles.

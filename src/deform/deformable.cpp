@@ -116,6 +116,16 @@ void DeformableData::fit_boxes() {
     flat_regions.fit(swept.leaves.faces, triangles, vertices);
 }
 
+void DeformableData::move_on(std::span<const Vec3> end) {
+    if (end.size() != vertices.size())
+        throw Error(ErrorCode::bad_argument, std::to_string(end.size()) + " positions for " +
+                                                 std::to_string(vertices.size()) + " vertices");
+    require_valid_positions(end);
+    parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
+        vertices[i] = {vertices[i].end, end[i]};
+    });
+}
+
 void DeformableData::refit() {
     fit_boxes();
     if (looseness() > kMostLooseness * looseness_when_built_)
@@ -202,15 +212,14 @@ void Deformable::set_motion(std::span<const Vec3> start, std::span<const Vec3> e
 }
 
 void Deformable::advance(std::span<const Vec3> end) {
-    DeformableData& d = *data_;
-    if (end.size() != d.vertices.size())
-        throw Error(ErrorCode::bad_argument, std::to_string(end.size()) + " positions for " +
-                                                 std::to_string(d.vertices.size()) + " vertices");
-    require_valid_positions(end);
-    parallel_for(d.vertices.size(), kGrain, [&](std::size_t i) {
-        d.vertices[i] = {d.vertices[i].end, end[i]};
-    });
-    d.refit();
+    data_->move_on(end);
+    data_->refit();
+}
+
+void Deformable::advance(std::vector<Vec3>&& end) {
+    data_->move_on(end);
+    std::vector<Vec3>().swap(end);
+    data_->refit();
 }
 
 void Deformable::adapt(const Impacts& impacts) {

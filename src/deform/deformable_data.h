@@ -43,6 +43,8 @@ public:
     void find_edges_of_triangles();
     /// Builds the hierarchy anew.
     void build();
+    /// The next step's motion, without its boxes. Errors as Deformable::advance.
+    void move_on(std::span<const Vec3> end);
     /// Fits all boxes to the motion; builds the hierarchy anew where that is worth it.
     void refit();
 

@@ -10,14 +10,6 @@
 
 namespace abut {
 
-void append_fan(std::span<const std::uint64_t> corners,
-                std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    for (std::size_t i = 2; i < corners.size(); ++i)
-        triangles.push_back({static_cast<std::uint32_t>(corners[0]),
-                             static_cast<std::uint32_t>(corners[i - 1]),
-                             static_cast<std::uint32_t>(corners[i])});
-}
-
 void require_frame(const Mesh& mesh, const std::string& path) {
     if (mesh.positions.size() > std::numeric_limits<std::uint32_t>::max())
         throw Error(ErrorCode::bad_mesh, path, "has too many vertices for one mesh");
@@ -32,27 +24,66 @@ void require_frame(const Mesh& mesh, const std::string& path) {
 
 namespace {
 
-Mesh read_unchecked(const std::string& path) {
+void read_unchecked(const std::string& path, std::vector<Vec3>& positions, FrameFaces& faces) {
     const std::string extension = lower_extension(path);
     if (extension != ".obj" && extension != ".ply")
-        throw Fault(ErrorCode::unsupported, "frames are read from .obj and .ply files only");
-    ByteStream content = ByteStream::open(path);
-    return extension == ".obj" ? read_obj_frame(content) : read_ply_frame(content);
+        throw Error(ErrorCode::unsupported, path, "frames are read from .obj and .ply files only");
+    try {
+        ByteStream content = ByteStream::open(path);
+        (extension == ".obj" ? read_obj_frame : read_ply_frame)(content, positions, faces);
+    } catch (const Fault& fault) {
+        throw Error(fault.code(), path, fault.what());
+    }
 }
+
+/// Compares with the triangles of another frame.
+class SameFaces : public FrameFaces {
+public:
+    explicit SameFaces(std::span<const std::array<std::uint32_t, 3>> triangles)
+        : rest_(triangles) {}
+    void take(std::span<const std::uint64_t> corners) override {
+        for_each_of_fan(corners, [&](const auto& triangle) {
+            same_ = same_ && !rest_.empty() && rest_.front() == triangle;
+            if (same_)
+                rest_ = rest_.subspan(1);
+        });
+    }
+    /// All of them, and no more.
+    [[nodiscard]] bool same() const { return same_ && rest_.empty(); }
+
+private:
+    std::span<const std::array<std::uint32_t, 3>> rest_;
+    bool same_ = true;
+};
 
 } // namespace
 
 Mesh read_frame(const std::string& path) {
+    Mesh mesh;
+    CollectedFaces faces(mesh.triangles);
+    read_unchecked(path, mesh.positions, faces);
+    require_frame(mesh, path);
+    // Many frames may be held: no more of each than it needs.
+    mesh.positions.shrink_to_fit();
+    mesh.triangles.shrink_to_fit();
+    return mesh;
+}
+
+std::optional<std::vector<Vec3>>
+read_frame_positions(const std::string& path, std::size_t vertices,
+                     std::span<const std::array<std::uint32_t, 3>> triangles) {
+    std::vector<Vec3> positions;
+    SameFaces faces(triangles);
+    read_unchecked(path, positions, faces);
+    if (!faces.same() || positions.size() != vertices)
+        return std::nullopt;
     try {
-        Mesh mesh = read_unchecked(path);
-        require_frame(mesh, path);
-        // Many frames may be held: no more of each than it needs.
-        mesh.positions.shrink_to_fit();
-        mesh.triangles.shrink_to_fit();
-        return mesh;
-    } catch (const Fault& fault) {
-        throw Error(fault.code(), path, fault.what());
+        require_valid_positions(positions);
+    } catch (const Error& error) {
+        throw Error(error.code(), path, error.what());
     }
+    positions.shrink_to_fit();
+    return positions;
 }
 
 } // namespace abut

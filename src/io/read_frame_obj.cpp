@@ -15,15 +15,13 @@ double take_number(std::string_view& rest, const LineScan& lines) {
 
 } // namespace
 
-Mesh read_obj_frame(ByteStream& content) {
-    Mesh mesh;
+void read_obj_frame(ByteStream& content, std::vector<Vec3>& positions, FrameFaces& faces) {
     const auto take_vertex = [&](std::string_view rest, const LineScan& lines) {
         const double x = take_number(rest, lines), y = take_number(rest, lines),
                      z = take_number(rest, lines);
-        mesh.positions.push_back({x, y, z});
+        positions.push_back({x, y, z});
     };
-    scan_obj(content, take_vertex, [&](auto corners) { append_fan(corners, mesh.triangles); });
-    return mesh;
+    scan_obj(content, take_vertex, [&](auto corners) { faces.take(corners); });
 }
 
 } // namespace abut

@@ -45,17 +45,16 @@ void take_vertices(PlyBody& body, const PlyElement& element, std::vector<Vec3>& 
 
 } // namespace
 
-Mesh read_ply_frame(ByteStream& content) {
+void read_ply_frame(ByteStream& content, std::vector<Vec3>& positions, FrameFaces& faces) {
     const PlyHeader header = read_ply_header(content);
     PlyBody body(header, content);
-    Mesh mesh;
     for (const PlyElement& element : header.elements) {
         if (element.name == "vertex") {
-            take_vertices(body, element, mesh.positions);
+            take_vertices(body, element, positions);
         } else if (element.name == "face") {
-            mesh.triangles.reserve(mesh.triangles.size() + body.most(element));
+            faces.expect(body.most(element));
             take_ply_faces(body, element, header.vertices(),
-                           [&](auto corners) { append_fan(corners, mesh.triangles); });
+                           [&](auto corners) { faces.take(corners); });
         } else if (element.name == "tristrips") {
             throw Fault(ErrorCode::unsupported, "holds triangle strips");
         } else {
@@ -65,7 +64,6 @@ Mesh read_ply_frame(ByteStream& content) {
     // A header that contradicts its data shows in nothing else: bytes of any type are numbers.
     if (!body.at_end())
         malformed("goes on after its last element");
-    return mesh;
 }
 
 } // namespace abut

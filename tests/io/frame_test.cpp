@@ -48,6 +48,30 @@ TEST_F(Frames, TheTetrahedronInEveryFormat) {
     }
 }
 
+TEST_F(Frames, PositionsAloneWhereTheTrianglesAreTheSame) {
+    const auto samples = sample_files();
+    for (const char* const name : {"text.ply", "little.ply", "big.ply", "sample.obj"}) {
+        SCOPED_TRACE(name);
+        const Mesh mesh = read(name, samples.at(name));
+        const std::string path = folder_.path(name);
+        EXPECT_EQ(read_frame_positions(path, mesh.positions.size(), mesh.triangles),
+                  mesh.positions);
+        EXPECT_FALSE(read_frame_positions(path, mesh.positions.size() + 1, mesh.triangles));
+        Triangles others = mesh.triangles;
+        std::swap(others[1][0], others[1][1]);
+        EXPECT_FALSE(read_frame_positions(path, mesh.positions.size(), others));
+        others = mesh.triangles;
+        others.pop_back();
+        EXPECT_FALSE(read_frame_positions(path, mesh.positions.size(), others));
+        others = mesh.triangles;
+        others.push_back(others.front());
+        EXPECT_FALSE(read_frame_positions(path, mesh.positions.size(), others));
+    }
+    const Mesh mesh = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string bad = folder_.file("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1e30 0\nf 1 2 3\n");
+    error_of(bad, ErrorCode::bad_mesh, [&] { (void)read_frame_positions(bad, 3, mesh.triangles); });
+}
+
 TEST_F(Frames, VerticesAreNeitherJoinedNorLeftOut) {
     // 1 repeats 0, 3 is not used, 5 repeats 4 with another sign of zero.
     const std::vector<Vec3> positions{{0, 0, 0}, {0, 0, 0}, {1, 0, 0},
