@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,7 +11,10 @@ namespace abut {
 /// before some 10^18 of them.
 struct Hash128 {
     std::uint64_t low = 0, high = 0;
-    friend auto operator<=>(const Hash128&, const Hash128&) = default;
+    friend bool operator==(const Hash128&, const Hash128&) = default;
+    friend bool operator<(const Hash128& a, const Hash128& b) {
+        return a.high != b.high ? a.high < b.high : a.low < b.low;
+    }
 };
 
 /// Source      XXH3 [Collet], unseeded: the same on every machine. Not for adversaries who look for

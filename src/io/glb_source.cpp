@@ -39,7 +39,7 @@ struct Elements {
 template <typename Take>
 void walk(const GlbDocument& document, const Take& take) {
     struct Visit {
-        std::uint32_t node;
+        std::uint32_t node = 0;
         Transform world_from_parent;
     };
     const std::uint64_t nodes = document.nodes.size();

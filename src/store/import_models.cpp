@@ -227,7 +227,8 @@ ImportReport import_models(const std::vector<std::string>& files, const std::str
     if (options.memory < kLeastMemory)
         throw Error(ErrorCode::bad_argument, "an import needs at least 16 MiB of memory");
     const std::vector<ModelFile> found = check_files(files, store);
-    const bool is_new = !std::filesystem::exists(store);
+    std::error_code unknown;
+    const bool is_new = !std::filesystem::exists(store, unknown);
     std::optional<StoreImport> import;
     try {
         import.emplace(store, options);

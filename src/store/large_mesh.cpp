@@ -26,13 +26,17 @@ struct FloatPosition {
 struct VertexByPosition {
     std::array<std::uint32_t, 3> bits{};
     std::uint32_t number = 0;
-    friend auto operator<=>(const VertexByPosition&, const VertexByPosition&) = default;
+    friend bool operator<(const VertexByPosition& a, const VertexByPosition& b) {
+        return a.bits != b.bits ? a.bits < b.bits : a.number < b.number;
+    }
 };
 
 /// A vertex and the first one at the same position.
 struct VertexAndFirst {
     std::uint32_t number = 0, first = 0;
-    friend auto operator<=>(const VertexAndFirst&, const VertexAndFirst&) = default;
+    friend bool operator<(const VertexAndFirst& a, const VertexAndFirst& b) {
+        return a.number < b.number;
+    }
 };
 
 class LargeMeshImport : public MeshSink {
@@ -248,7 +252,7 @@ LargeMesh import_large_mesh(const SceneSource& source, std::uint32_t mesh,
                             std::span<const Transform> placements, std::uint64_t memory,
                             const Progress& progress, StoreWriter& writer) {
     const SceneSource::Size size = source.size(mesh);
-    const std::string folder = source.folder();
+    const std::string& folder = source.folder();
     LargeMeshImport import(size, placements, folder, memory, progress, writer);
     source.read(mesh, import);
     return import.finish();

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <bit>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +13,13 @@
 namespace abut {
 
 namespace {
+
+/// -0 differs from 0: a store gives back what the file has.
+bool same_bits(const Transform& a, const Transform& b) {
+    return std::equal(a.m.begin(), a.m.end(), b.m.begin(), [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+    });
+}
 
 class PartMerge {
 public:
@@ -22,8 +29,9 @@ public:
           generation_(generation), progress_(progress), model_(model), database_(database),
           find_(database,
                 std::string("SELECT ") + kPartColumns + " FROM part WHERE model = ? AND id = ?"),
-          put_(database, "INSERT OR REPLACE INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
-          put_box_(database, "INSERT OR REPLACE INTO part_box VALUES (?,?,?,?,?,?,?)"),
+          // No OR REPLACE: for each of those SQLite would keep a journal of its own.
+          add_(database, "INSERT INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
+          add_box_(database, "INSERT OR FAIL INTO part_box VALUES (?,?,?,?,?,?,?)"),
           remove_(database, "DELETE FROM part WHERE part = ?"),
           remove_box_(database, "DELETE FROM part_box WHERE part = ?"),
           next_(database.number("SELECT seq FROM sqlite_sequence WHERE name = 'part'") + 1) {}
@@ -44,8 +52,8 @@ public:
             } else {
                 part.part = next_++;
                 part.generation = generation_;
-                put(part);
-                put_box(part);
+                add(part);
+                add_box(part);
                 ++changes_.added;
             }
             model_.parts_sum += part.checksum();
@@ -97,35 +105,35 @@ private:
         const bool same_box = before.box == part.box;
         const bool same = same_box && before.mesh == part.mesh && before.name == part.name &&
                           before.type == part.type &&
-                          std::memcmp(&before.world_from_mesh, &part.world_from_mesh,
-                                      sizeof part.world_from_mesh) == 0;
+                          same_bits(before.world_from_mesh, part.world_from_mesh);
         if (same && before.number == part.number)
             return;
         if (!same) {
             part.generation = generation_;
             ++changes_.changed;
         }
-        put(part);
+        remove_.bind(part.part).run();
+        add(part);
         if (!same_box) {
             remove_box_.bind(part.part).run();
-            put_box(part);
+            add_box(part);
         }
     }
 
-    void put(const PartRow& part) {
+    void add(const PartRow& part) {
         const Box3& box = part.box;
-        put_.bind(part.part, part.model, part.number, part.mesh, part.id, part.name, part.type,
+        add_.bind(part.part, part.model, part.number, part.mesh, part.id, part.name, part.type,
                   box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z,
                   std::as_bytes(std::span(part.world_from_mesh.m)), part.generation,
                   part.checksum())
             .run();
     }
 
-    void put_box(const PartRow& part) {
+    void add_box(const PartRow& part) {
         if (is_empty(part.box))
             return;
         const Box3& box = part.box;
-        put_box_
+        add_box_
             .bind(part.part, box.lower.x, box.upper.x, box.lower.y, box.upper.y, box.lower.z,
                   box.upper.z)
             .run();
@@ -145,7 +153,7 @@ private:
     const Progress& progress_;
     ModelRow& model_;
     Database& database_;
-    Statement find_, put_, put_box_, remove_, remove_box_;
+    Statement find_, add_, add_box_, remove_, remove_box_;
     std::int64_t next_;
     PartChanges changes_;
 };

@@ -27,10 +27,12 @@ void check_pages(StoreFile& file) {
     file.with_connection([&](Database& database) {
         Statement check(database, "PRAGMA integrity_check(1)");
         if (check.step() && check.text(0) != "ok")
-            throw Error(ErrorCode::malformed, file.path(), "is damaged: " + one_line(check.text(0)));
+            throw Error(ErrorCode::malformed, file.path(),
+                        "is damaged: " + one_line(check.text(0)));
         Statement boxes(database, "SELECT rtreecheck('part_box')");
         if (boxes.step() && boxes.text(0) != "ok")
-            throw Error(ErrorCode::malformed, file.path(), "is damaged: " + one_line(boxes.text(0)));
+            throw Error(ErrorCode::malformed, file.path(),
+                        "is damaged: " + one_line(boxes.text(0)));
     });
 }
 

@@ -25,8 +25,7 @@ TEST(StoreOfData, IsTheSameAsReadScene) {
     std::string folder = (std::filesystem::temp_directory_path() / "abut-data-XXXXXX").string();
     ASSERT_NE(mkdtemp(folder.data()), nullptr);
     const std::string store = folder + "/s.abut";
-    const ImportReport report =
-        import_models(files, store, {.memory = std::uint64_t{64} << 20});
+    const ImportReport report = import_models(files, store, {.memory = std::uint64_t{64} << 20});
     for (std::size_t i = 0; i < files.size(); ++i) {
         SCOPED_TRACE(files[i]);
         EXPECT_TRUE(report.models.at(i).streamed);

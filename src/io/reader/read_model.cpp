@@ -6,8 +6,8 @@
 #include "io/reader/joined_vertices.h"
 #include "io/reader/node_parts.h"
 #include "io/reader/promise.h"
-#include "io/triangulate.h"
 #include "io/scene_stream.h"
+#include "io/triangulate.h"
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
