@@ -40,7 +40,7 @@ public:
         const std::size_t all = unit.pairs.size();
         if (std::any_of(lists.begin(), lists.end(),
                         [&](const auto& list) { return list.size() == all; })) {
-            fill_in_order(std::move(unit.pairs), is_cut);
+            fill_in_order(unit.pairs, is_cut);
             return;
         }
         unit = WorkUnit();
@@ -49,7 +49,7 @@ public:
     }
 
     /// Units of pairs as they come.
-    void fill_in_order(std::vector<IndexPair> pairs, bool is_cut = false) {
+    void fill_in_order(const std::vector<IndexPair>& pairs, bool is_cut = false) {
         std::vector<IndexPair> some;
         std::uint64_t bytes = 0;
         ++stamp_;
@@ -223,7 +223,7 @@ std::vector<WorkUnit> make_work_units(const StoredParts& stored, std::vector<Ind
     Partition partition(stored, budget, store);
     if (order == WorkOrder::random) {
         std::shuffle(pairs.begin(), pairs.end(), std::mt19937_64(1));
-        partition.fill_in_order(std::move(pairs));
+        partition.fill_in_order(pairs);
         return partition.take();
     }
     partition.cut(std::move(pairs));
