@@ -1,0 +1,182 @@
+#include "pieces/hull_tree.h"
+
+#include "convex/exact_hull.h"
+#include "math/vector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace abut {
+
+namespace {
+
+/// Below so many vertices a climb from any is as fast as a table's answer.
+constexpr std::size_t kNoTable = 8;
+
+/// A hull, and which of the points given its vertices are.
+struct SourcedHull {
+    Polytope polytope;
+    std::vector<std::uint32_t> source;
+};
+
+SourcedHull hull_of(std::span<const Vec3> positions, std::span<const std::uint32_t> numbers) {
+    std::vector<Vec3> points;
+    points.reserve(numbers.size());
+    for (const std::uint32_t v : numbers)
+        points.push_back(positions[v]);
+    HullSurface hull = exact_hull(points);
+    std::vector<std::uint32_t> number(points.size());
+    std::vector<Vec3> corners;
+    SourcedHull result;
+    for (const std::uint32_t p : hull.vertices) {
+        number[p] = static_cast<std::uint32_t>(corners.size());
+        corners.push_back(points[p]);
+        result.source.push_back(numbers[p]);
+    }
+    for (IndexTriangle& t : hull.triangles)
+        for (std::uint32_t& v : t)
+            v = number[v];
+    result.polytope = make_polytope(corners, hull.triangles);
+    if (corners.size() > kNoTable) {
+        const double resolution = std::round(2 * std::sqrt(static_cast<double>(corners.size())));
+        result.polytope.starts =
+            NormalTable(result.polytope, static_cast<std::uint32_t>(resolution));
+    }
+    return result;
+}
+
+void set_sphere(HullNode& node) {
+    Box3 box;
+    for (const HullVertex& v : node.hull.vertices)
+        extend(box, v.at);
+    node.middle = box.lower + 0.5 * (box.upper - box.lower);
+    for (const HullVertex& v : node.hull.vertices)
+        node.radius = std::max(node.radius, length(v.at - node.middle));
+    node.radius *= 1 + 0x1p-48;
+}
+
+double half_area(const Box3& box) {
+    const Vec3 d = box.upper - box.lower;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+class Builder {
+public:
+    Builder(std::span<const Vec3> positions,
+            const std::vector<std::vector<std::uint32_t>>& vertices)
+        : positions_(positions), vertices_(vertices), boxes_(vertices.size()) {
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            for (const std::uint32_t v : vertices[i])
+                extend(boxes_[i], positions[v]);
+    }
+
+    HullTree run() && {
+        std::vector<std::uint32_t> pieces(vertices_.size());
+        std::iota(pieces.begin(), pieces.end(), 0);
+        tree_.nodes.emplace_back();
+        tree_.leaf_of.resize(pieces.size());
+        tree_.sources.resize(pieces.size());
+        build(0, pieces);
+        return std::move(tree_);
+    }
+
+private:
+    /// Returns the numbers of the positions that are vertices of the node's hull.
+    std::vector<std::uint32_t> build(std::uint32_t node, std::span<std::uint32_t> pieces) {
+        SourcedHull hull;
+        std::uint32_t child = HullNode::kLeaf;
+        if (pieces.size() == 1) {
+            hull = hull_of(positions_, vertices_[pieces[0]]);
+            tree_.nodes[node].piece = pieces[0];
+            tree_.leaf_of[pieces[0]] = node;
+            tree_.sources[pieces[0]] = hull.source;
+        } else {
+            const std::size_t cut = part(pieces);
+            child = static_cast<std::uint32_t>(tree_.nodes.size());
+            tree_.nodes.resize(tree_.nodes.size() + 2);
+            std::vector<std::uint32_t> all = build(child, pieces.first(cut));
+            const std::vector<std::uint32_t> more = build(child + 1, pieces.subspan(cut));
+            all.insert(all.end(), more.begin(), more.end());
+            std::sort(all.begin(), all.end());
+            all.erase(std::unique(all.begin(), all.end()), all.end());
+            hull = hull_of(positions_, all);
+        }
+        HullNode& n = tree_.nodes[node];
+        n.child = child;
+        n.hull = std::move(hull.polytope);
+        set_sphere(n);
+        return std::move(hull.source);
+    }
+
+    /// Orders the pieces so that the boxes of the first and of the others have the least area, times
+    /// the number of pieces in them; returns how many are first.
+    std::size_t part(std::span<std::uint32_t> pieces) {
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t cut = pieces.size() / 2;
+        int best_axis = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            sort(pieces, axis);
+            std::vector<double> area_after(pieces.size());
+            Box3 box;
+            for (std::size_t i = pieces.size(); i-- > 1;) {
+                merge(box, pieces[i]);
+                area_after[i] = half_area(box);
+            }
+            box = {};
+            for (std::size_t i = 1; i < pieces.size(); ++i) {
+                merge(box, pieces[i - 1]);
+                const double cost = half_area(box) * static_cast<double>(i) +
+                                    area_after[i] * static_cast<double>(pieces.size() - i);
+                if (cost < least)
+                    least = cost, cut = i, best_axis = axis;
+            }
+        }
+        // Depth stays logarithmic, whatever the pieces are.
+        const std::size_t margin = pieces.size() / 16;
+        sort(pieces, best_axis);
+        return std::clamp(cut, std::max<std::size_t>(margin, 1),
+                          pieces.size() - std::max<std::size_t>(margin, 1));
+    }
+
+    void merge(Box3& box, std::uint32_t piece) const {
+        extend(box, boxes_[piece].lower);
+        extend(box, boxes_[piece].upper);
+    }
+    void sort(std::span<std::uint32_t> pieces, int axis) const {
+        const auto key = [&](std::uint32_t p) {
+            return component(boxes_[p].lower, axis) + component(boxes_[p].upper, axis);
+        };
+        std::sort(pieces.begin(), pieces.end(), [&](std::uint32_t p, std::uint32_t q) {
+            const double kp = key(p), kq = key(q);
+            return kp != kq ? kp < kq : p < q;
+        });
+    }
+
+    std::span<const Vec3> positions_;
+    const std::vector<std::vector<std::uint32_t>>& vertices_;
+    std::vector<Box3> boxes_;
+    HullTree tree_;
+};
+
+} // namespace
+
+HullTree build_hull_tree(std::span<const Vec3> positions,
+                         const std::vector<std::vector<std::uint32_t>>& vertices) {
+    return Builder(positions, vertices).run();
+}
+
+std::size_t HullTree::bytes() const {
+    std::size_t sum = sizeof(*this) + nodes.capacity() * sizeof(HullNode) +
+                      leaf_of.capacity() * sizeof(std::uint32_t) +
+                      sources.capacity() * sizeof(sources[0]);
+    for (const HullNode& n : nodes)
+        sum += n.hull.vertices.capacity() * sizeof(HullVertex) +
+               n.hull.edges.capacity() * sizeof(HullEdge) +
+               n.hull.starts.vertices().capacity() * sizeof(std::uint32_t);
+    for (const auto& s : sources)
+        sum += s.capacity() * sizeof(std::uint32_t);
+    return sum;
+}
+
+} // namespace abut

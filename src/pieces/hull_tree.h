@@ -1,0 +1,42 @@
+#pragma once
+
+#include "convex/polytope.h"
+#include "mesh/surface_features.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// The convex hull of one piece, or of all that lie below.
+struct HullNode {
+    static constexpr std::uint32_t kLeaf = 0xffffffffU;
+
+    Polytope hull;
+    Vec3 middle; ///< no point of the hull is farther than `radius` from here
+    double radius = 0;
+    std::uint32_t child = kLeaf; ///< the first of two, which follow each other; kLeaf: a piece
+    std::uint32_t piece = 0;     ///< of a leaf
+
+    [[nodiscard]] bool is_leaf() const { return child == kLeaf; }
+};
+
+/// A binary hierarchy of hulls over convex pieces. Immutable once built.
+struct HullTree {
+    std::vector<HullNode> nodes;        ///< the root first
+    std::vector<std::uint32_t> leaf_of; ///< by piece
+    /// By piece: which of the positions each vertex of its hull is.
+    std::vector<std::vector<std::uint32_t>> sources;
+
+    [[nodiscard]] std::size_t bytes() const;
+};
+
+/// In          `vertices`: of each piece, numbers of positions; at least one piece and one vertex.
+/// Accuracy    exact hulls: a parent's holds those of its children.
+/// Cost        O(n log n) a level.
+/// Source      [Ehmann, Lin 2001]. Differs: parted by the surface area of boxes, top down.
+HullTree build_hull_tree(std::span<const Vec3> positions,
+                         const std::vector<std::vector<std::uint32_t>>& vertices);
+
+} // namespace abut
