@@ -65,7 +65,7 @@ public:
     PiecesWorkspace& operator=(PiecesWorkspace&&) noexcept;
 
     class Data;
-    [[nodiscard]] Data& data() noexcept { return *data_; }
+    [[nodiscard]] Data& data();
 
 private:
     std::unique_ptr<Data> data_;
@@ -74,6 +74,7 @@ private:
 /// Work that a query did: the machine-independent part of its cost.
 struct PiecesCounters {
     std::uint64_t hull_pairs = 0;    ///< pairs of hulls that were measured
+    std::uint64_t directions = 0;    ///< pairs of hulls that were compared along one direction
     std::uint64_t sphere_pairs = 0;  ///< pairs of spheres around them
     std::uint64_t feature_pairs = 0; ///< pairs of features that were measured
     std::uint64_t simplices = 0;     ///< of the search that takes over where walking ends

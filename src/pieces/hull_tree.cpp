@@ -77,7 +77,7 @@ public:
         tree_.nodes.emplace_back();
         tree_.leaf_of.resize(pieces.size());
         tree_.sources.resize(pieces.size());
-        build(0, pieces);
+        find_leaves(build(0, pieces));
         return std::move(tree_);
     }
 
@@ -107,6 +107,15 @@ private:
         n.hull = std::move(hull.polytope);
         set_sphere(n);
         return std::move(hull.source);
+    }
+
+    void find_leaves(const std::vector<std::uint32_t>& root_source) {
+        std::vector<std::uint32_t> leaf(positions_.size());
+        for (std::size_t piece = 0; piece < tree_.sources.size(); ++piece)
+            for (const std::uint32_t v : tree_.sources[piece])
+                leaf[v] = tree_.leaf_of[piece];
+        for (const std::uint32_t v : root_source)
+            tree_.leaf_at.push_back(leaf[v]);
     }
 
     /// Orders the pieces so that the boxes of the first and of the others have the least area, times
@@ -168,7 +177,7 @@ HullTree build_hull_tree(std::span<const Vec3> positions,
 
 std::size_t HullTree::bytes() const {
     std::size_t sum = sizeof(*this) + nodes.capacity() * sizeof(HullNode) +
-                      leaf_of.capacity() * sizeof(std::uint32_t) +
+                      (leaf_of.capacity() + leaf_at.capacity()) * sizeof(std::uint32_t) +
                       sources.capacity() * sizeof(sources[0]);
     for (const HullNode& n : nodes)
         sum += n.hull.vertices.capacity() * sizeof(HullVertex) +

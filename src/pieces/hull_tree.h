@@ -28,6 +28,7 @@ struct HullTree {
     std::vector<std::uint32_t> leaf_of; ///< by piece
     /// By piece: which of the positions each vertex of its hull is.
     std::vector<std::vector<std::uint32_t>> sources;
+    std::vector<std::uint32_t> leaf_at; ///< by vertex of the root's hull: a leaf that has it
 
     [[nodiscard]] std::size_t bytes() const;
 };

@@ -11,6 +11,14 @@ namespace {
 /// Pairs of features of two hulls of many pieces that are measured at most: these only bound.
 constexpr std::uint32_t kPatience = 24;
 
+/// Hulls that overlap along a direction by more than this share of the smaller's radius are opened
+/// at once: few of them are apart.
+constexpr double kDeep = 0.35;
+
+bool is_root(const BoundedPair& pair) {
+    return pair.hulls == HullPair{};
+}
+
 bool later(const BoundedPair& p, const BoundedPair& q) {
     return p.bound > q.bound;
 }
@@ -30,7 +38,9 @@ BoundedPair pop(std::vector<BoundedPair>& heap) {
 } // namespace
 
 bool PairSearch::try_pair(const HullPair& hulls, const ClosestPointSearch& start) {
-    ClosestPointSearch search = start;
+    ClosestPointSearch search;
+    search.at.a = start.at.a, search.at.b = start.at.b;
+    search.simplex = start.simplex;
     const PolytopePair pair = placed_.hulls(hulls);
     ++counters_.hull_pairs;
     if (search.simplex)
@@ -68,31 +78,51 @@ void PairSearch::measure_hulls(BoundedPair& pair, double floor) {
     counters_.feature_pairs += state.feature_pairs;
     pair.a = state.a, pair.b = state.b;
     // Where the walk ends early the hulls meet, mostly, and are opened anyway.
-    pair.bound = state.end == WalkEnd::closest
-                     ? std::max(floor, std::sqrt(state.distance_sq) - 4 * placed_.rounding)
-                     : floor;
+    pair.bound = floor;
+    pair.along = {};
+    if (state.end == WalkEnd::closest) {
+        pair.bound = std::max(floor, std::sqrt(state.distance_sq) - 4 * placed_.rounding);
+        pair.along = state.gap;
+    }
 }
 
-/// At the vertices that face each other.
-void PairSearch::begin(BoundedPair& pair) const {
+/// Sets the features to the vertices that are farthest towards each other in a direction. Returns
+/// how far apart the hulls are along it.
+double PairSearch::begin(BoundedPair& pair) {
     const PolytopePair hulls = placed_.hulls(pair.hulls);
-    const VertexPair start = facing_vertices(hulls, placed_.between(pair.hulls));
-    pair.a = vertex_feature(start.a), pair.b = vertex_feature(start.b);
-    pair.measured = true;
+    const Vec3 along = pair.along == Vec3{} ? placed_.between(pair.hulls) : pair.along;
+    const std::uint32_t a = farthest(*hulls.a.polytope, hulls.a.pulled_back(along)),
+                        b = farthest(*hulls.b.polytope, hulls.b.pulled_back(-along));
+    pair.a = vertex_feature(a), pair.b = vertex_feature(b);
+    pair.begun = true;
+    ++counters_.directions;
+    const double l = length(along);
+    return l > 0 ? dot(along, hulls.b.vertex(b) - hulls.a.vertex(a)) / l - 4 * placed_.rounding : 0;
 }
 
 bool PairSearch::may_meet(const HullPair& hulls) {
     BoundedPair pair;
     pair.hulls = hulls;
-    begin(pair);
+    if (begin(pair) > 0)
+        return false;
     measure_hulls(pair, 0);
     return !(pair.bound > 0);
 }
 
 void PairSearch::measure(BoundedPair& pair, double floor) {
-    if (!pair.measured)
-        begin(pair);
     placed_.are_pieces(pair.hulls) ? measure_pieces(pair) : measure_hulls(pair, floor);
+}
+
+/// To the pieces that have the closest vertices of the whole: they are the closest pieces, often,
+/// and never far from it.
+void PairSearch::jump(const BoundedPair& roots) {
+    const HullPair pieces{placed_.a.tree.leaf_at[roots.a.vertex],
+                          placed_.b.tree.leaf_at[roots.b.vertex]};
+    BoundedPair pair;
+    pair.hulls = pieces;
+    pair.along = roots.along;
+    begin(pair);
+    measure_pieces(pair);
 }
 
 void PairSearch::open(const BoundedPair& pair, PairFront& front) {
@@ -100,7 +130,9 @@ void PairSearch::open(const BoundedPair& pair, PairFront& front) {
         ++counters_.sphere_pairs;
         BoundedPair child;
         child.hulls = hulls;
-        child.bound = front.drift + std::max(pair.bound, placed_.sphere_gap(hulls));
+        child.along = pair.along;
+        const double gap = placed_.sphere_gap(hulls);
+        child.bound = front.drift + (pair.bound > 0 ? std::max(pair.bound, gap) : gap);
         push(front.heap, child);
     });
 }
@@ -118,7 +150,24 @@ void PairSearch::run(PairFront& front, bool keep) {
         if (!matters(floor))
             break;
         BoundedPair pair = pop(front.heap);
-        measure(pair, std::max(floor, 0.0));
+        if (best_.found && pair.hulls == best_.hulls) {
+            pair.bound = best_.distance;
+            pair.a = best_.search.at.a, pair.b = best_.search.at.b;
+        } else if (const double apart = pair.begun ? 0 : begin(pair);
+                   apart > std::max(floor, 0.0)) {
+            // The others may come first now.
+            pair.bound = apart + front.drift;
+            push(front.heap, pair);
+            continue;
+        } else if (!placed_.are_pieces(pair.hulls) &&
+                   apart < -kDeep * placed_.smaller_radius(pair.hulls)) {
+            pair.bound = std::max(floor, 0.0);
+            pair.along = {};
+        } else {
+            measure(pair, std::max(floor, 0.0));
+            if (is_root(pair) && pair.bound > 0)
+                jump(pair);
+        }
         const bool open_it = matters(pair.bound) && !placed_.are_pieces(pair.hulls);
         if (open_it && !ends()) {
             open(pair, front);
@@ -136,8 +185,9 @@ void PairSearch::run(PairFront& front, bool keep) {
     for (const BoundedPair& pair : settled)
         push(front.heap, pair);
     if (fresh)
-        front.fresh_pairs = measured;
-    front.worn = !fresh && measured > 2 * front.fresh_pairs + 8;
+        front.fresh_pairs = measured, front.fresh_size = front.heap.size();
+    front.worn =
+        measured > 2 * front.fresh_pairs + 8 || front.heap.size() > 16 * front.fresh_size + 64;
 }
 
 } // namespace abut

@@ -17,8 +17,9 @@ namespace abut {
 struct BoundedPair {
     double bound = 0; ///< no nearer than this less the drift since (see PairFront)
     HullPair hulls;
-    HullFeature a, b;      ///< where the last walk ended
-    bool measured = false; ///< there was one
+    HullFeature a, b;   ///< where the last walk ended, or the next one begins
+    Vec3 along;         ///< at first: a direction in which the hulls may be apart
+    bool begun = false; ///< there are features
 };
 
 /// Pairs of hulls that together hold all pairs of pieces: where a search ended, and the next one
@@ -27,8 +28,9 @@ struct BoundedPair {
 struct PairFront {
     std::vector<BoundedPair> heap; ///< the least bound first
     double drift = 0;
-    std::uint64_t fresh_pairs = 0; ///< what the search that began at the roots measured
-    bool worn = false;             ///< to begin anew costs less than to go on
+    /// Of the search that began at the roots: pairs that it measured, and that it left here.
+    std::uint64_t fresh_pairs = 0, fresh_size = 0;
+    bool worn = false; ///< to begin anew costs less than to go on
 };
 
 /// The closest pieces found.
@@ -68,7 +70,8 @@ public:
     [[nodiscard]] double at_least() const { return std::min(at_least_, best_.distance); }
 
 private:
-    void begin(BoundedPair& pair) const;
+    double begin(BoundedPair& pair);
+    void jump(const BoundedPair& roots);
     void measure(BoundedPair& pair, double floor);
     void measure_pieces(BoundedPair& pair);
     void measure_hulls(BoundedPair& pair, double floor);

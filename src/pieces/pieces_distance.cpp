@@ -1,10 +1,12 @@
 #include <abut/convex_pieces.h>
 #include <abut/error.h>
+#include <abut/shape_queries.h>
 
 #include "geometry/point_triangle_distance.h"
 #include "pieces/pieces_query.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -24,44 +26,71 @@ struct SurfaceFeature {
     std::uint8_t index = 0;
 };
 
-/// The triangle and its feature that hold the point of a piece which is nearest to another.
-///
-/// In          the feature of the piece's hull that holds it; `other` in the frame of `place`.
-SurfaceFeature name(const ConvexPiecesData& solid, std::uint32_t piece, const HullFeature& f,
-                    const PlacedPolytope& place, const Vec3& other) {
+/// One side of a pair of closest points.
+struct Side {
+    const ConvexPiecesData& solid;
+    const Transform& world;
+    std::uint32_t piece;
+    const HullFeature& on;       ///< of the piece's hull
+    const PlacedPolytope& place; ///< the frame of the query
+    const Vec3 &point, &other;   ///< in there, in that frame
+};
+
+/// The feature of one of some triangles that is nearest to the other side's point.
+SurfaceFeature nearest_feature(const Side& s, std::span<const std::uint32_t> triangles,
+                               double& least_sq) {
     SurfaceFeature result;
-    const auto& mesh = solid.mesh();
-    double least = std::numeric_limits<double>::infinity();
-    const auto look_at = [&](std::span<const std::uint32_t> triangles) {
-        for (const std::uint32_t t : triangles) {
-            const auto& c = mesh.triangles[t];
-            const NearestOnTriangle n = nearest_on_triangle(
-                other, {place.place(mesh.positions[c[0]]), place.place(mesh.positions[c[1]]),
-                        place.place(mesh.positions[c[2]])});
-            if (n.distance_sq < least) {
-                least = n.distance_sq;
-                result = {t, static_cast<Feature>(n.dimension), n.index};
-            }
+    const Mesh& mesh = s.solid.mesh();
+    for (const std::uint32_t t : triangles) {
+        const auto& c = mesh.triangles[t];
+        const NearestOnTriangle n = nearest_on_triangle(
+            s.other, {s.place.place(mesh.positions[c[0]]), s.place.place(mesh.positions[c[1]]),
+                      s.place.place(mesh.positions[c[2]])});
+        if (n.distance_sq < least_sq) {
+            least_sq = n.distance_sq;
+            result = {t, static_cast<Feature>(n.dimension), n.index};
         }
-    };
-    if (f.kind == Feature::vertex) {
-        const std::uint32_t source = solid.tree.sources[piece][f.vertex];
-        result = {solid.triangle_at[source], Feature::vertex, 0};
-        const auto& c = mesh.triangles[result.triangle];
-        while (mesh.positions[c.at(result.index)] != mesh.positions[source])
-            ++result.index;
-        return result;
     }
-    const PieceFaces& faces = solid.faces[piece];
-    if (!faces.begin.empty()) {
-        const std::uint32_t face = faces.face_of_edge[f.edge];
-        look_at(faces.in(face));
-        const std::uint32_t beyond = faces.face_of_edge[place.polytope->edges[f.edge].twin];
-        if (f.kind == Feature::edge && beyond != face)
-            look_at(faces.in(beyond));
+    return result;
+}
+
+SurfaceFeature at_vertex(const Side& s) {
+    const Mesh& mesh = s.solid.mesh();
+    const std::uint32_t source = s.solid.tree.sources[s.piece][s.on.vertex];
+    SurfaceFeature result{s.solid.triangle_at[source], Feature::vertex, 0};
+    const auto& corners = mesh.triangles[result.triangle];
+    while (mesh.positions[corners.at(result.index)] != mesh.positions[source])
+        ++result.index;
+    return result;
+}
+
+/// The triangle and its feature that a closest point lies on.
+SurfaceFeature name(const Side& s, const Vec3& origin, double rounding) {
+    if (s.on.kind == Feature::vertex)
+        return at_vertex(s);
+    double least_sq = std::numeric_limits<double>::infinity();
+    SurfaceFeature result;
+    const PieceFaces& faces = s.solid.faces[s.piece];
+    if (faces.begin.empty()) {
+        result = nearest_feature(s, s.solid.triangles_of(s.piece), least_sq);
+    } else {
+        const std::uint32_t face = faces.face_of_edge[s.on.edge];
+        result = nearest_feature(s, faces.in(face), least_sq);
+        const std::uint32_t beyond = faces.face_of_edge[s.place.polytope->edges[s.on.edge].twin];
+        if (s.on.kind == Feature::edge && beyond != face) {
+            double of_face_sq = least_sq;
+            const SurfaceFeature there = nearest_feature(s, faces.in(beyond), of_face_sq);
+            if (of_face_sq < least_sq)
+                least_sq = of_face_sq, result = there;
+        }
     }
-    if (!(least < std::numeric_limits<double>::infinity()))
-        look_at(solid.triangles_of(piece));
+    // Where the hull covers what other pieces have: one of theirs.
+    const double expected = length(s.other - s.point);
+    if (!(std::sqrt(least_sq) <= expected * (1 + 0x1p-40) + 16 * rounding)) {
+        const std::uint32_t triangle = nearest(s.solid.model, s.world, origin + s.point).triangle;
+        least_sq = std::numeric_limits<double>::infinity();
+        result = nearest_feature(s, {&triangle, 1}, least_sq);
+    }
     return result;
 }
 
@@ -86,8 +115,12 @@ void report(const PlacedPieces& placed, const ClosestPieces& best, PiecesGap& ga
     gap.distance = best.distance;
     gap.point_a = placed.origin() + at.point_a;
     gap.point_b = placed.origin() + point_b;
-    const SurfaceFeature a = name(placed.a, gap.piece_a, at.a, hulls.a, point_b),
-                         b = name(placed.b, gap.piece_b, at.b, hulls.b, at.point_a);
+    const SurfaceFeature a = name({placed.a, placed.world_from_a, gap.piece_a, at.a, hulls.a,
+                                   at.point_a, point_b},
+                                  placed.origin(), placed.rounding),
+                         b = name({placed.b, placed.world_from_b, gap.piece_b, at.b, hulls.b,
+                                   point_b, at.point_a},
+                                  placed.origin(), placed.rounding);
     gap.triangle_a = a.triangle, gap.feature_a = a.kind, gap.index_a = a.index;
     gap.triangle_b = b.triangle, gap.feature_b = b.kind, gap.index_b = b.index;
 }

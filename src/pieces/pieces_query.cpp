@@ -65,9 +65,15 @@ std::optional<Vec3> PiecesQuery::contained_point(double apart) {
     return point;
 }
 
-PiecesWorkspace::PiecesWorkspace() : data_(std::make_unique<Data>()) {}
+PiecesWorkspace::PiecesWorkspace() = default;
 PiecesWorkspace::~PiecesWorkspace() = default;
 PiecesWorkspace::PiecesWorkspace(PiecesWorkspace&&) noexcept = default;
 PiecesWorkspace& PiecesWorkspace::operator=(PiecesWorkspace&&) noexcept = default;
+
+PiecesWorkspace::Data& PiecesWorkspace::data() {
+    if (!data_)
+        data_ = std::make_unique<Data>();
+    return *data_;
+}
 
 } // namespace abut

@@ -39,10 +39,15 @@ public:
         return apply_linear(world_from_b, node_b(p.b).middle) + shift_ -
                apply_linear(world_from_a, node_a(p.a).middle);
     }
-    /// No points of the two hulls are closer: by the spheres around them.
+    /// No points of the two hulls are closer: by the spheres around them. Where these overlap, a
+    /// negative number that tells by how much of their size: -1 where they are concentric.
     [[nodiscard]] double sphere_gap(const HullPair& p) const {
-        return length(between(p)) - most_a_ * node_a(p.a).radius - most_b_ * node_b(p.b).radius -
-               rounding;
+        const double radii = most_a_ * node_a(p.a).radius + most_b_ * node_b(p.b).radius;
+        const double gap = length(between(p)) - radii - rounding;
+        return gap >= 0 || !(radii > 0) ? std::max(gap, -1.0) : std::max(gap / radii, -1.0);
+    }
+    [[nodiscard]] double smaller_radius(const HullPair& p) const {
+        return std::min(most_a_ * node_a(p.a).radius, most_b_ * node_b(p.b).radius);
     }
     /// Calls visit(child) for the pairs below: the larger hull is opened.
     template <typename Visit>
