@@ -34,7 +34,9 @@ struct HullTree {
 };
 
 /// In          `vertices`: of each piece, numbers of positions; at least one piece and one vertex.
-/// Accuracy    exact hulls: a parent's holds those of its children.
+/// Accuracy    exact hulls of the vertices that are left once those are taken out that lie between
+///             two others to 2^-46 of the largest coordinate. A parent's hull holds those of its
+///             children to that.
 /// Cost        O(n log n) a level.
 /// Source      [Ehmann, Lin 2001]. Differs: parted by the surface area of boxes, top down.
 HullTree build_hull_tree(std::span<const Vec3> positions,

@@ -15,6 +15,9 @@ constexpr std::uint32_t kPatience = 24;
 /// at once: few of them are apart.
 constexpr double kDeep = 0.35;
 
+/// Roundings by which a hull may hold less than what is below it, and some more.
+constexpr double kMargin = 32;
+
 bool is_root(const BoundedPair& pair) {
     return pair.hulls == HullPair{};
 }
@@ -40,7 +43,8 @@ BoundedPair pop(std::vector<BoundedPair>& heap) {
 bool PairSearch::try_pair(const HullPair& hulls, const ClosestPointSearch& start) {
     ClosestPointSearch search;
     search.at.a = start.at.a, search.at.b = start.at.b;
-    search.simplex = start.simplex;
+    if (start.at.end == WalkEnd::meeting)
+        search.simplex = start.simplex;
     const PolytopePair pair = placed_.hulls(hulls);
     ++counters_.hull_pairs;
     if (search.simplex)
@@ -81,7 +85,7 @@ void PairSearch::measure_hulls(BoundedPair& pair, double floor) {
     pair.bound = floor;
     pair.along = {};
     if (state.end == WalkEnd::closest) {
-        pair.bound = std::max(floor, std::sqrt(state.distance_sq) - 4 * placed_.rounding);
+        pair.bound = std::max(floor, std::sqrt(state.distance_sq) - kMargin * placed_.rounding);
         pair.along = state.gap;
     }
 }
@@ -97,7 +101,9 @@ double PairSearch::begin(BoundedPair& pair) {
     pair.begun = true;
     ++counters_.directions;
     const double l = length(along);
-    return l > 0 ? dot(along, hulls.b.vertex(b) - hulls.a.vertex(a)) / l - 4 * placed_.rounding : 0;
+    return l > 0
+               ? dot(along, hulls.b.vertex(b) - hulls.a.vertex(a)) / l - kMargin * placed_.rounding
+               : 0;
 }
 
 bool PairSearch::may_meet(const HullPair& hulls) {

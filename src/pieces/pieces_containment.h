@@ -10,7 +10,7 @@ namespace abut {
 /// the other.
 ///
 /// In          solids no pieces of which meet.
-/// Accuracy    exact: by the parity of crossings of a ray.
+/// Accuracy    exact: by the signs of the crossings of a ray.
 std::optional<Vec3> contained_point(const PlacedPieces& placed);
 
 } // namespace abut
