@@ -150,7 +150,7 @@ void PairSearch::run(PairFront& front, bool keep) {
         front.drift = 0;
         push(front.heap, {});
     }
-    std::vector<BoundedPair> settled; ///< measured now, and not of interest
+    front.settled.clear();
     while (!front.heap.empty() && !ends()) {
         const double floor = front.heap.front().bound - front.drift;
         if (!matters(floor))
@@ -182,13 +182,13 @@ void PairSearch::run(PairFront& front, bool keep) {
         at_least_ = std::min(at_least_, pair.bound);
         if (keep) {
             pair.bound += front.drift;
-            settled.push_back(pair);
+            front.settled.push_back(pair);
         }
     }
     if (!front.heap.empty())
         at_least_ = std::min(at_least_, std::max(0.0, front.heap.front().bound - front.drift));
     const std::uint64_t measured = counters_.hull_pairs - before;
-    for (const BoundedPair& pair : settled)
+    for (const BoundedPair& pair : front.settled)
         push(front.heap, pair);
     if (fresh)
         front.fresh_pairs = measured, front.fresh_size = front.heap.size();

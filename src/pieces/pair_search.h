@@ -26,7 +26,8 @@ struct BoundedPair {
 /// begins. Each has a bound of its distance. Between poses the bounds shrink by what the motion may
 /// have brought: the drift, which is summed up, so that no bound needs to be touched.
 struct PairFront {
-    std::vector<BoundedPair> heap; ///< the least bound first
+    std::vector<BoundedPair> heap;    ///< the least bound first
+    std::vector<BoundedPair> settled; ///< while a search runs: measured, and not of interest
     double drift = 0;
     /// Of the search that began at the roots: pairs that it measured, and that it left here.
     std::uint64_t fresh_pairs = 0, fresh_size = 0;

@@ -64,12 +64,22 @@ SurfaceFeature at_vertex(const Side& s) {
     return result;
 }
 
-/// The triangle and its feature that a closest point lies on.
-SurfaceFeature name(const Side& s, const Vec3& origin, double rounding) {
+/// The triangle and its feature that a closest point lies on. `last`: the one before, or null.
+SurfaceFeature name(const Side& s, const Vec3& origin, double rounding, const std::uint32_t* last) {
     if (s.on.kind == Feature::vertex)
         return at_vertex(s);
+    const double expected = length(s.other - s.point);
+    const auto holds_point = [&](double distance_sq) {
+        return std::sqrt(distance_sq) <= expected * (1 + 0x1p-40) + 16 * rounding;
+    };
     double least_sq = std::numeric_limits<double>::infinity();
     SurfaceFeature result;
+    if (last != nullptr) {
+        result = nearest_feature(s, {last, 1}, least_sq);
+        if (holds_point(least_sq))
+            return result;
+        least_sq = std::numeric_limits<double>::infinity();
+    }
     const PieceFaces& faces = s.solid.faces[s.piece];
     if (faces.begin.empty()) {
         result = nearest_feature(s, s.solid.triangles_of(s.piece), least_sq);
@@ -85,8 +95,7 @@ SurfaceFeature name(const Side& s, const Vec3& origin, double rounding) {
         }
     }
     // Where the hull covers what other pieces have: one of theirs.
-    const double expected = length(s.other - s.point);
-    if (!(std::sqrt(least_sq) <= expected * (1 + 0x1p-40) + 16 * rounding)) {
+    if (!holds_point(least_sq)) {
         const std::uint32_t triangle = nearest(s.solid.model, s.world, origin + s.point).triangle;
         least_sq = std::numeric_limits<double>::infinity();
         result = nearest_feature(s, {&triangle, 1}, least_sq);
@@ -101,7 +110,8 @@ void report_common_point(const PlacedPieces& placed, const Vec3& point, PiecesGa
     gap.triangle_b = placed.b.triangles_of(gap.piece_b)[0];
 }
 
-void report(const PlacedPieces& placed, const ClosestPieces& best, PiecesGap& gap) {
+void report(const PlacedPieces& placed, PiecesQuery& query, PiecesGap& gap) {
+    const ClosestPieces& best = query.search().best();
     const WalkState& at = best.search.at;
     gap.piece_a = placed.node_a(best.hulls.a).piece;
     gap.piece_b = placed.node_b(best.hulls.b).piece;
@@ -115,12 +125,16 @@ void report(const PlacedPieces& placed, const ClosestPieces& best, PiecesGap& ga
     gap.distance = best.distance;
     gap.point_a = placed.origin() + at.point_a;
     gap.point_b = placed.origin() + point_b;
+    const TrianglePair* last = query.last_triangles();
     const SurfaceFeature a = name({placed.a, placed.world_from_a, gap.piece_a, at.a, hulls.a,
                                    at.point_a, point_b},
-                                  placed.origin(), placed.rounding),
+                                  placed.origin(), placed.rounding,
+                                  last != nullptr ? &last->a : nullptr),
                          b = name({placed.b, placed.world_from_b, gap.piece_b, at.b, hulls.b,
                                    point_b, at.point_a},
-                                  placed.origin(), placed.rounding);
+                                  placed.origin(), placed.rounding,
+                                  last != nullptr ? &last->b : nullptr);
+    query.remember({a.triangle, b.triangle});
     gap.triangle_a = a.triangle, gap.feature_a = a.kind, gap.index_a = a.index;
     gap.triangle_b = b.triangle, gap.feature_b = b.kind, gap.index_b = b.index;
 }
@@ -139,7 +153,7 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
     const bool found = query.run();
     const ClosestPieces& best = query.search().best();
     if (best.meet()) {
-        report(placed, best, gap);
+        report(placed, query, gap);
         return gap;
     }
     if (const auto point = query.contained_point(query.search().at_least())) {
@@ -151,7 +165,7 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
         gap.status = Status::bound_only;
         return gap;
     }
-    report(placed, best, gap);
+    report(placed, query, gap);
     gap.at_least = options.max_error > 0 ? query.search().at_least() : gap.distance;
     const double excess = best.search.at.excess;
     if (excess * excess > placed.rounding * placed.rounding * gap.distance * gap.distance)

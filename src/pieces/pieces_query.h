@@ -17,6 +17,9 @@ public:
     HullPair closest; ///< pieces
     ClosestPointSearch search;
     bool has_closest = false;
+    HullPair named;         ///< pieces of which the triangles are
+    TrianglePair triangles; ///< that held the closest points
+    bool has_triangles = false;
     /// The distance of the pieces in the last query that decided whether one solid is inside of the
     /// other, less the approach since: while it is positive, that has not changed.
     double undisturbed = 0;
@@ -31,6 +34,19 @@ public:
     [[nodiscard]] PairSearch& search() { return search_; }
     /// Finds the closest pieces, or what else `search` was told to. Returns whether it found any.
     bool run();
+    /// Triangles that held the closest points of the closest pieces before; null if there were none.
+    [[nodiscard]] const TrianglePair* last_triangles() const {
+        return last_ != nullptr && last_->has_triangles && last_->named == search_.best().hulls
+                   ? &last_->triangles
+                   : nullptr;
+    }
+    void remember(const TrianglePair& triangles) {
+        if (last_ != nullptr) {
+            last_->named = search_.best().hulls;
+            last_->triangles = triangles;
+            last_->has_triangles = true;
+        }
+    }
     /// A point in both solids, where one is inside of the other. In: no pieces meet, and these are
     /// no nearer than `apart`.
     std::optional<Vec3> contained_point(double apart);
