@@ -14,6 +14,8 @@ namespace {
 
 /// Below so many vertices a climb from any is as fast as a table's answer.
 constexpr std::size_t kNoTable = 8;
+/// Children of a node, at most.
+constexpr std::size_t kWidth = 4;
 
 /// Some roundings of a coordinate of 1.
 constexpr double kRounding = 0x1p-46;
@@ -190,28 +192,47 @@ private:
     /// Returns the numbers of the positions that are vertices of the node's hull.
     std::vector<std::uint32_t> build(std::uint32_t node, std::span<std::uint32_t> pieces) {
         SourcedHull hull;
-        std::uint32_t child = HullNode::kLeaf;
+        std::uint32_t child = HullNode::kLeaf, children = 0;
         if (pieces.size() == 1) {
             hull = hull_of(positions_, vertices_[pieces[0]]);
             tree_.nodes[node].piece = pieces[0];
             tree_.leaf_of[pieces[0]] = node;
             tree_.sources[pieces[0]] = hull.source;
         } else {
-            const std::size_t cut = part(pieces);
+            const std::vector<std::span<std::uint32_t>> groups = groups_of(pieces);
             child = static_cast<std::uint32_t>(tree_.nodes.size());
-            tree_.nodes.resize(tree_.nodes.size() + 2);
-            std::vector<std::uint32_t> all = build(child, pieces.first(cut));
-            const std::vector<std::uint32_t> more = build(child + 1, pieces.subspan(cut));
-            all.insert(all.end(), more.begin(), more.end());
+            children = static_cast<std::uint32_t>(groups.size());
+            tree_.nodes.resize(tree_.nodes.size() + groups.size());
+            std::vector<std::uint32_t> all;
+            for (std::uint32_t i = 0; i < children; ++i) {
+                const std::vector<std::uint32_t> more = build(child + i, groups[i]);
+                all.insert(all.end(), more.begin(), more.end());
+            }
             std::sort(all.begin(), all.end());
             all.erase(std::unique(all.begin(), all.end()), all.end());
             hull = hull_of(positions_, std::move(all));
         }
         HullNode& n = tree_.nodes[node];
-        n.child = child;
+        n.child = child, n.children = children;
         n.hull = std::move(hull.polytope);
         set_sphere(n);
         return std::move(hull.source);
+    }
+
+    /// Parts the pieces, and then the groups that are largest, until there are as many as a node has
+    /// children.
+    std::vector<std::span<std::uint32_t>> groups_of(std::span<std::uint32_t> pieces) {
+        std::vector<std::span<std::uint32_t>> groups{pieces};
+        while (groups.size() < std::min(kWidth, pieces.size())) {
+            const auto largest =
+                std::max_element(groups.begin(), groups.end(),
+                                 [](const auto& g, const auto& h) { return g.size() < h.size(); });
+            const std::span<std::uint32_t> group = *largest;
+            const std::size_t cut = part(group);
+            *largest = group.first(cut);
+            groups.push_back(group.subspan(cut));
+        }
+        return groups;
     }
 
     void find_leaves(const std::vector<std::uint32_t>& root_source) {

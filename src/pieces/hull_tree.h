@@ -16,13 +16,14 @@ struct HullNode {
     Polytope hull;
     Vec3 middle; ///< no point of the hull is farther than `radius` from here
     double radius = 0;
-    std::uint32_t child = kLeaf; ///< the first of two, which follow each other; kLeaf: a piece
-    std::uint32_t piece = 0;     ///< of a leaf
+    std::uint32_t child = kLeaf; ///< the first of some, which follow each other; kLeaf: a piece
+    std::uint32_t children = 0;
+    std::uint32_t piece = 0; ///< of a leaf
 
     [[nodiscard]] bool is_leaf() const { return child == kLeaf; }
 };
 
-/// A binary hierarchy of hulls over convex pieces. Immutable once built.
+/// A hierarchy of hulls over convex pieces, four children a node. Immutable once built.
 struct HullTree {
     std::vector<HullNode> nodes;        ///< the root first
     std::vector<std::uint32_t> leaf_of; ///< by piece

@@ -55,7 +55,7 @@ public:
         const HullNode &na = node_a(p.a), &nb = node_b(p.b);
         const bool open_a =
             !na.is_leaf() && (nb.is_leaf() || most_a_ * na.radius >= most_b_ * nb.radius);
-        for (std::uint32_t i = 0; i < 2; ++i)
+        for (std::uint32_t i = 0; i < (open_a ? na : nb).children; ++i)
             visit(open_a ? HullPair{na.child + i, p.b} : HullPair{p.a, nb.child + i});
     }
     [[nodiscard]] Vec3 origin() const {
