@@ -5,6 +5,9 @@
 #include <abut/shape_queries.h>
 
 #include "math/predicates.h"
+#include "pieces/hull_tree.h"
+#include "pieces/pieces_data.h"
+#include "pieces/relative_motion.h"
 #include "rigid/solid.h"
 #include "scenes/bodies.h"
 #include "tests/support/rational_clip.h"
@@ -183,6 +186,71 @@ TEST(Decomposition, HasEachTriangleOnceOnTheHullOfItsPieceInsideTheSolid) {
     EXPECT_GE(larger, many(300));
     EXPECT_GE(entered, many(50));
     EXPECT_GE(probes, many(1000));
+}
+
+TEST(HullTree, ParentsHoldTheirChildren) {
+    Random random(8108);
+    std::size_t parents = 0;
+    for (int i = 0; i < many(30); ++i) {
+        const ConvexPieces pieces{Model(make_solid(random, i))};
+        const HullTree& tree = pieces.data().tree;
+        std::vector<int> seen(pieces.size());
+        for (const HullNode& node : tree.nodes) {
+            for (const HullVertex& v : node.hull.vertices)
+                ASSERT_LE(length(v.at - node.middle), node.radius);
+            if (node.is_leaf()) {
+                ++seen[node.piece];
+                continue;
+            }
+            ++parents;
+            for (std::uint32_t c = node.child; c < node.child + node.children; ++c)
+                for (const HullVertex& v : tree.nodes[c].hull.vertices) {
+                    // To what hulls leave out.
+                    const Vec3 d = random.direction();
+                    const std::uint32_t top = climb(node.hull, d, 0);
+                    ASSERT_LE(dot(d, v.at), dot(d, node.hull.vertices[top].at) + 0x1p-44 * 4);
+                }
+        }
+        for (const int n : seen)
+            ASSERT_EQ(n, 1);
+    }
+    EXPECT_GE(parents, static_cast<std::size_t>(many(60)));
+}
+
+TEST(RelativeMotion, NoTwoPointsComeNearerThanItSays) {
+    Random random(8109);
+    int tight = 0;
+    for (int i = 0; i < many(3000); ++i) {
+        const BodyBall a{random.in_cube(), random.uniform(0, 1)},
+            b{random.in_cube(), random.uniform(0, 1)};
+        const bool rigid = i % 3 != 0, a_stands = i % 2 == 0;
+        const auto step = [&](const Transform& from) {
+            const Vec3 v = std::sin(random.uniform(0, 0.1)) * random.direction();
+            const Transform turn(Pose{random.in_cube(0.1), {1, v.x, v.y, v.z}});
+            return compose(turn, rigid ? from : compose(from, scaling(1.1, 0.9, 1)));
+        };
+        const PosePair from{
+            compose(translation(random.uniform(-9, 9), 0, 0), random.linear_map(!rigid)),
+            compose(translation(0, random.uniform(-9, 9), 0), random.linear_map(!rigid))};
+        const PosePair to{a_stands ? from.a : step(from.a), step(from.b)};
+        const double bound = most_approach(from, to, a, b);
+        double most = 0;
+        for (int k = 0; k < 30; ++k) {
+            const Vec3 p = a.middle + a.radius * random.direction(),
+                       q = b.middle + b.radius * random.direction();
+            most = std::max(most, length(apply(from.b, q) - apply(from.a, p)) -
+                                      length(apply(to.b, q) - apply(to.a, p)));
+        }
+        ASSERT_LE(most, bound) << i;
+        tight += most > 0.3 * bound ? 1 : 0;
+        // Bodies that move together have not moved.
+        if (rigid) {
+            const Transform together = random.pose(3);
+            const PosePair moved{compose(together, from.a), compose(together, from.b)};
+            ASSERT_LE(most_approach(from, moved, a, b), 1e-9);
+        }
+    }
+    EXPECT_GE(tight, many(200));
 }
 
 /// Two solids and where they stand.
