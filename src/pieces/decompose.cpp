@@ -1,7 +1,7 @@
 #include "pieces/decompose.h"
 
-#include "math/predicates.h"
 #include "pieces/convex_component.h"
+#include "pieces/exact_plane.h"
 #include "pieces/patch_hull.h"
 #include "rigid/placed_model.h"
 
@@ -20,7 +20,11 @@ public:
     Decomposition(const Model& solid, const SurfaceGraph& surface)
         : placed_(solid, {}), surface_(surface), hull_(surface.positions),
           piece_of_(surface.corners.size(), kNone), tried_(surface.corners.size(), kNone),
-          in_patch_(surface.positions.size(), kNone) {}
+          in_patch_(surface.positions.size(), kNone) {
+        planes_.reserve(surface.corners.size());
+        for (std::uint32_t t = 0; t < surface.corners.size(); ++t)
+            planes_.emplace_back(surface.triangle(t));
+    }
 
     Pieces run() && {
         for (std::vector<std::uint32_t>& component : convex_components(placed_, surface_)) {
@@ -69,9 +73,8 @@ private:
     }
 
     [[nodiscard]] bool has(std::uint32_t vertex) const { return in_patch_[vertex] == next_piece(); }
-    [[nodiscard]] int side(std::uint32_t plane, std::uint32_t vertex) const {
-        const Triangle t = surface_.triangle(plane);
-        return orient3d(t[0], t[1], t[2], surface_.positions[vertex]);
+    [[nodiscard]] int side(std::uint32_t triangle, std::uint32_t vertex) const {
+        return planes_[triangle].side(surface_.positions[vertex]);
     }
 
     /// No vertex lies in front of any triangle's plane.
@@ -124,6 +127,7 @@ private:
     std::vector<std::uint32_t> piece_of_, tried_; ///< by triangle; tried_: the last that did
     std::vector<std::uint32_t> in_patch_;         ///< by vertex: the last piece that has it
     std::vector<std::uint32_t> patch_, vertices_;
+    std::vector<ExactPlane> planes_; ///< of the triangles
 };
 
 } // namespace

@@ -304,7 +304,7 @@ HullTree build_hull_tree(std::span<const Vec3> positions,
 std::size_t HullTree::bytes() const {
     std::size_t sum = sizeof(*this) + nodes.capacity() * sizeof(HullNode) +
                       (leaf_of.capacity() + leaf_at.capacity()) * sizeof(std::uint32_t) +
-                      sources.capacity() * sizeof(sources[0]);
+                      sources.capacity() * sizeof(std::vector<std::uint32_t>);
     for (const HullNode& n : nodes)
         sum += n.hull.vertices.capacity() * sizeof(HullVertex) +
                n.hull.edges.capacity() * sizeof(HullEdge) +

@@ -171,7 +171,7 @@ void PairSearch::run(PairFront& front, bool keep) {
             pair.along = {};
         } else {
             measure(pair, std::max(floor, 0.0));
-            if (is_root(pair) && pair.bound > 0)
+            if (is_root(pair) && !placed_.are_pieces(pair.hulls) && pair.bound > 0)
                 jump(pair);
         }
         const bool open_it = matters(pair.bound) && !placed_.are_pieces(pair.hulls);

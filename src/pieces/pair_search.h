@@ -68,7 +68,9 @@ public:
 
     [[nodiscard]] const ClosestPieces& best() const { return best_; }
     /// No two pieces are closer. After `run`.
-    [[nodiscard]] double at_least() const { return std::min(at_least_, best_.distance); }
+    [[nodiscard]] double at_least() const {
+        return best_.found ? std::min(at_least_, best_.distance) : at_least_;
+    }
 
 private:
     double begin(BoundedPair& pair);

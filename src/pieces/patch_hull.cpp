@@ -29,13 +29,10 @@ void collect_vertices(std::span<const IndexTriangle> faces, std::vector<std::uin
 
 } // namespace
 
-int PatchHull::side(const IndexTriangle& plane, const Vec3& p) const {
-    return orient3d(at(plane[0]), at(plane[1]), at(plane[2]), p);
-}
-
 void PatchHull::begin(const IndexTriangle& triangle) {
-    front_ = triangle;
+    front_ = {at(triangle[0]), at(triangle[1]), at(triangle[2])};
     now_.faces.clear();
+    now_.planes.clear();
     now_.vertices.clear();
     for (const std::uint32_t v : triangle)
         if (!contains(now_.vertices, v))
@@ -45,10 +42,15 @@ void PatchHull::begin(const IndexTriangle& triangle) {
 }
 
 bool PatchHull::faces_alike(const Triangle& triangle) const {
-    const Triangle front{at(front_[0]), at(front_[1]), at(front_[2])};
+    const Triangle front{front_.a, front_.b, front_.c};
     const int axis = projection_axis(front);
     return axis >= 0 && orient2d(front[0], front[1], front[2], axis) ==
                             orient2d(triangle[0], triangle[1], triangle[2], axis);
+}
+
+void PatchHull::add_face(const IndexTriangle& face) {
+    next_.faces.push_back(face);
+    next_.planes.emplace_back(at(face[0]), at(face[1]), at(face[2]));
 }
 
 void PatchHull::hull_of_all(std::uint32_t vertex) {
@@ -61,11 +63,12 @@ void PatchHull::hull_of_all(std::uint32_t vertex) {
     const HullSurface hull = exact_hull(points);
     next_.vertices.clear();
     next_.faces.clear();
+    next_.planes.clear();
     for (const std::uint32_t v : hull.vertices)
         next_.vertices.push_back(all[v]);
     if (hull.dimension == 3)
         for (const IndexTriangle& t : hull.triangles)
-            next_.faces.push_back({all[t[0]], all[t[1]], all[t[2]]});
+            add_face({all[t[0]], all[t[1]], all[t[2]]});
 }
 
 void PatchHull::gain_of_polygon(std::uint32_t vertex) {
@@ -85,8 +88,14 @@ void PatchHull::gain_of_polygon(std::uint32_t vertex) {
 void PatchHull::add_cone(std::uint32_t vertex) {
     visible_.clear();
     next_.faces.clear();
-    for (const IndexTriangle& f : now_.faces)
-        (side(f, at(vertex)) > 0 ? visible_ : next_.faces).push_back(f);
+    next_.planes.clear();
+    for (std::size_t i = 0; i < now_.faces.size(); ++i)
+        if (now_.planes[i].side(at(vertex)) > 0) {
+            visible_.push_back(now_.faces[i]);
+        } else {
+            next_.faces.push_back(now_.faces[i]);
+            next_.planes.push_back(now_.planes[i]);
+        }
     grows_ = !visible_.empty();
     if (!grows_) {
         next_.vertices = now_.vertices;
@@ -103,7 +112,7 @@ void PatchHull::add_cone(std::uint32_t vertex) {
     std::sort(edges.begin(), edges.end());
     for (const auto& [from, to] : edges)
         if (!std::binary_search(edges.begin(), edges.end(), std::array{to, from}))
-            next_.faces.push_back({from, to, vertex});
+            add_face({from, to, vertex});
     collect_vertices(next_.faces, next_.vertices);
 }
 
@@ -127,18 +136,18 @@ void PatchHull::take() {
     std::swap(now_, next_);
 }
 
-bool PatchHull::parts(const Vec3& a, const Vec3& b, const Vec3& c, const Triangle& t) const {
+bool PatchHull::parts(const ExactPlane& plane, const Triangle& t) const {
     // The triangle's side; a plane through it says nothing of that.
     bool front = false, back = false;
     for (const Vec3& p : t) {
-        const int s = orient3d(a, b, c, p);
+        const int s = plane.side(p);
         front = front || s > 0, back = back || s < 0;
     }
     if (front && back)
         return false;
     bool below = false, above = false;
     for (const std::uint32_t v : next_.vertices) {
-        const int s = orient3d(a, b, c, at(v));
+        const int s = plane.side(at(v));
         below = below || s < 0, above = above || s > 0;
         if ((below && (above || back)) || (above && front))
             return false;
@@ -147,31 +156,31 @@ bool PatchHull::parts(const Vec3& a, const Vec3& b, const Vec3& c, const Triangl
 }
 
 bool PatchHull::parts_edge(const Vec3& p, const Vec3& q, const Triangle& t) const {
-    return std::any_of(t.begin(), t.end(), [&](const Vec3& r) { return parts(p, q, r, t); });
+    return std::any_of(t.begin(), t.end(), [&](const Vec3& r) { return parts({p, q, r}, t); });
 }
 
 bool PatchHull::is_free_of(const Triangle& triangle) const {
     const Triangle& t = triangle;
     const bool flat = next_.faces.empty();
-    const auto in_front = [&](const IndexTriangle& plane) {
-        return std::all_of(t.begin(), t.end(), [&](const Vec3& p) { return side(plane, p) >= 0; });
+    const auto in_front = [&](const ExactPlane& plane) {
+        return plane.side(t[0]) >= 0 && plane.side(t[1]) >= 0 && plane.side(t[2]) >= 0;
     };
     if (flat && has_front_ && in_front(front_)) {
         const bool in_plane =
-            std::all_of(t.begin(), t.end(), [&](const Vec3& p) { return side(front_, p) == 0; });
+            std::all_of(t.begin(), t.end(), [&](const Vec3& p) { return front_.side(p) == 0; });
         if (!in_plane || collinear(t[0], t[1], t[2]) || faces_alike(t))
             return true;
     }
     // The latest faces first: what is looked at is near them.
-    if (std::any_of(next_.faces.rbegin(), next_.faces.rend(), in_front) ||
-        parts(t[0], t[1], t[2], t))
+    if (std::any_of(next_.planes.rbegin(), next_.planes.rend(), in_front) ||
+        parts(ExactPlane(t), t))
         return true;
     const auto& vertices = next_.vertices;
     if (vertices.size() > kMostForEdges)
         return false;
     for (const std::uint32_t v : vertices)
         for (std::size_t k = 0; k < 3; ++k)
-            if (parts(t[k], t[(k + 1) % 3], at(v), t))
+            if (parts({t[k], t[(k + 1) % 3], at(v)}, t))
                 return true;
     if (flat) {
         for (std::size_t i = 0; i < vertices.size(); ++i)

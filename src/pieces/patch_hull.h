@@ -2,6 +2,7 @@
 
 #include "math/vector.h"
 #include "mesh/surface_features.h"
+#include "pieces/exact_plane.h"
 
 #include <cstdint>
 #include <span>
@@ -45,18 +46,19 @@ private:
     struct Hull {
         std::vector<std::uint32_t> vertices; ///< of a flat hull, around it
         std::vector<IndexTriangle> faces;    ///< none: it is flat
+        std::vector<ExactPlane> planes;      ///< of the faces
     };
 
     [[nodiscard]] const Vec3& at(std::uint32_t v) const { return positions_[v]; }
-    [[nodiscard]] int side(const IndexTriangle& plane, const Vec3& p) const;
-    [[nodiscard]] bool parts(const Vec3& a, const Vec3& b, const Vec3& c, const Triangle& t) const;
+    void add_face(const IndexTriangle& face);
+    [[nodiscard]] bool parts(const ExactPlane& plane, const Triangle& t) const;
     [[nodiscard]] bool parts_edge(const Vec3& p, const Vec3& q, const Triangle& t) const;
     void hull_of_all(std::uint32_t vertex);
     void add_cone(std::uint32_t vertex);
     void gain_of_polygon(std::uint32_t vertex);
 
     std::span<const Vec3> positions_;
-    IndexTriangle front_{}; ///< a triangle of the patch: what faces as it does is in front
+    ExactPlane front_; ///< of a triangle of the patch: what faces as it does is in front
     bool has_front_ = false;
     Hull now_, next_;
     bool grows_ = false;

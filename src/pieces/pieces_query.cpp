@@ -32,7 +32,9 @@ void PiecesQuery::recall() {
             most_approach(last_->poses, poses, ball_of(placed_.a), ball_of(placed_.b));
         last_->front.drift += approach;
         last_->undisturbed -= approach;
-        if (last_->front.worn)
+        // Bounds lose digits to a drift that is much larger; what is not finite ends it, too.
+        constexpr double kLongest = 16;
+        if (last_->front.worn || !(last_->front.drift <= kLongest * placed_.size()))
             last_->front = {};
     }
     last_->poses = poses;

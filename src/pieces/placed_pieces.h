@@ -49,6 +49,10 @@ public:
     [[nodiscard]] double smaller_radius(const HullPair& p) const {
         return std::min(most_a_ * node_a(p.a).radius, most_b_ * node_b(p.b).radius);
     }
+    /// Radii of the balls around the solids.
+    [[nodiscard]] double size() const {
+        return most_a_ * node_a(0).radius + most_b_ * node_b(0).radius;
+    }
     /// Calls visit(child) for the pairs below: the larger hull is opened.
     template <typename Visit>
     void for_each_child(const HullPair& p, const Visit& visit) const {
