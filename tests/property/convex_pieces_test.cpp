@@ -4,6 +4,8 @@
 #include <abut/convex_pieces.h>
 #include <abut/shape_queries.h>
 
+#include "convex/closest_points.h"
+#include "geometry/point_triangle_distance.h"
 #include "math/predicates.h"
 #include "pieces/hull_tree.h"
 #include "pieces/pieces_data.h"
@@ -215,6 +217,55 @@ TEST(HullTree, ParentsHoldTheirChildren) {
             ASSERT_EQ(n, 1);
     }
     EXPECT_GE(parents, static_cast<std::size_t>(many(60)));
+}
+
+/// Turned cells have points that are collinear and coplanar but for rounding: at such vertices a
+/// walk must not end on the wrong side.
+TEST(HullTree, WalksEndWhereverTheyBegin) {
+    Random random(8110);
+    int walks = 0, inside = 0;
+    std::size_t left_out = 0;
+    for (int i = 0; i < many(20); ++i) {
+        const ConvexPieces pieces{Model(transformed(random_cells(random, 3), random.pose(0)))};
+        const ConvexPiecesData& data = pieces.data();
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            const Polytope& hull = data.tree.nodes[data.tree.leaf_of[p]].hull;
+            std::vector<Vec3> given;
+            for (const std::uint32_t t : pieces.triangles(p))
+                for (const Vec3& v : corners(pieces.model().mesh(), t))
+                    given.push_back(v);
+            const Convex exact(given);
+            if (exact.dimension() < 3)
+                continue;
+            left_out += exact.vertices().size() - hull.vertices.size();
+            const Mesh surface = exact.mesh();
+            const Vec3 at = random_point_of(random, exact) +
+                            (i % 2 == 0 ? 0 : random.uniform(0, 1)) * random.direction();
+            double expected = HUGE_VAL;
+            bool out = false;
+            for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+                const Triangle c = corners(surface, t);
+                out = out || orient3d(c[0], c[1], c[2], at) > 0;
+                expected =
+                    std::min(expected, std::sqrt(point_triangle_distance(at, c).distance_sq));
+            }
+            inside += out ? 0 : 1;
+            const Polytope point{{{at, 0, 0}}, {}, {}};
+            const Transform unmoved;
+            for (std::uint32_t v = 0; v < hull.vertices.size(); ++v, ++walks) {
+                ClosestPointSearch search;
+                search.at.a = vertex_feature(v);
+                find_closest_points({hull, unmoved, point, unmoved}, 0x1p-49, search);
+                ASSERT_NEAR(search.at.end == WalkEnd::meeting ? 0
+                                                              : std::sqrt(search.at.distance_sq),
+                            out ? expected : 0, 1e-12)
+                    << i << " piece " << p << " from " << v;
+            }
+        }
+    }
+    EXPECT_GE(walks, many(200));
+    EXPECT_GE(inside, many(10));
+    EXPECT_GE(left_out, static_cast<std::size_t>(many(5)));
 }
 
 TEST(RelativeMotion, NoTwoPointsComeNearerThanItSays) {

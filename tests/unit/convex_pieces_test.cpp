@@ -101,6 +101,16 @@ TEST(ConvexPieces, SolidsInsideOfEachOtherAreAtDistanceZero) {
     EXPECT_FALSE(collide(ring, {}, ball, {}).meet);
 }
 
+TEST(ConvexPieces, WhatIsWoundAroundTwiceIsInside) {
+    const Mesh cube = pitted_cube_mesh();
+    const ConvexPieces twice =
+        pieces(joined(cube, transformed(cube, translation(0.0625, 0.125, -0.0625))));
+    const ConvexPieces seed = box({3.4, 3.4, 3.4}, {3.5, 3.5, 3.5});
+    const PiecesContacts contacts = collide(twice, {}, seed, {});
+    EXPECT_TRUE(contacts.contained);
+    EXPECT_TRUE(contacts.pairs.empty());
+}
+
 TEST(ConvexPieces, CavitiesAreOutside) {
     const ConvexPieces hollow = pieces(
         joined(box_mesh({-4, -4, -4}, {4, 4, 4}), reversed(box_mesh({-2, -2, -2}, {2, 2, 2}))));
