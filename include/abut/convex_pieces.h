@@ -33,7 +33,7 @@ public:
     ///             they are.
     /// Accuracy    exact: no hull leaves the solid by any amount. So a surface that is convex or
     ///             flat but for rounding falls into many pieces.
-    /// Cost        some 30 to 120 microseconds a triangle; a convex patch of k triangles O(k^2), up to
+    /// Cost        some 10 to 80 microseconds a triangle; a convex patch of k triangles O(k^2), up to
     ///             k = 2048, but O(k log k) where it is a closed surface.
     /// Source      [Ehmann, Lin 2001]; docs/convex-pieces.md.
     explicit ConvexPieces(const Model& model);

@@ -26,11 +26,14 @@ namespace {
 /// Cells of a lattice, at random; where the surface is no closed one, a U of them.
 Mesh random_cells(Random& random, int n) {
     for (int attempt = 0; attempt < 40; ++attempt) {
-        std::vector<bool> solid(static_cast<std::size_t>(n * n * n));
+        const auto side = static_cast<std::size_t>(n);
+        std::vector<bool> solid(side * side * side);
         for (std::size_t i = 0; i < solid.size(); ++i)
             solid[i] = random.chance(0.55);
         Mesh m = cells_mesh(n, [&](int x, int y, int z) {
-            return bool(solid[static_cast<std::size_t>((x * n + y) * n + z)]);
+            return bool(
+                solid[(static_cast<std::size_t>(x) * side + static_cast<std::size_t>(y)) * side +
+                      static_cast<std::size_t>(z)]);
         });
         const MeshReport report = inspect(m);
         if (report.closed && report.flipped_edges == 0)

@@ -144,7 +144,7 @@ TEST(ConvexPieces, NamesTheFeaturesOfTheSurface) {
     };
     struct Case {
         Vec3 at, towards;
-        Feature feature;
+        Feature feature = Feature::face;
     };
     for (const Case& c : {Case{{-0.5, 1.375, 2.25}, {-1, 0, 0}, Feature::face},
                           Case{{-0.5, -0.5, 2.25}, {-1, -1, 0}, Feature::edge},
