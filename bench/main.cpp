@@ -111,6 +111,18 @@ int run(int argc, char** argv) {
     convex_suite->add_option("--seed", convex.seed, "Of bodies and poses");
     convex_suite->callback([&] { report = run_convex_suite(convex); });
 
+    PiecesSuiteOptions pieces;
+    CLI::App* pieces_suite =
+        app.add_subcommand("pieces", "Solids of convex pieces, against the triangle trees and FCL");
+    pieces_suite->add_option("files", pieces.files, "Closed models, two a pair");
+    pieces_suite->add_option("--poses", pieces.poses, "In each regime");
+    pieces_suite->add_option("--part", pieces.part, "Machine parts whose name has this in it");
+    pieces_suite->add_option("--only", pieces.only, "Cases whose name has this in it");
+    pieces_suite->add_option("--rounds", pieces.rounds, "Passes; medians are printed")
+        ->check(CLI::Range(1, 1000));
+    pieces_suite->add_option("--seed", pieces.seed, "Of the poses");
+    pieces_suite->callback([&] { report = run_pieces_suite(pieces); });
+
     WorldSuiteOptions world;
     CLI::App* world_suite = app.add_subcommand(
         "world", "Overlapping pairs of moving boxes, against Bullet, CGAL, Embree and FCL");

@@ -113,6 +113,20 @@ struct ConvexSuiteOptions {
 /// Errors      as read_mesh.
 Report run_convex_suite(const ConvexSuiteOptions& options);
 
+struct PiecesSuiteOptions {
+    std::vector<std::string> files; ///< two a pair; closed
+    std::size_t poses = 500;        ///< in each regime
+    std::string part;               ///< run the machine parts whose name has this in it
+    std::string only;               ///< run the cases whose name has this in it
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
+
+/// Solids as unions of convex pieces against the triangle trees and FCL: machine parts, each with
+/// itself, and pairs of files.
+/// Errors      as read_mesh and ConvexPieces; Error{bad_argument} for an odd number of files.
+Report run_pieces_suite(const PiecesSuiteOptions& options);
+
 struct WorldSuiteOptions {
     std::vector<std::size_t> counts{1000, 10000, 100000, 1000000};
     int steps = 20;        ///< at least, of each case

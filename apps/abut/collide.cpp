@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "pair_query.h"
+#include "pieces_queries.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -19,6 +20,7 @@ struct CollideQuery : PairQuery {
     PosesOption poses;
     bool all = false;
     bool segments = false;
+    bool pieces = false; ///< as solids of convex pieces
 
     [[nodiscard]] CollideOptions options() const {
         return {.mode = all ? ContactMode::all : ContactMode::first, .segments = segments};
@@ -72,7 +74,16 @@ Subcommand add_collide(CLI::App& root, CommonOptions& common) {
     app->add_flag("--segments", query->segments,
                   "With --json: also the points that each pair shares");
     add_fail_on(*app, query->fail_on, "contact");
-    return {app, [query, &common] { return run_one_or_many(*query, common); }};
+    CLI::Option* pieces =
+        app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
+    for (const char* other : {"--segments", "--volume"})
+        pieces->excludes(app->get_option(other));
+    return {app, [query, &common] {
+                if (query->pieces)
+                    return run_one_or_many(PiecesCollideQuery{*query, query->poses, query->all},
+                                           common);
+                return run_one_or_many(*query, common);
+            }};
 }
 
 } // namespace abut::command

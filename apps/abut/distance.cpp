@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "convex_queries.h"
 #include "pair_query.h"
+#include "pieces_queries.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -21,6 +22,7 @@ nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
 struct DistanceQuery : PairQuery {
     PosesOption poses;
     bool convex = false; ///< of the models' hulls
+    bool pieces = false; ///< as solids of convex pieces
     DistanceOptions options;
 
     [[nodiscard]] Gap ask(const TwoModels& m) const {
@@ -88,7 +90,18 @@ Subcommand add_distance(CLI::App& root, CommonOptions& common) {
         app->add_flag("--convex", query->convex, "Of the convex hulls, as solids");
     for (const char* other : {"--relative-error", "--upper-bound", "--signed", "--volume"})
         convex->excludes(app->get_option(other));
+    CLI::Option* pieces =
+        app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
+    for (const char* other : {"--relative-error", "--signed", "--volume", "--convex"})
+        pieces->excludes(app->get_option(other));
     return {app, [query, &common] {
+                if (query->pieces)
+                    return run_one_or_many(
+                        PiecesDistanceQuery{*query,
+                                            query->poses,
+                                            {.upper_bound = query->options.upper_bound,
+                                             .max_error = query->options.absolute_error}},
+                        common);
                 if (query->convex)
                     return run_one_or_many(
                         ConvexDistanceQuery{*query, query->poses, query->options.absolute_error},

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "info_store.h"
 #include "interrupt.h"
+#include "pieces_queries.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ struct InfoArguments {
     std::vector<std::string> files;
     bool parts = false;
     bool verify = false;
+    bool pieces = false; ///< also the convex pieces of each mesh
     double unit = 0;
 };
 
@@ -156,6 +158,28 @@ std::string table(const Scene& scene, const std::vector<MeshReport>& reports, co
     return text;
 }
 
+nlohmann::ordered_json all_pieces(const Scene& scene) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const Mesh& mesh : scene.meshes)
+        rows.push_back(describe_pieces(mesh));
+    return rows;
+}
+
+std::string pieces_table(const nlohmann::ordered_json& rows) {
+    std::string text = fmt::format("\n  {:>9} {:>9} {:>9}  convex pieces by mesh\n", "pieces",
+                                   "triangles", "largest");
+    for (const auto& row : rows) {
+        const auto triangles = grouped(row["triangles"].get<std::uint64_t>());
+        text +=
+            row.contains("error")
+                ? fmt::format("  {:>9} {:>9} {:>9}  {}\n", "-", triangles, "-",
+                              row["error"].get<std::string>())
+                : fmt::format("  {:>9} {:>9} {:>9}\n", grouped(row["pieces"].get<std::uint64_t>()),
+                              triangles, grouped(row["largest"].get<std::uint64_t>()));
+    }
+    return text;
+}
+
 int run(const InfoArguments& arguments, const CommonOptions& common) {
     const auto stores = static_cast<std::size_t>(
         std::count_if(arguments.files.begin(), arguments.files.end(), looks_like_store));
@@ -179,10 +203,17 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
     for (const Scene& scene : scenes) {
         const std::vector<MeshReport> reports = inspect_all(scene.meshes);
         const FileInfo info = sum_up(scene, reports);
-        if (common.json)
+        const nlohmann::ordered_json pieces =
+            arguments.pieces ? all_pieces(scene) : nlohmann::ordered_json();
+        if (common.json) {
             files.push_back(describe(scene, reports, info, arguments.parts));
-        else
+            if (arguments.pieces)
+                files.back()["convex_pieces"] = pieces;
+        } else {
             text += (text.empty() ? "" : "\n") + table(scene, reports, info, arguments.parts);
+            if (arguments.pieces)
+                text += pieces_table(pieces);
+        }
     }
     if (common.json)
         print(dump({{"files", std::move(files)}}));
@@ -200,6 +231,7 @@ Subcommand add_info(CLI::App& root, CommonOptions& common) {
     app->add_option("MODEL", arguments->files, "Models, or stores, to look at")->required();
     app->add_flag("--parts", arguments->parts, "A row for each part");
     app->add_flag("--verify", arguments->verify, "Of stores: check every page, row and block");
+    app->add_flag("--pieces", arguments->pieces, "Into how many convex pieces each mesh falls");
     add_unit_option(*app, arguments->unit);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

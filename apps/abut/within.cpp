@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "pair_query.h"
+#include "pieces_queries.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -11,6 +12,7 @@ namespace {
 struct WithinQuery : PairQuery {
     PosesOption poses;
     double tolerance = 0;
+    bool pieces = false; ///< as solids of convex pieces
 
     [[nodiscard]] bool ask(const TwoModels& m) const {
         return within(m.a, m.world_from_a, m.b, m.world_from_b, tolerance);
@@ -45,7 +47,14 @@ Subcommand add_within(CLI::App& root, CommonOptions& common) {
         ->required()
         ->check(not_negative());
     add_fail_on(*app, query->fail_on, "within");
-    return {app, [query, &common] { return run_one_or_many(*query, common); }};
+    app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces")
+        ->excludes(app->get_option("--volume"));
+    return {app, [query, &common] {
+                if (query->pieces)
+                    return run_one_or_many(
+                        PiecesWithinQuery{*query, query->poses, query->tolerance}, common);
+                return run_one_or_many(*query, common);
+            }};
 }
 
 } // namespace abut::command

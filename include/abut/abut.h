@@ -5,6 +5,7 @@
 #include <abut/broad_phase.h>
 #include <abut/clash.h>
 #include <abut/convex.h>
+#include <abut/convex_pieces.h>
 #include <abut/deformable.h>
 #include <abut/elementary_impact.h>
 #include <abut/error.h>

@@ -42,6 +42,25 @@ TEST(Info, CountsDefects) {
     EXPECT_EQ(file["nonmanifold_edges"], 1); // the diagonal: used by three triangles
 }
 
+TEST(Info, CountsConvexPieces) {
+    const TemporaryFolder folder;
+    const std::string box = folder.write("box.obj", box_obj());
+    const Outcome outcome = run_abut({"info", box, "--pieces", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto row = outcome.json()["files"][0]["convex_pieces"][0];
+    EXPECT_EQ(row["pieces"], 1);
+    EXPECT_EQ(row["largest"], 12);
+    const std::string open = folder.write("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n");
+    const auto none = run_abut({"info", open, "--pieces", "--json"});
+    ASSERT_EQ(none.status, 0) << none.err;
+    EXPECT_TRUE(none.json()["files"][0]["convex_pieces"][0]["pieces"].is_null());
+    // A question about solids is refused, by the file's name.
+    const Outcome refused = run_abut({"distance", box, open, "--pieces"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find(open), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("is open"), std::string::npos) << refused.err;
+}
+
 TEST(Info, CountsInstancesAndStoredTriangles) {
     const TemporaryFolder folder;
     Scene scene;

@@ -214,6 +214,36 @@ TEST_F(TwoModelsTest, PenetrationOfModelsApartAndTouching) {
     EXPECT_EQ(ask("penetration", {"--accuracy", "-1"}).status, 2);
 }
 
+TEST_F(TwoModelsTest, PiecesAreSolids) {
+    const Outcome apart =
+        ask("distance", {"--pose-b", "1.5,0.25,0.25,1,0,0,0", "--pieces", "--json"});
+    ASSERT_EQ(apart.status, 0) << apart.err;
+    const auto answer = apart.json();
+    EXPECT_EQ(answer["distance"], 0.5);
+    for (const char* key :
+         {"a", "b", "at_least", "point_a", "point_b", "piece_a", "piece_b", "triangle_a",
+          "triangle_b", "feature_a", "feature_b", "status", "counters", "seconds"})
+        EXPECT_TRUE(answer.contains(key)) << key;
+    EXPECT_EQ(
+        ask("distance", {"--pose-b", "0.5,0,0,1,0,0,0", "--pieces", "--json"}).json()["distance"],
+        0);
+    const auto meeting =
+        ask("collide", {"--pose-b", "0.5,0.25,0.25,1,0,0,0", "--pieces", "--all", "--json"}).json();
+    EXPECT_EQ(meeting["contact"], true);
+    EXPECT_EQ(meeting["contained"], false);
+    EXPECT_EQ(meeting["piece_pairs"], nlohmann::json({{0, 0}}));
+    EXPECT_GT(meeting["triangle_pairs"].size(), 1U);
+    EXPECT_EQ(ask("collide", {"--pose-b", "9,0,0,1,0,0,0", "--pieces"}).out, "no contact\n");
+    const std::vector<std::string> near{"--pieces", "--fail-on",       "within",
+                                        "--pose-b", "1.5,0,0,1,0,0,0", "--tolerance"};
+    for (const auto& [tolerance, status] : {std::pair{"0.499", 0}, {"0.5", 1}}) {
+        auto arguments = near;
+        arguments.push_back(tolerance);
+        EXPECT_EQ(ask("within", arguments).status, status) << tolerance;
+    }
+    EXPECT_EQ(ask("distance", {"--pieces", "--convex"}).status, 2);
+}
+
 TEST_F(TwoModelsTest, WithinIncludesItsBound) {
     for (const auto& [tolerance, near] : {std::pair{"0.499", false}, {"0.5", true}, {"2", true}}) {
         const Outcome outcome =

@@ -62,8 +62,10 @@ inline std::vector<RationalPlane> rational_planes(const Box3& box, const Transfo
     return planes;
 }
 
-/// Source      [Sutherland, Hodgman 1974]; closed half-spaces.
-inline bool clip_meets(const Triangle& t, const std::vector<RationalPlane>& planes) {
+/// What closed half-spaces leave of a triangle: a convex polygon, some corners twice, perhaps.
+/// Source      [Sutherland, Hodgman 1974].
+inline std::vector<RationalVec3> clipped(const Triangle& t,
+                                         const std::vector<RationalPlane>& planes) {
     std::vector<RationalVec3> polygon{RationalVec3(t[0]), RationalVec3(t[1]), RationalVec3(t[2])};
     for (const RationalPlane& plane : planes) {
         std::vector<RationalVec3> kept;
@@ -81,7 +83,24 @@ inline bool clip_meets(const Triangle& t, const std::vector<RationalPlane>& plan
         }
         polygon = std::move(kept);
     }
-    return !polygon.empty();
+    return polygon;
+}
+
+inline bool clip_meets(const Triangle& t, const std::vector<RationalPlane>& planes) {
+    return !clipped(t, planes).empty();
+}
+
+/// Whether a triangle meets the inside: the middle of what is left lies on a plane only if all does.
+inline bool clip_enters(const Triangle& t, const std::vector<RationalPlane>& planes) {
+    const std::vector<RationalVec3> polygon = clipped(t, planes);
+    RationalVec3 sum({}, {}, {});
+    for (const RationalVec3& p : polygon)
+        sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+    const Rational count = static_cast<double>(polygon.size());
+    for (const RationalPlane& plane : planes)
+        if (polygon.empty() || dot(plane.normal, sum) >= count * plane.offset)
+            return false;
+    return true;
 }
 
 } // namespace abut::test

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <abut/convex_pieces.h>
+
+#include "pair_query.h"
+
+#include <vector>
+
+/// The questions about two models as solids of convex pieces: --pieces.
+namespace abut::command {
+
+/// The pieces of a model.
+///
+/// Errors      as ConvexPieces, its line beginning with the file's name.
+ConvexPieces pieces_of(const Model& model, const std::string& file);
+
+/// {pieces, triangles, largest, bytes}: how many pieces a mesh has, triangles in all and in the
+/// largest piece, memory; {pieces: null, triangles, error} if it is no solid.
+nlohmann::ordered_json describe_pieces(const Mesh& mesh);
+
+struct PiecesDistanceQuery : PairQuery {
+    PosesOption poses;
+    PiecesDistanceOptions options;
+
+    [[nodiscard]] PiecesGap ask(const TwoModels& m) const;
+    [[nodiscard]] std::vector<PiecesGap> ask(const TwoModels& m,
+                                             const std::vector<Placement>& placements) const;
+    static void add_answer(const PiecesGap& gap, nlohmann::ordered_json& json);
+    static std::string in_words(const PiecesGap& gap);
+    static std::string in_a_line(const PiecesGap& gap);
+    static bool is_problem(const PiecesGap& /*gap*/) { return false; }
+};
+
+struct PiecesWithinQuery : PairQuery {
+    PosesOption poses;
+    double tolerance = 0;
+
+    [[nodiscard]] bool ask(const TwoModels& m) const;
+    [[nodiscard]] std::vector<bool> ask(const TwoModels& m,
+                                        const std::vector<Placement>& placements) const;
+    [[nodiscard]] nlohmann::ordered_json question() const;
+    static void add_answer(bool near, nlohmann::ordered_json& json);
+    [[nodiscard]] std::string in_words(bool near) const;
+    static std::string in_a_line(bool near);
+    static bool is_problem(bool near) { return near; }
+};
+
+struct PiecesCollideQuery : PairQuery {
+    PosesOption poses;
+    bool all = false;
+
+    [[nodiscard]] PiecesContacts ask(const TwoModels& m) const;
+    [[nodiscard]] std::vector<PiecesContacts> ask(const TwoModels& m,
+                                                  const std::vector<Placement>& placements) const;
+    void add_answer(const PiecesContacts& contacts, nlohmann::ordered_json& json) const;
+    [[nodiscard]] std::string in_words(const PiecesContacts& contacts) const;
+    [[nodiscard]] static std::string in_a_line(const PiecesContacts& contacts);
+    static bool is_problem(const PiecesContacts& contacts) { return contacts.meet; }
+};
+
+} // namespace abut::command

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <abut/mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace abut::bench {
+
+struct NamedMesh {
+    std::string name;
+    Mesh mesh;
+};
+
+/// Closed solids as machines have them: made of few convex pieces.
+std::vector<NamedMesh> machine_parts();
+
+} // namespace abut::bench

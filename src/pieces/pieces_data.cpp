@@ -1,0 +1,109 @@
+#include "pieces/pieces_data.h"
+
+#include <abut/error.h>
+
+#include "core/parallel.h"
+#include "pieces/decompose.h"
+#include "rigid/model_data.h"
+
+#include <algorithm>
+#include <atomic>
+#include <fmt/format.h>
+
+namespace abut {
+
+namespace {
+
+/// Of so few triangles each is looked at.
+constexpr std::size_t kFewTriangles = 4;
+
+std::uint64_t next_id() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+Triangle corners(const Mesh& mesh, std::uint32_t t) {
+    const auto& v = mesh.triangles[t];
+    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+}
+
+/// Whether the surface winds around what lies just below a triangle.
+bool has_inside_below(const Mesh& mesh, std::uint32_t triangle) {
+    const Triangle t = corners(mesh, triangle);
+    const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const Vec3 middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
+    const Vec3 step = (1e-3 * std::sqrt(length(n))) * normalized_or_zero(n);
+    return winding_number(mesh, middle - step) > 0.5;
+}
+
+/// Errors      Error{bad_mesh} if a component is turned inside out and bounds no cavity.
+void require_outward(const Mesh& mesh, const SurfaceGraph& surface) {
+    struct Component {
+        double volume = 0, largest = -1;
+        std::uint32_t triangle = 0;
+    };
+    const std::vector<std::uint32_t> number = vertex_components(mesh, make_topology(mesh));
+    std::vector<Component> components(number.size());
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        Component& c = components[number[mesh.triangles[i][0]]];
+        const Vec3& origin = mesh.positions[number[mesh.triangles[i][0]]];
+        const Triangle t = corners(mesh, i);
+        c.volume += dot(t[0] - origin, cross(t[1] - origin, t[2] - origin));
+        if (const double area = length_sq(cross(t[1] - t[0], t[2] - t[0])); area > c.largest)
+            c.largest = area, c.triangle = i;
+    }
+    for (const Component& c : components)
+        if (c.volume < 0 && surface.across[c.triangle][0] != kNoEdge &&
+            !has_inside_below(mesh, c.triangle))
+            throw Error(ErrorCode::bad_mesh,
+                        fmt::format("not a solid: the surface around triangle {} is turned inside "
+                                    "out",
+                                    c.triangle));
+}
+
+} // namespace
+
+ConvexPiecesData::ConvexPiecesData(const Model& solid) : model(solid), id(next_id()) {
+    const SurfaceGraph surface(mesh());
+    require_outward(mesh(), surface);
+    const Pieces pieces = decompose(model, surface);
+    std::vector<std::vector<std::uint32_t>> vertices(pieces.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        triangles.insert(triangles.end(), pieces[i].begin(), pieces[i].end());
+        begin.push_back(static_cast<std::uint32_t>(triangles.size()));
+        auto& v = vertices[i];
+        for (const std::uint32_t t : pieces[i])
+            v.insert(v.end(), surface.corners[t].begin(), surface.corners[t].end());
+        std::sort(v.begin(), v.end());
+        v.erase(std::unique(v.begin(), v.end()), v.end());
+    }
+    tree = build_hull_tree(mesh().positions, vertices);
+    faces.resize(pieces.size());
+    parallel_for(pieces.size(), 64, [&](std::size_t i) {
+        if (pieces[i].size() > kFewTriangles)
+            faces[i] = find_piece_faces(surface, tree.nodes[tree.leaf_of[i]].hull, tree.sources[i],
+                                        pieces[i]);
+    });
+    triangle_at.resize(mesh().positions.size());
+    for (std::uint32_t t = 0; t < surface.corners.size(); ++t)
+        for (const std::uint32_t v : surface.corners[t]) {
+            triangle_at[v] = t;
+            reach = std::max(reach, sum_of_sizes(surface.positions[v]));
+        }
+    for (const std::uint32_t t : model.data().solid().components)
+        components.push_back(mesh().triangles[t][0]);
+}
+
+std::size_t ConvexPiecesData::bytes() const {
+    const auto bytes_of = [](const std::vector<std::uint32_t>& v) {
+        return v.capacity() * sizeof(std::uint32_t);
+    };
+    std::size_t sum = sizeof(*this) + bytes_of(begin) + bytes_of(triangles) + tree.bytes() +
+                      bytes_of(triangle_at) + bytes_of(components) +
+                      faces.capacity() * sizeof(PieceFaces);
+    for (const PieceFaces& f : faces)
+        sum += bytes_of(f.face_of_edge) + bytes_of(f.begin) + bytes_of(f.triangles);
+    return sum;
+}
+
+} // namespace abut

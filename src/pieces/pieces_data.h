@@ -1,0 +1,38 @@
+#pragma once
+
+#include <abut/convex_pieces.h>
+
+#include "pieces/hull_tree.h"
+#include "pieces/piece_faces.h"
+#include "pieces/surface_graph.h"
+#include "rigid/solid.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+/// What a ConvexPieces shares among its copies.
+class ConvexPiecesData {
+public:
+    /// Errors      Error{bad_mesh}.
+    explicit ConvexPiecesData(const Model& solid);
+
+    [[nodiscard]] const Mesh& mesh() const { return model.mesh(); }
+    [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::size_t piece) const {
+        return std::span(triangles).subspan(begin[piece], begin[piece + 1] - begin[piece]);
+    }
+    [[nodiscard]] std::size_t size() const { return begin.size() - 1; }
+    [[nodiscard]] std::size_t bytes() const;
+
+    Model model;
+    std::uint64_t id = 0;                           ///< no other in this process has it
+    std::vector<std::uint32_t> begin{0}, triangles; ///< of each piece
+    HullTree tree;
+    std::vector<PieceFaces> faces;          ///< by piece; empty ones for pieces of few triangles
+    std::vector<std::uint32_t> triangle_at; ///< a triangle at each position
+    std::vector<std::uint32_t> components;  ///< a vertex of each component
+    double reach = 0;                       ///< largest |x| + |y| + |z| of a vertex
+};
+
+} // namespace abut

@@ -1,0 +1,81 @@
+#include "pieces/pieces_query.h"
+
+#include "pieces/pieces_containment.h"
+
+namespace abut {
+
+namespace {
+
+BodyBall ball_of(const ConvexPiecesData& data) {
+    const HullNode& root = data.tree.nodes[0];
+    return {root.middle, root.radius};
+}
+
+} // namespace
+
+PiecesQuery::PiecesQuery(const PlacedPieces& placed, PiecesWorkspace* workspace,
+                         PiecesCounters& counters)
+    : placed_(placed), search_(placed, counters) {
+    if (workspace != nullptr) {
+        last_ = &workspace->data();
+        recall();
+    }
+}
+
+void PiecesQuery::recall() {
+    const PosePair poses{placed_.world_from_a, placed_.world_from_b};
+    if (last_->id_a != placed_.a.id || last_->id_b != placed_.b.id) {
+        *last_ = {};
+        last_->id_a = placed_.a.id, last_->id_b = placed_.b.id;
+    } else {
+        const double approach =
+            most_approach(last_->poses, poses, ball_of(placed_.a), ball_of(placed_.b));
+        last_->front.drift += approach;
+        last_->undisturbed -= approach;
+        // Bounds lose digits to a drift that is much larger; what is not finite ends it, too.
+        constexpr double kLongest = 16;
+        if (last_->front.worn || !(last_->front.drift <= kLongest * placed_.size()))
+            last_->front = {};
+    }
+    last_->poses = poses;
+}
+
+bool PiecesQuery::run() {
+    PairFront fresh;
+    PairFront& front = last_ != nullptr ? last_->front : fresh;
+    const bool done =
+        last_ != nullptr && last_->has_closest && search_.try_pair(last_->closest, last_->search);
+    if (!done)
+        search_.run(front, last_ != nullptr);
+    const ClosestPieces& best = search_.best();
+    if (last_ != nullptr && best.found) {
+        last_->closest = best.hulls;
+        last_->search = best.search;
+        last_->has_closest = true;
+    }
+    return best.found;
+}
+
+std::optional<Vec3> PiecesQuery::contained_point(double apart) {
+    if (last_ != nullptr && last_->undisturbed > 0 && last_->contained == false)
+        return std::nullopt;
+    const auto point = abut::contained_point(placed_);
+    if (last_ != nullptr) {
+        last_->undisturbed = apart;
+        last_->contained = point.has_value();
+    }
+    return point;
+}
+
+PiecesWorkspace::PiecesWorkspace() = default;
+PiecesWorkspace::~PiecesWorkspace() = default;
+PiecesWorkspace::PiecesWorkspace(PiecesWorkspace&&) noexcept = default;
+PiecesWorkspace& PiecesWorkspace::operator=(PiecesWorkspace&&) noexcept = default;
+
+PiecesWorkspace::Data& PiecesWorkspace::data() {
+    if (!data_)
+        data_ = std::make_unique<Data>();
+    return *data_;
+}
+
+} // namespace abut

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <abut/convex_pieces.h>
+
+#include "pieces/pair_search.h"
+
+#include <optional>
+
+namespace abut {
+
+/// What is remembered of two solids from one pose to the next.
+class PiecesWorkspace::Data {
+public:
+    std::uint64_t id_a = 0, id_b = 0;
+    PosePair poses; ///< of the last query
+    PairFront front;
+    HullPair closest; ///< pieces
+    ClosestPointSearch search;
+    bool has_closest = false;
+    HullPair named;         ///< pieces of which the triangles are
+    TrianglePair triangles; ///< that held the closest points
+    bool has_triangles = false;
+    /// The distance of the pieces in the last query that decided whether one solid is inside of the
+    /// other, less the approach since: while it is positive, that has not changed.
+    double undisturbed = 0;
+    std::optional<bool> contained;
+};
+
+/// One query of two solids: what is remembered, the search, whether one is inside of the other.
+class PiecesQuery {
+public:
+    PiecesQuery(const PlacedPieces& placed, PiecesWorkspace* workspace, PiecesCounters& counters);
+
+    [[nodiscard]] PairSearch& search() { return search_; }
+    /// Finds the closest pieces, or what else `search` was told to. Returns whether it found any.
+    bool run();
+    /// Triangles that held the closest points of the closest pieces before; null if there were none.
+    [[nodiscard]] const TrianglePair* last_triangles() const {
+        return last_ != nullptr && last_->has_triangles && last_->named == search_.best().hulls
+                   ? &last_->triangles
+                   : nullptr;
+    }
+    void remember(const TrianglePair& triangles) {
+        if (last_ != nullptr) {
+            last_->named = search_.best().hulls;
+            last_->triangles = triangles;
+            last_->has_triangles = true;
+        }
+    }
+    /// A point in both solids, where one is inside of the other. In: no pieces meet, and these are
+    /// no nearer than `apart`.
+    std::optional<Vec3> contained_point(double apart);
+
+private:
+    void recall();
+
+    const PlacedPieces& placed_;
+    PiecesWorkspace::Data* last_ = nullptr;
+    PairSearch search_;
+};
+
+} // namespace abut

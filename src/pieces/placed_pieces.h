@@ -1,0 +1,78 @@
+#pragma once
+
+#include <abut/convex_pieces.h>
+
+#include "convex/closest_points.h"
+#include "math/transform.h"
+#include "pieces/pieces_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace abut {
+
+/// Two hulls of the hierarchies, by their nodes.
+struct HullPair {
+    std::uint32_t a = 0, b = 0;
+    friend bool operator==(const HullPair&, const HullPair&) = default;
+};
+
+/// Two solids under their transforms, in the frame with the world's axes and the origin of the
+/// first. Refers to what it is made of.
+class PlacedPieces {
+public:
+    /// Errors      Error{bad_argument} if a transform is not finite.
+    PlacedPieces(const ConvexPiecesData& a, const Transform& world_from_a,
+                 const ConvexPiecesData& b, const Transform& world_from_b);
+
+    [[nodiscard]] const HullNode& node_a(std::uint32_t n) const { return a.tree.nodes[n]; }
+    [[nodiscard]] const HullNode& node_b(std::uint32_t n) const { return b.tree.nodes[n]; }
+    [[nodiscard]] bool are_pieces(const HullPair& p) const {
+        return node_a(p.a).is_leaf() && node_b(p.b).is_leaf();
+    }
+    [[nodiscard]] PolytopePair hulls(const HullPair& p) const {
+        return {node_a(p.a).hull, world_from_a, node_b(p.b).hull, world_from_b};
+    }
+    /// From the middle of the one to that of the other.
+    [[nodiscard]] Vec3 between(const HullPair& p) const {
+        return apply_linear(world_from_b, node_b(p.b).middle) + shift_ -
+               apply_linear(world_from_a, node_a(p.a).middle);
+    }
+    /// No points of the two hulls are closer: by the spheres around them. Where these overlap, a
+    /// negative number that tells by how much of their size: -1 where they are concentric.
+    [[nodiscard]] double sphere_gap(const HullPair& p) const {
+        const double radii = most_a_ * node_a(p.a).radius + most_b_ * node_b(p.b).radius;
+        const double gap = length(between(p)) - radii - rounding;
+        return gap >= 0 || !(radii > 0) ? std::max(gap, -1.0) : std::max(gap / radii, -1.0);
+    }
+    [[nodiscard]] double smaller_radius(const HullPair& p) const {
+        return std::min(most_a_ * node_a(p.a).radius, most_b_ * node_b(p.b).radius);
+    }
+    /// Radii of the balls around the solids.
+    [[nodiscard]] double size() const {
+        return most_a_ * node_a(0).radius + most_b_ * node_b(0).radius;
+    }
+    /// Calls visit(child) for the pairs below: the larger hull is opened.
+    template <typename Visit>
+    void for_each_child(const HullPair& p, const Visit& visit) const {
+        const HullNode &na = node_a(p.a), &nb = node_b(p.b);
+        const bool open_a =
+            !na.is_leaf() && (nb.is_leaf() || most_a_ * na.radius >= most_b_ * nb.radius);
+        for (std::uint32_t i = 0; i < (open_a ? na : nb).children; ++i)
+            visit(open_a ? HullPair{na.child + i, p.b} : HullPair{p.a, nb.child + i});
+    }
+    [[nodiscard]] Vec3 origin() const {
+        return {world_from_a.m[9], world_from_a.m[10], world_from_a.m[11]};
+    }
+
+    const ConvexPiecesData &a, &b;
+    const Transform &world_from_a, &world_from_b;
+    double rounding; ///< no coordinate in the frame is off by more
+
+private:
+    Vec3 shift_; ///< from the origin of a to that of b
+    double most_a_, most_b_;
+};
+
+} // namespace abut

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <abut/mesh.h>
+
+#include "math/vector.h"
+#include "mesh/surface_features.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// The triangles of a closed surface and their neighbours. Equal positions count as one vertex: the
+/// first of them.
+///
+/// Refers to the mesh.
+struct SurfaceGraph {
+    /// Errors      Error{bad_mesh} naming an edge: it is not used by exactly two triangles, or by
+    ///             two in the same direction; or no triangle has three different corners.
+    explicit SurfaceGraph(const Mesh& mesh);
+
+    [[nodiscard]] Triangle triangle(std::uint32_t t) const {
+        const IndexTriangle& c = corners[t];
+        return {positions[c[0]], positions[c[1]], positions[c[2]]};
+    }
+    /// Whether a triangle has no area. Exact.
+    [[nodiscard]] bool is_degenerate(std::uint32_t t) const;
+
+    std::span<const Vec3> positions;
+    std::vector<IndexTriangle> corners;
+    std::vector<IndexTriangle> across; ///< across[t][k]: the triangle beyond the edge from corner
+                                       ///< k; kNoEdge where two corners are one vertex
+};
+
+} // namespace abut
