@@ -288,7 +288,8 @@ TEST(Import, KeepsToItsMemory) {
         file << std::string(80, ' ');
         file.write(reinterpret_cast<const char*>(&kTriangles), sizeof kTriangles);
         for (std::uint32_t i = 0; i < kTriangles; ++i) {
-            const auto x = static_cast<float>(i % 1000), y = static_cast<float>(i / 1000);
+            const std::uint32_t row = i / 1000;
+            const auto x = static_cast<float>(i % 1000), y = static_cast<float>(row);
             const float values[12] = {0, 0, 1, x, y, 0, x + 1, y, 0, x, y + 1, 0};
             char record[50] = {};
             std::memcpy(record, values, sizeof values);

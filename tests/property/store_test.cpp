@@ -401,14 +401,14 @@ TEST(MeshDraft, ClosednessIsThatOfTheTopology) {
         closed += expected ? 1 : 0;
     }
     EXPECT_GT(closed, static_cast<std::size_t>(rounds) / 10);
-    EXPECT_LT(closed, static_cast<std::size_t>(rounds) * 9 / 10);
+    EXPECT_LT(closed, static_cast<std::size_t>(rounds) / 10 * 9);
 }
 
 TEST(ExternalSort, IsASort) {
     Random random(7);
     for (int round = 0; round < many(10); ++round) {
         const Folder folder;
-        ExternalSort<std::uint64_t> sort(folder / "", 8 * 1024);
+        ExternalSort<std::uint64_t> sort(folder / "", 8192);
         std::vector<std::uint64_t> expected;
         for (int i = random.integer(0, 1) * random.integer(0, 20000); i >= 0; --i) {
             expected.push_back(random.bits());

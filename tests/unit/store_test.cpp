@@ -165,6 +165,7 @@ TEST(UniqueIds, AsInAScene) {
         ids.announce(id);
     ids.finish();
     std::vector<std::string> unique;
+    unique.reserve(given.size());
     for (const std::string& id : given)
         unique.push_back(ids.unique(id));
     EXPECT_EQ(unique, (std::vector<std::string>{"a", "a#3", "a#2", "a#4", "b", "b#2"}));
