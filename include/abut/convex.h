@@ -28,8 +28,9 @@ class Convex {
 public:
     /// Errors      Error{bad_mesh} if there is no point, or a coordinate is not finite or beyond
     ///             1e18.
-    /// Accuracy    exact: its vertices are those of the points that the hull of the others does not
-    ///             hold; what is coplanar exactly is one face.
+    /// Accuracy    its vertices are those of the points that the hull of the others does not hold,
+    ///             less those that it holds to 2^-46 of the largest coordinate; what is coplanar
+    ///             exactly is one face.
     /// Cost        O(n log n).
     explicit Convex(std::span<const Vec3> points);
 

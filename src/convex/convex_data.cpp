@@ -2,6 +2,7 @@
 
 #include "convex/closest_points.h"
 #include "convex/coplanar_faces.h"
+#include "convex/walkable_hull.h"
 #include "math/transform.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ std::size_t bytes_of(const std::vector<T>& values) {
 } // namespace
 
 ConvexData::ConvexData(std::span<const Vec3> points) {
-    HullSurface hull = exact_hull(points);
+    HullSurface hull = walkable_hull(points);
     dimension = hull.dimension;
     source = hull.vertices;
     std::vector<std::uint32_t> number(points.size());

@@ -5,6 +5,7 @@
 #include <abut/shape_queries.h>
 
 #include "convex/closest_points.h"
+#include "convex/exact_hull.h"
 #include "geometry/point_triangle_distance.h"
 #include "math/predicates.h"
 #include "pieces/hull_tree.h"
@@ -237,12 +238,12 @@ TEST(HullTree, WalksEndWhereverTheyBegin) {
             for (const std::uint32_t t : pieces.triangles(p))
                 for (const Vec3& v : corners(pieces.model().mesh(), t))
                     given.push_back(v);
-            const Convex exact(given);
-            if (exact.dimension() < 3)
+            const Convex body(given);
+            if (body.dimension() < 3)
                 continue;
-            left_out += exact.vertices().size() - hull.vertices.size();
-            const Mesh surface = exact.mesh();
-            const Vec3 at = random_point_of(random, exact) +
+            left_out += exact_hull(given).vertices.size() - hull.vertices.size();
+            const Mesh surface = body.mesh();
+            const Vec3 at = random_point_of(random, body) +
                             (i % 2 == 0 ? 0 : random.uniform(0, 1)) * random.direction();
             double expected = HUGE_VAL;
             bool out = false;

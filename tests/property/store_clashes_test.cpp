@@ -145,8 +145,8 @@ TEST(OutOfCore, FindsWhatIsFoundInCore) {
         for (bool fits = true; fits; memory = memory / 2 < memory - 100'000 ? memory / 2 : 0) {
             for (const WorkOrder order : {WorkOrder::partition, WorkOrder::random}) {
                 try {
-                    const StoreClashReport found =
-                        find_clashes(opened, options, {.memory = memory, .order = order, .keep = false});
+                    const StoreClashReport found = find_clashes(
+                        opened, options, {.memory = memory, .order = order, .keep = false});
                     expect_equal(found.report, found.models, truth, scenes);
                     ASSERT_LE(found.counters.peak_bytes, memory);
                     ASSERT_GE(found.counters.mesh_loads, found.counters.meshes);

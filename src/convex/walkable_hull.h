@@ -1,0 +1,20 @@
+#pragma once
+
+#include "convex/exact_hull.h"
+
+#include <span>
+
+namespace abut {
+
+/// The convex hull of some points, less those vertices that the hull of the others holds to
+/// rounding: 2^-46 of the largest coordinate.
+///
+/// Around such a vertex, the surface is flat or bends along an edge by so little that rounding hides
+/// on which side the body is: a walk would take it for the farthest vertex along the direction
+/// inwards too. Without them, a vertex that beats its neighbours is the best of all, in floating
+/// point as well.
+///
+/// In, errors, cost: as exact_hull, some times.
+HullSurface walkable_hull(std::span<const Vec3> points);
+
+} // namespace abut
