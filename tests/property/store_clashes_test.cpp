@@ -8,37 +8,18 @@
 
 #include "massive/stored_parts.h"
 #include "massive/work_units.h"
+#include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
 #include <atomic>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
-#include <unistd.h>
 
 namespace abut::test {
 namespace {
-
-class Folder {
-public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "abut-job-XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-private:
-    std::filesystem::path path_;
-};
 
 Mesh some_body(Random& random) {
     const double size = random.uniform(0.1, 0.5);

@@ -10,6 +10,7 @@
 #include "store/cut_mesh.h"
 #include "store/mesh_codec.h"
 #include "store/mesh_draft.h"
+#include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/stores.h"
@@ -27,28 +28,6 @@ namespace abut::test {
 namespace {
 
 constexpr std::uint64_t kLittle = std::uint64_t{16} << 20;
-
-class Folder {
-public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "abut-store-XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    [[nodiscard]] std::size_t files() const {
-        return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_),
-                                                      std::filesystem::directory_iterator()));
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 float some_float(Random& random) {
     switch (random.integer(0, 5)) {
