@@ -185,19 +185,19 @@ std::uint64_t PartRow::checksum() const {
 
 ModelRow read_model_row(const Statement& row, const std::string& store) {
     const auto hash = words<2>(row.bytes(5));
-    const ModelRow result{row.integer(0),
-                          row.text(1),
-                          row.text(2),
-                          unsigned_of(row, 3),
-                          row.integer(4),
-                          hash[0],
-                          hash[1],
-                          row.real(6),
-                          row.integer(7) != 0,
-                          unsigned_of(row, 8),
-                          unsigned_of(row, 9),
-                          unsigned_of(row, 10),
-                          unsigned_of(row, 11)};
+    ModelRow result{row.integer(0),
+                    row.text(1),
+                    row.text(2),
+                    unsigned_of(row, 3),
+                    row.integer(4),
+                    hash[0],
+                    hash[1],
+                    row.real(6),
+                    row.integer(7) != 0,
+                    unsigned_of(row, 8),
+                    unsigned_of(row, 9),
+                    unsigned_of(row, 10),
+                    unsigned_of(row, 11)};
     require(result.checksum() == unsigned_of(row, 12), store, "model", result.model);
     return result;
 }
@@ -222,9 +222,8 @@ MeshRow read_mesh_row(const Statement& row, const std::string& store) {
 }
 
 BlockRow read_block_row(const Statement& row, const std::string& store) {
-    const BlockRow result{row.integer(0),      row.integer(1),      unsigned_of(row, 2),
-                          unsigned_of(row, 3), unsigned_of(row, 4), read_box(row, 5),
-                          unsigned_of(row, 11)};
+    BlockRow result{row.integer(0),      row.integer(1),   unsigned_of(row, 2), unsigned_of(row, 3),
+                    unsigned_of(row, 4), read_box(row, 5), unsigned_of(row, 11)};
     require(result.checksum() == unsigned_of(row, 12), store, "block", result.block);
     return result;
 }
