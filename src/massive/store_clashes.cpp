@@ -6,18 +6,14 @@
 #include "core/stop_watch.h"
 #include "massive/clash_identity.h"
 #include "massive/classify_pair.h"
-#include "massive/job_record.h"
+#include "massive/job_plan.h"
 #include "massive/model_cache.h"
 #include "massive/rule_match.h"
-#include "massive/stored_parts.h"
-#include "massive/work_units.h"
-#include "math/vector.h"
 #include "store/store_file.h"
 
 #include <algorithm>
 #include <future>
 #include <iterator>
-#include <malloc.h>
 #include <map>
 #include <tbb/global_control.h>
 #include <unordered_map>
@@ -25,66 +21,6 @@
 namespace abut {
 
 namespace {
-
-/// For pairs and rows of the unit at hand.
-constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 10;
-
-std::uint64_t bytes_for_models(const StoredParts& parts, const std::vector<IndexPair>& pairs,
-                               const OutOfCoreOptions& options, const std::string& store) {
-    const std::uint64_t tables = parts.bytes() + pairs.capacity() * sizeof(IndexPair);
-    if (options.memory < kLeastMemory + tables)
-        throw Error(ErrorCode::bad_argument, store,
-                    "needs more memory: " + std::to_string(((kLeastMemory + tables) >> 20) + 1) +
-                        " MiB at least");
-    return options.memory - tables;
-}
-
-/// The plan of a job: what is to be compared, in which order.
-struct Plan {
-    StoredParts stored;
-    std::vector<WorkUnit> units;
-    std::uint64_t candidates = 0;
-    std::uint64_t budget = 0;          ///< bytes of models
-    std::unique_ptr<JobRecord> record; ///< may be none
-};
-
-/// What the answer depends on: the question and the parts.
-Hash128 key_of(const StoredParts& stored, const ClashOptions& options) {
-    Hasher hasher;
-    for (const ModelRow& model : stored.models)
-        hasher.add_value(model.checksum());
-    hasher.add_value(question_hash(options));
-    return hasher.value();
-}
-
-/// In          recorded: what the store knows of this job counts, and it is to be kept there.
-Plan make_plan(StoreFile& store, const ClashOptions& options, const OutOfCoreOptions& out_of_core,
-               bool recorded) {
-    require_tolerances(options);
-    ProgressMeter progress(options.progress, "broad phase", 3);
-    Plan plan;
-    plan.stored = gather_parts(store, !options.rules.empty());
-    progress.advance();
-    std::vector<IndexPair> pairs = find_candidates(plan.stored, options);
-    plan.candidates = pairs.size();
-    progress.advance();
-    if (recorded && out_of_core.keep)
-        plan.record =
-            JobRecord::open(store.path(), {key_of(plan.stored, options), options, plan.candidates});
-    if (plan.record != nullptr)
-        if (auto left = plan.record->pairs_left())
-            pairs = std::move(*left);
-    plan.budget = bytes_for_models(plan.stored, pairs, out_of_core, store.path());
-    // One unit is tested while the next one's models come into memory.
-    plan.units = make_work_units(plan.stored, std::move(pairs), plan.budget / 2, out_of_core.order,
-                                 store.path());
-    if (plan.record != nullptr)
-        plan.record->plan(plan.units);
-    // What the broad phase and the partition needed is free for models, and not in small pieces.
-    malloc_trim(0);
-    progress.advance();
-    return plan;
-}
 
 class StoreClashJob {
 public:
@@ -268,42 +204,11 @@ private:
     StoreFile& store_;
     const ClashOptions& options_;
     const OutOfCoreOptions& out_of_core_;
-    Plan plan_;
+    JobPlan plan_;
     StoreClashReport result_;
     std::map<std::uint32_t, Part> named_; ///< parts that clash
     std::vector<FoundClash> fresh_;       ///< of the piece of work at hand
     std::vector<FoundClash> clashes_;
-};
-
-Vec3 middle_of(const Box3& box) {
-    return 0.5 * box.lower + 0.5 * box.upper;
-}
-
-/// Sets that are joined; how many nodes each holds.
-class Components {
-public:
-    explicit Components(std::size_t count) : parent_(count), size_(count, 1) {
-        for (std::uint32_t i = 0; i < count; ++i)
-            parent_[i] = i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        if (a == b)
-            return;
-        if (size_[a] < size_[b])
-            std::swap(a, b);
-        parent_[b] = a;
-        size_[a] += size_[b];
-    }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i)
-            i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    [[nodiscard]] std::uint32_t size(std::uint32_t root) const { return size_[root]; }
-
-private:
-    std::vector<std::uint32_t> parent_, size_;
 };
 
 } // namespace
@@ -311,65 +216,6 @@ private:
 StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
                               const OutOfCoreOptions& out_of_core) {
     return StoreClashJob(store.file(), options, out_of_core).run();
-}
-
-GraphReport overlap_graph(const Store& store, const ClashOptions& options,
-                          const OutOfCoreOptions& out_of_core, std::uint64_t lines) {
-    StopWatch watch;
-    const Plan plan = make_plan(store.file(), options, out_of_core, false);
-    GraphReport report;
-    report.nodes = plan.stored.parts.size();
-    report.edges = plan.candidates;
-    std::vector<std::uint32_t> valence(report.nodes);
-    std::vector<bool> needed(plan.stored.meshes.size());
-    Components components(report.nodes);
-    const std::uint64_t every = lines == 0 ? 0 : std::max<std::uint64_t>(1, report.edges / lines);
-    std::uint64_t edge = 0;
-    for (const WorkUnit& unit : plan.units) {
-        GraphReport::Unit& figures = report.units.emplace_back();
-        figures.edges = unit.pairs.size();
-        figures.meshes = unit.meshes.size();
-        figures.bytes = unit.bytes;
-        report.cut_edges += unit.cut ? unit.pairs.size() : 0;
-        std::vector<std::uint32_t> parts;
-        for (const IndexPair& pair : unit.pairs) {
-            components.join(pair.a(), pair.b());
-            if (every > 0 && edge++ % every == 0)
-                report.lines.push_back({middle_of(plan.stored.parts[pair.a()].box),
-                                        middle_of(plan.stored.parts[pair.b()].box),
-                                        static_cast<std::uint32_t>(report.units.size() - 1)});
-            for (const std::uint32_t part : {pair.a(), pair.b()}) {
-                ++valence[part];
-                parts.push_back(part);
-            }
-        }
-        std::sort(parts.begin(), parts.end());
-        parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-        figures.parts = parts.size();
-        for (const std::uint32_t part : parts) {
-            const Vec3 middle = middle_of(plan.stored.parts[part].box);
-            figures.bounds.lower = min(figures.bounds.lower, middle);
-            figures.bounds.upper = max(figures.bounds.upper, middle);
-        }
-        for (const std::uint32_t mesh : unit.meshes)
-            needed[mesh] = true;
-    }
-    for (std::size_t i = 0; i < needed.size(); ++i)
-        report.bytes += needed[i] ? plan.stored.meshes[i].bytes : 0;
-    for (std::uint32_t i = 0; i < report.nodes; ++i) {
-        report.highest_valence = std::max<std::uint64_t>(report.highest_valence, valence[i]);
-        report.isolated += valence[i] == 0 ? 1 : 0;
-        if (valence[i] > 0 && components.find(i) == i) {
-            ++report.components;
-            report.largest_component =
-                std::max<std::uint64_t>(report.largest_component, components.size(i));
-        }
-    }
-    if (report.nodes > report.isolated)
-        report.mean_valence = 2 * static_cast<double>(report.edges) /
-                              static_cast<double>(report.nodes - report.isolated);
-    report.seconds = watch.lap();
-    return report;
 }
 
 } // namespace abut

@@ -1,0 +1,67 @@
+#include "massive/job_plan.h"
+
+#include <abut/error.h>
+
+#include "core/progress.h"
+#include "massive/clash_identity.h"
+
+#include <malloc.h>
+#include <string>
+
+namespace abut {
+
+namespace {
+
+/// For pairs and rows of the unit at hand.
+constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 10;
+
+std::uint64_t bytes_for_models(const StoredParts& parts, const std::vector<IndexPair>& pairs,
+                               const OutOfCoreOptions& options, const std::string& store) {
+    const std::uint64_t tables = parts.bytes() + pairs.capacity() * sizeof(IndexPair);
+    if (options.memory < kLeastMemory + tables)
+        throw Error(ErrorCode::bad_argument, store,
+                    "needs more memory: " + std::to_string(((kLeastMemory + tables) >> 20) + 1) +
+                        " MiB at least");
+    return options.memory - tables;
+}
+
+/// What the answer depends on: the question and the parts.
+Hash128 key_of(const StoredParts& stored, const ClashOptions& options) {
+    Hasher hasher;
+    for (const ModelRow& model : stored.models)
+        hasher.add_value(model.checksum());
+    hasher.add_value(question_hash(options));
+    return hasher.value();
+}
+
+} // namespace
+
+JobPlan make_plan(StoreFile& store, const ClashOptions& options,
+                  const OutOfCoreOptions& out_of_core, bool recorded) {
+    require_tolerances(options);
+    ProgressMeter progress(options.progress, "broad phase", 3);
+    JobPlan plan;
+    plan.stored = gather_parts(store, !options.rules.empty());
+    progress.advance();
+    std::vector<IndexPair> pairs = find_candidates(plan.stored, options);
+    plan.candidates = pairs.size();
+    progress.advance();
+    if (recorded && out_of_core.keep)
+        plan.record =
+            JobRecord::open(store.path(), {key_of(plan.stored, options), options, plan.candidates});
+    if (plan.record != nullptr)
+        if (auto left = plan.record->pairs_left())
+            pairs = std::move(*left);
+    plan.budget = bytes_for_models(plan.stored, pairs, out_of_core, store.path());
+    // One unit is tested while the next one's models come into memory.
+    plan.units = make_work_units(plan.stored, std::move(pairs), plan.budget / 2, out_of_core.order,
+                                 store.path());
+    if (plan.record != nullptr)
+        plan.record->plan(plan.units);
+    // What the broad phase and the partition needed is free for models, and not in small pieces.
+    malloc_trim(0);
+    progress.advance();
+    return plan;
+}
+
+} // namespace abut

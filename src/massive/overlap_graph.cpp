@@ -1,0 +1,132 @@
+#include <abut/store_clash.h>
+
+#include "core/stop_watch.h"
+#include "massive/job_plan.h"
+#include "math/vector.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+Vec3 middle_of(const Box3& box) {
+    return 0.5 * box.lower + 0.5 * box.upper;
+}
+
+/// Sets that are joined; how many nodes each holds.
+class Components {
+public:
+    explicit Components(std::size_t count) : parent_(count), size_(count, 1) {
+        for (std::uint32_t i = 0; i < count; ++i)
+            parent_[i] = i;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = find(a), b = find(b);
+        if (a == b)
+            return;
+        if (size_[a] < size_[b])
+            std::swap(a, b);
+        parent_[b] = a;
+        size_[a] += size_[b];
+    }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    [[nodiscard]] std::uint32_t size(std::uint32_t root) const { return size_[root]; }
+
+private:
+    std::vector<std::uint32_t> parent_, size_;
+};
+
+/// Adds one piece of work after the other.
+class GraphFigures {
+public:
+    GraphFigures(const JobPlan& plan, std::uint64_t lines)
+        : plan_(plan), valence_(plan.stored.parts.size()), needed_(plan.stored.meshes.size()),
+          components_(plan.stored.parts.size()),
+          every_(lines == 0 ? 0 : std::max<std::uint64_t>(1, plan.candidates / lines)) {
+        report_.nodes = plan.stored.parts.size();
+        report_.edges = plan.candidates;
+    }
+
+    void add(const WorkUnit& unit) {
+        std::vector<std::uint32_t> parts;
+        for (const IndexPair& pair : unit.pairs) {
+            add_edge(pair);
+            parts.insert(parts.end(), {pair.a(), pair.b()});
+        }
+        std::sort(parts.begin(), parts.end());
+        parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+        for (const std::uint32_t mesh : unit.meshes)
+            needed_[mesh] = true;
+        report_.cut_edges += unit.cut ? unit.pairs.size() : 0;
+        GraphReport::Unit& figures = report_.units.emplace_back();
+        figures.parts = parts.size();
+        figures.edges = unit.pairs.size();
+        figures.meshes = unit.meshes.size();
+        figures.bytes = unit.bytes;
+        for (const std::uint32_t part : parts) {
+            figures.bounds.lower = min(figures.bounds.lower, middle(part));
+            figures.bounds.upper = max(figures.bounds.upper, middle(part));
+        }
+    }
+
+    GraphReport finish() {
+        for (std::size_t i = 0; i < needed_.size(); ++i)
+            report_.bytes += needed_[i] ? plan_.stored.meshes[i].bytes : 0;
+        for (std::uint32_t i = 0; i < report_.nodes; ++i) {
+            report_.highest_valence = std::max<std::uint64_t>(report_.highest_valence, valence_[i]);
+            report_.isolated += valence_[i] == 0 ? 1 : 0;
+            if (valence_[i] == 0 || components_.find(i) != i)
+                continue;
+            ++report_.components;
+            report_.largest_component =
+                std::max<std::uint64_t>(report_.largest_component, components_.size(i));
+        }
+        if (report_.nodes > report_.isolated)
+            report_.mean_valence = 2 * static_cast<double>(report_.edges) /
+                                   static_cast<double>(report_.nodes - report_.isolated);
+        return std::move(report_);
+    }
+
+private:
+    [[nodiscard]] Vec3 middle(std::uint32_t part) const {
+        return middle_of(plan_.stored.parts[part].box);
+    }
+
+    void add_edge(const IndexPair& pair) {
+        components_.join(pair.a(), pair.b());
+        ++valence_[pair.a()], ++valence_[pair.b()];
+        if (every_ > 0 && edges_++ % every_ == 0)
+            report_.lines.push_back({middle(pair.a()), middle(pair.b()),
+                                     static_cast<std::uint32_t>(report_.units.size())});
+    }
+
+    const JobPlan& plan_;
+    GraphReport report_;
+    std::vector<std::uint32_t> valence_; ///< of a part
+    std::vector<bool> needed_;           ///< of a mesh
+    Components components_;
+    std::uint64_t every_, edges_ = 0;
+};
+
+} // namespace
+
+GraphReport overlap_graph(const Store& store, const ClashOptions& options,
+                          const OutOfCoreOptions& out_of_core, std::uint64_t lines) {
+    StopWatch watch;
+    const JobPlan plan = make_plan(store.file(), options, out_of_core, false);
+    GraphFigures figures(plan, lines);
+    for (const WorkUnit& unit : plan.units)
+        figures.add(unit);
+    GraphReport report = figures.finish();
+    report.seconds = watch.lap();
+    return report;
+}
+
+} // namespace abut
