@@ -10,13 +10,14 @@ namespace {
 
 /// What rounding may hide, relative: far above it.
 constexpr double kSlack = 0x1p-40;
+/// By so much the products of a rotation's columns may be off.
+constexpr double kRounding = 0x1p-44;
 
 Vec3 column(const Transform& t, std::size_t k) {
     return {t.m[3 * k], t.m[3 * k + 1], t.m[3 * k + 2]};
 }
 
 bool is_rotation(const Transform& t) {
-    constexpr double kRounding = 0x1p-44;
     const Vec3 x = column(t, 0), y = column(t, 1), z = column(t, 2);
     const auto is_one = [](double v) { return std::abs(v - 1) <= kRounding; };
     const auto is_zero = [](double v) { return std::abs(v) <= kRounding; };
@@ -62,7 +63,9 @@ double most_approach(const PosePair& from, const PosePair& to, const BodyBall& a
     if (from.a == to.a) {
         if (from.b == to.b)
             return 0;
-        return way(from.b, to.b, b, rotations) * (1 + kSlack) + 0x1p-50 * size_of(to.b, b);
+        // What is a rotation but for rounding may stretch a ball by that.
+        return way(from.b, to.b, b, rotations) * (1 + kSlack) + 0x1p-50 * size_of(to.b, b) +
+               (rotations ? 8 * kRounding * b.radius : 0);
     }
     if (rotations && is_rotation(to.a) && is_rotation(from.a)) {
         const Transform before = seen_from(from.a, from.b), now = seen_from(to.a, to.b);

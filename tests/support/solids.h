@@ -2,6 +2,7 @@
 
 #include <abut/mesh.h>
 
+#include "scenes/bodies.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 
@@ -98,6 +99,73 @@ inline Mesh pitted_cube_mesh() {
         const bool deep = std::abs(x - 3) < 2 && std::abs(y - 3) < 2 && std::abs(z - 3) < 2;
         return deep || middle < 2;
     });
+}
+
+/// Cells of a lattice, at random; where the surface is no closed one, a U of them.
+inline Mesh random_cells(Random& random, int n) {
+    for (int attempt = 0; attempt < 40; ++attempt) {
+        const auto side = static_cast<std::size_t>(n);
+        std::vector<bool> solid(side * side * side);
+        for (std::size_t i = 0; i < solid.size(); ++i)
+            solid[i] = random.chance(0.55);
+        Mesh m = cells_mesh(n, [&](int x, int y, int z) {
+            return bool(
+                solid[(static_cast<std::size_t>(x) * side + static_cast<std::size_t>(y)) * side +
+                      static_cast<std::size_t>(z)]);
+        });
+        const MeshReport report = inspect(m);
+        if (report.closed && report.flipped_edges == 0)
+            return m;
+    }
+    return cells_mesh(3, [](int x, int /*y*/, int z) { return x != 1 || z == 0; });
+}
+
+/// A prism of a star-shaped polygon.
+inline Mesh random_star(Random& random) {
+    std::vector<Vec3> polygon;
+    const int n = random.integer(5, 12);
+    for (int i = 0; i < n; ++i) {
+        const double a = 2 * std::numbers::pi * i / n, r = random.uniform(0.5, 2);
+        polygon.push_back({r * std::cos(a), r * std::sin(a), 0});
+    }
+    return star_prism(polygon, random.uniform(0.3, 1.5));
+}
+
+inline constexpr int kSolidKinds = 10;
+
+/// About 2 across, not all of them in the middle.
+inline Mesh make_solid(Random& random, int kind) {
+    const auto seed = static_cast<std::uint64_t>(random.integer(1, 1000));
+    switch (kind % kSolidKinds) {
+    case 0:
+        return transformed(random_cells(random, 3), scaling(0.75, 0.75, 0.75));
+    case 1:
+        return random_star(random);
+    case 2:
+        return gear_mesh(random.integer(3, 8), 0.8, 1.2, 0.4);
+    case 3:
+        return scenes::boulder(128, seed);
+    case 4:
+        return torus_mesh(1, random.uniform(0.2, 0.6), random.integer(5, 14),
+                          random.integer(4, 10));
+    case 5: // a cavity
+        return joined(box_mesh({-1, -1, -1}, {1, 1, 1}),
+                      reversed(box_mesh({-0.5, -0.5, -0.5}, {0.6, 0.7, 0.8})));
+    case 6: // two that go into each other
+        return joined(random_star(random), box_mesh({-0.4, -0.4, -0.4}, {0.4, 0.4, 2}));
+    case 7: // planes that are none, to rounding
+        return transformed(random_cells(random, 3), random.pose(0));
+    case 8:
+        return with_degenerates(random, gear_mesh(4, 0.5, 1, 0.7), 4);
+    default:
+        return transformed(random_cells(random, 2), scaling(1, 1, 0.5));
+    }
+}
+
+/// Of a triangle of a mesh.
+inline Triangle corners(const Mesh& mesh, std::uint32_t t) {
+    const auto& v = mesh.triangles[t];
+    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
 } // namespace abut::test
