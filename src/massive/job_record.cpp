@@ -23,6 +23,7 @@ CREATE TABLE IF NOT EXISTS job(
   self INTEGER NOT NULL,
   rules INTEGER NOT NULL,
   candidates INTEGER NOT NULL,
+  run INTEGER NOT NULL,
   planned INTEGER NOT NULL,
   finished INTEGER NOT NULL);
 CREATE TABLE IF NOT EXISTS job_unit(
@@ -145,30 +146,46 @@ JobRecord::JobRecord(const std::string& store, const Question& question)
     : database_(store, OpenMode::read_write) {
     // Others may read the store between two pieces of work.
     database_.run("PRAGMA busy_timeout = 10000; PRAGMA synchronous = FULL");
+    if (find(question) && finished_)
+        return;
     Transaction transaction(database_);
     database_.run(kTables);
-    {
-        Statement find(database_, "SELECT job FROM job WHERE key = ?");
-        find.bind(bytes_of(question.key));
-        if (find.step())
-            job_ = find.integer(0);
-    }
-    if (job_ == 0) {
+    if (!find(question)) {
         const Hash128 asked = question_hash(question.options);
-        Statement add(database_, "INSERT INTO job VALUES (NULL,?,?,?,?,?,?,?,0,0)");
+        Statement add(database_, "INSERT INTO job VALUES (NULL,?,?,?,?,?,?,?,0,0,0)");
         add.bind(bytes_of(question.key), bytes_of(asked), question.options.clearance,
                  question.options.touch, question.options.self ? 1 : 0,
                  std::uint64_t{question.options.rules.size()}, question.candidates)
             .run();
         job_ = database_.last_row();
     }
+    Statement(database_, "UPDATE job SET run = ? WHERE job = ?").bind(++run_, job_).run();
     transaction.commit();
-    Statement planned(database_, "SELECT planned FROM job WHERE job = ?");
-    is_new_ = !planned.bind(job_).step() || planned.integer(0) == 0;
+}
+
+bool JobRecord::find(const Question& question) {
+    if (database_.number("SELECT count(*) FROM sqlite_schema WHERE name = 'job'") == 0)
+        return false;
+    Statement job(database_, "SELECT job, run, planned, finished FROM job WHERE key = ?");
+    job.bind(bytes_of(question.key));
+    if (!job.step())
+        return false;
+    job_ = job.integer(0);
+    run_ = job.integer(1);
+    planned_ = job.integer(2) != 0;
+    finished_ = job.integer(3) != 0;
+    return true;
+}
+
+void JobRecord::require_ours() {
+    Statement run(database_, "SELECT run FROM job WHERE job = ?");
+    if (!run.bind(job_).step() || run.integer(0) != run_)
+        throw Error(ErrorCode::unreadable, database_.path(),
+                    "is worked on by another process, which has taken over this job");
 }
 
 std::optional<std::vector<IndexPair>> JobRecord::pairs_left() {
-    if (is_new_)
+    if (!planned_)
         return std::nullopt;
     std::vector<IndexPair> pairs;
     Statement units(database_, "SELECT pairs, checksum FROM job_unit WHERE job = ? ORDER BY unit");
@@ -208,7 +225,10 @@ std::vector<FoundClash> JobRecord::found() {
 }
 
 void JobRecord::plan(const std::vector<WorkUnit>& units) {
+    if (finished_)
+        return;
     Transaction transaction(database_);
+    require_ours();
     Statement(database_, "DELETE FROM job_unit WHERE job = ?").bind(job_).run();
     Statement add(database_, "INSERT INTO job_unit VALUES (?,?,?,?)");
     std::vector<std::uint64_t> keys;
@@ -221,12 +241,12 @@ void JobRecord::plan(const std::vector<WorkUnit>& units) {
     }
     Statement(database_, "UPDATE job SET planned = 1 WHERE job = ?").bind(job_).run();
     transaction.commit();
-    is_new_ = false;
 }
 
 void JobRecord::commit(std::size_t unit, const std::vector<FoundClash>& clashes,
                        const std::vector<std::pair<std::int64_t, std::int64_t>>& rows) {
     Transaction transaction(database_);
+    require_ours();
     Statement add(database_, "INSERT INTO clash VALUES (NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
     for (std::size_t i = 0; i < clashes.size(); ++i) {
         const Clash& c = clashes[i].clash;
@@ -245,7 +265,10 @@ void JobRecord::commit(std::size_t unit, const std::vector<FoundClash>& clashes,
 }
 
 void JobRecord::finish() {
+    if (finished_)
+        return;
     Transaction transaction(database_);
+    require_ours();
     Statement(database_, "UPDATE job SET finished = 1 WHERE job = ?").bind(job_).run();
     constexpr const char* kEarlier = "(SELECT job FROM job WHERE job <> ?1 AND question = (SELECT "
                                      "question FROM job WHERE job = ?1))";

@@ -28,8 +28,10 @@ Hash128 question_hash(const ClashOptions& options);
 /// What a job has done, kept in its store: which pairs are left, and what the others gave. Each piece
 /// of work is recorded as a whole or not at all, so a job that is killed goes on where it was.
 ///
+/// Of two processes that work on one job, the later takes over: the other's next piece is refused.
+///
 /// Errors      of all members: Error, naming the store: as Database; malformed if a row is not what
-///             its checksum says.
+///             its checksum says; unreadable if another process has taken over.
 class JobRecord {
 public:
     /// What was asked of which parts: of the same question about the same parts there is one record.
@@ -42,7 +44,8 @@ public:
     /// Null if the store cannot be written to.
     static std::unique_ptr<JobRecord> open(const std::string& store, const Question& question);
 
-    /// The pairs that are left; none if the job is new. Empty: it has ended.
+    /// The pairs that are left; none if the job is new. Empty: it has ended, and nothing is written
+    /// any more.
     [[nodiscard]] std::optional<std::vector<IndexPair>> pairs_left();
     /// The clashes of the pieces that are done.
     [[nodiscard]] std::vector<FoundClash> found();
@@ -58,9 +61,14 @@ public:
 private:
     JobRecord(const std::string& store, const Question& question);
 
+    /// Whether there is such a job; its state.
+    bool find(const Question& question);
+    void require_ours();
+
     Database database_;
     std::int64_t job_ = 0;
-    bool is_new_ = false;
+    std::int64_t run_ = 0; ///< counts how often the job was begun or gone on with
+    bool planned_ = false, finished_ = false;
 };
 
 } // namespace abut

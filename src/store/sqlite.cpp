@@ -67,6 +67,8 @@ Database::Database(std::string path, OpenMode mode) : path_(std::move(path)) {
         sqlite3_close(handle_);
         throw Error(verdict.code, path_, verdict.text);
     }
+    // A job holds the store for moments only, to record a piece of its work.
+    sqlite3_busy_timeout(handle_, 1000);
 }
 
 Database::~Database() {

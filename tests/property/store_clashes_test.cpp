@@ -17,6 +17,8 @@
 #include <atomic>
 #include <gtest/gtest.h>
 #include <set>
+#include <thread>
+#include <utility>
 
 namespace abut::test {
 namespace {
@@ -205,6 +207,46 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
     std::cout << stops << " stops, " << recalled << " jobs went on\n";
     EXPECT_GE(stops, static_cast<std::size_t>(many(4)) / 2);
     EXPECT_GT(recalled, 0U);
+}
+
+/// Two processes at one job: the later goes on with what is left, and the other's next piece is refused,
+/// so nothing is lost or doubled.
+TEST(OutOfCore, ASecondJobTakesOver) {
+    Random random(6105);
+    std::size_t recalled = 0;
+    for (int round = 0; round < many(3); ++round) {
+        const Folder folder;
+        const std::string model = folder / "a.glb", store = folder / "a.abut";
+        write_glb(some_scene(random, 150, 4), model);
+        (void)import_models({model}, store);
+        const std::vector<Scene> scenes = read_scenes({model});
+        ClashOptions options;
+        options.clearance = 0.02;
+        const ClashReport truth = find_clashes(scenes, options);
+        const OutOfCoreOptions little{.memory = 800'000};
+        StoreClashReport second;
+        ClashOptions first = options;
+        bool begun = false;
+        const double share = random.uniform(0.1, 0.7);
+        first.progress.report = [&](std::string_view stage, double at) {
+            if (stage != "narrow phase" || at < share || std::exchange(begun, true))
+                return;
+            std::thread([&] { second = find_clashes(open_store(store), options, little); }).join();
+        };
+        try {
+            (void)find_clashes(open_store(store), first, little);
+            FAIL() << "both were let through";
+        } catch (const Error& error) {
+            ASSERT_EQ(error.code(), ErrorCode::unreadable) << error.what();
+        }
+        ASSERT_TRUE(begun);
+        expect_equal(second.report, second.models, truth, scenes);
+        recalled += second.counters.recalled_pairs > 0 ? 1 : 0;
+        const StoreClashReport again = find_clashes(open_store(store), options, little);
+        expect_equal(again.report, again.models, truth, scenes);
+        EXPECT_EQ(again.counters.recalled_pairs, truth.candidates);
+    }
+    std::cout << recalled << " went on with what the first had done\n";
 }
 
 TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
