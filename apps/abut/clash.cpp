@@ -104,6 +104,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (arguments.memory && !from_store)
         throw Error(ErrorCode::bad_argument, "--memory",
                     "is for a store alone: bring the models into one with abut import");
+    if (arguments.unit != 0 && from_store)
+        throw Error(ErrorCode::bad_argument, "--unit",
+                    "is for models alone: a store has the one of its import");
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
     std::vector<Scene> models;

@@ -107,6 +107,7 @@ TEST_F(StoreClash, RefusesWhatItCannotDo) {
     make(crowd(4, 8));
     expect_refused(clash(model_, {"--memory", "64M"}), {"--memory", "store"});
     expect_refused(clash(store_, {"--memory", "many"}), {"--memory"});
+    expect_refused(clash(store_, {"--unit", "2"}), {"--unit", "store"});
     expect_refused(clash(store_, {"--memory", "1K"}), {store_, "memory"});
     expect_refused(clash(store_, {"--memory", "80K"}), {store_, "memory"});
     expect_refused(run_abut({"graph", model_}), {model_});
