@@ -80,9 +80,7 @@ std::string draw(const GraphReport& graph) {
         most = std::max(most, unit.bytes);
     for (std::size_t i = 0; i < graph.units.size() && graph.units.size() > 1; ++i) {
         const GraphReport::Unit& unit = graph.units[i];
-        const auto [x, y] = page.place({0.5 * (unit.bounds.lower.x + unit.bounds.upper.x),
-                                        0.5 * (unit.bounds.lower.y + unit.bounds.upper.y),
-                                        0.5 * (unit.bounds.lower.z + unit.bounds.upper.z)});
+        const auto [x, y] = page.place(unit.middle);
         const double radius =
             4 + 14 * std::sqrt(static_cast<double>(unit.bytes) / static_cast<double>(most));
         text +=

@@ -69,6 +69,7 @@ struct GraphReport {
     struct Unit {
         std::uint64_t parts = 0, edges = 0, meshes = 0, bytes = 0;
         Box3 bounds; ///< of its parts' middles
+        Vec3 middle; ///< their mean
     };
     std::vector<Unit> units;     ///< in the order of work
     std::uint64_t cut_edges = 0; ///< between parts that a partition put apart

@@ -73,6 +73,8 @@ public:
         for (const std::uint32_t part : parts) {
             figures.bounds.lower = min(figures.bounds.lower, middle(part));
             figures.bounds.upper = max(figures.bounds.upper, middle(part));
+            figures.middle =
+                figures.middle + (1 / static_cast<double>(parts.size())) * middle(part);
         }
     }
 
