@@ -20,9 +20,9 @@ public:
 
     /// False at the end of the text. The line stays where it is until the next one is asked for.
     bool next(std::string_view& line) {
-        std::size_t searched = 0, end = text_.ahead().find('\n');
+        std::size_t end = text_.ahead().find('\n');
         while (end == std::string_view::npos) {
-            searched = text_.ahead().size();
+            const std::size_t searched = text_.ahead().size();
             if (!text_.more())
                 break;
             end = text_.ahead().find('\n', searched);

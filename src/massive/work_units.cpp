@@ -6,9 +6,9 @@
 #include "math/vector.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <random>
+#include <utility>
 
 namespace abut {
 
@@ -16,7 +16,7 @@ namespace {
 
 /// A partition of more nodes than this would itself take some 100 MB: space is halved first.
 constexpr std::size_t kMostNodes = 250'000;
-constexpr std::uint64_t kMostSubgraphs = 64; ///< of one partition
+constexpr std::size_t kMostSubgraphs = 64; ///< of one partition
 /// METIS balances the weights to some per cent, and meshes are shared between subgraphs.
 constexpr double kRoom = 1.25;
 
@@ -24,9 +24,7 @@ class Partition {
 public:
     Partition(const StoredParts& stored, std::uint64_t budget, const std::string& store)
         : stored_(stored), budget_(budget), local_(stored.parts.size()),
-          mesh_stamp_(stored.meshes.size()), shown_(stored.meshes.size()) {
-        store_ = store;
-    }
+          mesh_stamp_(stored.meshes.size()), shown_(stored.meshes.size()), store_(store) {}
 
     void cut(std::vector<IndexPair> pairs, bool is_cut = false) {
         if (pairs.empty())
@@ -116,14 +114,11 @@ private:
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         for (std::uint32_t i = 0; i < nodes.size(); ++i)
             local_[nodes[i]] = i;
-        const auto subgraphs = static_cast<int>(std::min(
-            kMostSubgraphs, static_cast<std::uint64_t>(kRoom * static_cast<double>(unit.bytes) /
-                                                       static_cast<double>(budget_)) +
-                                1));
+        const bool in_space = nodes.size() > kMostNodes;
+        const std::size_t subgraphs = in_space ? 2 : subgraphs_for(unit, nodes.size());
         const std::vector<std::int32_t> part =
-            nodes.size() > kMostNodes ? halve(nodes) : subgraphs_of(unit, nodes, subgraphs);
-        std::vector<std::vector<IndexPair>> lists(
-            static_cast<std::size_t>(nodes.size() > kMostNodes ? 2 : std::max(2, subgraphs)) + 1);
+            in_space ? halve(nodes) : subgraphs_of(unit, nodes, subgraphs);
+        std::vector<std::vector<IndexPair>> lists(subgraphs + 1);
         for (const IndexPair& pair : unit.pairs) {
             const std::int32_t a = part[local_[pair.a()]], b = part[local_[pair.b()]];
             (a == b ? lists[static_cast<std::size_t>(a)] : lists.back()).push_back(pair);
@@ -131,8 +126,16 @@ private:
         return lists;
     }
 
+    /// At least 2, since the unit is larger than the budget.
+    [[nodiscard]] std::size_t subgraphs_for(const WorkUnit& unit, std::size_t nodes) const {
+        const double needed =
+            kRoom * static_cast<double>(unit.bytes) / static_cast<double>(budget_);
+        return std::min({static_cast<std::size_t>(needed) + 1, kMostSubgraphs, nodes});
+    }
+
     std::vector<std::int32_t> subgraphs_of(const WorkUnit& unit,
-                                           const std::vector<std::uint32_t>& nodes, int subgraphs) {
+                                           const std::vector<std::uint32_t>& nodes,
+                                           std::size_t subgraphs) {
         std::vector<GraphEdge> edges;
         edges.reserve(unit.pairs.size());
         for (const IndexPair& pair : unit.pairs)
@@ -148,7 +151,7 @@ private:
         for (const std::uint32_t node : nodes)
             weights.push_back(static_cast<std::int32_t>(
                 1 + bytes_of(mesh_of(node)) / shown_[mesh_of(node)] / unit_bytes));
-        return cut_graph(weights, edges, std::max(2, subgraphs));
+        return cut_graph(weights, edges, static_cast<int>(subgraphs));
     }
 
     /// By the middles of the boxes, across where they reach farthest.
@@ -183,11 +186,11 @@ private:
 
     const StoredParts& stored_;
     std::uint64_t budget_;
-    std::string store_;
     std::vector<WorkUnit> units_;
     std::vector<std::uint32_t> local_;      ///< of a part: its node
     std::vector<std::uint32_t> mesh_stamp_; ///< of a mesh: the last list that it was found in
     std::vector<std::uint64_t> shown_;      ///< by how many nodes
+    const std::string& store_;
     std::uint32_t stamp_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include <abut/store.h>
 
 #include "core/progress.h"
+#include "core/stop_watch.h"
 #include "io/input_file.h"
 #include "io/scene_source.h"
 #include "store/import_geometry.h"
@@ -11,7 +12,6 @@
 #include "store/store_writer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -20,16 +20,6 @@ namespace abut {
 namespace {
 
 constexpr std::uint64_t kLeastMemory = std::uint64_t{16} << 20;
-
-class StopWatch {
-public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::string folder_of(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();

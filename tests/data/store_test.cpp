@@ -2,12 +2,12 @@
 #include <abut/scene.h>
 #include <abut/store.h>
 
+#include "tests/support/folder.h"
 #include "tests/support/stores.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace abut::test {
 namespace {
@@ -22,9 +22,8 @@ TEST(StoreOfData, IsTheSameAsReadScene) {
             files.push_back(entry.path().string());
     std::sort(files.begin(), files.end());
     ASSERT_FALSE(files.empty());
-    std::string folder = (std::filesystem::temp_directory_path() / "abut-data-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    const std::string store = folder + "/s.abut";
+    const Folder folder;
+    const std::string store = folder / "s.abut";
     const ImportReport report = import_models(files, store, {.memory = std::uint64_t{64} << 20});
     for (std::size_t i = 0; i < files.size(); ++i) {
         SCOPED_TRACE(files[i]);
@@ -32,7 +31,6 @@ TEST(StoreOfData, IsTheSameAsReadScene) {
         expect_stored(store, read_scene(files[i]), i);
     }
     verify(open_store(store));
-    std::filesystem::remove_all(folder);
 }
 
 } // namespace

@@ -8,28 +8,18 @@
 #include "store/mesh_codec.h"
 #include "store/mesh_draft.h"
 #include "store/store_file.h"
+#include "tests/support/folder.h"
 
-#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <sstream>
-#include <unistd.h>
 
-namespace abut {
+namespace abut::test {
 namespace {
 
 class StoreOf : public testing::Test {
 protected:
-    StoreOf() {
-        std::string name = (std::filesystem::temp_directory_path() / "abut-unit-XXXXXX").string();
-        folder_ = mkdtemp(name.data());
-        store_ = (folder_ / "s.abut").string();
-    }
-    ~StoreOf() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
     /// Two tetrahedra, one of them 10 up, and an open triangle.
     void import() {
         Scene scene;
@@ -39,12 +29,12 @@ protected:
         scene.parts = {{"low", "Low one", "Solid", 0, {}},
                        {"high", "High one", "Solid", 0, Pose{.translation = {0, 10, 0}}},
                        {"flat", "Flat one", "Shell", 1, {}}};
-        const std::string file = (folder_ / "a.glb").string();
+        const std::string file = folder_ / "a.glb";
         write_glb(scene, file);
         import_models({file}, store_);
     }
-    std::filesystem::path folder_;
-    std::string store_;
+    Folder folder_;
+    std::string store_ = folder_ / "s.abut";
 };
 
 TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
@@ -172,4 +162,4 @@ TEST(UniqueIds, AsInAScene) {
 }
 
 } // namespace
-} // namespace abut
+} // namespace abut::test
