@@ -65,6 +65,21 @@ struct VertexPair {
     friend bool operator==(const VertexPair&, const VertexPair&) = default;
 };
 
+/// A polytope inside of the difference b - a of two convex bodies, around the origin: its corners, and
+/// its triangles, counter-clockwise as seen from outside.
+struct DifferencePolytope {
+    /// An edge of a face: the one from its corner `edge` to the next.
+    struct Side {
+        std::uint32_t face = 0, edge = 0;
+    };
+    struct Face {
+        std::array<std::uint32_t, 3> corners{};
+        std::array<Side, 3> across{}; ///< the same edges as the faces beyond have them
+    };
+    std::vector<VertexPair> corners;
+    std::vector<Face> faces;
+};
+
 /// What queries remember of two convex bodies from one pose to the next. A query that is given it
 /// walks on from there: the answer is the same, but for which of several closest pairs is found.
 ///
@@ -74,7 +89,7 @@ struct ConvexWorkspace {
     Kind kind = Kind::empty;
     /// simplex: pairs whose differences hold the origin. features: their vertices, edges, kinds.
     std::array<VertexPair, 4> pairs{};
-    std::array<VertexPair, 3> deepest{}; ///< pairs at the end of the shortest way out
+    DifferencePolytope deepest; ///< what proved the last depth; may be empty
 };
 
 /// Work that a query did: the machine-independent part of its cost.

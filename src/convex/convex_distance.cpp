@@ -40,10 +40,23 @@ std::size_t coarsest_within(const ConvexData& body, const Transform& world, doub
     return level;
 }
 
+/// Vertices that have passed each other by this share of the way between the middles: then the
+/// polytopes are likely to meet, which simplices find sooner than a walk. (0 to 0.5 were tried: 0
+/// makes poses apart a third slower, and all are alike where bodies meet.)
+constexpr double kDeep = 0.25;
+
 /// From the vertices that face each other along a direction.
 void search_along(const PolytopePair& pair, const Vec3& direction, double rounding,
                   ClosestPointSearch& search) {
     const VertexPair start = facing_vertices(pair, direction);
+    const Vec3 room = pair.b.vertex(start.b) - pair.a.vertex(start.a);
+    if (dot(room, direction) < -kDeep * length_sq(direction)) {
+        search.simplex.emplace();
+        search.simplex->corners[0] = start;
+        search.simplex->count = 1;
+        find_closest_points_from_simplex(pair, rounding, search);
+        return;
+    }
     search.at.a = vertex_feature(start.a), search.at.b = vertex_feature(start.b);
     find_closest_points(pair, rounding, search);
 }
@@ -100,19 +113,25 @@ void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, 
     f.kind = edge - v.first_edge < v.degree ? static_cast<Feature>(kind) : Feature::vertex;
 }
 
-/// Goes on from where the last query ended.
-void go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& last,
+/// A walk from where the last query ended that takes longer is none of a small step.
+constexpr std::uint32_t kSmallStep = 4;
+
+/// Goes on from where the last query ended, or begins anew where that leads nowhere soon. Returns as
+/// `descend`.
+bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& last,
            ClosestPointSearch& search) {
     const PolytopePair pair = bodies.at(bodies.level_a, bodies.level_b);
     if (last.kind == ConvexWorkspace::Kind::simplex) {
         search.simplex = first_simplex(bodies.a, bodies.b, pair, &last);
         find_closest_points_from_simplex(pair, rounding, search);
-        return;
+        return true;
     }
     const auto& pairs = last.pairs;
     recall(*pair.a.polytope, pairs[0].a, pairs[1].a, pairs[2].a, search.at.a);
     recall(*pair.b.polytope, pairs[0].b, pairs[1].b, pairs[2].b, search.at.b);
-    find_closest_points(pair, rounding, search);
+    walk(pair, rounding, kSmallStep, search.at);
+    const bool ended = search.at.end == WalkEnd::closest || search.at.end == WalkEnd::meeting;
+    return ended || descend(bodies, rounding, search);
 }
 
 } // namespace
@@ -131,7 +150,7 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
     ClosestPointSearch search;
     bool features_last = true;
     if (workspace != nullptr && workspace->kind != ConvexWorkspace::Kind::empty)
-        go_on(bodies, rounding, *workspace, search);
+        features_last = go_on(bodies, rounding, *workspace, search);
     else
         features_last = descend(bodies, rounding, search);
     if (workspace != nullptr && features_last)

@@ -19,8 +19,15 @@ Vec3 across(const Vec3& v) {
     return normalized_or_zero(cross(v, axis));
 }
 
+constexpr std::uint32_t next(std::uint32_t k) {
+    return k == 2 ? 0 : k + 1;
+}
+
 /// After so many corners the bounds have to do as they are.
 constexpr std::uint32_t kMostSteps = 2000;
+/// Faces of a polytope that is worth to be remembered.
+constexpr std::uint32_t kMostKept = 160;
+constexpr std::uint32_t kNone = 0xffffffffU;
 
 } // namespace
 
@@ -28,7 +35,7 @@ ExpandingPolytope::ExpandingPolytope(const PolytopePair& pair, double rounding)
     : pair_(pair), rounding_(rounding) {
     corners_.reserve(64);
     faces_.reserve(256);
-    open_.reserve(64);
+    open_.resize(64);
     visible_.reserve(64);
     horizon_.reserve(64);
 }
@@ -93,47 +100,52 @@ void ExpandingPolytope::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t
     face.normal.x = scale * normal.x, face.normal.y = scale * normal.y;
     face.normal.z = scale * normal.z;
     face.offset = scale * dot(normal, p);
-    if (face.offset <= upper_) // else it is never the nearest
-        open_.push_back(number);
+    around_ = around_ && (!recalled_ || face.offset > rounding_);
+    // Else it is never the nearest. (Values are chosen, here and below: branches would be coins'.)
+    if (open_.size() == open_count_)
+        open_.resize(2 * open_count_);
+    open_[open_count_] = number;
+    open_count_ += face.offset <= upper_ ? 1 : 0;
 }
 
 /// Takes the nearest face from those that are open, and forgets those that will not be it.
 std::uint32_t ExpandingPolytope::nearest_face() {
     std::size_t kept = 0, nearest = 0;
     double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t f : open_) {
+    for (std::size_t i = 0; i < open_count_; ++i) {
+        const std::uint32_t f = open_[i];
         const double offset = faces_[f].offset;
-        if (offset > upper_)
-            continue;
         nearest = offset < least ? kept : nearest;
-        least = std::min(least, offset);
-        open_[kept++] = f;
+        least = offset < least ? offset : least;
+        open_[kept] = f;
+        kept += offset <= upper_ ? 1 : 0;
     }
-    open_.resize(kept);
+    open_count_ = kept;
     return open_[nearest];
 }
 
-/// Faces that see the corner, beginning with one of them, and the border around them.
+/// Faces that see the corner, beginning with one of them, go; the border around them stays.
 void ExpandingPolytope::remove_visible(const Vec3& corner, std::uint32_t seen_by) {
     visible_.clear();
     visible_.push_back(seen_by);
     horizon_.clear();
     faces_[seen_by].remove();
-    for (std::size_t i = 0; i < visible_.size(); ++i) {
-        const Face& face = faces_[visible_[i]];
-        for (std::size_t k = 0; k < 3; ++k) {
-            Face& beyond = faces_[face.across[k]];
+    for (std::size_t i = 0; i < visible_.size(); ++i)
+        for (const Side& side : faces_[visible_[i]].across) {
+            Face& beyond = faces_[side.face];
             // Nothing is above a face that is gone.
             if (above(beyond, corner) > rounding_) {
                 beyond.remove();
-                visible_.push_back(face.across[k]);
+                visible_.push_back(side.face);
+            } else if (beyond.alive()) {
+                horizon_.push_back(side);
             }
         }
-    }
-    for (const std::uint32_t f : visible_)
-        for (std::size_t k = 0; k < 3; ++k)
-            if (faces_[faces_[f].across[k]].alive())
-                horizon_.push_back(3 * f + static_cast<std::uint32_t>(k));
+}
+
+void ExpandingPolytope::join(const Side& one, const Side& other) {
+    faces_[one.face].across[one.edge] = other;
+    faces_[other.face].across[other.edge] = one;
 }
 
 void ExpandingPolytope::add_corner(const Corner& corner, std::uint32_t seen_by) {
@@ -141,33 +153,45 @@ void ExpandingPolytope::add_corner(const Corner& corner, std::uint32_t seen_by) 
     const auto point = static_cast<std::uint32_t>(corners_.size());
     corners_.push_back(corner);
     const auto first = static_cast<std::uint32_t>(faces_.size());
-    for (const std::uint32_t edge : horizon_) {
-        const std::uint32_t k = edge % 3, from = faces_[edge / 3].corners[k],
-                            to = faces_[edge / 3].corners[(k + 1) % 3],
-                            other = faces_[edge / 3].across[k];
+    for (const Side& side : horizon_) {
+        const Face& beyond = faces_[side.face];
+        const std::uint32_t from = beyond.corners[next(side.edge)], to = beyond.corners[side.edge];
         const auto face = static_cast<std::uint32_t>(faces_.size());
+        // Two cones at one corner: its faces would not be one ring any more.
+        around_ = around_ && (!recalled_ || corners_[from].cone < first);
         corners_[from].cone = face;
-        Face& beyond = faces_[other];
-        for (std::size_t j = 0; j < 3; ++j)
-            if (beyond.corners[j] == to)
-                beyond.across[j] = face;
         add_face(from, to, point);
-        faces_[face].across[0] = other;
+        join({face, 0}, side);
     }
-    for (std::uint32_t f = first; f < faces_.size(); ++f) {
-        const std::uint32_t next = corners_[faces_[f].corners[1]].cone;
-        faces_[f].across[1] = next;
-        faces_[next].across[2] = f;
-    }
+    for (std::uint32_t f = first; f < faces_.size(); ++f)
+        join({f, 1}, {corners_[faces_[f].corners[1]].cone, 2});
 }
 
-void ExpandingPolytope::add_hint(const VertexPair& vertices) {
-    const Corner corner = placed(vertices);
-    for (std::uint32_t f = 0; f < faces_.size(); ++f)
-        if (faces_[f].alive() && above(faces_[f], corner.at) > rounding_) {
-            add_corner(corner, f);
-            return;
+/// Where a recalled polytope is dented along an edge of the face, with the corner on the other side:
+/// the edge that fills the dent takes its place. Whether there was one.
+bool ExpandingPolytope::fill_dent(const VertexPair& corner, std::uint32_t face) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const Side beyond = faces_[face].across[k];
+        if (corners_[faces_[beyond.face].corners[next(next(beyond.edge))]].vertices == corner) {
+            flip({face, k});
+            return true;
         }
+    }
+    return false;
+}
+
+/// The other two corners of an edge's faces are joined in its place.
+void ExpandingPolytope::flip(const Side& side) {
+    const Side back = faces_[side.face].across[side.edge];
+    const Face f = faces_[side.face], g = faces_[back.face];
+    const std::uint32_t k = side.edge, j = back.edge;
+    const std::uint32_t f_corner = f.corners[next(next(k))], g_corner = g.corners[next(next(j))];
+    faces_[side.face].remove(), faces_[back.face].remove();
+    const auto left = static_cast<std::uint32_t>(faces_.size()), right = left + 1;
+    add_face(f.corners[k], g_corner, f_corner), add_face(g_corner, g.corners[j], f_corner);
+    join({left, 1}, {right, 2});
+    join({left, 0}, g.across[next(j)]), join({right, 0}, g.across[next(next(j))]);
+    join({left, 2}, f.across[next(next(k))]), join({right, 1}, f.across[next(k)]);
 }
 
 /// The point of the plane, which lies in this face or in one that is coplanar with it.
@@ -193,19 +217,76 @@ void ExpandingPolytope::finish(const Face& face, NearestBoundary& nearest) const
             try_face(f);
 }
 
-NearestBoundary ExpandingPolytope::run(const DifferenceSimplex& start,
-                                       std::span<const VertexPair> hints) {
-    NearestBoundary nearest;
-    if (!complete(start, nearest))
-        return nearest;
+std::optional<NearestBoundary> ExpandingPolytope::begin(const DifferenceSimplex& start) {
+    NearestBoundary flat;
+    if (!complete(start, flat))
+        return flat;
     if (dot(cross(corners_[1].at - corners_[0].at, corners_[2].at - corners_[0].at),
             corners_[3].at - corners_[0].at) > 0)
         std::swap(corners_[1], corners_[2]);
     add_face(0, 1, 2), add_face(0, 2, 3), add_face(2, 1, 3), add_face(1, 0, 3);
-    faces_[0].across = {3, 2, 1}, faces_[1].across = {0, 2, 3};
-    faces_[2].across = {0, 3, 1}, faces_[3].across = {0, 1, 2};
-    for (const VertexPair& hint : hints)
-        add_hint(hint);
+    join({0, 0}, {3, 0}), join({0, 1}, {2, 0}), join({0, 2}, {1, 0});
+    join({1, 1}, {2, 2}), join({1, 2}, {3, 1}), join({2, 1}, {3, 2});
+    return std::nullopt;
+}
+
+bool ExpandingPolytope::recall(const DifferencePolytope& last) {
+    recalled_ = true;
+    for (const VertexPair& vertices : last.corners) {
+        if (vertices.a >= pair_.a.polytope->vertices.size() ||
+            vertices.b >= pair_.b.polytope->vertices.size())
+            return false;
+        corners_.push_back(placed(vertices));
+    }
+    for (const DifferencePolytope::Face& face : last.faces) {
+        add_face(face.corners[0], face.corners[1], face.corners[2]);
+        faces_.back().across = face.across;
+        if (!around_)
+            return false;
+    }
+    return true;
+}
+
+/// Whether all faces that are left meet along their edges, two and two: rounding may have undone that.
+bool ExpandingPolytope::is_closed() const {
+    for (std::uint32_t f = 0; f < faces_.size(); ++f)
+        for (std::uint32_t k = 0; faces_[f].alive() && k < 3; ++k) {
+            const Side& other = faces_[f].across[k];
+            const Side& back = faces_[other.face].across[other.edge];
+            if (!faces_[other.face].alive() || back.face != f || back.edge != k)
+                return false;
+        }
+    return true;
+}
+
+void ExpandingPolytope::remember(DifferencePolytope& now) const {
+    now.corners.clear(), now.faces.clear();
+    std::vector<std::uint32_t> number_of_face(faces_.size()),
+        number_of_corner(corners_.size(), kNone);
+    std::uint32_t faces = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+        if (faces_[f].alive())
+            number_of_face[f] = faces++;
+    if (faces > kMostKept || !is_closed())
+        return;
+    for (const Face& face : faces_) {
+        if (!face.alive())
+            continue;
+        DifferencePolytope::Face& kept = now.faces.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint32_t& number = number_of_corner[face.corners[k]];
+            if (number == kNone) {
+                number = static_cast<std::uint32_t>(now.corners.size());
+                now.corners.push_back(corners_[face.corners[k]].vertices);
+            }
+            kept.corners[k] = number;
+            kept.across[k] = {number_of_face[face.across[k].face], face.across[k].edge};
+        }
+    }
+}
+
+std::optional<NearestBoundary> ExpandingPolytope::expand() {
+    NearestBoundary nearest;
     for (;;) {
         const std::uint32_t f = nearest_face();
         const Face& face = faces_[f];
@@ -223,7 +304,10 @@ NearestBoundary ExpandingPolytope::run(const DifferenceSimplex& start,
             return nearest;
         }
         ++nearest.steps;
-        add_corner(corner, f);
+        if (!recalled_ || !fill_dent(corner.vertices, f))
+            add_corner(corner, f);
+        if (!around_)
+            return std::nullopt;
     }
 }
 

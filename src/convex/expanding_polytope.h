@@ -1,12 +1,14 @@
 #pragma once
 
+#include <abut/convex.h>
+
 #include "convex/placed_polytope.h"
 #include "convex/simplex_search.h"
 
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <span>
+#include <optional>
 #include <vector>
 
 namespace abut {
@@ -29,18 +31,33 @@ struct NearestBoundary {
 /// difference along that face's normal is an upper bound, since its plane has all on one side. When
 /// both are equal, to rounding, that is the depth.
 ///
+/// A polytope that is recalled need not be convex any more. If the origin lies below each of its faces,
+/// it still has all of the difference's points that are nearer than the nearest plane of a face: seen
+/// from the origin, faces that are closed around it cover all directions once. So the lower bound
+/// holds.
+///
 /// Source      [van den Bergen 2001]. Differs: it ends by both bounds, and the faces lie in one
-///             list; no heap: the upper bound leaves few to look at.
+///             list; no heap: the upper bound leaves few to look at. Going on with the last
+///             polytope as a whole is ours.
 class ExpandingPolytope {
 public:
     /// In          `pair` and `rounding` as for `walk`; a simplex that holds the origin.
     ExpandingPolytope(const PolytopePair& pair, double rounding);
 
-    /// `start`: a simplex that holds the origin, to rounding. `hints`: corners to begin with, such
-    /// as those of the last answer.
-    NearestBoundary run(const DifferenceSimplex& start, std::span<const VertexPair> hints);
+    /// Begins with a simplex that holds the origin, to rounding. What it returns, if anything, is the
+    /// answer: the difference is flat.
+    std::optional<NearestBoundary> begin(const DifferenceSimplex& start);
+    /// Begins with a polytope as of other poses, or other bodies. False if its faces do not go around
+    /// the origin now.
+    bool recall(const DifferencePolytope& last);
+    /// After one of both. None if the polytope that was recalled has come to have faces that the
+    /// origin is not below.
+    std::optional<NearestBoundary> expand();
+    /// What it has grown to; empty if that is a large one, or not closed.
+    void remember(DifferencePolytope& now) const;
 
 private:
+    using Side = DifferencePolytope::Side;
     struct Corner {
         Vec3 at;
         VertexPair vertices;
@@ -48,8 +65,8 @@ private:
     };
     /// Counter-clockwise as seen from outside.
     struct Face {
-        std::array<std::uint32_t, 3> corners{},
-            across{}; ///< across[k]: beyond the edge from corner k
+        std::array<std::uint32_t, 3> corners{};
+        std::array<Side, 3> across{}; ///< across[k]: beyond the edge from corner k
         Vec3 normal;
         double offset = 0; ///< of its plane from the origin; infinite once the face is gone
 
@@ -69,7 +86,10 @@ private:
     std::uint32_t nearest_face();
     void remove_visible(const Vec3& corner, std::uint32_t seen_by);
     void add_corner(const Corner& corner, std::uint32_t seen_by);
-    void add_hint(const VertexPair& vertices);
+    bool fill_dent(const VertexPair& corner, std::uint32_t face);
+    void flip(const Side& side);
+    void join(const Side& one, const Side& other);
+    [[nodiscard]] bool is_closed() const;
     void finish(const Face& face, NearestBoundary& nearest) const;
 
     const PolytopePair& pair_;
@@ -77,9 +97,12 @@ private:
     double upper_ = std::numeric_limits<double>::infinity(); ///< of the depth
     std::vector<Corner> corners_;
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> open_;    ///< faces that may be the nearest, and some that went
+    std::vector<std::uint32_t> open_; ///< faces that may be the nearest, some that went, and room
+    std::size_t open_count_ = 0;      ///< without the room
     std::vector<std::uint32_t> visible_; ///< faces
-    std::vector<std::uint32_t> horizon_; ///< edges, each as three times a face that goes plus k
+    std::vector<Side> horizon_;          ///< of faces that stay
+    bool recalled_ = false;
+    bool around_ = true; ///< of what was recalled: the origin lies below all faces
 };
 
 } // namespace abut

@@ -9,11 +9,11 @@ namespace abut {
 
 namespace {
 
-/// From the lower half of the octahedron, as seen from above, to where it is folded out, or back.
-void fold(double& u, double& v) {
-    const double folded = std::copysign(1 - std::abs(v), u);
-    v = std::copysign(1 - std::abs(u), v);
-    u = folded;
+/// Moves a point of the square away from its middle, along both axes: by the depth below the
+/// octahedron's equator, that folds its lower half out; by minus that, back.
+void fold(double& u, double& v, double by) {
+    u += by * std::copysign(1.0, u);
+    v += by * std::copysign(1.0, v);
 }
 
 } // namespace
@@ -27,8 +27,7 @@ NormalTable::NormalTable(const Polytope& polytope, std::uint32_t resolution)
         for (std::uint32_t j = 0; j < resolution; ++j) {
             double u = middle(i), v = middle(j);
             const double z = 1 - std::abs(u) - std::abs(v);
-            if (z < 0)
-                fold(u, v);
+            fold(u, v, std::min(z, 0.0));
             last = climb(polytope, {u, v, z}, last);
             vertices_.push_back(last);
         }
@@ -38,9 +37,9 @@ std::uint32_t NormalTable::vertex(const Vec3& d) const {
     const double size = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
     if (!(size > 0) || vertices_.empty())
         return 0;
-    double u = d.x / size, v = d.y / size;
-    if (d.z < 0)
-        fold(u, v);
+    const double share = 1 / size;
+    double u = share * d.x, v = share * d.y;
+    fold(u, v, std::max(-share * d.z, 0.0));
     const double half = 0.5 * resolution_;
     const auto cell = [&](double w) {
         return std::min(static_cast<std::uint32_t>(w * half + half), resolution_ - 1);

@@ -79,18 +79,25 @@ Polytope make_polytope(std::span<const Vec3> points, std::span<const IndexTriang
 }
 
 std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32_t start) {
+    // Most vertices have no more neighbours than this. To look at so many always, the next vertices'
+    // neighbours among them, costs less than a branch on their number.
+    constexpr std::uint32_t kRun = 8;
+    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     std::uint32_t best = start;
     double height = dot(direction, polytope.vertices[start].at);
     for (;;) {
         const HullVertex& vertex = polytope.vertices[best];
         const std::uint32_t at = best;
-        for (std::uint32_t e = vertex.first_edge; e < vertex.first_edge + vertex.degree; ++e) {
-            const HullEdge& edge = polytope.edges[e];
-            const double h = dot(direction, edge.to);
-            const bool higher = h > height; // as a choice of values, not a branch: it is a coin's
-            height = higher ? h : height;
-            best = higher ? edge.target : best;
-        }
+        const auto look = [&](const HullEdge& edge) {
+            if (const double h = dot(direction, edge.to); h > height)
+                height = h, best = edge.target;
+        };
+        const HullEdge* const first = polytope.edges.data() + vertex.first_edge;
+        if (vertex.degree <= kRun && vertex.first_edge + kRun <= edges)
+            for (std::uint32_t k = 0; k < kRun; ++k)
+                look(first[k]);
+        else
+            std::for_each(first, first + vertex.degree, look);
         if (best == at)
             return best;
     }

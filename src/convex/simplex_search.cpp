@@ -92,7 +92,8 @@ private:
     }
 
     /// Shares of the volume; else the nearest of the faces that the origin lies outside of. Of a flat
-    /// tetrahedron, whose shares do not add up, that cannot be told: then of all.
+    /// tetrahedron, whose shares do not add up or put the origin inside of it falsely, that cannot be
+    /// told: then of all.
     void measure_tetrahedron() {
         constexpr std::uint32_t kOthers[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
         const auto face = [&](std::size_t i) {
@@ -110,7 +111,8 @@ private:
             return;
         // Only which faces are worth a look: what the search proves in the end rests on no share.
         constexpr double kSound = 1e-9;
-        const bool sound = std::abs(shares[0] + shares[1] + shares[2] + shares[3] - 1) < kSound;
+        const bool sound = std::abs(shares[0] + shares[1] + shares[2] + shares[3] - 1) < kSound &&
+                           *std::min_element(shares.begin(), shares.end()) <= 0;
         double best_sq = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < 4; ++i) {
             if (sound && shares[i] > 0)

@@ -144,5 +144,43 @@ TEST(ConvexPenetration, AWorkspaceChangesNothing) {
     EXPECT_GT(apart, 30);
 }
 
+/// Bodies of all kinds in turn with one workspace, in steps of all sizes: a polytope that is recalled
+/// may be dented, turned inside out, or be no polytope of these bodies at all.
+TEST(ConvexPenetration, AWorkspaceOfOtherBodiesChangesNothing) {
+    Random random(7103);
+    ConvexWorkspace workspace;
+    int meet = 0;
+    std::uint64_t warm_simplices = 0, cold_simplices = 0;
+    for (int i = 0; i < many(150); ++i) {
+        const Convex a(make_points(random, i)), b(make_points(random, i / 4));
+        Transform turn = random.pose(0);
+        Vec3 at = random.uniform(0, 1) * random.direction();
+        const double size = std::pow(10, random.uniform(-5, -0.3));
+        for (int s = 0; s < 12; ++s) {
+            const Vec3 axis = size * random.direction();
+            turn = compose(Pose{{}, {1, axis.x, axis.y, axis.z}}, turn);
+            at = at + size * random.direction();
+            Transform world_b = turn;
+            world_b.m[9] = at.x, world_b.m[10] = at.y, world_b.m[11] = at.z;
+            const ConvexDepth warm = penetration(a, {}, b, world_b, &workspace);
+            const ConvexDepth cold = penetration(a, {}, b, world_b);
+            const double rounding = 64 * 0x1p-52 * 3;
+            ASSERT_NEAR(warm.depth, cold.depth, rounding) << i << ' ' << s;
+            ASSERT_NEAR(warm.at_least, warm.depth, rounding) << i << ' ' << s;
+            ASSERT_LE(length(warm.point_b + warm.depth * warm.direction - warm.point_a), rounding);
+            if (warm.depth > rounding) {
+                ASSERT_TRUE(cold.meet);
+            }
+            if (cold.depth > rounding) {
+                ++meet;
+                warm_simplices += warm.counters.simplices;
+                cold_simplices += cold.counters.simplices;
+            }
+        }
+    }
+    EXPECT_GT(meet, many(150) * 4);
+    EXPECT_LT(2 * warm_simplices, cold_simplices);
+}
+
 } // namespace
 } // namespace abut::test

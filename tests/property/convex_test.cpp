@@ -187,6 +187,22 @@ enum class Placement { near, far, small, large, parallel };
 
 class ConvexDistance : public testing::TestWithParam<Placement> {};
 
+/// Of needles, differences are flat to rounding.
+TEST(ConvexDistanceOfNeedles, IsProven) {
+    Random random(7019);
+    int meet = 0, apart = 0;
+    for (int i = 0; i < many(4000); ++i) {
+        const Convex a(make_points(random, 5)), b(make_points(random, i % 4 == 0 ? 0 : 5));
+        const Case c{a, b, random.pose(0), random.pose(0.01)};
+        const ConvexGap gap = distance(c.a, c.world_a, c.b, c.world_b);
+        prove(c, gap, 0x1p-50);
+        ++(gap.distance == 0 ? meet : apart);
+        ASSERT_FALSE(HasFailure()) << i;
+    }
+    EXPECT_GT(meet, many(4000) / 20);
+    EXPECT_GT(apart, many(4000) / 20);
+}
+
 TEST_P(ConvexDistance, IsThatOfTheTriangles) {
     const Placement placement = GetParam();
     Random random(7010 + static_cast<std::uint64_t>(placement));
