@@ -4,6 +4,9 @@
 #include <abut/convex.h>
 #include <abut/rigid.h>
 
+#include "convex/convex_data.h"
+#include "convex/convex_query.h"
+#include "convex/simplex_search.h"
 #include "math/predicates.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
@@ -329,6 +332,33 @@ TEST(ConvexLevels, LargeBodiesAreFoundThroughSmallerHulls) {
     }
     EXPECT_GT(meet, 20);
     EXPECT_LT(meet, 180);
+}
+
+/// The search by simplices alone, from any corner, finds what the walk on features finds.
+TEST(SimplexSearch, AgreesWithTheWalk) {
+    Random random(7201);
+    int apart = 0, meet = 0;
+    for (int i = 0; i < many(1500); ++i) {
+        const Convex a(make_points(random, i)), b(make_points(random, i / 8));
+        const Transform world_a = random.pose(0), world_b = random.pose(1.2);
+        const double rounding = rounding_of(a.data(), world_a, b.data(), world_b);
+        const PolytopePair pair(a.data().levels[0].polytope, world_a, b.data().levels[0].polytope,
+                                world_b);
+        DifferenceSimplex start;
+        start.count = 1;
+        start.corners[0] = {static_cast<std::uint32_t>(random.integer(0, 1'000'000)) %
+                                static_cast<std::uint32_t>(a.vertices().size()),
+                            static_cast<std::uint32_t>(random.integer(0, 1'000'000)) %
+                                static_cast<std::uint32_t>(b.vertices().size())};
+        const SimplexState found = search_simplex(pair, start, rounding);
+        const ConvexGap walked = distance(a, world_a, b, world_b);
+        ASSERT_NEAR(found.meeting ? 0 : std::sqrt(found.distance_sq), walked.distance,
+                    1e-7 * walked.distance + 64 * rounding)
+            << i;
+        ++(walked.distance > 0 ? apart : meet);
+    }
+    EXPECT_GT(apart, many(1500) / 5);
+    EXPECT_GT(meet, many(1500) / 10);
 }
 
 } // namespace
