@@ -33,51 +33,81 @@ struct WalkCase {
     bool prefetch = true;
 };
 
-/// A way through the plant at the height of a walker, from one place drawn at random to the next. Where
-/// it would go into a part it slides along it.
+Vec3 plus(const Vec3& a, double s, const Vec3& b) {
+    return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+double dot(const Vec3& a, const Vec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Places in the thick of the plant, each beside a part with others around it. The next lies within 20 m, or
+/// anywhere.
+std::vector<Vec3> make_places(const Store& store, bool anywhere, int count, std::uint64_t seed) {
+    Walk guide(store, {.memory = std::uint64_t{48} << 20, .prefetch = false});
+    const Probe point(Sphere{{}, 0});
+    const Box3 bounds = summary(store).bounds;
+    std::mt19937_64 engine(seed);
+    const auto draw = [&](double lower, double upper) {
+        return std::uniform_real_distribution<double>(lower, upper)(engine);
+    };
+    std::vector<Vec3> places;
+    for (int tries = 0; static_cast<int>(places.size()) < count && tries < 100 * count; ++tries) {
+        constexpr double kHighest = 45; // floors end there
+        Vec3 at{draw(bounds.lower.x, bounds.upper.x), draw(bounds.lower.y, kHighest),
+                draw(bounds.lower.z, bounds.upper.z)};
+        if (!anywhere && !places.empty())
+            at = {places.back().x + draw(-20, 20), places.back().y + draw(-4, 4),
+                  places.back().z + draw(-20, 20)};
+        const NearestPart nearest = guide.distance(point, Pose{at});
+        at = plus(nearest.gap.point_part, 1, nearest.gap.normal);
+        constexpr std::size_t kAround = 20;
+        if (guide.within(point, Pose{at}, 2.5).parts.size() >= kAround)
+            places.push_back(at);
+    }
+    return places;
+}
+
+/// A straight way from one place to the next, and so on. Where it would go into a part it slides along it.
 class Wanderer {
 public:
-    Wanderer(const Box3& bounds, double speed, std::uint64_t seed)
-        : bounds_(bounds), speed_(speed), engine_(seed), at_(somewhere()), goal_(somewhere()) {}
+    Wanderer(std::vector<Vec3> places, double speed)
+        : places_(std::move(places)), speed_(speed), at_(places_.at(0)) {}
 
     [[nodiscard]] const Vec3& position() const { return at_; }
     [[nodiscard]] const Vec3& velocity() const { return velocity_; }
 
-    void jump() { at_ = somewhere(), goal_ = somewhere(); }
+    void jump() { at_ = goal(), ++reached_; }
     void advance(const NearestPart& nearest) {
-        Vec3 way{goal_.x - at_.x, 0, goal_.z - at_.z};
-        const double left = std::hypot(way.x, way.z);
-        if (left < 2 * speed_ * kFrame || blocked_ > 60) {
-            goal_ = somewhere();
+        const Vec3 way = plus(goal(), -1, at_);
+        const double left = std::sqrt(dot(way, way));
+        constexpr int kPatience = 60;
+        if (left < 2 * speed_ * kFrame || blocked_ > kPatience) {
+            ++reached_;
             blocked_ = 0;
             return;
         }
-        velocity_ = {speed_ * way.x / left, 0, speed_ * way.z / left};
+        velocity_ = plus({}, speed_ / left, way);
         constexpr double kSkin = 0.05;
         const Vec3& n = nearest.gap.normal; // towards the walker
-        const double inward = velocity_.x * n.x + velocity_.z * n.z;
+        const double inward = dot(velocity_, n);
         if (nearest.found && nearest.gap.distance < kSkin && inward < 0) {
-            velocity_.x -= 1.2 * inward * n.x, velocity_.z -= 1.2 * inward * n.z;
+            velocity_ = plus(velocity_, -1.2 * inward, n);
             ++blocked_;
         }
-        at_.x += kFrame * velocity_.x, at_.z += kFrame * velocity_.z;
+        at_ = plus(at_, kFrame, velocity_);
+        way_ += kFrame * std::sqrt(dot(velocity_, velocity_));
     }
+    [[nodiscard]] double way() const { return way_; }
 
 private:
-    Vec3 somewhere() {
-        const auto along = [&](double lower, double upper) {
-            return std::uniform_real_distribution<double>(lower, upper)(engine_);
-        };
-        constexpr double kHeight = 1;
-        return {along(bounds_.lower.x, bounds_.upper.x), kHeight,
-                along(bounds_.lower.z, bounds_.upper.z)};
-    }
+    [[nodiscard]] const Vec3& goal() const { return places_[(reached_ + 1) % places_.size()]; }
 
-    Box3 bounds_;
+    std::vector<Vec3> places_;
     double speed_;
-    std::mt19937_64 engine_;
-    Vec3 at_, goal_, velocity_;
+    Vec3 at_, velocity_;
+    std::size_t reached_ = 0;
     int blocked_ = 0;
+    double way_ = 0;
 };
 
 double percentile(std::vector<double> values, double share) {
@@ -119,10 +149,13 @@ private:
 Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
              const WalkSuiteOptions& options) {
     Row row{fmt::format("{}, {} MiB", what.name, memory >> 20), 0, "", {}, "ms", 2, {}};
+    constexpr double kMeanWay = 12;
+    const double legs = 2 + options.seconds * std::max(what.speed / kMeanWay, 1.0);
+    Wanderer wanderer(make_places(store, what.jump_every > 0, static_cast<int>(legs), options.seed),
+                      what.speed);
     const double start = wall_seconds();
     Walk walk(store, {.memory = memory, .prefetch = what.prefetch});
     row.counters["open, s"] = wall_seconds() - start;
-    Wanderer wanderer(summary(store).bounds, what.speed, options.seed);
     const Probe person(kPerson);
     walk.move_to(wanderer.position(), {});
     const double before_wait = wall_seconds();
@@ -132,7 +165,8 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
 
     const WalkStatistics begin = walk.statistics();
     const auto frames = static_cast<int>(options.seconds / kFrame);
-    std::vector<double> distance_ms, move_ms, part_ms, jump_ms;
+    std::vector<double> distance_ms, within_ms, move_ms, part_ms, jump_ms;
+    std::uint64_t near = 0;
     std::uint64_t late = 0, missed_frames = 0, touching = 0, candidates = 0;
     double sum_of_distances = 0;
     NearestPart nearest;
@@ -150,6 +184,8 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
         const double t2 = wall_seconds();
         nearest = walk.distance(person, Pose{wanderer.position()});
         const double t3 = wall_seconds();
+        near += walk.within(person, Pose{wanderer.position()}, 1).parts.size();
+        within_ms.push_back(1e3 * (wall_seconds() - t3));
         move_ms.push_back(1e3 * (t1 - t0)), part_ms.push_back(1e3 * (t2 - t1));
         (jumps ? jump_ms : distance_ms).push_back(1e3 * (t3 - t2));
         missed_frames += nearest.misses > 0 ? 1 : 0;
@@ -171,6 +207,9 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
     c["distance, 99th percentile, ms"] = percentile(distance_ms, 0.99);
     c["distance, 99.9th percentile, ms"] = percentile(distance_ms, 0.999);
     c["distance, worst, ms"] = percentile(distance_ms, 1);
+    c["within 1 m, median, ms"] = percentile(within_ms, 0.5);
+    c["within 1 m, 99th percentile, ms"] = percentile(within_ms, 0.99);
+    c["parts within 1 m"] = static_cast<double>(near) / frames;
     c["move_to, median, us"] = 1e3 * percentile(move_ms, 0.5);
     c["move_to, worst, ms"] = percentile(move_ms, 1);
     if (!jump_ms.empty()) {
@@ -182,6 +221,7 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
     c["hit rate, %"] =
         100 * (1 - static_cast<double>(end.misses - begin.misses) / std::max(1.0, lookups));
     c["frames"] = frames;
+    c["way, m"] = wanderer.way();
     c["frames with a miss, %"] = 100.0 * static_cast<double>(missed_frames) / frames;
     c["frames late, %"] = 100.0 * static_cast<double>(late) / frames;
     c["frames that touch, %"] = 100.0 * static_cast<double>(touching) / frames;
