@@ -2,6 +2,8 @@
 
 #include <abut/error.h>
 
+#include "rigid/solid.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -11,8 +13,6 @@ namespace {
 
 /// What an entry takes besides its piece, and a piece besides its model: nodes of tables, counts.
 constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 96, kPieceBytes = 1024;
-/// What a model learns of itself as a solid: its edges above all. A property test holds it to that.
-constexpr std::uint64_t kSolidBytesOfTriangle = 128;
 /// Farther than anything: whatever is in memory may go.
 constexpr float kAnything = -1;
 
@@ -83,8 +83,7 @@ void PartCache::count_solid(const Pin& pin) {
     if (piece.counts_solid)
         return;
     const Mesh& mesh = std::get<Model>(piece.shape).mesh();
-    const std::uint64_t bytes =
-        kSolidBytesOfTriangle * mesh.triangles.size() + 8 * mesh.positions.size();
+    const std::uint64_t bytes = most_solid_bytes(mesh.triangles.size(), mesh.positions.size());
     while (!make_room(bytes, kAnything, garbage))
         wait_for_a_load(lock);
     piece.counts_solid = true;

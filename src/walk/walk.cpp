@@ -163,7 +163,8 @@ NearestPart Walk::distance(const Probe& probe, const Transform& world_from_probe
         return reach;
     });
     answer.at_least = std::min(reach, search.least_skipped());
-    answer.complete = search.least_skipped() > reach;
+    // A part that was skipped, but is farther than the nearest, did not matter.
+    answer.complete = answer.complete || search.least_skipped() > reach;
     return answer;
 }
 

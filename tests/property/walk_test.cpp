@@ -5,17 +5,22 @@
 #include <abut/scene.h>
 #include <abut/walk.h>
 
+#include "rigid/solid.h"
 #include "store/store_file.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
+#include "walk/loose_boxes.h"
 #include "walk/probe.h"
+#include "walker.h"
 #include "world/narrow_phase.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <set>
 
 namespace abut::test {
 namespace {
@@ -340,6 +345,109 @@ TEST(Walk, AnswersWhatAllPartsInMemoryWould) {
     EXPECT_LT(misses, lookups * 3 / 4);
     EXPECT_GT(evicted, 20U);
     EXPECT_GT(read_ahead, 20U);
+}
+
+TEST(Walk, ASolidTakesNoMoreThanIsCounted) {
+    Random random(6302);
+    for (int round = 0; round < many(200); ++round) {
+        const Mesh mesh = random.chance(0.1) ? soup_mesh(random, 500, 1, 0.2) : some_body(random);
+        const Solid solid = examine_solid(mesh);
+        const std::size_t bytes =
+            solid.topology.vertex_of.capacity() * sizeof(solid.topology.vertex_of[0]) +
+            solid.topology.half_edges.capacity() * sizeof(solid.topology.half_edges[0]) +
+            solid.components.capacity() * sizeof(solid.components[0]);
+        ASSERT_LE(bytes, most_solid_bytes(mesh.triangles.size(), mesh.positions.size()));
+    }
+}
+
+/// Boxes in a tree, those that come and go too: nearest first, and none is left out.
+TEST(LooseBoxes, AreFoundNearestFirst) {
+    Random random(6303);
+    std::size_t found = 0, asked = 0;
+    for (int round = 0; round < many(30); ++round) {
+        LooseBoxes loose;
+        std::map<std::uint32_t, Aabb> truth;
+        const auto some_box = [&] {
+            const Vec3 at = random.in_cube(5), half = random.in_cube(0.5);
+            if (random.chance(0.05))
+                return Aabb();
+            return Aabb({min(at - half, at + half), max(at - half, at + half)});
+        };
+        for (int step = 0; step < 100; ++step) {
+            for (int change = random.integer(0, 20); change > 0; --change) {
+                const auto entry = static_cast<std::uint32_t>(random.integer(0, 300));
+                if (random.chance(0.2)) {
+                    loose.erase(entry);
+                    truth.erase(entry);
+                } else {
+                    truth[entry] = some_box();
+                    loose.put(entry, truth[entry]);
+                }
+            }
+            ASSERT_EQ(loose.size(), truth.size());
+            const Aabb query = some_box();
+            const float limit = static_cast<float>(random.uniform(0, 9));
+            std::set<std::uint32_t> wanted;
+            for (const auto& [entry, box] : truth) {
+                double sq = 0;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    sq += std::pow(std::max({0.0, double{box.lower[axis]} - query.upper[axis],
+                                             double{query.lower[axis]} - box.upper[axis]}),
+                                   2);
+                if (sq <= limit)
+                    wanted.insert(entry);
+            }
+            NearestLanes lanes(loose.tree(), GapToBox{query});
+            lanes.set_limit(limit);
+            float last = 0;
+            while (const auto lane = lanes.next()) {
+                ASSERT_GE(lane->key, last);
+                last = lane->key;
+                wanted.erase(loose.entry(lane->lane));
+                ++found;
+            }
+            ASSERT_TRUE(wanted.empty());
+            asked += truth.size();
+        }
+    }
+    std::cout << found << " of " << asked << " boxes in reach\n";
+    EXPECT_GT(found, asked / 100);
+    EXPECT_LT(found, asked / 2);
+}
+
+/// The walker of the examples goes round what is in its way, and never into it.
+TEST(Walker, DoesNotGoThroughWalls) {
+    Random random(6304);
+    int arrived = 0, slid = 0;
+    for (int round = 0; round < many(10); ++round) {
+        const Folder folder;
+        Scene scene;
+        scene.meshes = {sphere_mesh(0.5, 24, 12)};
+        for (int i = 0; i < 30; ++i)
+            scene.parts.push_back({"ball" + std::to_string(i), "", "", 0,
+                                   translation(random.uniform(1, 9), random.uniform(-0.5, 0.5),
+                                               random.uniform(-4, 4))});
+        write_glb(scene, folder / "balls.glb");
+        (void)import_models({folder / "balls.glb"}, folder / "balls.abut");
+        Walk walk(open_store(folder / "balls.abut"), {.memory = std::uint64_t{1} << 20});
+        const walker::Settings settings;
+        walker::Walker walker(walk, {-1, 0, 0}, settings);
+        const Vec3 goal{11, 0, 0.01};
+        bool slides = false;
+        for (int frame = 0; frame < 1200 && length(goal - walker.position()) > 0.01; ++frame) {
+            const Vec3 before = walker.position();
+            const walker::Frame after = walker.step_towards(goal);
+            ASSERT_TRUE(after.nearest.found);
+            EXPECT_GT(after.nearest.gap.distance, 0);
+            EXPECT_LE(length(after.position - before), settings.speed * settings.frame * 1.001);
+            slides = slides || after.nearest.gap.distance < settings.skin;
+        }
+        arrived += length(goal - walker.position()) <= 0.01 ? 1 : 0;
+        slid += slides ? 1 : 0;
+    }
+    std::cout << arrived << " arrived, " << slid << " slid along something\n";
+    EXPECT_GT(slid, 0);
+    EXPECT_GT(arrived, 0);
 }
 
 } // namespace
