@@ -43,7 +43,7 @@ double dot(const Vec3& a, const Vec3& b) {
 /// Places in the thick of the plant, each beside a part with others around it. The next lies within 20 m, or
 /// anywhere.
 std::vector<Vec3> make_places(const Store& store, bool anywhere, int count, std::uint64_t seed) {
-    Walk guide(store, {.memory = std::uint64_t{48} << 20, .prefetch = false});
+    Walk guide(store, {.memory = std::uint64_t{16} << 20, .prefetch = false});
     const Probe point(Sphere{{}, 0});
     const Box3 bounds = summary(store).bounds;
     std::mt19937_64 engine(seed);

@@ -65,6 +65,8 @@ struct WalkQuery {
     MissingParts missing = MissingParts::wait;
     /// Of `distance`: parts that are not nearer than this do not matter.
     double upper_bound = std::numeric_limits<double>::infinity();
+    /// This part is left out: the one that the probe is a copy of, say. 0: none.
+    WalkPart except{};
     /// Of `collide`: all parts that are touched, or some one of them.
     ContactMode mode = ContactMode::all;
 };

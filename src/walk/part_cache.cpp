@@ -12,18 +12,16 @@ namespace abut {
 namespace {
 
 /// What an entry takes besides its piece, and a piece besides its model: nodes of tables, counts.
-constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 96, kPieceBytes = 1024;
-/// Farther than anything: whatever is in memory may go.
-constexpr float kAnything = -1;
+constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 128, kPieceBytes = 1536;
 
 } // namespace
 
 PartCache::PartCache(StoreFile& store, const PartTable& table, std::uint64_t memory)
-    : store_(store), table_(table), memory_(memory) {}
+    : store_(store), table_(table), memory_(memory), farthest_(order_.end()) {}
 
 PartCache::Pin PartCache::pin(Resident& resident) {
     ++resident.pins;
-    resident.last_use = ++queries_;
+    resident.last_use = ++lookups_;
     return {*this, resident};
 }
 
@@ -57,7 +55,7 @@ PartCache::Pin PartCache::load(std::uint32_t entry) {
             return pin(*resident);
         if (loading_.contains(piece)) {
             changed_.wait(lock);
-        } else if (make_room(bytes_to_load(piece), kAnything, garbage)) {
+        } else if (make_room(bytes_to_load(piece), Expendable::anything, garbage)) {
             break;
         } else {
             wait_for_a_load(lock);
@@ -84,56 +82,61 @@ void PartCache::count_solid(const Pin& pin) {
         return;
     const Mesh& mesh = std::get<Model>(piece.shape).mesh();
     const std::uint64_t bytes = most_solid_bytes(mesh.triangles.size(), mesh.positions.size());
-    while (!make_room(bytes, kAnything, garbage))
+    while (!make_room(bytes, Expendable::anything, garbage))
         wait_for_a_load(lock);
     piece.counts_solid = true;
     piece.bytes += bytes;
     add_bytes(bytes);
 }
 
-PartCache::Outcome PartCache::prefetch(std::uint32_t entry, float key) {
-    // So much nearer, or the same two take turns.
-    constexpr float kNearer = 1.0625F;
+void PartCache::begin_plan() {
+    const std::scoped_lock lock(mutex_);
+    ++plan_;
+    farthest_ = order_.end();
+}
+
+bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
     Garbage garbage;
     Lock lock(mutex_);
     const std::uint32_t piece = table_.piece_of(entry);
-    if (removed_.contains(entry))
-        return Outcome::gone;
-    if (const auto placed = placements_.find(entry); placed != placements_.end())
-        key = path_.key(placed->second.box);
-    while (!residents_.contains(entry)) {
-        if (!loading_.contains(piece)) {
-            if (!make_room(bytes_to_load(piece), kNearer * key, garbage))
-                return Outcome::no_room;
-            bring(lock, entry, garbage);
-            ++counters_.read_ahead;
-            return Outcome::loaded;
+    for (;;) {
+        if (Resident* const resident = find_resident(entry)) {
+            urgency == Urgency::asked_for ? move_to_end(*resident) : reach(*resident);
+            return true;
         }
+        if (removed_.contains(entry))
+            return true;
+        if (!loading_.contains(piece))
+            break;
         changed_.wait(lock); // a query reads it
     }
-    return Outcome::present;
-}
-
-void PartCache::set_path(const PredictedPath& path) {
-    const std::scoped_lock lock(mutex_);
-    path_ = path;
-    victims_.clear();
+    const bool is_urgent = urgency == Urgency::asked_for;
+    if (!make_room(bytes_to_load(piece), is_urgent ? Expendable::anything : Expendable::beyond_plan,
+                   garbage))
+        return false;
+    Resident& resident = bring(lock, entry, garbage);
+    is_urgent ? move_to_end(resident) : reach(resident);
+    ++counters_.read_ahead;
+    return true;
 }
 
 void PartCache::begin_frame() {
     constexpr std::uint64_t kFramesOfStep = 16;
     const std::scoped_lock lock(mutex_);
     if (++frames_ % kFramesOfStep == 0)
-        recent_ = std::exchange(next_recent_, queries_);
+        recent_ = std::exchange(next_recent_, lookups_);
 }
 
-void PartCache::place(std::uint32_t entry, const Transform& world_from_mesh, const Aabb& box) {
+void PartCache::place(std::uint32_t entry, const Transform& world_from_mesh) {
     const std::scoped_lock lock(mutex_);
-    placements_[entry] = {world_from_mesh, box};
-    if (Resident* const resident = find_resident(entry)) {
+    placements_[entry] = world_from_mesh;
+    if (Resident* const resident = find_resident(entry))
         resident->world_from_mesh = world_from_mesh;
-        resident->box = box;
-    }
+}
+
+bool PartCache::is_in_place(std::uint32_t entry) const {
+    const std::scoped_lock lock(mutex_);
+    return !placements_.contains(entry);
 }
 
 void PartCache::remove(std::uint32_t entry) {
@@ -149,7 +152,7 @@ void PartCache::set_table_bytes(std::uint64_t bytes) {
     Garbage garbage;
     const std::scoped_lock lock(mutex_);
     if (bytes > table_bytes_)
-        make_room(bytes - table_bytes_, kAnything, garbage);
+        make_room(bytes - table_bytes_, Expendable::anything, garbage);
     counters_.bytes -= table_bytes_;
     add_bytes(bytes);
     table_bytes_ = bytes;
@@ -204,12 +207,10 @@ Resident& PartCache::bring(Lock& lock, std::uint32_t entry, Garbage& garbage) {
         add_bytes(loaded->bytes);
     add_bytes(kEntryBytes);
     pieces_[piece].piece = loaded;
+    if (const auto placed = placements_.find(entry); placed != placements_.end())
+        world_from_mesh = placed->second;
     Resident& resident = residents_[entry];
-    resident = {world_from_mesh, table_.tree().box(entry), std::move(loaded)};
-    if (const auto placed = placements_.find(entry); placed != placements_.end()) {
-        resident.world_from_mesh = placed->second.world_from_mesh;
-        resident.box = placed->second.box;
-    }
+    resident = {world_from_mesh, std::move(loaded), order_.insert(order_.end(), entry)};
     changed_.notify_all();
     return resident;
 }
@@ -229,47 +230,59 @@ std::shared_ptr<LoadedPiece> PartCache::read(const StoredPiece& piece) {
     return loaded;
 }
 
-/// Evicts, of what lies farther than so far, the farthest. False if that is not enough.
-bool PartCache::make_room(std::uint64_t bytes, float farther_than, Garbage& garbage) {
+/// False if what may go is not enough.
+bool PartCache::make_room(std::uint64_t bytes, Expendable expendable, Garbage& garbage) {
+    // So many that were used by the last queries are spared; more, and memory is too little for them.
+    constexpr int kMostSpared = 64;
+    int spared = 0;
+    std::size_t pinned = 0;
     while (counters_.bytes + bytes > memory_) {
-        if (victims_.empty() && !gather_victims())
+        if (pinned >= order_.size())
             return false;
-        const Victim victim = victims_.back();
-        if (!(victim.key > farther_than))
+        const auto first = residents_.find(order_.front());
+        Resident& resident = first->second;
+        if (expendable == Expendable::beyond_plan && resident.plan == plan_)
             return false;
-        victims_.pop_back();
-        const auto found = residents_.find(victim.entry);
-        if (found == residents_.end() || found->second.pins > 0 ||
-            found->second.last_use != victim.last_use)
+        const bool is_recent = resident.last_use > recent_;
+        const bool is_spared =
+            is_recent && (expendable == Expendable::beyond_plan || spared++ < kMostSpared);
+        if (resident.pins > 0 || is_spared) {
+            pinned += resident.pins > 0 ? 1 : 0;
+            move_to_end(resident);
             continue;
-        evict(found, garbage);
+        }
+        evict(first, garbage);
         ++counters_.evicted;
     }
     return true;
 }
 
-bool PartCache::gather_victims() {
-    for (const auto& [entry, resident] : residents_)
-        if (resident.pins == 0) {
-            const bool is_recent = resident.last_use > recent_;
-            victims_.push_back({is_recent ? 0 : path_.key(resident.box), entry, resident.last_use});
-        }
-    const auto goes_later = [](const Victim& a, const Victim& b) {
-        if (a.key != b.key)
-            return a.key < b.key;
-        return a.last_use != b.last_use ? a.last_use > b.last_use : a.entry < b.entry;
-    };
-    // Some at once: to go through all for each would take too long.
-    const std::size_t wanted = std::min(victims_.size(), victims_.size() / 16 + 64);
-    const auto first = victims_.end() - static_cast<std::ptrdiff_t>(wanted);
-    std::nth_element(victims_.begin(), first, victims_.end(), goes_later);
-    victims_.erase(victims_.begin(), first);
-    std::sort(victims_.begin(), victims_.end(), goes_later);
-    return !victims_.empty();
+/// The plan has come to it: of those that it has reached it is the farthest.
+void PartCache::reach(Resident& resident) {
+    if (resident.plan == plan_)
+        return;
+    order_.splice(farthest_, order_, resident.place);
+    farthest_ = resident.place;
+    resident.plan = plan_;
+}
+
+/// As if it were the nearest.
+void PartCache::move_to_end(Resident& resident) {
+    take_out(resident);
+    order_.splice(order_.end(), order_, resident.place);
+    resident.plan = plan_;
+}
+
+/// It is to leave its place.
+void PartCache::take_out(const Resident& resident) {
+    if (farthest_ == resident.place)
+        ++farthest_;
 }
 
 void PartCache::evict(std::unordered_map<std::uint32_t, Resident>::iterator at, Garbage& garbage) {
     const std::uint32_t piece = table_.piece_of(at->first);
+    take_out(at->second);
+    order_.erase(at->second.place);
     residents_.erase(at);
     counters_.bytes -= kEntryBytes;
     release(piece, garbage);

@@ -4,12 +4,11 @@
 
 #include "store/store_file.h"
 #include "walk/part_table.h"
-#include "walk/predicted_path.h"
 #include "world/body.h"
 
 #include <condition_variable>
 #include <cstdint>
-#include <limits>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -34,9 +33,10 @@ struct LoadedPiece {
 /// A part's piece in memory, and where it is.
 struct Resident {
     Transform world_from_mesh;
-    Aabb box; ///< as those of the table
     std::shared_ptr<LoadedPiece> piece;
-    std::uint64_t last_use = 0; ///< number of the query
+    std::list<std::uint32_t>::iterator place; ///< in the order of eviction
+    std::uint64_t last_use = 0;               ///< number of the lookup
+    std::uint64_t plan = 0;                   ///< the last one that reached it
     std::uint32_t pins = 0;
 };
 
@@ -49,8 +49,18 @@ struct CacheCounters {
 /// Entries of a table in memory, which is bounded. What was used by the last queries stays; of the rest,
 /// what is farthest from the predicted path goes first.
 ///
-/// Two threads: one that asks (find, load and what changes parts), one that reads ahead (prefetch). While
-/// a piece is read, room for twice its size is kept: for the bytes that the model is made of.
+/// A plan goes through entries, nearest first. So a list has them in the order in which they are to go,
+/// and no distance need be kept:
+///
+///     [ reached by older plans | by the last one, far to near | by this one, far to near ]
+///       first to go
+///
+/// and where the first to go belongs to this plan, memory holds nothing that is farther than what comes
+/// next.
+///
+/// Two threads: one that asks (find, load and what changes parts), one that reads ahead (begin_plan,
+/// prefetch). Neither holds the lock for long. While a piece is read, room for twice its size is kept: for
+/// the bytes that the model is made of.
 class PartCache {
 public:
     /// In          store, table: must outlive the cache; memory: bytes, of which the tables take some.
@@ -86,19 +96,21 @@ public:
     /// Makes room for what the model learns of itself as a solid when it is first asked for that.
     void count_solid(const Pin& pin);
 
-    enum class Outcome : std::uint8_t { present, loaded, no_room, gone };
-    /// Brings an entry into memory if it is not there, instead of what is farther from the path.
+    /// From now on, the first entry that is prefetched is the nearest.
+    void begin_plan();
+    enum class Urgency : std::uint8_t { planned, asked_for };
+    /// Brings an entry into memory if it is not there: as planned, instead of what the plan has not
+    /// reached; if it was asked for, instead of anything. False if there is no such thing any more.
     ///
-    /// In          key: of its box.
     /// Errors      those of the store.
-    Outcome prefetch(std::uint32_t entry, float key);
-    /// What is far, from now on.
-    void set_path(const PredictedPath& path);
+    bool prefetch(std::uint32_t entry, Urgency urgency);
     /// Another frame has begun.
     void begin_frame();
 
     /// The entry is elsewhere than the store has it.
-    void place(std::uint32_t entry, const Transform& world_from_mesh, const Aabb& box);
+    void place(std::uint32_t entry, const Transform& world_from_mesh);
+    /// Whether the table tells where it is.
+    [[nodiscard]] bool is_in_place(std::uint32_t entry) const;
     /// The entry is not to be had any more.
     void remove(std::uint32_t entry);
 
@@ -109,19 +121,12 @@ public:
     [[nodiscard]] CacheCounters counters() const;
 
 private:
-    struct Placement {
-        Transform world_from_mesh;
-        Aabb box;
-    };
     struct SharedPiece {
         std::shared_ptr<LoadedPiece> piece;
         std::uint32_t users = 0;
     };
-    struct Victim {
-        float key;
-        std::uint32_t entry;
-        std::uint64_t last_use;
-    };
+    /// What room may be made from.
+    enum class Expendable : std::uint8_t { anything, beyond_plan };
     using Lock = std::unique_lock<std::mutex>;
     /// What is freed when the lock has been left.
     using Garbage = std::vector<std::shared_ptr<LoadedPiece>>;
@@ -133,8 +138,10 @@ private:
     Resident& bring(Lock& lock, std::uint32_t entry, Garbage& garbage);
     std::shared_ptr<LoadedPiece> read(const StoredPiece& piece);
     void wait_for_a_load(Lock& lock);
-    bool make_room(std::uint64_t bytes, float farther_than, Garbage& garbage);
-    bool gather_victims();
+    bool make_room(std::uint64_t bytes, Expendable expendable, Garbage& garbage);
+    void reach(Resident& resident);
+    void move_to_end(Resident& resident);
+    void take_out(const Resident& resident);
     void evict(std::unordered_map<std::uint32_t, Resident>::iterator at, Garbage& garbage);
     void release(std::uint32_t piece, Garbage& garbage);
     void add_bytes(std::uint64_t bytes);
@@ -147,12 +154,13 @@ private:
     std::unordered_map<std::uint32_t, Resident> residents_;   ///< by entry
     std::unordered_map<std::uint32_t, SharedPiece> pieces_;   ///< by piece
     std::unordered_set<std::uint32_t> loading_;               ///< pieces
-    std::unordered_map<std::uint32_t, Placement> placements_; ///< entries that were moved
+    std::unordered_map<std::uint32_t, Transform> placements_; ///< of entries that were moved
     std::unordered_set<std::uint32_t> removed_;               ///< entries
-    std::vector<Victim> victims_;                             ///< the first to go last
-    PredictedPath path_;
-    std::uint64_t queries_ = 0, frames_ = 0;
-    std::uint64_t recent_ = 0, next_recent_ = 0; ///< queries from here on are recent
+    std::list<std::uint32_t> order_;                          ///< residents, first to go first
+    std::list<std::uint32_t>::iterator farthest_;             ///< of this plan; or the end
+    std::uint64_t plan_ = 1;
+    std::uint64_t lookups_ = 0, frames_ = 0;
+    std::uint64_t recent_ = 0, next_recent_ = 0; ///< lookups after it are recent
     CacheCounters counters_;
 };
 

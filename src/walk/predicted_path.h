@@ -42,15 +42,6 @@ public:
                                                            square_of_gap(block, 2, lane, z_[i])));
         return keys;
     }
-    /// 0 where no path is known: then nothing is nearer than anything else.
-    [[nodiscard]] float key(const Aabb& box) const {
-        float key = points_ == 0 ? 0 : std::numeric_limits<float>::infinity();
-        for (std::size_t i = 0; i < points_; ++i)
-            key = std::min(key, cost_[i] + std::sqrt(square(gap(box, 0, x_[i])) +
-                                                     square(gap(box, 1, y_[i])) +
-                                                     square(gap(box, 2, z_[i]))));
-        return key;
-    }
     /// How far some point of the path is from where the other path has it.
     [[nodiscard]] float difference(const PredictedPath& other) const {
         if (points_ == 0 || other.points_ == 0)
@@ -71,10 +62,6 @@ private:
         return square(
             std::max(0.0F, std::max(block.lower[axis][lane] - at, at - block.upper[axis][lane])));
     }
-    static float gap(const Aabb& box, std::size_t axis, float at) {
-        return std::max(0.0F, std::max(box.lower[axis] - at, at - box.upper[axis]));
-    }
-
     std::size_t points_ = 0;
     std::array<float, kMostPoints> x_{}, y_{}, z_{}, cost_{};
 };

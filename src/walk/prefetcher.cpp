@@ -24,11 +24,13 @@ Prefetcher::~Prefetcher() {
     thread_.join();
 }
 
-void Prefetcher::follow(const PredictedPath& path, std::vector<std::uint32_t> moved) {
+void Prefetcher::follow(const PredictedPath& path, std::vector<std::uint32_t> moved,
+                        bool are_missing) {
     {
         const std::scoped_lock lock(mutex_);
         path_ = path;
         moved_ = std::move(moved);
+        are_missing_ = are_missing;
         follows_ = true;
         settled_ = settled_ && !has_news();
     }
@@ -52,7 +54,7 @@ void Prefetcher::wait() {
 
 bool Prefetcher::has_news() const {
     return !requests_.empty() ||
-           (follows_ && (!moved_.empty() || path_.difference(planned_) > tolerance_));
+           (follows_ && (are_missing_ || path_.difference(planned_) > tolerance_));
 }
 
 void Prefetcher::run() {
@@ -61,15 +63,13 @@ void Prefetcher::run() {
         news_.wait(lock, [&] { return stop_ || has_news(); });
         if (stop_)
             return;
-        const bool replan = follows_ && path_.difference(planned_) > tolerance_;
-        if (replan)
-            planned_ = path_;
-        const std::vector<std::uint32_t> moved = std::exchange(moved_, {});
+        const bool replan = follows_ && (are_missing_ || path_.difference(planned_) > tolerance_);
+        planned_ = replan ? path_ : planned_;
+        are_missing_ = false;
+        const std::vector<std::uint32_t> moved = moved_;
         lock.unlock();
         serve_requests();
-        for (const std::uint32_t entry : moved)
-            bring(entry, 0);
-        const bool done = !replan || carry_out();
+        const bool done = !replan || carry_out(moved);
         lock.lock();
         if (!done)
             tolerance_ = 0; // there is more to do even if nothing moves
@@ -88,23 +88,26 @@ void Prefetcher::serve_requests() {
         requested_ = false;
     }
     for (const std::uint32_t entry : requests)
-        bring(entry, 0);
+        bring(entry, PartCache::Urgency::asked_for);
 }
 
-PartCache::Outcome Prefetcher::bring(std::uint32_t entry, float key) {
+bool Prefetcher::bring(std::uint32_t entry, PartCache::Urgency urgency) {
     try {
-        return cache_.prefetch(entry, key);
+        return cache_.prefetch(entry, urgency);
     } catch (const Error&) {
-        return PartCache::Outcome::gone; // a query that needs it will say what is wrong
+        return true; // a query that needs it will say what is wrong
     } catch (const std::bad_alloc&) {
-        return PartCache::Outcome::no_room;
+        return false;
     }
 }
 
-bool Prefetcher::carry_out() {
+bool Prefetcher::carry_out(const std::vector<std::uint32_t>& moved) {
     // A path that is off by so small a share of how far one has got is the same for what comes next.
     constexpr float kShare = 1.0F / 16;
-    cache_.set_path(planned_);
+    cache_.begin_plan();
+    constexpr auto kPlanned = PartCache::Urgency::planned;
+    for (const std::uint32_t entry : moved)
+        bring(entry, kPlanned);
     NearestLanes lanes(table_.tree(), planned_);
     float reach = 0;
     while (const auto lane = lanes.next()) {
@@ -113,7 +116,7 @@ bool Prefetcher::carry_out() {
         if (requested_)
             serve_requests();
         reach = lane->key;
-        if (bring(lane->lane, lane->key) == PartCache::Outcome::no_room)
+        if (cache_.is_in_place(lane->lane) && !bring(lane->lane, kPlanned))
             break;
         const std::scoped_lock lock(mutex_);
         if (path_.difference(planned_) > kShare * reach)

@@ -23,8 +23,9 @@ public:
     Prefetcher(const Prefetcher&) = delete;
     Prefetcher& operator=(const Prefetcher&) = delete;
 
-    /// In          moved: entries that are not where the table has them, nearest first.
-    void follow(const PredictedPath& path, std::vector<std::uint32_t> moved);
+    /// In          moved: some entries that are not where the table has them, nearest first; are_missing:
+    ///             some of these are not in memory.
+    void follow(const PredictedPath& path, std::vector<std::uint32_t> moved, bool are_missing);
     /// Before everything else.
     void request(std::uint32_t entry);
     /// Waits until there is nothing left to do.
@@ -33,9 +34,10 @@ public:
 private:
     void run();
     /// False if there is something newer to do.
-    bool carry_out();
+    bool carry_out(const std::vector<std::uint32_t>& moved);
     void serve_requests();
-    PartCache::Outcome bring(std::uint32_t entry, float key);
+    /// False if memory holds nothing that is farther.
+    bool bring(std::uint32_t entry, PartCache::Urgency urgency);
     /// In: the lock is held.
     [[nodiscard]] bool has_news() const;
 
@@ -45,7 +47,7 @@ private:
     std::condition_variable news_, idle_;
     PredictedPath path_;
     std::vector<std::uint32_t> moved_, requests_;
-    bool follows_ = false, settled_ = true;
+    bool follows_ = false, are_missing_ = false, settled_ = true;
     std::atomic<bool> stop_{false}, requested_{false};
     // Of the thread alone, or with the lock:
     PredictedPath planned_;

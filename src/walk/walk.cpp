@@ -35,11 +35,13 @@ public:
         if (is_empty(probe_.box()))
             return;
         walk_.for_each_near(probe_.box(), reach, [&](std::uint32_t entry, float key) {
+            const WalkPart part = walk_.part_of(entry);
+            if (part == query_.except)
+                return reach;
             ++answer_.candidates;
             if (walk_.is_added(entry)) {
                 const AddedPart& added = walk_.added(entry);
-                reach = visit(
-                    NearEntry{walk_.part_of(entry), {added.shape, added.world_from_part}, nullptr});
+                reach = visit(NearEntry{part, {added.shape, added.world_from_part}, nullptr});
                 return reach;
             }
             const std::uint64_t misses = walk_.misses();
@@ -51,8 +53,8 @@ public:
             }
             if (asks_for_solids_ && !pin->piece->is_block)
                 walk_.cache().count_solid(pin);
-            reach = visit(NearEntry{
-                walk_.part_of(entry), {pin->piece->shape, pin->world_from_mesh}, pin->piece.get()});
+            reach =
+                visit(NearEntry{part, {pin->piece->shape, pin->world_from_mesh}, pin->piece.get()});
             return reach;
         });
     }

@@ -61,25 +61,28 @@ void WalkData::move_to(const Vec3& position, const std::optional<Vec3>& velocity
         return;
     const PredictedPath path(table_.narrow(position), velocity.value_or(moves),
                              options_.look_ahead);
-    prefetcher_->follow(path, moved_near(path));
+    auto [moved, are_missing] = moved_near(path);
+    prefetcher_->follow(path, std::move(moved), are_missing);
 }
 
-/// Some entries of the store that were moved, and are near to the path and not in memory.
-std::vector<std::uint32_t> WalkData::moved_near(const PredictedPath& path) {
+std::pair<std::vector<std::uint32_t>, bool> WalkData::moved_near(const PredictedPath& path) {
     constexpr std::size_t kMost = 64;
-    std::vector<std::uint32_t> missing;
+    std::vector<std::uint32_t> near;
+    bool are_missing = false;
     if (moved_.empty())
-        return missing;
+        return {near, are_missing};
     NearestLanes lanes(loose_.tree(), path);
-    for (std::size_t i = 0; i < kMost; ++i) {
+    while (near.size() < kMost) {
         const auto lane = lanes.next();
         if (!lane)
             break;
         const std::uint32_t entry = loose_.entry(lane->lane);
-        if (!is_added(entry) && !cache_.has(entry))
-            missing.push_back(entry);
+        if (is_added(entry))
+            continue;
+        near.push_back(entry);
+        are_missing = are_missing || !cache_.has(entry);
     }
-    return missing;
+    return {near, are_missing};
 }
 
 void WalkData::wait() {
@@ -152,7 +155,7 @@ void WalkData::move_stored(WalkPart part, const Transform& world_from_part) {
         const Aabb box = table_.narrow(placed_bounds(moved->second.own_boxes[i], world_from_part));
         away_[entries[i]] = true;
         loose_.put(entries[i], box);
-        cache_.place(entries[i], world_from_part, box);
+        cache_.place(entries[i], world_from_part);
     }
     if (is_new)
         cache_.set_table_bytes(table_bytes());

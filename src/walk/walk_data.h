@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -74,7 +75,8 @@ private:
     [[nodiscard]] std::span<const std::uint32_t> stored_entries(WalkPart part) const;
     void move_stored(WalkPart part, const Transform& world_from_part);
     Vec3 velocity_at(const Vec3& position);
-    std::vector<std::uint32_t> moved_near(const PredictedPath& path);
+    /// Some entries of the store that were moved and are near to the path, and whether one is missing.
+    std::pair<std::vector<std::uint32_t>, bool> moved_near(const PredictedPath& path);
     [[nodiscard]] std::uint64_t table_bytes() const;
 
     Store store_;

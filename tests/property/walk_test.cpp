@@ -423,7 +423,7 @@ TEST(Walker, DoesNotGoThroughWalls) {
         const Folder folder;
         Scene scene;
         scene.meshes = {sphere_mesh(0.5, 24, 12)};
-        for (int i = 0; i < 30; ++i)
+        for (int i = 0; i < 8; ++i)
             scene.parts.push_back({"ball" + std::to_string(i), "", "", 0,
                                    translation(random.uniform(1, 9), random.uniform(-0.5, 0.5),
                                                random.uniform(-4, 4))});

@@ -107,6 +107,13 @@ TEST_F(WalkBy, PartsThatComeMoveAndGo) {
     EXPECT_TRUE(walk.collide(ball_, Pose{{1.4, 0, 0}}).parts.empty());
     EXPECT_EQ(walk.collide(ball_, Pose{{1.4, 20, 0}}).parts, std::vector{left});
     EXPECT_EQ(walk.world_from_part(left), translation(0, 20, 0));
+    // What does it touch where it is now?
+    const Probe copy(walk.model(left));
+    EXPECT_EQ(walk.collide(copy, walk.world_from_part(left)).parts, std::vector{left});
+    EXPECT_TRUE(walk.collide(copy, walk.world_from_part(left), {.except = left}).parts.empty());
+    walk.move(added, translation(0, 18.5, 0));
+    EXPECT_EQ(walk.collide(copy, walk.world_from_part(left), {.except = left}).parts,
+              std::vector{added});
     walk.move(added, translation(0, 30, 0));
     EXPECT_EQ(walk.distance(ball_, Pose{{0, 27, 0}}).gap.distance, 1.5);
     walk.remove(added);
