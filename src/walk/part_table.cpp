@@ -115,15 +115,17 @@ PartTable::PartTable(StoreFile& store) {
     by_row_.resize(rows_.size());
     for (std::uint32_t entry = 0; entry < size(); ++entry)
         by_row_[entry] = entry;
-    std::ranges::sort(by_row_, [&](std::uint32_t a, std::uint32_t b) {
+    std::sort(by_row_.begin(), by_row_.end(), [&](std::uint32_t a, std::uint32_t b) {
         return rows_[a] != rows_[b] ? rows_[a] < rows_[b] : a < b;
     });
 }
 
 std::span<const std::uint32_t> PartTable::entries(std::int64_t row) const {
-    const auto row_of = [&](std::uint32_t entry) { return rows_[entry]; };
-    const auto found = std::ranges::equal_range(by_row_, row, {}, row_of);
-    return {found.begin(), found.end()};
+    const auto first = std::partition_point(by_row_.begin(), by_row_.end(),
+                                            [&](std::uint32_t e) { return rows_[e] < row; });
+    const auto last = std::partition_point(first, by_row_.end(),
+                                           [&](std::uint32_t e) { return rows_[e] == row; });
+    return {first, last};
 }
 
 std::uint64_t PartTable::largest_piece() const {
