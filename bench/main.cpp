@@ -150,6 +150,17 @@ int run(int argc, char** argv) {
         ->check(CLI::Range(1, 1000));
     massive_suite->callback([&] { report = run_massive_suite(massive); });
 
+    WalkSuiteOptions walk;
+    CLI::App* walk_suite =
+        app.add_subcommand("walk", "Through a store in little memory: a distance in every frame");
+    walk_suite->add_option("--store", walk.store, "Of a model in metres, y up; else a plant");
+    walk_suite->add_option("--triangles", walk.triangles, "Of the plant");
+    walk_suite->add_option("--memory", walk.memory, "Bytes of the walk, each in turn");
+    walk_suite->add_option("--seconds", walk.seconds, "Of each walk")->check(CLI::PositiveNumber);
+    walk_suite->add_option("--only", walk.only, "Run the cases whose name has this in it");
+    walk_suite->add_option("--seed", walk.seed, "Of the paths");
+    walk_suite->callback([&] { report = run_walk_suite(walk); });
+
     for (CLI::App* suite : app.get_subcommands({}))
         suite->add_flag("--json", json, "One JSON object instead of the table");
     try {

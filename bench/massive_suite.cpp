@@ -6,6 +6,7 @@
 
 #include "measure.h"
 #include "scenes/plant.h"
+#include "scratch_folder.h"
 #include "suites.h"
 
 #include <algorithm>
@@ -14,32 +15,10 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <stdlib.h>
 
 namespace abut::bench {
 
 namespace {
-
-/// Gone with all that it holds.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "abut-bench-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw Error(ErrorCode::cannot_write, name, "cannot be made");
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// A wavy sheet as binary STL: every triangle with three vertices of its own, to be joined.
 void write_sheet(const std::string& path, std::uint64_t triangles) {

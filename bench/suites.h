@@ -43,6 +43,21 @@ struct MassiveSuiteOptions {
 /// Errors      as import_models.
 Report run_massive_suite(const MassiveSuiteOptions& options);
 
+struct WalkSuiteOptions {
+    std::string store;                    ///< empty: a plant in which nothing is shared
+    std::uint64_t triangles = 15'432'126; ///< of that plant
+    std::vector<std::uint64_t> memory = {std::uint64_t{512} << 20, std::uint64_t{128} << 20,
+                                         std::uint64_t{64} << 20};
+    double seconds = 120; ///< of each walk, in real time
+    std::string only;     ///< run the cases whose name has this in it
+    std::uint64_t seed = 1;
+};
+
+/// A person walks through a store, and flies, and jumps, frame by frame: how long the distance to
+/// the nearest part takes.
+/// Errors      as open_store and Walk.
+Report run_walk_suite(const WalkSuiteOptions& options);
+
 struct RigidSuiteOptions {
     std::vector<std::string> files; ///< two a pair
     /// Triangles of each model of a generated pair; 100,000 and 1,000,000 where nothing is given.

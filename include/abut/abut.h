@@ -23,4 +23,5 @@
 #include <abut/store_clash.h>
 #include <abut/types.h>
 #include <abut/volume.h>
+#include <abut/walk.h>
 #include <abut/world.h>

@@ -5,26 +5,18 @@
 #include "massive/clash_identity.h"
 #include "massive/rule_match.h"
 #include "math/vector.h"
+#include "rigid/model_data.h"
 #include "volume/aabb.h"
 
 #include <algorithm>
 
 namespace abut {
 
-namespace {
-
-/// What a Model of a mesh takes, and some more; a property test holds it to that.
-constexpr std::uint64_t kBytesPerTriangle = 72, kBytesPerVertex = 60, kBytesPerModel = 2048;
-
-} // namespace
-
 StoredParts gather_parts(StoreFile& store, bool with_names) {
     StoredParts result;
     store.for_each_mesh([&](const MeshRow& mesh) {
         result.meshes.push_back(
-            {mesh.mesh,
-             kBytesPerTriangle * mesh.triangles + kBytesPerVertex * mesh.vertices + kBytesPerModel,
-             mesh.stored_bytes});
+            {mesh.mesh, most_model_bytes(mesh.triangles, mesh.vertices), mesh.stored_bytes});
     });
     result.models = store.models();
     std::uint64_t parts = 0;

@@ -68,6 +68,9 @@ private:
     LazySolid solid_;
 };
 
+/// At least Model::bytes() of a mesh so large, and what a Model takes around it.
+std::uint64_t most_model_bytes(std::uint64_t triangles, std::uint64_t vertices);
+
 /// A model of the same mesh and options, its positions transformed: for a transform without an
 /// inverse, under which the model itself cannot be asked.
 ///

@@ -26,6 +26,11 @@ struct Solid {
 /// Cost        O(n log n), plus a few winding numbers where the mesh is not closed.
 Solid examine_solid(const Mesh& mesh);
 
+/// At least the bytes of the solid of a mesh so large.
+constexpr std::uint64_t most_solid_bytes(std::uint64_t triangles, std::uint64_t vertices) {
+    return 128 * triangles + 8 * vertices;
+}
+
 /// The solid of one mesh, examined when it is first asked for. Any number of threads may ask.
 class LazySolid {
 public:

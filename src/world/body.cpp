@@ -144,6 +144,10 @@ Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& 
         return bounds_of_convex(convex->solid.data(), world_from_body);
     if (is_empty(own_bounds) || std::holds_alternative<DeformableShape>(shape))
         return own_bounds;
+    return placed_bounds(own_bounds, world_from_body);
+}
+
+Box3 placed_bounds(const Box3& own_bounds, const Transform& world_from_body) {
     const auto& m = world_from_body.m;
     const Vec3 centre = 0.5 * own_bounds.lower + 0.5 * own_bounds.upper,
                half = 0.5 * own_bounds.upper - 0.5 * own_bounds.lower;
@@ -151,7 +155,10 @@ Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& 
                         half.y * absolute({m[3], m[4], m[5]}) +
                         half.z * absolute({m[6], m[7], m[8]});
     // Positions are rounded as the sum of their parts is, which may be larger than they are.
-    const double size = max_abs(centre) + max_abs(half) + max_abs({m[9], m[10], m[11]});
+    const double stretch = *std::max_element(
+        m.begin(), m.begin() + 9, [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const double size = std::max(1.0, std::abs(stretch)) * (max_abs(centre) + max_abs(half)) +
+                        max_abs({m[9], m[10], m[11]});
     const double error = 8 * kRounding * size;
     return grown(apply(world_from_body, centre), turned + Vec3{error, error, error});
 }

@@ -57,6 +57,8 @@ RoundedBox placed(const RoundedBox& box, const Transform& world_from_body);
 Box3 bounds_of(const BodyShape& shape);
 /// Encloses the shape under its transform, whatever rounds.
 Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& world_from_body);
+/// Encloses all points of a box under any transform, whatever rounds. In: not empty.
+Box3 placed_bounds(const Box3& own_bounds, const Transform& world_from_body);
 /// No point of the shape is farther from a point of its frame.
 double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& point);
 

@@ -1,0 +1,307 @@
+#include "walk/part_cache.h"
+
+#include <abut/error.h>
+
+#include "rigid/solid.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+/// What an entry takes besides its piece, and a piece besides its model: nodes of tables, counts.
+constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 128, kPieceBytes = 1536;
+
+} // namespace
+
+PartCache::PartCache(StoreFile& store, const PartTable& table, std::uint64_t memory)
+    : store_(store), table_(table), memory_(memory), farthest_(order_.end()) {}
+
+PartCache::Pin PartCache::pin(Resident& resident) {
+    ++resident.pins;
+    resident.last_use = ++lookups_;
+    return {*this, resident};
+}
+
+void PartCache::unpin(Resident& resident) {
+    const std::scoped_lock lock(mutex_);
+    --resident.pins;
+}
+
+Resident* PartCache::find_resident(std::uint32_t entry) {
+    const auto found = residents_.find(entry);
+    return found != residents_.end() ? &found->second : nullptr;
+}
+
+bool PartCache::has(std::uint32_t entry) const {
+    const std::scoped_lock lock(mutex_);
+    return residents_.contains(entry);
+}
+
+PartCache::Pin PartCache::find(std::uint32_t entry) {
+    const std::scoped_lock lock(mutex_);
+    Resident* const resident = find_resident(entry);
+    return resident != nullptr ? pin(*resident) : Pin();
+}
+
+PartCache::Pin PartCache::load(std::uint32_t entry) {
+    Garbage garbage;
+    Lock lock(mutex_);
+    const std::uint32_t piece = table_.piece_of(entry);
+    for (;;) {
+        if (Resident* const resident = find_resident(entry))
+            return pin(*resident);
+        if (loading_.contains(piece)) {
+            changed_.wait(lock);
+        } else if (make_room(bytes_to_load(piece), Expendable::anything, garbage)) {
+            break;
+        } else {
+            wait_for_a_load(lock);
+        }
+    }
+    Resident& brought = bring(lock, entry, garbage);
+    ++counters_.read_in_query;
+    return pin(brought);
+}
+
+/// Room for whoever waits can only come from a piece that is being read: then its reserve is given back.
+void PartCache::wait_for_a_load(Lock& lock) {
+    if (loading_.empty())
+        throw Error(ErrorCode::bad_argument, store_.path(),
+                    "the memory of the walk does not hold a part and the tables");
+    changed_.wait(lock);
+}
+
+void PartCache::count_solid(const Pin& pin) {
+    Garbage garbage;
+    Lock lock(mutex_);
+    LoadedPiece& piece = *pin->piece;
+    if (piece.counts_solid)
+        return;
+    const Mesh& mesh = std::get<Model>(piece.shape).mesh();
+    const std::uint64_t bytes = most_solid_bytes(mesh.triangles.size(), mesh.positions.size());
+    while (!make_room(bytes, Expendable::anything, garbage))
+        wait_for_a_load(lock);
+    piece.counts_solid = true;
+    piece.bytes += bytes;
+    add_bytes(bytes);
+}
+
+void PartCache::begin_plan() {
+    const std::scoped_lock lock(mutex_);
+    ++plan_;
+    farthest_ = order_.end();
+}
+
+bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
+    Garbage garbage;
+    Lock lock(mutex_);
+    const std::uint32_t piece = table_.piece_of(entry);
+    for (;;) {
+        if (Resident* const resident = find_resident(entry)) {
+            urgency == Urgency::asked_for ? move_to_end(*resident) : reach(*resident);
+            return true;
+        }
+        if (removed_.contains(entry))
+            return true;
+        if (!loading_.contains(piece))
+            break;
+        changed_.wait(lock); // a query reads it
+    }
+    const bool is_urgent = urgency == Urgency::asked_for;
+    if (!make_room(bytes_to_load(piece), is_urgent ? Expendable::anything : Expendable::beyond_plan,
+                   garbage))
+        return false;
+    Resident& resident = bring(lock, entry, garbage);
+    is_urgent ? move_to_end(resident) : reach(resident);
+    ++counters_.read_ahead;
+    return true;
+}
+
+void PartCache::begin_frame() {
+    constexpr std::uint64_t kFramesOfStep = 16;
+    const std::scoped_lock lock(mutex_);
+    if (++frames_ % kFramesOfStep == 0)
+        recent_ = std::exchange(next_recent_, lookups_);
+}
+
+void PartCache::place(std::uint32_t entry, const Transform& world_from_mesh) {
+    const std::scoped_lock lock(mutex_);
+    placements_[entry] = world_from_mesh;
+    if (Resident* const resident = find_resident(entry))
+        resident->world_from_mesh = world_from_mesh;
+}
+
+bool PartCache::is_in_place(std::uint32_t entry) const {
+    const std::scoped_lock lock(mutex_);
+    return !placements_.contains(entry);
+}
+
+void PartCache::remove(std::uint32_t entry) {
+    Garbage garbage;
+    const std::scoped_lock lock(mutex_);
+    placements_.erase(entry);
+    removed_.insert(entry);
+    if (const auto found = residents_.find(entry); found != residents_.end())
+        evict(found, garbage);
+}
+
+void PartCache::set_table_bytes(std::uint64_t bytes) {
+    Garbage garbage;
+    const std::scoped_lock lock(mutex_);
+    if (bytes > table_bytes_)
+        make_room(bytes - table_bytes_, Expendable::anything, garbage);
+    counters_.bytes -= table_bytes_;
+    add_bytes(bytes);
+    table_bytes_ = bytes;
+}
+
+CacheCounters PartCache::counters() const {
+    const std::scoped_lock lock(mutex_);
+    CacheCounters counters = counters_;
+    counters.residents = residents_.size();
+    return counters;
+}
+
+std::uint64_t PartCache::least_memory(std::uint64_t bytes) {
+    return kEntryBytes + kPieceBytes + 3 * bytes; // with what it learns of itself as a solid
+}
+std::uint64_t PartCache::bytes_to_load(std::uint32_t piece) const {
+    if (pieces_.contains(piece))
+        return kEntryBytes;
+    return kEntryBytes + kPieceBytes + std::uint64_t{2} * table_.piece(piece).bytes;
+}
+
+/// In: there is room. The lock is left while the store is read.
+Resident& PartCache::bring(Lock& lock, std::uint32_t entry, Garbage& garbage) {
+    const std::uint32_t piece = table_.piece_of(entry);
+    const std::uint64_t reserved = bytes_to_load(piece);
+    add_bytes(reserved);
+    loading_.insert(piece);
+    SharedPiece& shared = pieces_[piece];
+    ++shared.users; // so it stays
+    std::shared_ptr<LoadedPiece> loaded = shared.piece;
+    const bool is_new = loaded == nullptr;
+    const bool is_placed = placements_.contains(entry);
+    Transform world_from_mesh;
+    lock.unlock();
+    try {
+        if (!is_placed)
+            world_from_mesh = store_.part(table_.row(entry)).world_from_mesh;
+        if (is_new)
+            loaded = read(table_.piece(piece));
+    } catch (...) {
+        lock.lock();
+        counters_.bytes -= reserved;
+        loading_.erase(piece);
+        release(piece, garbage);
+        changed_.notify_all();
+        throw;
+    }
+    lock.lock();
+    counters_.bytes -= reserved;
+    loading_.erase(piece);
+    if (is_new)
+        add_bytes(loaded->bytes);
+    add_bytes(kEntryBytes);
+    pieces_[piece].piece = loaded;
+    if (const auto placed = placements_.find(entry); placed != placements_.end())
+        world_from_mesh = placed->second;
+    Resident& resident = residents_[entry];
+    resident = {world_from_mesh, std::move(loaded), order_.insert(order_.end(), entry)};
+    changed_.notify_all();
+    return resident;
+}
+
+std::shared_ptr<LoadedPiece> PartCache::read(const StoredPiece& piece) {
+    std::shared_ptr<LoadedPiece> loaded;
+    if (piece.is_block) {
+        MeshBlock block = store_.read_block(piece.number);
+        loaded = std::make_shared<LoadedPiece>(std::move(block.mesh));
+        loaded->is_block = true;
+        loaded->triangle_ids = std::move(block.triangle_ids);
+    } else {
+        loaded = std::make_shared<LoadedPiece>(store_.read_mesh(piece.number));
+    }
+    loaded->bytes = std::get<Model>(loaded->shape).bytes() +
+                    loaded->triangle_ids.capacity() * sizeof(std::uint32_t) + kPieceBytes;
+    return loaded;
+}
+
+/// False if what may go is not enough.
+bool PartCache::make_room(std::uint64_t bytes, Expendable expendable, Garbage& garbage) {
+    // So many that were used by the last queries are spared; more, and memory is too little for them.
+    constexpr int kMostSpared = 64;
+    int spared = 0;
+    std::size_t pinned = 0;
+    while (counters_.bytes + bytes > memory_) {
+        if (pinned >= order_.size())
+            return false;
+        const auto first = residents_.find(order_.front());
+        Resident& resident = first->second;
+        if (expendable == Expendable::beyond_plan && resident.plan == plan_)
+            return false;
+        const bool is_recent = resident.last_use > recent_;
+        const bool is_spared =
+            is_recent && (expendable == Expendable::beyond_plan || spared++ < kMostSpared);
+        if (resident.pins > 0 || is_spared) {
+            pinned += resident.pins > 0 ? 1 : 0;
+            move_to_end(resident);
+            continue;
+        }
+        evict(first, garbage);
+        ++counters_.evicted;
+    }
+    return true;
+}
+
+/// The plan has come to it: of those that it has reached it is the farthest.
+void PartCache::reach(Resident& resident) {
+    if (resident.plan == plan_)
+        return;
+    order_.splice(farthest_, order_, resident.place);
+    farthest_ = resident.place;
+    resident.plan = plan_;
+}
+
+/// As if it were the nearest.
+void PartCache::move_to_end(Resident& resident) {
+    take_out(resident);
+    order_.splice(order_.end(), order_, resident.place);
+    resident.plan = plan_;
+}
+
+/// It is to leave its place.
+void PartCache::take_out(const Resident& resident) {
+    if (farthest_ == resident.place)
+        ++farthest_;
+}
+
+void PartCache::evict(std::unordered_map<std::uint32_t, Resident>::iterator at, Garbage& garbage) {
+    const std::uint32_t piece = table_.piece_of(at->first);
+    take_out(at->second);
+    order_.erase(at->second.place);
+    residents_.erase(at);
+    counters_.bytes -= kEntryBytes;
+    release(piece, garbage);
+}
+
+void PartCache::release(std::uint32_t piece, Garbage& garbage) {
+    const auto shared = pieces_.find(piece);
+    if (--shared->second.users > 0)
+        return;
+    if (shared->second.piece != nullptr) {
+        counters_.bytes -= shared->second.piece->bytes;
+        garbage.push_back(std::move(shared->second.piece));
+    }
+    pieces_.erase(shared);
+}
+
+void PartCache::add_bytes(std::uint64_t bytes) {
+    counters_.bytes += bytes;
+    counters_.peak_bytes = std::max(counters_.peak_bytes, counters_.bytes);
+}
+
+} // namespace abut

@@ -1,0 +1,130 @@
+#include "walk/prefetcher.h"
+
+#include <abut/error.h>
+
+#include <new>
+#include <tbb/task_arena.h>
+#include <utility>
+
+namespace abut {
+
+Prefetcher::Prefetcher(PartCache& cache, const PartTable& table)
+    : cache_(cache), table_(table), thread_([this] {
+          // Building models in parallel would take the other threads away from the frame.
+          tbb::task_arena alone(1);
+          alone.execute([this] { run(); });
+      }) {}
+
+Prefetcher::~Prefetcher() {
+    {
+        const std::scoped_lock lock(mutex_);
+        stop_ = true;
+    }
+    news_.notify_all();
+    thread_.join();
+}
+
+void Prefetcher::follow(const PredictedPath& path, std::vector<std::uint32_t> moved,
+                        bool are_missing) {
+    {
+        const std::scoped_lock lock(mutex_);
+        path_ = path;
+        moved_ = std::move(moved);
+        are_missing_ = are_missing;
+        follows_ = true;
+        settled_ = settled_ && !has_news();
+    }
+    news_.notify_one();
+}
+
+void Prefetcher::request(std::uint32_t entry) {
+    {
+        const std::scoped_lock lock(mutex_);
+        requests_.push_back(entry);
+        requested_ = true;
+        settled_ = false;
+    }
+    news_.notify_one();
+}
+
+void Prefetcher::wait() {
+    std::unique_lock lock(mutex_);
+    idle_.wait(lock, [&] { return settled_; });
+}
+
+bool Prefetcher::has_news() const {
+    return !requests_.empty() ||
+           (follows_ && (are_missing_ || path_.difference(planned_) > tolerance_));
+}
+
+void Prefetcher::run() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        news_.wait(lock, [&] { return stop_ || has_news(); });
+        if (stop_)
+            return;
+        const bool replan = follows_ && (are_missing_ || path_.difference(planned_) > tolerance_);
+        planned_ = replan ? path_ : planned_;
+        are_missing_ = false;
+        const std::vector<std::uint32_t> moved = moved_;
+        lock.unlock();
+        serve_requests();
+        const bool done = !replan || carry_out(moved);
+        lock.lock();
+        if (!done)
+            tolerance_ = 0; // there is more to do even if nothing moves
+        if (done && !has_news()) {
+            settled_ = true;
+            idle_.notify_all();
+        }
+    }
+}
+
+void Prefetcher::serve_requests() {
+    std::vector<std::uint32_t> requests;
+    {
+        const std::scoped_lock lock(mutex_);
+        requests = std::exchange(requests_, {});
+        requested_ = false;
+    }
+    for (const std::uint32_t entry : requests)
+        bring(entry, PartCache::Urgency::asked_for);
+}
+
+bool Prefetcher::bring(std::uint32_t entry, PartCache::Urgency urgency) {
+    try {
+        return cache_.prefetch(entry, urgency);
+    } catch (const Error&) {
+        return true; // a query that needs it will say what is wrong
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
+bool Prefetcher::carry_out(const std::vector<std::uint32_t>& moved) {
+    // A path that is off by so small a share of how far one has got is the same for what comes next.
+    constexpr float kShare = 1.0F / 16;
+    cache_.begin_plan();
+    constexpr auto kPlanned = PartCache::Urgency::planned;
+    for (const std::uint32_t entry : moved)
+        bring(entry, kPlanned);
+    NearestLanes lanes(table_.tree(), planned_);
+    float reach = 0;
+    while (const auto lane = lanes.next()) {
+        if (stop_)
+            return true;
+        if (requested_)
+            serve_requests();
+        reach = lane->key;
+        if (cache_.is_in_place(lane->lane) && !bring(lane->lane, kPlanned))
+            break;
+        const std::scoped_lock lock(mutex_);
+        if (path_.difference(planned_) > kShare * reach)
+            return false;
+    }
+    const std::scoped_lock lock(mutex_);
+    tolerance_ = kShare * reach;
+    return true;
+}
+
+} // namespace abut

@@ -1,0 +1,242 @@
+#include <abut/walk.h>
+
+#include "rigid/shape_arguments.h"
+#include "walk/probe.h"
+#include "walk/walk_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+/// A part, or a piece of one, in memory.
+struct NearEntry {
+    WalkPart part;
+    PlacedBody body;
+    const LoadedPiece* piece; ///< null for a part that was added
+};
+
+/// One query: the entries in reach, nearest boxes first; of those that are not in memory, what the
+/// caller wants done.
+class Reach {
+public:
+    Reach(WalkData& walk, const PlacedProbe& probe, const WalkQuery& query, Depths depths,
+          WalkAnswer& answer)
+        : walk_(walk), probe_(probe), query_(query),
+          asks_for_solids_(depths == Depths::yes || probe.asks_for_solids()), answer_(answer) {}
+
+    /// Calls visit(entry), which returns the reach from then on.
+    template <typename Visit>
+    void visit(double reach, const Visit& visit) {
+        if (is_empty(probe_.box()))
+            return;
+        walk_.for_each_near(probe_.box(), reach, [&](std::uint32_t entry, float key) {
+            const WalkPart part = walk_.part_of(entry);
+            if (part == query_.except)
+                return reach;
+            ++answer_.candidates;
+            if (walk_.is_added(entry)) {
+                const AddedPart& added = walk_.added(entry);
+                reach = visit(NearEntry{part, {added.shape, added.world_from_part}, nullptr});
+                return reach;
+            }
+            const std::uint64_t misses = walk_.misses();
+            const PartCache::Pin pin = walk_.lookup(entry, query_.missing);
+            answer_.misses += walk_.misses() - misses;
+            if (!pin) {
+                skip(key);
+                return reach;
+            }
+            if (asks_for_solids_ && !pin->piece->is_block)
+                walk_.cache().count_solid(pin);
+            reach =
+                visit(NearEntry{part, {pin->piece->shape, pin->world_from_mesh}, pin->piece.get()});
+            return reach;
+        });
+    }
+
+    /// No part that was skipped is nearer.
+    [[nodiscard]] double least_skipped() const { return least_skipped_; }
+
+private:
+    void skip(float key) {
+        answer_.complete = false;
+        const double gap = std::sqrt(double{key});
+        least_skipped_ = std::min(least_skipped_, gap > 0 ? gap : -probe_.radius());
+    }
+
+    WalkData& walk_;
+    const PlacedProbe& probe_;
+    const WalkQuery& query_;
+    bool asks_for_solids_;
+    WalkAnswer& answer_;
+    double least_skipped_ = HUGE_VAL;
+};
+
+BodyGap measure(const NearEntry& entry, const PlacedProbe& probe, double upper_bound,
+                Depths depths) {
+    PairWorkspace workspace;
+    return gap_between(entry.body, probe.body(), upper_bound, depths, workspace);
+}
+
+WalkGap gap_to(const NearEntry& entry, const PlacedProbe& probe, Depths depths) {
+    const BodyGap gap = measure(entry, probe, HUGE_VAL, depths);
+    WalkGap result;
+    result.part = entry.part;
+    result.distance = gap.distance;
+    result.point_part = gap.point_a, result.point_probe = gap.point_b;
+    result.normal = gap.normal;
+    result.triangle_part = gap.triangle_a, result.triangle_probe = gap.triangle_b;
+    result.status = gap.status;
+    if (entry.piece != nullptr && !entry.piece->triangle_ids.empty() &&
+        gap.triangle_a < entry.piece->triangle_ids.size())
+        result.triangle_part = entry.piece->triangle_ids[gap.triangle_a];
+    return result;
+}
+
+/// The gap, if it may be at most so large. A bound decides which of several pairs of triangles at the same
+/// distance is found, and so the last bits: what is reported has none, and is the same whichever parts
+/// were looked at before.
+std::optional<WalkGap> gap_up_to(const NearEntry& entry, const PlacedProbe& probe, double bound) {
+    if (bound < HUGE_VAL) {
+        const double above = bound + std::max(0x1p-40 * std::abs(bound), 0x1p-1000);
+        if (measure(entry, probe, above, Depths::no).distance >= above)
+            return std::nullopt;
+    }
+    return gap_to(entry, probe, Depths::no);
+}
+
+bool touches(const NearEntry& entry, const PlacedProbe& probe) {
+    PairWorkspace workspace;
+    return touch(entry.body, probe.body(), workspace);
+}
+
+/// Of several pieces of a part, the nearest.
+void keep_one_a_part(std::vector<WalkGap>& gaps) {
+    std::sort(gaps.begin(), gaps.end(), [](const WalkGap& a, const WalkGap& b) {
+        return a.part != b.part ? a.part < b.part
+                                : std::pair(a.distance, a.triangle_part) <
+                                      std::pair(b.distance, b.triangle_part);
+    });
+    gaps.erase(std::unique(gaps.begin(), gaps.end(),
+                           [](const WalkGap& a, const WalkGap& b) { return a.part == b.part; }),
+               gaps.end());
+}
+
+} // namespace
+
+Walk::Walk(const Store& store, const WalkOptions& options)
+    : data_(std::make_unique<WalkData>(store, options)) {}
+Walk::~Walk() = default;
+Walk::Walk(Walk&&) noexcept = default;
+Walk& Walk::operator=(Walk&&) noexcept = default;
+
+void Walk::move_to(const Vec3& position) {
+    data_->move_to(position, std::nullopt);
+}
+void Walk::move_to(const Vec3& position, const Vec3& velocity) {
+    data_->move_to(position, velocity);
+}
+void Walk::wait() {
+    data_->wait();
+}
+
+NearestPart Walk::distance(const Probe& probe, const Transform& world_from_probe,
+                           const WalkQuery& query) {
+    require_bound(query.upper_bound);
+    const PlacedProbe placed(probe, world_from_probe);
+    NearestPart answer;
+    double reach = query.upper_bound;
+    Reach search(*data_, placed, query, Depths::no, answer);
+    search.visit(reach, [&](const NearEntry& entry) {
+        const auto gap = gap_up_to(entry, placed, reach);
+        const bool is_nearer =
+            gap && (gap->distance < reach ||
+                    (answer.found && gap->distance == reach && gap->part < answer.gap.part));
+        if (is_nearer) {
+            answer.found = true;
+            answer.gap = *gap;
+            reach = gap->distance;
+        }
+        return reach;
+    });
+    answer.at_least = std::min(reach, search.least_skipped());
+    // A part that was skipped, but is farther than the nearest, did not matter.
+    answer.complete = answer.complete || search.least_skipped() > reach;
+    return answer;
+}
+
+NearParts Walk::within(const Probe& probe, const Transform& world_from_probe, double tolerance,
+                       const WalkQuery& query) {
+    require(tolerance >= 0 && tolerance < HUGE_VAL, "tolerance must be a length, not negative");
+    const PlacedProbe placed(probe, world_from_probe);
+    NearParts answer;
+    Reach(*data_, placed, query, Depths::no, answer).visit(tolerance, [&](const NearEntry& entry) {
+        const auto gap = gap_up_to(entry, placed, tolerance);
+        if (gap && gap->distance <= tolerance)
+            answer.parts.push_back(*gap);
+        return tolerance;
+    });
+    keep_one_a_part(answer.parts);
+    return answer;
+}
+
+TouchedParts Walk::collide(const Probe& probe, const Transform& world_from_probe,
+                           const WalkQuery& query) {
+    const PlacedProbe placed(probe, world_from_probe);
+    TouchedParts answer;
+    Reach(*data_, placed, query, Depths::no, answer).visit(0, [&](const NearEntry& entry) {
+        if (touches(entry, placed))
+            answer.parts.push_back(entry.part);
+        const bool enough = query.mode == ContactMode::first && !answer.parts.empty();
+        return enough ? WalkData::kEnough : 0;
+    });
+    std::sort(answer.parts.begin(), answer.parts.end());
+    answer.parts.erase(std::unique(answer.parts.begin(), answer.parts.end()), answer.parts.end());
+    return answer;
+}
+
+NearParts Walk::contacts(const Probe& probe, const Transform& world_from_probe,
+                         const WalkQuery& query) {
+    const PlacedProbe placed(probe, world_from_probe);
+    NearParts answer;
+    Reach(*data_, placed, query, Depths::yes, answer).visit(0, [&](const NearEntry& entry) {
+        if (!touches(entry, placed))
+            return 0.0;
+        const bool is_open = entry.piece != nullptr && entry.piece->is_block;
+        answer.parts.push_back(gap_to(entry, placed, is_open ? Depths::no : Depths::yes));
+        if (is_open)
+            answer.parts.back().status = Status::bound_only;
+        return 0.0;
+    });
+    keep_one_a_part(answer.parts);
+    return answer;
+}
+
+WalkPart Walk::add(const Model& model, const Transform& world_from_part) {
+    return data_->add(model, world_from_part);
+}
+void Walk::move(WalkPart part, const Transform& world_from_part) {
+    data_->move(part, world_from_part);
+}
+void Walk::remove(WalkPart part) {
+    data_->remove(part);
+}
+WalkPartName Walk::name(WalkPart part) {
+    return data_->name(part);
+}
+Transform Walk::world_from_part(WalkPart part) {
+    return data_->world_from_part(part);
+}
+Model Walk::model(WalkPart part) {
+    return data_->model(part);
+}
+WalkStatistics Walk::statistics() const {
+    return data_->statistics();
+}
+
+} // namespace abut

@@ -1,0 +1,126 @@
+#pragma once
+
+#include <abut/walk.h>
+
+#include "core/stop_watch.h"
+#include "store/store_file.h"
+#include "walk/loose_boxes.h"
+#include "walk/part_cache.h"
+#include "walk/part_table.h"
+#include "walk/prefetcher.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace abut {
+
+/// A part that was added: an entry beyond those of the table.
+struct AddedPart {
+    BodyShape shape; ///< a Model
+    Transform world_from_part;
+    Box3 own_box;
+};
+
+/// A part of the store that is elsewhere.
+struct MovedPart {
+    Transform world_from_part;
+    std::vector<Box3> own_boxes; ///< of its entries, in the part's frame
+};
+
+/// The parts of a walk, wherever they are: those of the store where it has them, in a tree that never
+/// changes, and loose ones, that were added or moved.
+class WalkData {
+public:
+    WalkData(const Store& store, const WalkOptions& options);
+
+    void move_to(const Vec3& position, const std::optional<Vec3>& velocity);
+    void wait();
+    WalkPart add(const Model& model, const Transform& world_from_part);
+    void move(WalkPart part, const Transform& world_from_part);
+    void remove(WalkPart part);
+    WalkPartName name(WalkPart part);
+    Transform world_from_part(WalkPart part);
+    Model model(WalkPart part);
+    [[nodiscard]] WalkStatistics statistics() const;
+
+    /// Calls visit(entry, key) for the entries whose boxes may be at most `reach` from a box of the
+    /// world, nearest first; visit returns the reach from then on. The key is a lower bound of the
+    /// squared distance.
+    template <typename Visit>
+    void for_each_near(const Box3& box, double reach, const Visit& visit);
+    /// A reach that ends it.
+    static constexpr double kEnough = -HUGE_VAL;
+
+    [[nodiscard]] bool is_added(std::uint32_t entry) const { return entry >= table_.size(); }
+    [[nodiscard]] const AddedPart& added(std::uint32_t entry) const { return added_.at(entry); }
+    [[nodiscard]] WalkPart part_of(std::uint32_t entry) const {
+        return {is_added(entry) ? std::int64_t{table_.size()} - 1 - std::int64_t{entry}
+                                : table_.row(entry)};
+    }
+    /// An entry of the store in memory; empty if it is not, and `missing` says skip.
+    PartCache::Pin lookup(std::uint32_t entry, MissingParts missing);
+    [[nodiscard]] std::uint64_t misses() const { return misses_; }
+    [[nodiscard]] PartCache& cache() { return cache_; }
+
+private:
+    /// Errors      Error{bad_argument} if the part is not there.
+    [[nodiscard]] std::uint32_t added_entry(WalkPart part) const;
+    [[nodiscard]] std::span<const std::uint32_t> stored_entries(WalkPart part) const;
+    void move_stored(WalkPart part, const Transform& world_from_part);
+    Vec3 velocity_at(const Vec3& position);
+    /// Some entries of the store that were moved and are near to the path, and whether one is missing.
+    std::pair<std::vector<std::uint32_t>, bool> moved_near(const PredictedPath& path);
+    [[nodiscard]] std::uint64_t table_bytes() const;
+
+    Store store_;
+    WalkOptions options_;
+    PartTable table_;
+    std::vector<bool> away_; ///< entries of the table that were moved or removed
+    LooseBoxes loose_;
+    std::unordered_map<std::uint32_t, AddedPart> added_;
+    std::unordered_map<std::int64_t, MovedPart> moved_; ///< by row
+    std::uint32_t next_entry_;                          ///< for a part that is added
+    std::optional<Vec3> position_;
+    StopWatch since_move_;
+    std::array<Vec3, 3> velocities_{}; ///< of the last steps
+    std::uint64_t lookups_ = 0, misses_ = 0;
+    double seconds_waited_ = 0;
+    PartCache cache_;
+    std::unique_ptr<Prefetcher> prefetcher_; ///< null if there is none
+};
+
+template <typename Visit>
+void WalkData::for_each_near(const Box3& box, double reach, const Visit& visit) {
+    const GapToBox metric{table_.narrow(box)};
+    NearestLanes stored(table_.tree(), metric), loose(loose_.tree(), metric);
+    float limit = 0;
+    const auto set_reach = [&](double to) {
+        constexpr double kLargest = 1e18; // of a coordinate
+        limit = to < kLargest ? round_up(std::max(to, 0.0) * std::max(to, 0.0)) : HUGE_VALF;
+        stored.set_limit(limit), loose.set_limit(limit);
+    };
+    set_reach(reach);
+    auto next_stored = stored.next(), next_loose = loose.next();
+    while (next_stored || next_loose) {
+        const bool from_table = next_stored && (!next_loose || next_stored->key <= next_loose->key);
+        const auto lane = from_table ? *next_stored : *next_loose;
+        if (lane.key > limit)
+            return;
+        if (!from_table || !away_[lane.lane]) {
+            reach = visit(from_table ? lane.lane : loose_.entry(lane.lane), lane.key);
+            if (reach == kEnough)
+                return;
+            set_reach(reach);
+        }
+        (from_table ? next_stored : next_loose) = (from_table ? stored : loose).next();
+    }
+}
+
+} // namespace abut
