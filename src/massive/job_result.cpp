@@ -10,7 +10,8 @@
 
 namespace abut {
 
-JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store)
+JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store,
+                     std::size_t workers)
     : plan_(plan), store_(store) {
     ClashReport& report = result_.report;
     report.clearance = options.clearance;
@@ -20,6 +21,7 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
         report.models.push_back({model.file, model.parts, model.triangles});
     OutOfCoreCounters& counters = result_.counters;
     counters.units = plan_.units.size();
+    counters.workers.resize(workers);
     std::vector<bool> needed(plan_.stored.meshes.size());
     for (const WorkUnit& unit : plan_.units)
         for (const std::uint32_t mesh : unit.meshes)
@@ -56,7 +58,7 @@ void JobResult::recall() {
     }
 }
 
-void JobResult::take(PieceResult result) {
+void JobResult::take(PieceResult result, std::size_t worker) {
     std::unordered_map<std::int64_t, Part*> names;
     for (PieceResult::Named& named : result.named)
         names.emplace(named.row, &named.part);
@@ -73,14 +75,26 @@ void JobResult::take(PieceResult result) {
     if (plan_.record != nullptr)
         plan_.record->commit(result.unit, fresh, rows);
     std::ranges::move(fresh, std::back_inserter(clashes_));
-    result_.counters.mesh_loads = result.figures.mesh_loads;
-    result_.counters.bytes_read = result.figures.bytes_read;
-    result_.counters.peak_bytes = result.figures.peak_bytes;
+    OutOfCoreCounters::Worker& figures = result_.counters.workers[worker];
+    result.worker.units = figures.units + 1;
+    result.worker.pairs = figures.pairs + result.pairs;
+    figures = result.worker;
+}
+
+void JobResult::sum_up_workers() {
+    OutOfCoreCounters& counters = result_.counters;
+    for (const OutOfCoreCounters::Worker& worker : counters.workers) {
+        counters.mesh_loads += worker.mesh_loads;
+        counters.bytes_read += worker.bytes_read;
+        counters.peak_bytes = std::max(counters.peak_bytes, worker.peak_bytes);
+        result_.report.peak_rss_mb = std::max(result_.report.peak_rss_mb, worker.peak_rss_mb);
+    }
 }
 
 StoreClashReport JobResult::finish() {
     if (plan_.record != nullptr)
         plan_.record->finish();
+    sum_up_workers();
     for (const ModelRow& model : plan_.stored.models)
         result_.models.emplace_back().file = model.file;
     std::unordered_map<std::uint32_t, std::uint32_t> place;

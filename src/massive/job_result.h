@@ -6,6 +6,7 @@
 #include "massive/job_plan.h"
 #include "massive/work_piece.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -16,13 +17,13 @@ namespace abut {
 class JobResult {
 public:
     /// In          plan and store must outlive it.
-    JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store);
+    JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store, std::size_t workers);
 
     /// What was found before the job was stopped.
     void recall();
 
-    /// What was found in a piece. Once it returns, the piece is recorded.
-    void take(PieceResult result);
+    /// What a worker found in a piece. Once it returns, the piece is recorded.
+    void take(PieceResult result, std::size_t worker);
 
     /// All of it: clashes in the order of their parts, which are known by their places among those
     /// that clash. The job has ended.
@@ -31,6 +32,7 @@ public:
     [[nodiscard]] const OutOfCoreCounters& counters() const { return result_.counters; }
 
 private:
+    void sum_up_workers();
     [[nodiscard]] std::array<std::uint32_t, 2> models_of(const IndexPair& pair) const;
 
     JobPlan& plan_;

@@ -1,6 +1,7 @@
 #include "massive/piece_tester.h"
 
 #include "core/parallel.h"
+#include "core/resources.h"
 #include "massive/clash_identity.h"
 #include "massive/classify_pair.h"
 #include "massive/rule_match.h"
@@ -71,8 +72,12 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
     return clash;
 }
 
-PieceResult::Figures PieceTester::figures() const {
-    return {cache_.loads(), store_.bytes_read() - read_before_, cache_.peak_bytes()};
+OutOfCoreCounters::Worker PieceTester::figures() const {
+    return {.mesh_loads = cache_.loads(),
+            .bytes_read = store_.bytes_read() - read_before_,
+            .peak_bytes = cache_.peak_bytes(),
+            .processor_seconds = processor_seconds(),
+            .peak_rss_mb = peak_resident_mib()};
 }
 
 } // namespace abut

@@ -35,7 +35,8 @@ public:
     /// In          on_pair: called after each pair, from any thread; what it throws ends the test.
     PieceResult test(const Loaded& loaded, const std::function<void()>& on_pair) const;
 
-    [[nodiscard]] PieceResult::Figures figures() const;
+    /// What it did so far, but for units and pairs.
+    [[nodiscard]] OutOfCoreCounters::Worker figures() const;
 
 private:
     std::optional<Clash> test_pair(const Loaded& loaded, const WorkPiece::Pair& pair) const;

@@ -12,20 +12,22 @@ void work(PieceTester& tester, WorkSource& source) {
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1
             ? std::launch::async
             : std::launch::deferred;
-    std::optional<PieceTester::Loaded> loaded;
-    if (auto first = source.next())
-        loaded = tester.load(std::move(*first));
-    while (loaded) {
-        std::future<PieceTester::Loaded> next; // waits when it goes out of scope
+    const auto load = [&]() -> std::optional<PieceTester::Loaded> {
         if (auto piece = source.next())
-            next = std::async(policy, [&tester, piece = std::move(*piece)]() mutable {
-                return tester.load(std::move(piece));
-            });
-        PieceResult result = tester.test(*loaded, [&] { source.on_pair(); });
-        loaded.reset();
-        if (next.valid())
-            loaded = next.get();
-        result.figures = tester.figures();
+            return tester.load(std::move(*piece));
+        return std::nullopt;
+    };
+    for (auto loaded = load(); loaded;) {
+        std::future<std::optional<PieceTester::Loaded>> next = std::async(policy, load);
+        PieceResult result;
+        try {
+            result = tester.test(*loaded, [&] { source.on_pair(); });
+        } catch (...) {
+            source.give_up();
+            throw;
+        }
+        loaded = next.get();
+        result.worker = tester.figures();
         source.done(std::move(result));
     }
 }

@@ -16,10 +16,12 @@ public:
     virtual void done(PieceResult result) = 0;
     /// After each pair, from any thread. What it throws ends the work.
     virtual void on_pair() = 0;
+    /// The work has failed: `next`, which another thread may be in, waits no longer.
+    virtual void give_up() {}
 };
 
 /// Does pieces until there are none: while one is tested, what the next one needs comes into memory.
-/// `next` and `done` are called by the calling thread while nothing is being read.
+/// `done` is called while nothing is being read; `next` and `done` never at once.
 ///
 /// Errors      those of the tester and the source.
 void work(PieceTester& tester, WorkSource& source);

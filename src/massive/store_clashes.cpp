@@ -1,13 +1,17 @@
+#include <abut/error.h>
 #include <abut/store_clash.h>
 
 #include "core/progress.h"
 #include "core/stop_watch.h"
+#include "massive/crew_clashes.h"
+#include "massive/crew_messages.h"
 #include "massive/job_plan.h"
 #include "massive/job_result.h"
 #include "massive/piece_worker.h"
 #include "massive/work_schedule.h"
 #include "store/store_file.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace abut {
@@ -18,28 +22,33 @@ namespace {
 class AllWork final : public WorkSource {
 public:
     AllWork(const JobPlan& plan, JobResult& result, const Progress& progress)
-        : plan_(plan), result_(result), schedule_(plan.units, plan.stored.meshes.size(), 1),
+        : result_(result), schedule_(plan.stored, plan.units, 1),
           progress_(progress, "narrow phase", plan.candidates) {
         progress_.advance(result.counters().recalled_pairs);
     }
-    std::optional<WorkPiece> next() override {
-        const auto unit = schedule_.next(0);
-        if (!unit)
-            return std::nullopt;
-        WorkPiece piece = make_piece(plan_.stored, plan_.units, *unit);
-        for (std::size_t i = 0; i < piece.meshes.size(); ++i)
-            piece.meshes[i].next_use = schedule_.next_use(0, plan_.units[*unit].meshes[i], *unit);
-        return piece;
-    }
-    void done(PieceResult result) override { result_.take(std::move(result)); }
+    std::optional<WorkPiece> next() override { return schedule_.next(0); }
+    void done(PieceResult result) override { result_.take(std::move(result), 0); }
     void on_pair() override { progress_.advance(); }
 
 private:
-    const JobPlan& plan_;
     JobResult& result_;
     WorkSchedule schedule_;
     ProgressMeter progress_;
 };
+
+void do_alone(const JobPlan& plan, JobResult& result, const ClashOptions& options,
+              StoreFile& store) {
+    AllWork source(plan, result, options.progress);
+    PieceTester tester(store, options, plan.stored.models, plan.budget);
+    work(tester, source);
+}
+
+/// An import that has come in between mixes up what was read before and after it.
+void require_unchanged(StoreFile& store, const JobPlan& plan) {
+    if (hash_of(store.models()) != hash_of(plan.stored.models))
+        throw Error(ErrorCode::unreadable, store.path(),
+                    "was changed by another process while the job was under way");
+}
 
 } // namespace
 
@@ -47,19 +56,28 @@ StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
                               const OutOfCoreOptions& out_of_core) {
     StopWatch total, watch;
     StoreFile& file = store.file();
+    Crew* const crew = out_of_core.crew;
     JobPlan plan = make_plan(file, options, out_of_core, true);
-    JobResult result(plan, options, file);
+    JobResult result(plan, options, file, crew == nullptr ? 1 : crew->size());
     result.recall();
     const double broad = watch.lap();
-    AllWork source(plan, result, options.progress);
-    PieceTester tester(file, options, plan.stored.models, plan.budget);
-    work(tester, source);
+    try {
+        if (crew == nullptr)
+            do_alone(plan, result, options, file);
+        else
+            lead(*crew, plan, result, options, file.path());
+    } catch (const Error& error) {
+        if (error.code() == ErrorCode::malformed || error.code() == ErrorCode::bad_argument)
+            require_unchanged(file, plan);
+        throw;
+    }
+    require_unchanged(file, plan);
     const double narrow = watch.lap();
     StoreClashReport report = result.finish();
     report.report.seconds.broad = broad;
     report.report.seconds.narrow = narrow;
     report.report.seconds.total = total.lap();
-    report.report.peak_rss_mb = peak_resident_mib();
+    report.report.peak_rss_mb = std::max(report.report.peak_rss_mb, peak_resident_mib());
     return report;
 }
 

@@ -2,6 +2,7 @@
 
 #include <abut/clash.h>
 #include <abut/scene.h>
+#include <abut/store_clash.h>
 
 #include "massive/stored_parts.h"
 #include "massive/work_units.h"
@@ -48,16 +49,12 @@ struct PieceResult {
         std::int64_t row = 0; ///< of the store
         Part part;            ///< id, name and type
     };
-    /// Of the worker, since it began.
-    struct Figures {
-        std::uint64_t mesh_loads = 0, bytes_read = 0, peak_bytes = 0;
-    };
 
     std::uint32_t unit = 0;
-    std::uint64_t pairs = 0;    ///< tested
-    std::vector<Found> clashes; ///< in the order of the pairs
-    std::vector<Named> named;   ///< the parts that clash, each once
-    Figures figures;
+    std::uint64_t pairs = 0;          ///< tested
+    std::vector<Found> clashes;       ///< in the order of the pairs
+    std::vector<Named> named;         ///< the parts that clash, each once
+    OutOfCoreCounters::Worker worker; ///< so far, without units and pairs
 };
 
 } // namespace abut

@@ -15,11 +15,12 @@ std::uint64_t work_of_unit(const WorkUnit& unit) {
 
 } // namespace
 
-WorkSchedule::WorkSchedule(const std::vector<WorkUnit>& units, std::size_t meshes,
+WorkSchedule::WorkSchedule(const StoredParts& stored, const std::vector<WorkUnit>& units,
                            std::size_t workers)
-    : runs_(workers), done_by_(units.size() + 1), first_use_(meshes + 1) {
+    : stored_(stored), units_(units), runs_(workers), work_before_(units.size() + 1),
+      first_use_(stored.meshes.size() + 1) {
     for (std::size_t u = 0; u < units.size(); ++u) {
-        done_by_[u + 1] = done_by_[u] + work_of_unit(units[u]);
+        work_before_[u + 1] = work_before_[u] + work_of_unit(units[u]);
         for (const std::uint32_t mesh : units[u].meshes)
             ++first_use_[mesh + 1];
     }
@@ -31,36 +32,46 @@ WorkSchedule::WorkSchedule(const std::vector<WorkUnit>& units, std::size_t meshe
         for (const std::uint32_t mesh : units[u].meshes)
             uses_[next[mesh]++] = u;
 
-    const std::uint64_t share = done_by_.back() / workers;
+    const std::uint64_t share = work_before_.back() / workers;
     for (std::size_t w = 0; w < workers; ++w)
-        runs_[w] = {unit_at(w * share), w + 1 < workers ? unit_at((w + 1) * share) : units.size()};
+        runs_[w] = {unit_after(w * share),
+                    w + 1 < workers ? unit_after((w + 1) * share) : units.size()};
 }
 
-std::size_t WorkSchedule::unit_at(std::uint64_t work) const {
-    return static_cast<std::size_t>(std::ranges::lower_bound(done_by_, work) - done_by_.begin());
+std::size_t WorkSchedule::unit_after(std::uint64_t work) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(work_before_, work) -
+                                    work_before_.begin());
 }
 
-std::optional<std::size_t> WorkSchedule::next(std::size_t worker) {
-    Run& run = runs_[worker];
-    if (run.begin == run.end) {
-        Run& longest = *std::ranges::max_element(
-            runs_, {}, [this](const Run& other) { return work_of(other); });
-        if (longest.begin == longest.end)
-            return std::nullopt;
-        const std::uint64_t half = done_by_[longest.begin] + work_of(longest) / 2;
-        // At least one unit changes hands, be it the only one.
-        const std::size_t middle = std::min(unit_at(half), longest.end - 1);
-        run = {middle, longest.end};
-        longest.end = middle;
-    }
-    return run.begin++;
+void WorkSchedule::take_over_half(Run& run) {
+    Run& longest =
+        *std::ranges::max_element(runs_, {}, [this](const Run& other) { return work_of(other); });
+    if (longest.begin == longest.end)
+        return;
+    // At least one unit changes hands, be it the only one.
+    const std::uint64_t half = work_before_[longest.begin] + work_of(longest) / 2;
+    const std::size_t middle = std::min(unit_after(half), longest.end - 1);
+    run = {middle, longest.end};
+    longest.end = middle;
 }
 
-std::uint32_t WorkSchedule::next_use(std::size_t worker, std::uint32_t mesh,
-                                     std::size_t unit) const {
+std::uint32_t WorkSchedule::next_use(std::uint32_t mesh, const Run& run) const {
     const auto begin = uses_.begin() + first_use_[mesh], end = uses_.begin() + first_use_[mesh + 1];
-    const auto use = std::upper_bound(begin, end, static_cast<std::uint32_t>(unit));
-    return use == end || *use >= runs_[worker].end ? WorkPiece::kNoUse : *use;
+    const auto use = std::lower_bound(begin, end, static_cast<std::uint32_t>(run.begin));
+    return use == end || *use >= run.end ? WorkPiece::kNoUse : *use;
+}
+
+std::optional<WorkPiece> WorkSchedule::next(std::size_t worker) {
+    Run& run = runs_[worker];
+    if (run.begin == run.end)
+        take_over_half(run);
+    if (run.begin == run.end)
+        return std::nullopt;
+    const std::size_t unit = run.begin++;
+    WorkPiece piece = make_piece(stored_, units_, unit);
+    for (std::size_t i = 0; i < piece.meshes.size(); ++i)
+        piece.meshes[i].next_use = next_use(units_[unit].meshes[i], run);
+    return piece;
 }
 
 } // namespace abut

@@ -15,6 +15,8 @@ namespace abut {
 
 enum class OpenMode : std::uint8_t {
     read_only,
+    /// read_only without locks: what is read must not change meanwhile, though the rest of the file may.
+    immutable,
     read_write,
     create, ///< read_write, and made if it is not there
 };
