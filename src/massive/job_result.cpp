@@ -50,6 +50,8 @@ void JobResult::recall() {
             throw Error(ErrorCode::malformed, store_.path(),
                         "is damaged: a clash of a job names parts that are not there");
         for (const std::uint32_t part : {found.pair.a(), found.pair.b()}) {
+            if (named_.contains(part))
+                continue;
             const PartRow row = store_.part(plan_.stored.parts[part].row);
             named_.try_emplace(part, Part{row.id, row.name, row.type, 0, {}});
         }

@@ -20,8 +20,9 @@ PieceTester::PieceTester(StoreFile& store, const ClashOptions& options,
 PieceTester::Loaded PieceTester::load(WorkPiece piece) {
     Loaded loaded{std::move(piece), {}, {}};
     loaded.models = cache_.load(loaded.piece);
-    for (const WorkPiece::PartUse& part : loaded.piece.parts)
-        loaded.parts.push_back(store_.part(part.row));
+    loaded.parts.resize(loaded.piece.parts.size());
+    parallel_for(loaded.parts.size(), 64,
+                 [&](std::size_t i) { loaded.parts[i] = store_.part(loaded.piece.parts[i].row); });
     return loaded;
 }
 
