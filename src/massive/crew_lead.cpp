@@ -16,8 +16,8 @@ namespace {
 /// Unwinds a worker whose job has failed elsewhere.
 struct Abandoned {};
 
-/// How long to wait for a message before looking whether to stop.
-constexpr std::chrono::milliseconds kPatience{50};
+/// How long to wait for a message before looking for what the leader has done, and whether to stop.
+constexpr std::chrono::milliseconds kPatience{5};
 
 /// Of a helper: one is tested while what the other needs comes into memory.
 constexpr int kPiecesAtOnce = 2;
@@ -27,13 +27,13 @@ constexpr int kPiecesAtOnce = 2;
 CrewLead::CrewLead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions& options)
     : crew_(crew), plan_(plan), options_(options),
       progress_(options.progress, "narrow phase", plan.candidates), result_(result),
-      schedule_(plan.stored, plan.units, crew.size()), units_left_(plan.units.size()) {
+      units_left_(plan.units.size()), schedule_(plan.stored, plan.units, crew.size()) {
     progress_.advance(result.counters().recalled_pairs);
     server_ = std::thread([this] { serve(); });
 }
 
 CrewLead::~CrewLead() {
-    ended_ = true;
+    failed_ = true;
     if (server_.joinable())
         server_.join();
 }
@@ -47,10 +47,11 @@ void CrewLead::serve() {
         for (int i = 0; i < kPiecesAtOnce; ++i)
             for (std::size_t helper = 1; helper < crew_.size(); ++helper)
                 hand_out(helper);
-        while (!ended_) {
+        while (units_left_ > 0 && !failed_) {
             check_stop(options_.progress);
             if (const auto message = crew_.receive(kPatience))
                 handle(*message);
+            take_own();
         }
     } catch (...) {
         fail();
@@ -82,14 +83,27 @@ std::optional<WorkPiece> CrewLead::piece_for(std::size_t worker) {
 }
 
 void CrewLead::take(PieceResult result, std::size_t worker) {
-    const std::scoped_lock lock(mutex_);
     result_.take(std::move(result), worker);
-    if (--units_left_ == 0)
-        ended_ = true;
+    --units_left_;
+}
+
+void CrewLead::take_own() {
+    std::vector<PieceResult> results;
+    {
+        const std::scoped_lock lock(mutex_);
+        results.swap(own_);
+    }
+    for (PieceResult& result : results)
+        take(std::move(result), 0);
+}
+
+void CrewLead::done(PieceResult result) {
+    const std::scoped_lock lock(mutex_);
+    own_.push_back(std::move(result));
 }
 
 void CrewLead::on_pair() {
-    if (ended_)
+    if (failed_)
         throw Abandoned();
     progress_.advance();
 }
@@ -98,7 +112,7 @@ void CrewLead::fail() {
     const std::scoped_lock lock(mutex_);
     if (failure_ == nullptr)
         failure_ = std::current_exception();
-    ended_ = true;
+    failed_ = true;
 }
 
 void CrewLead::finish() {

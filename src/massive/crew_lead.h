@@ -14,12 +14,13 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 namespace abut {
 
 /// The leader's side of a job that a crew does: pieces go out to whoever is free, what comes back is
-/// put together and recorded. A thread of its own serves the helpers; the leader works too, with
-/// this as its source of pieces.
+/// put together and recorded. A thread of its own does that; the leader works too, with this as its
+/// source of pieces, and does not wait for the disk.
 class CrewLead final : public WorkSource {
 public:
     /// Begins to serve the helpers. In: all must outlive it.
@@ -27,7 +28,7 @@ public:
     ~CrewLead() override;
 
     std::optional<WorkPiece> next() override { return piece_for(0); }
-    void done(PieceResult result) override { take(std::move(result), 0); }
+    void done(PieceResult result) override;
     void on_pair() override;
 
     /// The work ends, because of the exception that is being handled, unless it has failed before.
@@ -43,18 +44,20 @@ private:
     void hand_out(std::size_t worker);
     std::optional<WorkPiece> piece_for(std::size_t worker);
     void take(PieceResult result, std::size_t worker);
+    void take_own();
 
     Crew& crew_;
     const JobPlan& plan_;
     const ClashOptions& options_;
     ProgressMeter progress_;
-    std::mutex mutex_; ///< of the four that follow
-    JobResult& result_;
+    JobResult& result_;      ///< the server's
+    std::size_t units_left_; ///< that no result has come from; the server's
+    std::mutex mutex_;       ///< of the three that follow
     WorkSchedule schedule_;
-    std::size_t units_left_; ///< that no result has come from
+    std::vector<PieceResult> own_; ///< the leader's, to be taken
     std::exception_ptr failure_;
-    std::atomic<bool> ended_ = false; ///< nothing is left, or the job has failed
-    std::thread server_;              ///< last: it uses the others
+    std::atomic<bool> failed_ = false;
+    std::thread server_; ///< last: it uses the others
 };
 
 } // namespace abut

@@ -106,7 +106,7 @@ private:
         peers_left_ = rank_ == 0 ? size_ - 1 : 1;
         joined.set_value();
 
-        constexpr microseconds kShortest{50}, kLongest{1000};
+        constexpr microseconds kShortest{50}, kLongest{4000};
         for (microseconds pause = kShortest; !has_left();) {
             const bool sent = send_some(), got = receive_some();
             pause = sent || got ? kShortest : std::min(2 * pause, kLongest);
