@@ -16,8 +16,8 @@ namespace {
 /// Unwinds a worker whose job has failed elsewhere.
 struct Abandoned {};
 
-/// How long to wait for a message before looking for what the leader has done, and whether to stop.
-constexpr std::chrono::milliseconds kPatience{5};
+/// How long to wait before looking whether to stop.
+constexpr std::chrono::milliseconds kPatience{20};
 
 /// Of a helper: one is tested while what the other needs comes into memory.
 constexpr int kPiecesAtOnce = 2;
@@ -27,15 +27,17 @@ constexpr int kPiecesAtOnce = 2;
 CrewLead::CrewLead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions& options)
     : crew_(crew), plan_(plan), options_(options),
       progress_(options.progress, "narrow phase", plan.candidates), result_(result),
-      units_left_(plan.units.size()), schedule_(plan.stored, plan.units, crew.size()) {
+      schedule_(plan.stored, plan.units, crew.size()) {
     progress_.advance(result.counters().recalled_pairs);
     server_ = std::thread([this] { serve(); });
+    recorder_ = std::thread([this] { record(); });
 }
 
 CrewLead::~CrewLead() {
-    failed_ = true;
-    if (server_.joinable())
-        server_.join();
+    ended_ = true;
+    for (std::thread* const thread : {&server_, &recorder_})
+        if (thread->joinable())
+            thread->join();
 }
 
 void CrewLead::serve() {
@@ -47,11 +49,10 @@ void CrewLead::serve() {
         for (int i = 0; i < kPiecesAtOnce; ++i)
             for (std::size_t helper = 1; helper < crew_.size(); ++helper)
                 hand_out(helper);
-        while (units_left_ > 0 && !failed_) {
+        while (!ended_) {
             check_stop(options_.progress);
             if (const auto message = crew_.receive(kPatience))
                 handle(*message);
-            take_own();
         }
     } catch (...) {
         fail();
@@ -65,9 +66,10 @@ void CrewLead::handle(const Crew::Message& message) {
     if (const auto* const failure = std::get_if<Failure>(&content))
         failure->rethrow();
     auto& result = std::get<PieceResult>(content);
-    hand_out(message.from); // before what takes longer
+    hand_out(message.from);
     progress_.advance(result.pairs);
-    take(std::move(result), message.from);
+    result.from = static_cast<std::uint32_t>(message.from);
+    done(std::move(result));
 }
 
 void CrewLead::hand_out(std::size_t worker) {
@@ -82,28 +84,33 @@ std::optional<WorkPiece> CrewLead::piece_for(std::size_t worker) {
     return schedule_.next(worker);
 }
 
-void CrewLead::take(PieceResult result, std::size_t worker) {
-    result_.take(std::move(result), worker);
-    --units_left_;
-}
-
-void CrewLead::take_own() {
-    std::vector<PieceResult> results;
-    {
-        const std::scoped_lock lock(mutex_);
-        results.swap(own_);
-    }
-    for (PieceResult& result : results)
-        take(std::move(result), 0);
-}
-
 void CrewLead::done(PieceResult result) {
     const std::scoped_lock lock(mutex_);
-    own_.push_back(std::move(result));
+    done_.push_back(std::move(result));
+    to_record_.notify_one();
+}
+
+void CrewLead::record() {
+    try {
+        for (std::size_t left = plan_.units.size(); left > 0 && !ended_;) {
+            std::vector<PieceResult> results;
+            {
+                std::unique_lock lock(mutex_);
+                to_record_.wait_for(lock, kPatience, [this] { return !done_.empty(); });
+                results.swap(done_);
+            }
+            left -= results.size();
+            if (!results.empty())
+                result_.take(std::move(results));
+        }
+        ended_ = true;
+    } catch (...) {
+        fail();
+    }
 }
 
 void CrewLead::on_pair() {
-    if (failed_)
+    if (ended_)
         throw Abandoned();
     progress_.advance();
 }
@@ -112,11 +119,12 @@ void CrewLead::fail() {
     const std::scoped_lock lock(mutex_);
     if (failure_ == nullptr)
         failure_ = std::current_exception();
-    failed_ = true;
+    ended_ = true;
 }
 
 void CrewLead::finish() {
     server_.join();
+    recorder_.join();
     if (failure_ != nullptr)
         std::rethrow_exception(failure_);
 }

@@ -10,6 +10,7 @@
 #include "massive/work_schedule.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -19,8 +20,8 @@
 namespace abut {
 
 /// The leader's side of a job that a crew does: pieces go out to whoever is free, what comes back is
-/// put together and recorded. A thread of its own does that; the leader works too, with this as its
-/// source of pieces, and does not wait for the disk.
+/// put together and recorded. Two threads do that, so that none waits for the disk: one serves the
+/// helpers, one records. The leader works too, with this as its source of pieces.
 class CrewLead final : public WorkSource {
 public:
     /// Begins to serve the helpers. In: all must outlive it.
@@ -40,24 +41,22 @@ public:
 
 private:
     void serve();
+    void record();
     void handle(const Crew::Message& message);
     void hand_out(std::size_t worker);
     std::optional<WorkPiece> piece_for(std::size_t worker);
-    void take(PieceResult result, std::size_t worker);
-    void take_own();
-
     Crew& crew_;
     const JobPlan& plan_;
     const ClashOptions& options_;
     ProgressMeter progress_;
-    JobResult& result_;      ///< the server's
-    std::size_t units_left_; ///< that no result has come from; the server's
-    std::mutex mutex_;       ///< of the three that follow
+    JobResult& result_; ///< the recorder's
+    std::mutex mutex_;  ///< of the four that follow
+    std::condition_variable to_record_;
+    std::vector<PieceResult> done_; ///< to be recorded
     WorkSchedule schedule_;
-    std::vector<PieceResult> own_; ///< the leader's, to be taken
     std::exception_ptr failure_;
-    std::atomic<bool> failed_ = false;
-    std::thread server_; ///< last: it uses the others
+    std::atomic<bool> ended_ = false; ///< all is recorded, or the job has failed
+    std::thread server_, recorder_;   ///< last: they use the others
 };
 
 } // namespace abut

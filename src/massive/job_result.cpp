@@ -60,7 +60,19 @@ void JobResult::recall() {
     }
 }
 
-void JobResult::take(PieceResult result, std::size_t worker) {
+void JobResult::take(std::vector<PieceResult> results) {
+    const auto add_all = [&] {
+        for (PieceResult& result : results)
+            add(std::move(result));
+    };
+    if (plan_.record == nullptr)
+        return add_all();
+    Transaction together = plan_.record->together();
+    add_all();
+    together.commit();
+}
+
+void JobResult::add(PieceResult result) {
     std::unordered_map<std::int64_t, Part*> names;
     for (PieceResult::Named& named : result.named)
         names.emplace(named.row, &named.part);
@@ -77,7 +89,7 @@ void JobResult::take(PieceResult result, std::size_t worker) {
     if (plan_.record != nullptr)
         plan_.record->commit(result.unit, fresh, rows);
     std::ranges::move(fresh, std::back_inserter(clashes_));
-    OutOfCoreCounters::Worker& figures = result_.counters.workers[worker];
+    OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
     result.worker.units = figures.units + 1;
     result.worker.pairs = figures.pairs + result.pairs;
     figures = result.worker;

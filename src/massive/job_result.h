@@ -22,8 +22,8 @@ public:
     /// What was found before the job was stopped.
     void recall();
 
-    /// What a worker found in a piece. Once it returns, the piece is recorded.
-    void take(PieceResult result, std::size_t worker);
+    /// What was found in some pieces. Once it returns, they are recorded, at the cost of one commit.
+    void take(std::vector<PieceResult> results);
 
     /// All of it: clashes in the order of their parts, which are known by their places among those
     /// that clash. The job has ended.
@@ -32,6 +32,7 @@ public:
     [[nodiscard]] const OutOfCoreCounters& counters() const { return result_.counters; }
 
 private:
+    void add(PieceResult result);
     void sum_up_workers();
     [[nodiscard]] std::array<std::uint32_t, 2> models_of(const IndexPair& pair) const;
 

@@ -27,7 +27,7 @@ public:
         progress_.advance(result.counters().recalled_pairs);
     }
     std::optional<WorkPiece> next() override { return schedule_.next(0); }
-    void done(PieceResult result) override { result_.take(std::move(result), 0); }
+    void done(PieceResult result) override { result_.take({std::move(result)}); }
     void on_pair() override { progress_.advance(); }
 
 private:

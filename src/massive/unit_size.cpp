@@ -10,8 +10,9 @@ namespace {
 /// Of each worker. The last unit is waited for by all others, so that up to one in so many is lost;
 /// each is committed on its own, and shares less with the next the smaller it is.
 constexpr std::uint64_t kUnits = 32;
-/// A unit of less is not worth a message.
-constexpr std::uint64_t kLeastPairs = 64;
+/// A unit of less is not worth a message and a commit: some milliseconds of work.
+constexpr std::uint64_t kLeastBytes = std::uint64_t{2} << 20;
+constexpr std::uint64_t kLeastPairs = 512;
 
 WorkUnit unit_of(std::vector<IndexPair> pairs, const WorkUnit& of, const StoredParts& stored) {
     WorkUnit unit;
@@ -47,7 +48,7 @@ std::uint64_t unit_budget(const StoredParts& stored, std::span<const IndexPair> 
         if (bytes <= most)
             largest_pair = std::max(largest_pair, bytes);
     }
-    return std::min(most, std::max(largest_pair, all / (kUnits * workers)));
+    return std::min(most, std::max({largest_pair, kLeastBytes, all / (kUnits * workers)}));
 }
 
 std::vector<WorkUnit> split_long_units(std::vector<WorkUnit> units, const StoredParts& stored,

@@ -51,6 +51,7 @@ struct PieceResult {
     };
 
     std::uint32_t unit = 0;
+    std::uint32_t from = 0;           ///< rank of the worker; filled in by who receives it
     std::uint64_t pairs = 0;          ///< tested
     std::vector<Found> clashes;       ///< in the order of the pairs
     std::vector<Named> named;         ///< the parts that clash, each once

@@ -193,6 +193,23 @@ void Statement::bind_one(int at, std::nullptr_t) {
     check(sqlite3_bind_null(handle_, at));
 }
 
+Transaction::Transaction(Database& database)
+    : database_(database), open_(sqlite3_get_autocommit(database.handle()) != 0) {
+    if (open_)
+        database_.run("BEGIN IMMEDIATE");
+}
+
+void Transaction::commit() {
+    if (std::exchange(open_, false)) {
+        try {
+            database_.run("COMMIT");
+        } catch (...) {
+            open_ = true; // to be rolled back
+            throw;
+        }
+    }
+}
+
 Transaction::~Transaction() {
     if (open_)
         sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);

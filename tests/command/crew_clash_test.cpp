@@ -114,7 +114,7 @@ TEST_F(CrewClash, AnswersAsOneProcess) {
         SCOPED_TRACE(processes);
         import_anew();
         const std::string out = folder_ / fmt::format("of{}", processes);
-        const Outcome many = crew(processes, {"--memory", "2M", "--json", "--out", out});
+        const Outcome many = crew(processes, {"--memory", "300K", "--json", "--out", out});
         ASSERT_EQ(many.status, 0) << many.err;
         for (const char* key : {"clearance", "touch", "candidates", "counts", "clashes", "models"})
             EXPECT_EQ(many.json()[key], one.json()[key]) << key;
@@ -150,7 +150,7 @@ TEST_F(CrewClash, OneKilledEndsAllAndTheJobGoesOn) {
         import_anew();
         const auto whom = static_cast<std::size_t>(random.integer(0, 2));
         const Outcome outcome =
-            crew(3, {"--memory", "2M", "--progress"},
+            crew(3, {"--memory", "600K", "--progress"},
                  OnceAtWork(random.uniform(0.1, 1) * longest, [&](pid_t mpirun) {
                      const std::vector<pid_t> processes = children_of(mpirun);
                      if (whom < processes.size())
@@ -162,7 +162,7 @@ TEST_F(CrewClash, OneKilledEndsAllAndTheJobGoesOn) {
         }
         ++killed;
         ASSERT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
-        const Outcome rest = crew(random.integer(1, 3), {"--memory", "2M", "--json"});
+        const Outcome rest = crew(random.integer(1, 3), {"--memory", "600K", "--json"});
         ASSERT_EQ(rest.status, 0) << rest.err;
         ASSERT_EQ(rest.json()["clashes"], truth);
         const auto recalled = rest.json()["out_of_core"]["recalled_pairs"].get<std::uint64_t>();
@@ -180,7 +180,7 @@ TEST_F(CrewClash, ASignalToOneEndsAll) {
             SCOPED_TRACE(fmt::format("signal {} to process {}", signal, whom));
             import_anew();
             const Outcome outcome =
-                crew(2, {"--memory", "2M", "--progress", "--out", folder_ / "out"},
+                crew(2, {"--memory", "600K", "--progress", "--out", folder_ / "out"},
                      OnceAtWork(0.1, [&](pid_t mpirun) {
                          const std::vector<pid_t> processes = children_of(mpirun);
                          ASSERT_EQ(processes.size(), 2U);
@@ -221,7 +221,7 @@ TEST_F(CrewClash, DamageIsAnErrorOrDoesNotMatter) {
                 bytes[static_cast<std::size_t>(random.bits() % bytes.size())] ^=
                     static_cast<char>(1 << random.integer(0, 7));
         std::ofstream(store_, std::ios::binary | std::ios::trunc) << bytes;
-        const Outcome outcome = crew(3, {"--memory", "1M", "--json"});
+        const Outcome outcome = crew(3, {"--memory", "600K", "--json"});
         if (outcome.status == 0) {
             ASSERT_EQ(outcome.json()["clashes"], truth);
         } else {

@@ -86,7 +86,7 @@ TEST(CrewClashes, AreThoseOfOneProcess) {
         for (int run = 0; run < 3; ++run) {
             const auto size = static_cast<std::size_t>(random.integer(1, 5));
             const OutOfCoreOptions out_of_core{
-                .memory = static_cast<std::uint64_t>(random.integer(2'000'000, 8'000'000)),
+                .memory = static_cast<std::uint64_t>(random.integer(800'000, 3'000'000)),
                 .order = random.chance(0.3) ? WorkOrder::random : WorkOrder::partition,
                 .keep = false};
             const StoreClashReport found = find_together(job.store, job.options, out_of_core, size);
@@ -132,7 +132,7 @@ TEST(CrewClashes, GoOnWhereTheyWereStopped) {
                 options.progress.stop = &stop;
             try {
                 const StoreClashReport found = find_together(
-                    job.store, options, {.memory = 4'000'000}, 3,
+                    job.store, options, {.memory = 800'000}, 3,
                     [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
                         help_find_clashes(
                             job.store, *crew,
@@ -148,7 +148,7 @@ TEST(CrewClashes, GoOnWhereTheyWereStopped) {
             }
         }
         const StoreClashReport again =
-            find_together(job.store, job.options, {.memory = 4'000'000}, 2);
+            find_together(job.store, job.options, {.memory = 800'000}, 2);
         job.expect(again);
         EXPECT_EQ(again.counters.recalled_pairs, job.truth.candidates);
         verify(open_store(job.store));
@@ -211,7 +211,7 @@ TEST(CrewClashes, AreRefusedIfAnImportCameInBetween) {
             (void)import_models({job.files.front()}, job.store);
         };
         try {
-            (void)find_together(job.store, options, {.memory = 4'000'000}, size);
+            (void)find_together(job.store, options, {.memory = 800'000}, size);
             FAIL() << "the answer is of no state of the store";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::unreadable) << error.what();

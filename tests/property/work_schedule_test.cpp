@@ -23,7 +23,7 @@ struct SomeWork {
         const int parts = random.integer(2, 400), meshes = random.integer(1, parts);
         for (int i = 0; i < meshes; ++i)
             stored.meshes.push_back(
-                {i + 1, static_cast<std::uint64_t>(random.integer(1, 1000)), 1});
+                {i + 1, static_cast<std::uint64_t>(random.integer(10'000, 5'000'000)), 1});
         for (int i = 0; i < parts; ++i) {
             StoredPart part;
             part.row = 10 + i;
@@ -57,7 +57,7 @@ TEST(UnitSize, KeepsEveryPairAndFits) {
     for (int round = 0; round < many(200); ++round) {
         const SomeWork work(random);
         const auto workers = static_cast<std::size_t>(random.integer(1, 8));
-        const auto most = static_cast<std::uint64_t>(random.integer(2'000, 200'000));
+        const auto most = static_cast<std::uint64_t>(random.integer(10'000'000, 2'000'000'000));
         const std::vector<WorkUnit> units = work.units(most, workers);
         std::vector<IndexPair> seen;
         for (const WorkUnit& unit : units) {
@@ -91,7 +91,7 @@ TEST(WorkSchedule, HandsOutEveryUnitOnceInRuns) {
     for (int round = 0; round < many(100); ++round) {
         const SomeWork work(random);
         const auto workers = static_cast<std::size_t>(random.integer(1, 6));
-        const std::vector<WorkUnit> units = work.units(50'000, workers);
+        const std::vector<WorkUnit> units = work.units(500'000'000, workers);
         WorkSchedule schedule(work.stored, units, workers);
         std::vector<bool> done(units.size());
         std::vector<std::size_t> last(workers, units.size());
