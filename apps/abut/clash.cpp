@@ -74,11 +74,12 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
 std::string out_of_core_member(const OutOfCoreCounters& c) {
     std::string workers;
     for (const OutOfCoreCounters::Worker& w : c.workers)
-        workers += fmt::format(
-            "{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
-            "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"peak_rss_mb\": {}}}",
-            workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read, w.peak_bytes,
-            w.processor_seconds, w.peak_rss_mb);
+        workers +=
+            fmt::format("{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
+                        "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"waiting_seconds\": "
+                        "{}, \"peak_rss_mb\": {}}}",
+                        workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
+                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mb);
     return fmt::format(
         ",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
         "\"bytes_needed\": {}, \"bytes_read\": {}, \"peak_model_bytes\": {}, \"kept\": {}, "

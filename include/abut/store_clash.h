@@ -47,6 +47,7 @@ struct OutOfCoreCounters {
         std::uint64_t units = 0, pairs = 0;
         std::uint64_t mesh_loads = 0, bytes_read = 0, peak_bytes = 0;
         double processor_seconds = 0; ///< since it began, of all its threads
+        double waiting_seconds = 0;   ///< for pieces of work, with nothing to do
         double peak_rss_mb = 0;       ///< as peak_resident_mib
     };
     std::vector<Worker> workers; ///< by rank
