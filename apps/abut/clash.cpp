@@ -1,4 +1,5 @@
 #include <abut/clash.h>
+#include <abut/crew.h>
 #include <abut/error.h>
 #include <abut/scene.h>
 #include <abut/store.h>
@@ -71,12 +72,20 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
 
 /// Appended to the report's members.
 std::string out_of_core_member(const OutOfCoreCounters& c) {
+    std::string workers;
+    for (const OutOfCoreCounters::Worker& w : c.workers)
+        workers +=
+            fmt::format("{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
+                        "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"waiting_seconds\": "
+                        "{}, \"peak_rss_mb\": {}}}",
+                        workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
+                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mb);
     return fmt::format(
         ",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
         "\"bytes_needed\": {}, \"bytes_read\": {}, \"peak_model_bytes\": {}, \"kept\": {}, "
-        "\"recalled_pairs\": {}}}\n",
+        "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
         c.units, c.meshes, c.mesh_loads, c.bytes_needed, c.bytes_read, c.peak_bytes, c.kept,
-        c.recalled_pairs);
+        c.recalled_pairs, workers);
 }
 
 std::string out_of_core_summary(const OutOfCoreCounters& c) {
@@ -87,8 +96,20 @@ std::string out_of_core_summary(const OutOfCoreCounters& c) {
         grouped(c.bytes_needed));
 }
 
+/// A process that mpirun started beside the first one: it works, and says nothing.
+int help(const ClashArguments& arguments, Crew& crew) {
+    const InterruptScope scope(OnInterrupt::ask);
+    help_find_clashes(arguments.files.front(), crew, {.report = {}, .stop = &interrupt_flag()});
+    return kExitDone;
+}
+
 int run(const ClashArguments& arguments, const CommonOptions& common) {
     const Stopwatch watch;
+    std::unique_ptr<Crew> crew = join_crew();
+    if (crew && common.threads == 0)
+        set_threads(crew->threads());
+    if (crew && crew->rank() > 0)
+        return help(arguments, *crew);
     // Everything that can be refused without reading a model is refused first.
     refuse_repeated(arguments.files);
     const std::vector<ClashKind> fail_on = parse_kinds(arguments.fail_on);
@@ -107,6 +128,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (arguments.unit != 0 && from_store)
         throw Error(ErrorCode::bad_argument, "--unit",
                     "is for models alone: a store has the one of its import");
+    if (crew && !from_store)
+        throw Error(ErrorCode::bad_argument, arguments.files.front(),
+                    "is no store: several processes share the work on a store alone");
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
     std::vector<Scene> models;
@@ -118,11 +142,13 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             OutOfCoreOptions limits;
             if (arguments.memory)
                 limits.memory = parse_bytes("--memory", *arguments.memory);
+            limits.crew = crew.get();
             StoreClashReport found =
                 find_clashes(open_store(arguments.files.front()), options, limits);
             report = std::move(found.report);
             models = std::move(found.models);
-            out_of_core = found.counters;
+            out_of_core = std::move(found.counters);
+            crew.reset(); // the others need not wait for the reports
         } else {
             models = read_scenes(arguments.files,
                                  {.unit = arguments.unit, .progress = options.progress});

@@ -1,3 +1,4 @@
+#include <abut/crew.h>
 #include <abut/error.h>
 #include <abut/progress.h>
 
@@ -15,11 +16,12 @@ namespace {
 
 using namespace abut::command;
 
-/// One line on standard error, whatever a third-party message or a file's name holds.
+/// One line on standard error, by one of the processes that mpirun may have started, whatever a third-party message or a file's name holds.
 int fail(int status, std::string message) {
     std::replace_if(
         message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-    fmt::print(stderr, "abut: {}\n", message);
+    if (!abut::is_helper())
+        fmt::print(stderr, "abut: {}\n", message);
     return status;
 }
 

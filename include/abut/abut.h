@@ -6,6 +6,7 @@
 #include <abut/clash.h>
 #include <abut/convex.h>
 #include <abut/convex_pieces.h>
+#include <abut/crew.h>
 #include <abut/deformable.h>
 #include <abut/elementary_impact.h>
 #include <abut/error.h>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/clash.h>
+#include <abut/crew.h>
 #include <abut/scene.h>
 #include <abut/store.h>
 
@@ -25,6 +26,9 @@ struct OutOfCoreOptions {
     /// What is done is kept in the store, if it can be written to: a job that is killed goes on where
     /// it was, and one that has ended is not done again as long as its parts are the same.
     bool keep = true;
+    /// Processes that do the job together, this one the leader; null: this process alone. `memory` is
+    /// that of each. The result does not depend on how many they are.
+    Crew* crew = nullptr;
 };
 
 /// What a job out of core did.
@@ -37,6 +41,16 @@ struct OutOfCoreCounters {
     std::uint64_t peak_bytes = 0;     ///< of models in memory at once
     bool kept = false;                ///< in the store
     std::uint64_t recalled_pairs = 0; ///< done before, by a job that was stopped or has ended
+
+    /// What one process did; sums and the largest of these are above.
+    struct Worker {
+        std::uint64_t units = 0, pairs = 0;
+        std::uint64_t mesh_loads = 0, bytes_read = 0, peak_bytes = 0;
+        double processor_seconds = 0; ///< since it began, of all its threads
+        double waiting_seconds = 0;   ///< for pieces of work, with nothing to do
+        double peak_rss_mb = 0;       ///< as peak_resident_mib
+    };
+    std::vector<Worker> workers; ///< by rank
 };
 
 struct StoreClashReport {
@@ -56,6 +70,13 @@ struct StoreClashReport {
 ///             needs; while one piece of work is done, the next one's meshes are read.
 StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
                               const OutOfCoreOptions& out_of_core = {});
+
+/// The helpers' half of a job whose leader calls find_clashes with the crew. Returns when the leader
+/// has left the crew, or if something went wrong here, which the leader then throws.
+///
+/// In          store: path of the leader's store, on a file system of both, or of a copy of it. It is
+///             read without locks.
+void help_find_clashes(const std::string& store, Crew& crew, const Progress& progress = {});
 
 /// The graph of a store's parts: an edge where boxes are at most the clearance apart.
 struct GraphReport {

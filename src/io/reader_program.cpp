@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include "core/program_folder.h"
 #include "io/input_file.h"
 
 #include <algorithm>
@@ -35,11 +36,6 @@ bool is_there(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-fs::path running_program_folder() {
-    std::error_code ignored;
-    return fs::read_symlink("/proc/self/exe", ignored).parent_path();
-}
-
 std::string find_reader(const std::string& file) {
     std::string chosen = environment("ABUT_READER");
     if (!chosen.empty()) {
@@ -48,7 +44,7 @@ std::string find_reader(const std::string& file) {
         throw Error(ErrorCode::unsupported, file,
                     "cannot be read: ABUT_READER names no program: " + chosen);
     }
-    const fs::path here = running_program_folder();
+    const fs::path here = program_folder();
     for (const fs::path& candidate :
          {here / "abut-reader", here.parent_path() / "libexec/abut/abut-reader",
           fs::path(ABUT_INSTALLED_READER), fs::path(ABUT_BUILD_READER)})
@@ -91,7 +87,7 @@ fs::path find_converter(const std::string& file) {
                     "cannot be read: ABUT_IFC_CONVERTER names no folder with convert.mjs: " +
                         chosen);
     }
-    const std::array candidates{running_program_folder().parent_path() / "libexec/abut/ifc",
+    const std::array candidates{program_folder().parent_path() / "libexec/abut/ifc",
                                 fs::path(ABUT_INSTALLED_IFC), fs::path(ABUT_SOURCE_IFC)};
     for (const fs::path& candidate : candidates)
         if (is_there(candidate / "convert.mjs") && is_there(candidate / "node_modules/web-ifc"))

@@ -4,6 +4,7 @@
 
 #include "core/progress.h"
 #include "massive/clash_identity.h"
+#include "massive/unit_size.h"
 
 #include <malloc.h>
 #include <string>
@@ -54,8 +55,11 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
             pairs = std::move(*left);
     plan.budget = bytes_for_models(plan.stored, pairs, out_of_core, store.path());
     // One unit is tested while the next one's models come into memory.
-    plan.units = make_work_units(plan.stored, std::move(pairs), plan.budget / 2, out_of_core.order,
-                                 store.path());
+    const std::size_t workers = out_of_core.crew == nullptr ? 1 : out_of_core.crew->size();
+    const std::uint64_t unit = unit_budget(plan.stored, pairs, plan.budget / 2, workers);
+    plan.units =
+        make_work_units(plan.stored, std::move(pairs), unit, out_of_core.order, store.path());
+    plan.units = split_long_units(std::move(plan.units), plan.stored, workers);
     if (plan.record != nullptr)
         plan.record->plan(plan.units);
     // What the broad phase and the partition needed is free for models, and not in small pieces.

@@ -55,6 +55,8 @@ public:
     /// Piece `unit` of the plan is done. rows: of the store, of the parts of each clash.
     void commit(std::size_t unit, const std::vector<FoundClash>& clashes,
                 const std::vector<std::pair<std::int64_t, std::int64_t>>& rows);
+    /// Pieces that are committed while it is open are committed with it: the disk is waited for once.
+    [[nodiscard]] Transaction together() { return Transaction(database_); }
     /// The job has ended: records of the same question about earlier parts go.
     void finish();
 

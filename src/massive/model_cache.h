@@ -2,51 +2,48 @@
 
 #include <abut/model.h>
 
-#include "massive/stored_parts.h"
-#include "massive/work_units.h"
+#include "massive/work_piece.h"
 #include "store/store_file.h"
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace abut {
 
-/// Models of a store's meshes, as many as a number of bytes allows. The order of work is known, so
-/// what is used again the latest goes first.
+/// Models of a store's meshes, as many as a number of bytes allows. Each piece of work says when its
+/// meshes are used again; what is used again the latest goes first.
 ///
-/// Source      [Belady 1966].
+/// Source      [Belady 1966]. Differs: only the uses that are known when a piece is handed out count.
 class ModelCache {
 public:
-    /// In          units: in the order of work; must outlive the cache, as the others.
-    ModelCache(StoreFile& store, std::span<const StoredMesh> meshes,
-               std::span<const WorkUnit> units, std::uint64_t budget);
+    /// In          store: must outlive the cache.
+    ModelCache(StoreFile& store, std::uint64_t budget) : store_(store), budget_(budget) {}
 
-    /// Brings all models of a unit into memory, in parallel, and keeps those of the unit before: its
-    /// pairs may be tested meanwhile. Units come one after the other.
+    /// The models of a piece's meshes, read and built in parallel. They stay until the call after
+    /// the next, so that a piece may be tested while the next one's models come.
     ///
     /// Errors      those of the store.
-    void load(std::size_t unit);
-
-    [[nodiscard]] const Model& model(std::uint32_t mesh) const { return *models_[mesh]; }
+    std::vector<const Model*> load(const WorkPiece& piece);
 
     [[nodiscard]] std::uint64_t loads() const { return loads_; }
     [[nodiscard]] std::uint64_t peak_bytes() const { return peak_bytes_; }
 
 private:
-    void make_room(std::size_t unit, std::uint64_t bytes);
-    /// The first unit from `from` on that uses a mesh; the number of units if there is none.
-    [[nodiscard]] std::uint32_t next_use(std::uint32_t mesh, std::size_t from) const;
+    struct Entry {
+        std::unique_ptr<const Model> model;
+        std::uint32_t next_use = WorkPiece::kNoUse;
+        std::uint64_t call = 0; ///< the last load() that wanted it
+    };
+
+    void make_room(std::uint32_t unit, std::uint64_t bytes);
 
     StoreFile& store_;
-    std::span<const StoredMesh> meshes_;
-    std::span<const WorkUnit> units_;
     std::uint64_t budget_;
-    std::vector<std::optional<Model>> models_; ///< by mesh
-    std::vector<std::uint32_t> first_use_;     ///< by mesh, in uses_
-    std::vector<std::uint32_t> uses_;          ///< units, ascending
-    std::vector<std::uint32_t> resident_;      ///< meshes
+    std::unordered_map<std::int64_t, Entry> entries_; ///< by mesh
+    std::uint64_t call_ = 1;
     std::uint64_t bytes_ = 0, peak_bytes_ = 0, loads_ = 0;
 };
 

@@ -49,6 +49,23 @@ Verdict verdict_of(int status) {
     }
 }
 
+/// https://www.sqlite.org/uri.html
+std::string immutable_uri(const std::string& path) {
+    // An authority that is empty keeps a path's first slashes from being taken for one.
+    std::string uri = path.starts_with('/') ? "file://" : "file:";
+    for (const char c : path) {
+        constexpr std::string_view kSpecial = "%?#";
+        if (kSpecial.find(c) == std::string_view::npos) {
+            uri += c;
+        } else {
+            constexpr std::string_view kDigits = "0123456789ABCDEF";
+            const auto code = static_cast<unsigned char>(c);
+            uri += {'%', kDigits[code / 16], kDigits[code % 16]};
+        }
+    }
+    return uri + "?immutable=1";
+}
+
 } // namespace
 
 std::string one_line(std::string text) {
@@ -59,9 +76,12 @@ std::string one_line(std::string text) {
 
 Database::Database(std::string path, OpenMode mode) : path_(std::move(path)) {
     int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE;
-    flags |= mode == OpenMode::read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE;
+    flags |= mode == OpenMode::read_only || mode == OpenMode::immutable ? SQLITE_OPEN_READONLY
+                                                                        : SQLITE_OPEN_READWRITE;
     flags |= mode == OpenMode::create ? SQLITE_OPEN_CREATE : 0;
-    const int status = sqlite3_open_v2(path_.c_str(), &handle_, flags, nullptr);
+    flags |= mode == OpenMode::immutable ? SQLITE_OPEN_URI : 0;
+    const std::string name = mode == OpenMode::immutable ? immutable_uri(path_) : path_;
+    const int status = sqlite3_open_v2(name.c_str(), &handle_, flags, nullptr);
     if (status != SQLITE_OK) {
         const Verdict verdict = verdict_of(status);
         sqlite3_close(handle_);
@@ -171,6 +191,23 @@ void Statement::bind_one(int at, std::span<const std::byte> value) {
 
 void Statement::bind_one(int at, std::nullptr_t) {
     check(sqlite3_bind_null(handle_, at));
+}
+
+Transaction::Transaction(Database& database)
+    : database_(database), open_(sqlite3_get_autocommit(database.handle()) != 0) {
+    if (open_)
+        database_.run("BEGIN IMMEDIATE");
+}
+
+void Transaction::commit() {
+    if (std::exchange(open_, false)) {
+        try {
+            database_.run("COMMIT");
+        } catch (...) {
+            open_ = true; // to be rolled back
+            throw;
+        }
+    }
 }
 
 Transaction::~Transaction() {

@@ -15,6 +15,8 @@ namespace abut {
 
 enum class OpenMode : std::uint8_t {
     read_only,
+    /// read_only without locks: what is read must not change meanwhile, though the rest of the file may.
+    immutable,
     read_write,
     create, ///< read_write, and made if it is not there
 };
@@ -100,24 +102,20 @@ private:
     sqlite3_stmt* handle_ = nullptr;
 };
 
-/// What is done within it is kept as a whole, after commit(), or not at all.
+/// What is done within it is kept as a whole, after commit(), or not at all. Within another one it is a
+/// part of that.
 class Transaction {
 public:
-    explicit Transaction(Database& database) : database_(database) {
-        database_.run("BEGIN IMMEDIATE");
-    }
+    explicit Transaction(Database& database);
     ~Transaction();
     Transaction(const Transaction&) = delete;
     Transaction& operator=(const Transaction&) = delete;
 
-    void commit() {
-        database_.run("COMMIT");
-        open_ = false;
-    }
+    void commit();
 
 private:
     Database& database_;
-    bool open_ = true;
+    bool open_; ///< and to be ended by this one
 };
 
 } // namespace abut

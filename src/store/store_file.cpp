@@ -63,9 +63,8 @@ StoreFile::Lease::~Lease() {
     owner.idle_.push_back(std::move(connection));
 }
 
-StoreFile::StoreFile(std::string path, bool read_only)
-    : path_(std::move(path)), mode_(read_only ? OpenMode::read_only : OpenMode::read_write) {
-    if (read_only)
+StoreFile::StoreFile(std::string path, OpenMode mode) : path_(std::move(path)), mode_(mode) {
+    if (mode == OpenMode::read_only)
         mend(path_);
     const Lease lease(*this);
 }

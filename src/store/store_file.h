@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -26,7 +27,10 @@ namespace abut {
 ///             another process writes, bad_argument for a number that is not in the store.
 class StoreFile {
 public:
-    StoreFile(std::string path, bool read_only);
+    StoreFile(std::string path, bool read_only)
+        : StoreFile(std::move(path), read_only ? OpenMode::read_only : OpenMode::read_write) {}
+    /// immutable: reads what an import wrote, while a job of this program records what it finds.
+    StoreFile(std::string path, OpenMode mode);
     ~StoreFile();
     StoreFile(const StoreFile&) = delete;
     StoreFile& operator=(const StoreFile&) = delete;

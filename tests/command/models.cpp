@@ -70,4 +70,19 @@ Scene one_of_each_kind() {
     return scene;
 }
 
+Scene crowd(int balls, int rings) {
+    Scene scene;
+    for (int i = 0; i < balls; ++i) {
+        Mesh mesh = ball(rings);
+        for (Vec3& p : mesh.positions)
+            p.x *= 1 + 0.001 * i;
+        scene.meshes.push_back(std::move(mesh));
+        const int row = i / 20, column = i % 20;
+        scene.parts.push_back(part("ball" + std::to_string(i), "Ball",
+                                   static_cast<std::uint32_t>(i),
+                                   placed(1.9 * column, 1.9 * row, 0)));
+    }
+    return scene;
+}
+
 } // namespace abut::test

@@ -26,4 +26,7 @@ std::string box_obj();
 /// (0.1 deep), touch, contained, duplicate, clearance (0.03 apart).
 Scene one_of_each_kind();
 
+/// Balls so crowded that each meets some others; none is the same mesh as another.
+Scene crowd(int balls, int rings);
+
 } // namespace abut::test

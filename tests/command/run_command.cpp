@@ -19,29 +19,27 @@ namespace abut::test {
 
 namespace {
 
-/// A running `abut` and the reading ends of its two outputs.
+/// A running program and the reading ends of its two outputs.
 struct Running {
     pid_t process = -1;
     std::array<pollfd, 2> outputs{};
 };
 
-Running start(const std::vector<std::string>& arguments) {
+Running start_program(const std::vector<std::string>& command) {
     std::array<std::array<int, 2>, 2> pipes{};
     for (auto& ends : pipes)
         if (pipe2(ends.data(), O_CLOEXEC) != 0)
             throw std::runtime_error("pipe2");
     std::vector<char*> argv;
-    std::string program = ABUT_COMMAND;
-    argv.push_back(program.data());
-    for (const std::string& argument : arguments)
-        argv.push_back(const_cast<char*>(argument.c_str())); // NOLINT: execv does not write
+    for (const std::string& argument : command)
+        argv.push_back(const_cast<char*>(argument.c_str())); // NOLINT: execvp does not write
     argv.push_back(nullptr);
     Running running;
     running.process = fork();
     if (running.process == 0) {
         dup2(pipes[0][1], STDOUT_FILENO);
         dup2(pipes[1][1], STDERR_FILENO);
-        execv(ABUT_COMMAND, argv.data());
+        execvp(argv.front(), argv.data());
         _exit(127);
     }
     if (running.process < 0)
@@ -53,7 +51,12 @@ Running start(const std::vector<std::string>& arguments) {
     return running;
 }
 
-/// Reads both outputs until they are closed, or the deadline; calls on_text() after each piece.
+Running start(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), ABUT_COMMAND);
+    return start_program(arguments);
+}
+
+/// Reads both outputs until they are closed, or the deadline; calls on_text() again and again.
 template <typename OnText>
 bool drain(Running& running, Outcome& outcome, std::chrono::steady_clock::time_point deadline,
            const OnText& on_text) {
@@ -69,13 +72,13 @@ bool drain(Running& running, Outcome& outcome, std::chrono::steady_clock::time_p
             if (count > 0) {
                 (i == 0 ? outcome.out : outcome.err)
                     .append(buffer.data(), static_cast<std::size_t>(count));
-                on_text();
             } else {
                 close(running.outputs.at(i).fd);
                 running.outputs.at(i).fd = -1; // poll() passes over it
                 running.outputs.at(i).revents = 0;
             }
         }
+        on_text();
     }
     return true;
 }
@@ -95,6 +98,14 @@ Outcome finish(Running running, std::chrono::seconds limit, const OnText& on_tex
 }
 
 } // namespace
+
+Outcome run_program(const std::vector<std::string>& command, const Watch& watch) {
+    const Running running = start_program(command);
+    return finish(running, std::chrono::seconds(300), [&](const Outcome& so_far) {
+        if (watch)
+            watch(running.process, so_far);
+    });
+}
 
 Outcome run_abut(const std::vector<std::string>& arguments) {
     return finish(start(arguments), std::chrono::seconds(300), [](const Outcome&) {});

@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace abut::test {
@@ -15,6 +17,11 @@ struct Outcome {
 
     [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out); }
 };
+
+/// Runs a program with its arguments to its end. watch: called some times a second while it runs,
+/// with its process and what it has printed so far.
+using Watch = std::function<void(pid_t process, const Outcome& so_far)>;
+Outcome run_program(const std::vector<std::string>& command, const Watch& watch = {});
 
 /// Runs `abut ARGUMENTS` to its end.
 Outcome run_abut(const std::vector<std::string>& arguments);

@@ -1,0 +1,132 @@
+#include "massive/crew_lead.h"
+
+#include <abut/error.h>
+
+#include "massive/crew_messages.h"
+
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+/// Unwinds a worker whose job has failed elsewhere.
+struct Abandoned {};
+
+/// How long to wait before looking whether to stop.
+constexpr std::chrono::milliseconds kPatience{20};
+
+/// Of a helper: one is tested while what the other needs comes into memory.
+constexpr int kPiecesAtOnce = 2;
+
+} // namespace
+
+CrewLead::CrewLead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions& options)
+    : crew_(crew), plan_(plan), options_(options),
+      progress_(options.progress, "narrow phase", plan.candidates), result_(result),
+      schedule_(plan.stored, plan.units, crew.size()) {
+    progress_.advance(result.counters().recalled_pairs);
+    server_ = std::thread([this] { serve(); });
+    recorder_ = std::thread([this] { record(); });
+}
+
+CrewLead::~CrewLead() {
+    ended_ = true;
+    for (std::thread* const thread : {&server_, &recorder_})
+        if (thread->joinable())
+            thread->join();
+}
+
+void CrewLead::serve() {
+    try {
+        const std::vector<std::byte> briefing =
+            encode(Briefing{options_, plan_.budget, hash_of(plan_.stored.models)});
+        for (std::size_t helper = 1; helper < crew_.size(); ++helper)
+            crew_.send(helper, briefing);
+        for (int i = 0; i < kPiecesAtOnce; ++i)
+            for (std::size_t helper = 1; helper < crew_.size(); ++helper)
+                hand_out(helper);
+        while (!ended_) {
+            check_stop(options_.progress);
+            if (const auto message = crew_.receive(kPatience))
+                handle(*message);
+        }
+    } catch (...) {
+        fail();
+    }
+}
+
+void CrewLead::handle(const Crew::Message& message) {
+    if (message.bytes.empty())
+        throw std::runtime_error("process " + std::to_string(message.from) + " has left the job");
+    CrewMessage content = decode(message.bytes);
+    if (const auto* const failure = std::get_if<Failure>(&content))
+        failure->rethrow();
+    auto& result = std::get<PieceResult>(content);
+    hand_out(message.from);
+    progress_.advance(result.pairs);
+    result.from = static_cast<std::uint32_t>(message.from);
+    done(std::move(result));
+}
+
+void CrewLead::hand_out(std::size_t worker) {
+    if (auto piece = piece_for(worker))
+        crew_.send(worker, encode(std::move(*piece)));
+    else
+        crew_.send(worker, encode(NoMoreWork()));
+}
+
+std::optional<WorkPiece> CrewLead::piece_for(std::size_t worker) {
+    const std::scoped_lock lock(mutex_);
+    return schedule_.next(worker);
+}
+
+void CrewLead::done(PieceResult result) {
+    const std::scoped_lock lock(mutex_);
+    done_.push_back(std::move(result));
+    to_record_.notify_one();
+}
+
+void CrewLead::record() {
+    try {
+        for (std::size_t left = plan_.units.size(); left > 0 && !ended_;) {
+            std::vector<PieceResult> results;
+            {
+                std::unique_lock lock(mutex_);
+                to_record_.wait_for(lock, kPatience, [this] { return !done_.empty(); });
+                results.swap(done_);
+            }
+            left -= results.size();
+            if (!results.empty())
+                result_.take(std::move(results));
+        }
+        ended_ = true;
+    } catch (...) {
+        fail();
+    }
+}
+
+void CrewLead::on_pair() {
+    if (ended_)
+        throw Abandoned();
+    progress_.advance();
+}
+
+void CrewLead::fail() {
+    const std::scoped_lock lock(mutex_);
+    if (failure_ == nullptr)
+        failure_ = std::current_exception();
+    ended_ = true;
+}
+
+void CrewLead::finish() {
+    server_.join();
+    recorder_.join();
+    if (failure_ != nullptr)
+        std::rethrow_exception(failure_);
+}
+
+} // namespace abut

@@ -1,0 +1,130 @@
+#include "massive/job_result.h"
+
+#include <abut/error.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <unordered_map>
+#include <utility>
+
+namespace abut {
+
+JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store,
+                     std::size_t workers)
+    : plan_(plan), store_(store) {
+    ClashReport& report = result_.report;
+    report.clearance = options.clearance;
+    report.touch = options.touch;
+    report.candidates = plan_.candidates;
+    for (const ModelRow& model : plan_.stored.models)
+        report.models.push_back({model.file, model.parts, model.triangles});
+    OutOfCoreCounters& counters = result_.counters;
+    counters.units = plan_.units.size();
+    counters.workers.resize(workers);
+    std::vector<bool> needed(plan_.stored.meshes.size());
+    for (const WorkUnit& unit : plan_.units)
+        for (const std::uint32_t mesh : unit.meshes)
+            needed[mesh] = true;
+    for (std::size_t i = 0; i < needed.size(); ++i)
+        if (needed[i]) {
+            ++counters.meshes;
+            counters.bytes_needed += plan_.stored.meshes[i].stored_bytes;
+        }
+}
+
+std::array<std::uint32_t, 2> JobResult::models_of(const IndexPair& pair) const {
+    return {plan_.stored.parts[pair.a()].model, plan_.stored.parts[pair.b()].model};
+}
+
+void JobResult::recall() {
+    if (plan_.record == nullptr)
+        return;
+    std::uint64_t left = 0;
+    for (const WorkUnit& unit : plan_.units)
+        left += unit.pairs.size();
+    result_.counters.kept = true;
+    result_.counters.recalled_pairs = plan_.candidates - left;
+    for (FoundClash& found : plan_.record->found()) {
+        if (found.pair.b() >= plan_.stored.parts.size())
+            throw Error(ErrorCode::malformed, store_.path(),
+                        "is damaged: a clash of a job names parts that are not there");
+        for (const std::uint32_t part : {found.pair.a(), found.pair.b()}) {
+            if (named_.contains(part))
+                continue;
+            const PartRow row = store_.part(plan_.stored.parts[part].row);
+            named_.try_emplace(part, Part{row.id, row.name, row.type, 0, {}});
+        }
+        found.clash.model = models_of(found.pair);
+        clashes_.push_back(std::move(found));
+    }
+}
+
+void JobResult::take(std::vector<PieceResult> results) {
+    const auto add_all = [&] {
+        for (PieceResult& result : results)
+            add(std::move(result));
+    };
+    if (plan_.record == nullptr)
+        return add_all();
+    Transaction together = plan_.record->together();
+    add_all();
+    together.commit();
+}
+
+void JobResult::add(PieceResult result) {
+    std::unordered_map<std::int64_t, Part*> names;
+    for (PieceResult::Named& named : result.named)
+        names.emplace(named.row, &named.part);
+    std::vector<FoundClash> fresh;
+    std::vector<std::pair<std::int64_t, std::int64_t>> rows;
+    for (PieceResult::Found& found : result.clashes) {
+        const IndexPair pair = plan_.units[result.unit].pairs[found.pair];
+        for (const std::uint32_t part : {pair.a(), pair.b()})
+            named_.try_emplace(part, *names.at(plan_.stored.parts[part].row));
+        found.clash.model = models_of(pair);
+        rows.emplace_back(plan_.stored.parts[pair.a()].row, plan_.stored.parts[pair.b()].row);
+        fresh.push_back({pair, std::move(found.clash)});
+    }
+    if (plan_.record != nullptr)
+        plan_.record->commit(result.unit, fresh, rows);
+    std::ranges::move(fresh, std::back_inserter(clashes_));
+    OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
+    result.worker.units = figures.units + 1;
+    result.worker.pairs = figures.pairs + result.pairs;
+    figures = result.worker;
+}
+
+void JobResult::sum_up_workers() {
+    OutOfCoreCounters& counters = result_.counters;
+    for (const OutOfCoreCounters::Worker& worker : counters.workers) {
+        counters.mesh_loads += worker.mesh_loads;
+        counters.bytes_read += worker.bytes_read;
+        counters.peak_bytes = std::max(counters.peak_bytes, worker.peak_bytes);
+        result_.report.peak_rss_mb = std::max(result_.report.peak_rss_mb, worker.peak_rss_mb);
+    }
+}
+
+StoreClashReport JobResult::finish() {
+    if (plan_.record != nullptr)
+        plan_.record->finish();
+    sum_up_workers();
+    for (const ModelRow& model : plan_.stored.models)
+        result_.models.emplace_back().file = model.file;
+    std::unordered_map<std::uint32_t, std::uint32_t> place;
+    for (auto& [part, named] : named_) {
+        std::vector<Part>& parts = result_.models[plan_.stored.parts[part].model].parts;
+        place.emplace(part, static_cast<std::uint32_t>(parts.size()));
+        parts.push_back(std::move(named));
+    }
+    std::sort(clashes_.begin(), clashes_.end(),
+              [](const FoundClash& a, const FoundClash& b) { return a.pair < b.pair; });
+    for (auto& [pair, clash] : clashes_) {
+        clash.part = {place.at(pair.a()), place.at(pair.b())};
+        ++result_.report.counts.at(static_cast<std::size_t>(clash.kind));
+        result_.report.clashes.push_back(std::move(clash));
+    }
+    return std::move(result_);
+}
+
+} // namespace abut

@@ -1,0 +1,87 @@
+#include <abut/crew.h>
+#include <abut/error.h>
+
+#include "core/program_folder.h"
+
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+#include <string>
+
+namespace abut {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What launchers tell the processes that they start: how many they are, if they say that, and which
+/// this one is.
+struct Launch {
+    std::size_t size = 0; ///< 0: not said
+    std::size_t rank = 0;
+};
+
+std::optional<std::size_t> number(const char* variable) {
+    const char* const text = std::getenv(variable);
+    if (text == nullptr)
+        return std::nullopt;
+    return std::strtoull(text, nullptr, 10);
+}
+
+std::optional<Launch> launch() {
+    struct Variables {
+        const char *rank, *size;
+    };
+    // Open MPI's mpirun; MPICH's and srun --mpi=pmi2; srun --mpi=pmix.
+    for (const auto& [rank, size] :
+         {Variables{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+          Variables{"PMI_RANK", "PMI_SIZE"}, Variables{"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}})
+        if (const auto which = number(rank))
+            return Launch{number(size).value_or(0), *which};
+    return std::nullopt;
+}
+
+/// What src/massive/mpi is built into. It is loaded only where it is needed: MPI takes time to load.
+fs::path find_module() {
+    const fs::path here = program_folder();
+    for (const fs::path& candidate :
+         {here / "abut-mpi.so", here.parent_path() / "libexec/abut/abut-mpi.so",
+          fs::path(ABUT_INSTALLED_MPI), fs::path(ABUT_BUILD_MPI)}) {
+        std::error_code ignored;
+        if (fs::is_regular_file(candidate, ignored))
+            return candidate;
+    }
+    throw Error(ErrorCode::unsupported,
+                "this process was started as one of several, but this build has no MPI");
+}
+
+} // namespace
+
+std::unique_ptr<Crew> join_crew() {
+    const auto started = launch();
+    if (!started || started->size == 1)
+        return nullptr;
+    const fs::path module = find_module();
+    // Open MPI's own modules look for its symbols among the global ones. Never closed.
+    void* const handle = dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    if (handle == nullptr)
+        throw Error(ErrorCode::unsupported, module.string(),
+                    std::string("cannot be loaded: ") + dlerror());
+    using Join = Crew* (*)();
+    const auto join = reinterpret_cast<Join>(dlsym(handle, "abut_join_mpi"));
+    std::unique_ptr<Crew> crew(join());
+    if (started->size > 1 && crew->size() != started->size)
+        throw Error(ErrorCode::unsupported,
+                    "this process was started as one of " + std::to_string(started->size) +
+                        " by another MPI than that which Abut was built with");
+    if (crew->size() == 1)
+        return nullptr;
+    return crew;
+}
+
+bool is_helper() {
+    const auto started = launch();
+    return started && started->rank > 0;
+}
+
+} // namespace abut

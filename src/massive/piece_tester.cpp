@@ -1,0 +1,84 @@
+#include "massive/piece_tester.h"
+
+#include "core/parallel.h"
+#include "core/resources.h"
+#include "massive/clash_identity.h"
+#include "massive/classify_pair.h"
+#include "massive/rule_match.h"
+
+#include <utility>
+
+namespace abut {
+
+PieceTester::PieceTester(StoreFile& store, const ClashOptions& options,
+                         const std::vector<ModelRow>& models, std::uint64_t budget)
+    : store_(store), options_(options), cache_(store, budget), read_before_(store.bytes_read()) {
+    for (const ModelRow& model : models)
+        models_.emplace_back().file = model.file;
+}
+
+PieceTester::Loaded PieceTester::load(WorkPiece piece) {
+    Loaded loaded{std::move(piece), {}, {}};
+    loaded.models = cache_.load(loaded.piece);
+    loaded.parts.resize(loaded.piece.parts.size());
+    parallel_for(loaded.parts.size(), 64,
+                 [&](std::size_t i) { loaded.parts[i] = store_.part(loaded.piece.parts[i].row); });
+    return loaded;
+}
+
+PieceResult PieceTester::test(const Loaded& loaded, const std::function<void()>& on_pair) const {
+    const WorkPiece& piece = loaded.piece;
+    std::vector<std::optional<Clash>> found(piece.pairs.size());
+    parallel_for(piece.pairs.size(), 1, [&](std::size_t k) {
+        found[k] = test_pair(loaded, piece.pairs[k]);
+        on_pair();
+    });
+    PieceResult result;
+    result.unit = piece.unit;
+    result.pairs = piece.pairs.size();
+    std::vector<bool> is_named(piece.parts.size());
+    for (std::uint32_t k = 0; k < found.size(); ++k) {
+        if (!found[k])
+            continue;
+        result.clashes.push_back({k, std::move(*found[k])});
+        for (const std::uint32_t part : {piece.pairs[k].a, piece.pairs[k].b}) {
+            const PartRow& row = loaded.parts[part];
+            if (!is_named[part])
+                result.named.push_back({row.part, {row.id, row.name, row.type, 0, {}}});
+            is_named[part] = true;
+        }
+    }
+    return result;
+}
+
+std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
+                                            const WorkPiece::Pair& pair) const {
+    const PartRow &a = loaded.parts[pair.a], &b = loaded.parts[pair.b];
+    const auto use = [&](std::uint32_t part) { return loaded.piece.parts[part]; };
+    const Scene &model_a = models_[use(pair.a).model], &model_b = models_[use(pair.b).model];
+    const auto name = [](const PartRow& row) { return Part{row.id, row.name, row.type, 0, {}}; };
+    PairTerms terms{options_.clearance, options_.touch, nullptr};
+    if (!options_.rules.empty()) // a candidate has terms
+        terms = *terms_of(options_, model_a, name(a), model_b, name(b));
+    const auto placed = [&](const PartRow& row, std::uint32_t part) {
+        return ClashPart{*loaded.models[use(part).mesh], row.world_from_mesh, row.box};
+    };
+    std::optional<Clash> clash =
+        classify_pair(placed(a, pair.a), placed(b, pair.b), terms.clearance, terms.touch);
+    if (clash) {
+        if (terms.rule != nullptr)
+            clash->rule = terms.rule->name;
+        clash->id = clash_identity(model_a.file, a.id, model_b.file, b.id, clash->kind);
+    }
+    return clash;
+}
+
+OutOfCoreCounters::Worker PieceTester::figures() const {
+    return {.mesh_loads = cache_.loads(),
+            .bytes_read = store_.bytes_read() - read_before_,
+            .peak_bytes = cache_.peak_bytes(),
+            .processor_seconds = processor_seconds(),
+            .peak_rss_mb = peak_resident_mib()};
+}
+
+} // namespace abut

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <abut/clash.h>
+#include <abut/model.h>
+#include <abut/scene.h>
+
+#include "massive/model_cache.h"
+#include "massive/work_piece.h"
+#include "store/store_file.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace abut {
+
+/// Does pieces of work: brings what they need into memory, tests their pairs.
+class PieceTester {
+public:
+    /// In          models: of the store; budget: bytes of models in memory. Store and options must
+    ///             outlive it.
+    PieceTester(StoreFile& store, const ClashOptions& options, const std::vector<ModelRow>& models,
+                std::uint64_t budget);
+
+    /// A piece with what it needs, valid until the load after the next.
+    struct Loaded {
+        WorkPiece piece;
+        std::vector<const Model*> models; ///< of the piece's meshes
+        std::vector<PartRow> parts;       ///< of the piece's parts
+    };
+    /// Errors      those of the store.
+    Loaded load(WorkPiece piece);
+
+    /// In          on_pair: called after each pair, from any thread; what it throws ends the test.
+    PieceResult test(const Loaded& loaded, const std::function<void()>& on_pair) const;
+
+    /// What it did so far, but for units and pairs.
+    [[nodiscard]] OutOfCoreCounters::Worker figures() const;
+
+private:
+    std::optional<Clash> test_pair(const Loaded& loaded, const WorkPiece::Pair& pair) const;
+
+    StoreFile& store_;
+    const ClashOptions& options_;
+    std::vector<Scene> models_; ///< their files alone
+    ModelCache cache_;
+    std::uint64_t read_before_;
+};
+
+} // namespace abut

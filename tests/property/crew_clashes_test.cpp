@@ -1,0 +1,225 @@
+// The clash job of a store by several workers, here threads that share nothing but messages: the answer
+// is that of one, whoever does what; and whatever goes wrong ends all of them and leaves the job to go on.
+
+#include <abut/error.h>
+#include <abut/store.h>
+#include <abut/store_clash.h>
+
+#include "tests/support/clash_jobs.h"
+#include "tests/support/folder.h"
+#include "tests/support/random.h"
+#include "tests/support/rounds.h"
+#include "tests/support/thread_crew.h"
+
+#include <atomic>
+#include <functional>
+#include <gtest/gtest.h>
+#include <iostream>
+#include <string>
+#include <thread>
+
+namespace abut::test {
+namespace {
+
+using Helper = std::function<void(std::size_t rank, std::unique_ptr<Crew>)>;
+
+/// Calls find_clashes with a crew; the helpers are threads.
+StoreClashReport find_together(const std::string& store, const ClashOptions& options,
+                               OutOfCoreOptions out_of_core, std::size_t size,
+                               const Helper& helper = {}) {
+    std::vector<std::unique_ptr<Crew>> crew = ThreadCrew::of(size);
+    std::vector<std::thread> helpers;
+    for (std::size_t rank = 1; rank < size; ++rank)
+        helpers.emplace_back([&, rank, own = std::move(crew[rank])]() mutable {
+            if (helper)
+                helper(rank, std::move(own));
+            else
+                help_find_clashes(store, *own);
+        });
+    struct Joining {
+        std::unique_ptr<Crew>& leader;
+        std::vector<std::thread>& helpers;
+        ~Joining() {
+            leader.reset(); // the helpers wait for that
+            for (std::thread& thread : helpers)
+                thread.join();
+        }
+    } const joining{crew[0], helpers};
+    out_of_core.crew = crew[0].get();
+    return find_clashes(open_store(store), options, out_of_core);
+}
+
+/// A store of some models, and its clashes in core.
+struct Job {
+    explicit Job(Random& random, int parts = 0) {
+        const int models = random.integer(1, 2);
+        for (int m = 0; m < models; ++m) {
+            files.push_back(folder / ("model" + std::to_string(m) + ".glb"));
+            write_glb(some_scene(random, parts > 0 ? parts : random.integer(60, 200), 4),
+                      files.back());
+        }
+        (void)import_models(files, store);
+        scenes = read_scenes(files);
+        options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.1);
+        options.self = parts > 0 || random.chance(0.5);
+        options.rules = some_rules(random);
+        truth = find_clashes(scenes, options);
+    }
+    void expect(const StoreClashReport& found) const {
+        expect_equal(found.report, found.models, truth, scenes);
+    }
+
+    Folder folder;
+    std::vector<std::string> files;
+    std::string store = folder / "models.abut";
+    std::vector<Scene> scenes;
+    ClashOptions options;
+    ClashReport truth;
+};
+
+TEST(CrewClashes, AreThoseOfOneProcess) {
+    Random random(6201);
+    std::size_t clashes = 0, runs = 0, shared = 0;
+    for (int round = 0; round < many(6); ++round) {
+        const Job job(random);
+        clashes += job.truth.clashes.size();
+        for (int run = 0; run < 3; ++run) {
+            const auto size = static_cast<std::size_t>(random.integer(1, 5));
+            const OutOfCoreOptions out_of_core{
+                .memory = static_cast<std::uint64_t>(random.integer(800'000, 3'000'000)),
+                .order = random.chance(0.3) ? WorkOrder::random : WorkOrder::partition,
+                .keep = false};
+            const StoreClashReport found = find_together(job.store, job.options, out_of_core, size);
+            job.expect(found);
+            const OutOfCoreCounters& counters = found.counters;
+            ASSERT_EQ(counters.workers.size(), size);
+            std::uint64_t units = 0, pairs = 0, busy = 0;
+            for (const OutOfCoreCounters::Worker& worker : counters.workers) {
+                units += worker.units;
+                pairs += worker.pairs;
+                busy += worker.units > 0 ? 1 : 0;
+                ASSERT_LE(worker.peak_bytes, out_of_core.memory);
+            }
+            ASSERT_EQ(units, counters.units);
+            ASSERT_EQ(pairs, found.report.candidates);
+            ASSERT_LE(counters.peak_bytes, out_of_core.memory);
+            runs += size > 1 ? 1 : 0;
+            shared += busy > 1 ? 1 : 0;
+        }
+    }
+    std::cout << clashes << " clashes; of " << runs << " runs by several, " << shared
+              << " were shared\n";
+    EXPECT_GT(clashes, 100U);
+    EXPECT_GT(shared, runs / 3);
+}
+
+/// Someone is stopped, again and again, each time after some more pairs: the leader or a helper.
+TEST(CrewClashes, GoOnWhereTheyWereStopped) {
+    Random random(6202);
+    std::size_t stops = 0, recalled = 0;
+    for (int round = 0; round < many(4); ++round) {
+        const Job job(random, 150);
+        for (bool done = false; !done;) {
+            std::atomic<bool> stop = false;
+            ClashOptions options = job.options;
+            const double share = random.uniform(0.1, 1.2);
+            options.progress.report = [&](std::string_view stage, double at) {
+                if (stage == "narrow phase" && at >= share)
+                    stop = true;
+            };
+            const bool is_leader = random.chance(0.5);
+            if (is_leader)
+                options.progress.stop = &stop;
+            try {
+                const StoreClashReport found = find_together(
+                    job.store, options, {.memory = 800'000}, 3,
+                    [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
+                        help_find_clashes(
+                            job.store, *crew,
+                            {.report = {}, .stop = !is_leader && rank == 1 ? &stop : nullptr});
+                    });
+                job.expect(found);
+                EXPECT_TRUE(found.counters.kept);
+                recalled += found.counters.recalled_pairs > 0 ? 1 : 0;
+                done = true;
+            } catch (const Error& error) {
+                ASSERT_EQ(error.code(), ErrorCode::interrupted) << error.what();
+                ++stops;
+            }
+        }
+        const StoreClashReport again =
+            find_together(job.store, job.options, {.memory = 800'000}, 2);
+        job.expect(again);
+        EXPECT_EQ(again.counters.recalled_pairs, job.truth.candidates);
+        verify(open_store(job.store));
+    }
+    std::cout << stops << " stops, " << recalled << " jobs went on\n";
+    EXPECT_GT(stops, 0U);
+    EXPECT_GT(recalled, 0U);
+}
+
+TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
+    Random random(6203);
+    const Job job(random, 100);
+    const std::string other = job.folder / "other.abut", missing = job.folder / "missing.abut";
+    write_glb(some_scene(random, 20, 4), job.folder / "other.glb");
+    (void)import_models({job.folder / "other.glb"}, other);
+    for (const std::string& store : {other, missing}) {
+        try {
+            (void)find_together(job.store, job.options, {}, 3,
+                                [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
+                                    help_find_clashes(rank == 2 ? store : job.store, *crew);
+                                });
+            FAIL() << "with another store";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(),
+                      store == other ? ErrorCode::bad_argument : ErrorCode::unreadable)
+                << error.what();
+            EXPECT_EQ(error.file(), store);
+        }
+    }
+    // One that leaves without a word.
+    EXPECT_THROW((void)find_together(job.store, job.options, {}, 3,
+                                     [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
+                                         if (rank == 1)
+                                             help_find_clashes(job.store, *crew);
+                                     }),
+                 std::runtime_error);
+    job.expect(find_together(job.store, job.options, {}, 3));
+}
+
+TEST(CrewClashes, EndWithWhatWentWrongInTheLeader) {
+    Random random(6204);
+    const Job job(random, 100);
+    EXPECT_THROW((void)find_together(job.store, job.options, {.memory = 1000}, 3), Error);
+    ClashOptions negative = job.options;
+    negative.clearance = -1;
+    EXPECT_THROW((void)find_together(job.store, negative, {}, 3), Error);
+}
+
+/// What was read before an import and after it does not fit together.
+TEST(CrewClashes, AreRefusedIfAnImportCameInBetween) {
+    Random random(6205);
+    for (const std::size_t size : {std::size_t{1}, std::size_t{3}}) {
+        const Job job(random, 150);
+        ClashOptions options = job.options;
+        bool begun = false;
+        options.progress.report = [&](std::string_view stage, double at) {
+            if (stage != "narrow phase" || at < 0.3 || std::exchange(begun, true))
+                return;
+            write_glb(some_scene(random, 100, 4), job.files.front());
+            (void)import_models({job.files.front()}, job.store);
+        };
+        try {
+            (void)find_together(job.store, options, {.memory = 800'000}, size);
+            FAIL() << "the answer is of no state of the store";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::unreadable) << error.what();
+            EXPECT_EQ(error.file(), job.store);
+        }
+        ASSERT_TRUE(begun);
+    }
+}
+
+} // namespace
+} // namespace abut::test
