@@ -5,7 +5,7 @@
 #include "core/progress.h"
 #include "core/stop_watch.h"
 #include "massive/clash_identity.h"
-#include "massive/classify_pair.h"
+#include "massive/classify_by_id.h"
 #include "massive/job_plan.h"
 #include "massive/model_cache.h"
 #include "massive/rule_match.h"
@@ -34,7 +34,14 @@ public:
         summarise();
         recall();
         result_.report.seconds.broad = watch.lap();
-        work();
+        try {
+            work();
+        } catch (const Error& error) {
+            // That a part is not there any more is no damage if an import took it out.
+            if (error.code() != ErrorCode::interrupted)
+                require_parts(store_.models(), parts_key(plan_.stored.models), store_.path());
+            throw;
+        }
         result_.report.seconds.narrow = watch.lap();
         finish();
         result_.report.seconds.total = total.lap();
@@ -99,10 +106,7 @@ private:
             left += unit.pairs.size();
         result_.counters.kept = true;
         result_.counters.recalled_pairs = plan_.candidates - left;
-        for (FoundClash& found : plan_.record->found()) {
-            if (found.pair.b() >= plan_.stored.parts.size())
-                throw Error(ErrorCode::malformed, store_.path(),
-                            "is damaged: a clash of a job names parts that are not there");
+        for (FoundClash& found : plan_.record->found(plan_.stored)) {
             for (const std::uint32_t part : {found.pair.a(), found.pair.b()})
                 name(part, store_.part(plan_.stored.parts[part].row));
             found.clash.model = models_of(found.pair);
@@ -111,13 +115,8 @@ private:
     }
 
     void record(std::size_t unit) {
-        if (plan_.record != nullptr) {
-            std::vector<std::pair<std::int64_t, std::int64_t>> rows;
-            for (const FoundClash& found : fresh_)
-                rows.emplace_back(plan_.stored.parts[found.pair.a()].row,
-                                  plan_.stored.parts[found.pair.b()].row);
-            plan_.record->commit(unit, fresh_, rows);
-        }
+        if (plan_.record != nullptr)
+            plan_.record->commit(plan_.stored, unit, fresh_);
         std::move(fresh_.begin(), fresh_.end(), std::back_inserter(clashes_));
         fresh_.clear();
     }
@@ -144,8 +143,8 @@ private:
                 return ClashPart{cache.model(plan_.stored.parts[part].mesh), row.world_from_mesh,
                                  row.box};
             };
-            found[k] = classify_pair(placed(a, pair.a()), placed(b, pair.b()), terms.clearance,
-                                     terms.touch);
+            found[k] = classify_by_id(placed(a, pair.a()), a.id, placed(b, pair.b()), b.id,
+                                      terms.clearance, terms.touch);
             if (found[k])
                 identify(*found[k], pair, a, b, terms);
             progress.advance();
@@ -182,8 +181,6 @@ private:
 
     /// Clashes in the order of their parts, which are known by their places among those that clash.
     void finish() {
-        if (plan_.record != nullptr)
-            plan_.record->finish();
         for (const ModelRow& model : plan_.stored.models)
             result_.models.emplace_back().file = model.file;
         std::unordered_map<std::uint32_t, std::uint32_t> place;
@@ -199,6 +196,12 @@ private:
             ++result_.report.counts.at(static_cast<std::size_t>(clash.kind));
             result_.report.clashes.push_back(std::move(clash));
         }
+        if (plan_.record != nullptr)
+            plan_.record->finish(result_.report, result_.models);
+        else
+            store_.with_connection([&](Database& database) {
+                tell_statuses(database, plan_.stored, options_, result_.report);
+            });
     }
 
     StoreFile& store_;
