@@ -34,6 +34,7 @@ std::vector<std::uint64_t> parse_ids(const std::string& option,
 
 std::vector<ClashStatus> parse_statuses(const std::string& text) {
     std::vector<std::string> known;
+    known.reserve(kClashStatuses.size());
     for (const ClashStatus status : kClashStatuses)
         known.emplace_back(abut::to_string(status));
     const std::vector<std::string> words =

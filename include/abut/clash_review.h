@@ -19,7 +19,7 @@ struct ClashReview {
     std::uint64_t rules = 0;                 ///< how many
     std::int64_t finished = 0;               ///< when the job ended, in seconds since 1970
     std::array<std::uint64_t, 5> statuses{}; ///< how many of each, by ClashStatus
-    std::vector<ListedClash> clashes;        ///< resolved ones too; in the order of ids
+    std::vector<ListedClash> clashes;        ///< resolved ones too; by status, the deepest first
 };
 
 /// One for each question that the store has been asked, in the order of the first time.

@@ -42,17 +42,36 @@ HistoryRow read_row(Database& database, const Statement& row, std::int64_t quest
     return result;
 }
 
-void put_row(Database& database, const HistoryRow& row, RowTally& tally) {
-    const ListedClash& c = row.clash;
-    const std::string id = clash_id_text(c.id);
-    Statement(database,
-              "INSERT OR REPLACE INTO clash_history VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
-        .bind(row.question, id, std::string_view(to_string(c.kind)), c.part[0], c.part[1],
-              c.name[0], c.name[1], c.type[0], c.type[1], c.file[0], c.file[1], c.distance,
-              row.appeared, row.returned, c.resolved, row.checksum())
-        .run();
-    tally.add(row.checksum());
-}
+/// Writes rows of one question, and their tally in the end.
+class HistoryWriter {
+public:
+    HistoryWriter(Database& database, std::int64_t question)
+        : database_(database), list_(list_of(question)), tally_(read_tally(database, list_)),
+          put_(database,
+               "INSERT OR REPLACE INTO clash_history VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)") {}
+
+    void replace(const HistoryRow& before, const HistoryRow& after) {
+        tally_.remove(before.checksum());
+        add(after);
+    }
+    void add(const HistoryRow& row) {
+        const ListedClash& c = row.clash;
+        const std::string id = clash_id_text(c.id);
+        const std::uint64_t checksum = row.checksum();
+        put_.bind(row.question, id, std::string_view(to_string(c.kind)), c.part[0], c.part[1],
+                  c.name[0], c.name[1], c.type[0], c.type[1], c.file[0], c.file[1], c.distance,
+                  row.appeared, row.returned, c.resolved, checksum)
+            .run();
+        tally_.add(checksum);
+    }
+    void finish() { write_tally(database_, list_, tally_); }
+
+private:
+    Database& database_;
+    std::string list_;
+    RowTally tally_;
+    Statement put_;
+};
 
 /// The clashes of a report by their ids.
 class ById {
@@ -137,9 +156,8 @@ void for_each_in_history(Database& database, std::int64_t question,
 void record_history(Database& database, const JobRow& job, const ClashReport& report,
                     const std::vector<Scene>& models) {
     const ById by_id(report);
-    RowTally tally = read_tally(database, list_of(job.question));
     std::vector<bool> is_known(report.clashes.size());
-    std::vector<HistoryRow> changed;
+    std::vector<std::pair<HistoryRow, HistoryRow>> changed; ///< before, after
     for_each_in_history(database, job.question, [&](HistoryRow&& before) {
         HistoryRow after = before;
         std::size_t first = report.clashes.size();
@@ -156,13 +174,12 @@ void record_history(Database& database, const JobRow& job, const ClashReport& re
         } else if (before.clash.resolved == 0) {
             after.clash.resolved = job.finished;
         }
-        if (after.checksum() == before.checksum())
-            return;
-        tally.remove(before.checksum());
-        changed.push_back(std::move(after));
+        if (after.checksum() != before.checksum())
+            changed.emplace_back(std::move(before), std::move(after));
     });
-    for (const HistoryRow& row : changed)
-        put_row(database, row, tally);
+    HistoryWriter writer(database, job.question);
+    for (const auto& [before, after] : changed)
+        writer.replace(before, after);
     for (std::size_t i = 0; i < report.clashes.size(); ++i) {
         if (is_known[i])
             continue;
@@ -170,9 +187,9 @@ void record_history(Database& database, const JobRow& job, const ClashReport& re
         HistoryRow row = row_of(report.clashes[i], models);
         row.question = job.question;
         row.appeared = job.job;
-        put_row(database, row, tally);
+        writer.add(row);
     }
-    write_tally(database, list_of(job.question), tally);
+    writer.finish();
 }
 
 std::vector<std::uint64_t> forget_resolved(Database& database, std::int64_t question) {

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <ctime>
-#include <iterator>
+#include <tuple>
 #include <unordered_set>
 
 namespace abut {
@@ -63,6 +63,10 @@ ClashReview review(Database& database, const QuestionRow& question, const Marks&
             row.clash.note = mark->note;
         ++result.statuses.at(static_cast<std::size_t>(row.clash.status));
         result.clashes.push_back(std::move(row.clash));
+    });
+    // They come in the order of ids.
+    std::ranges::stable_sort(result.clashes, [](const ListedClash& a, const ListedClash& b) {
+        return std::tie(a.status, a.distance) < std::tie(b.status, b.distance);
     });
     return result;
 }

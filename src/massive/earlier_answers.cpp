@@ -10,6 +10,7 @@ namespace abut {
 std::vector<std::pair<std::int64_t, std::uint64_t>>
 models_with_files(const std::vector<ModelRow>& models) {
     std::vector<std::pair<std::int64_t, std::uint64_t>> result;
+    result.reserve(models.size());
     for (const ModelRow& model : models)
         result.emplace_back(model.model, hash_64(std::as_bytes(std::span(model.file))));
     return result;

@@ -147,6 +147,7 @@ std::vector<FoundClash> JobRecord::found(const StoredParts& stored) {
 void JobRecord::commit(const StoredParts& stored, std::size_t unit,
                        const std::vector<FoundClash>& clashes) {
     std::vector<ClashRow> rows;
+    rows.reserve(clashes.size());
     for (const auto& [pair, clash] : clashes)
         rows.push_back({{stored.parts[pair.a()].row, stored.parts[pair.b()].row}, clash});
     Transaction transaction(database_);

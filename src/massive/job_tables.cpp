@@ -93,18 +93,32 @@ SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_f
     THEN 'new' ELSE 'active' END AS status, resolved, note
 FROM clash_history AS h LEFT JOIN clash_mark AS m USING (id))"};
 
-/// As this version makes it.
+/// The first version of jobs knew no questions.
+bool is_of_first_version(Database& database) {
+    return database.number("SELECT count(*) FROM pragma_table_info('job')") > 0 &&
+           database.number(
+               "SELECT count(*) FROM pragma_table_info('job') WHERE name = 'generation'") == 0;
+}
+
+/// Errors      Error{malformed} if there is another table of this name.
 bool is_there(Database& database, const Table& table) {
     Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = ?");
     find.bind(std::string_view(table.sql), table.name);
-    return find.step() && find.integer(0) != 0;
+    if (!find.step())
+        return false;
+    if (find.integer(0) == 0)
+        damaged_job(database, "table " + std::string(table.name) +
+                                  " is not as this version of Abut makes it");
+    return true;
 }
 
 bool is_all_there(Database& database, bool of_people) {
+    if (!of_people && is_of_first_version(database))
+        return false;
     for (const Table& table : kTables)
         if (table.of_people == of_people && !is_there(database, table))
             return false;
-    return true;
+    return of_people || is_there(database, kStatusView);
 }
 
 void make_anew(Database& database) {
@@ -127,7 +141,7 @@ void prepare_job_tables(Database& database) {
     for (const Table& table : kTables)
         if (table.of_people && !is_there(database, table))
             database.run(table.sql);
-    if (!is_all_there(database, false) || !is_there(database, kStatusView))
+    if (!is_all_there(database, false))
         make_anew(database);
 }
 

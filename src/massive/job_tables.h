@@ -11,10 +11,11 @@
 /// The tables of jobs in a store; docs/massive.md says what their columns mean.
 namespace abut {
 
-/// Makes the tables that are missing. Those that another version of Abut made are made anew, empty:
+/// Makes the tables that are missing. Those of jobs that the first version made are made anew, empty:
 /// jobs can be done again. What people said of clashes stays. Within a transaction.
 void prepare_job_tables(Database& database);
-/// Whether there are all tables, as this version makes them.
+/// Whether there are all tables.
+/// Errors      of both: Error{malformed}, naming the store, if there is another table of such a name.
 bool has_job_tables(Database& database);
 
 /// How many rows a list has, and the sum of their checksums: a row that a damaged page hides is missed.

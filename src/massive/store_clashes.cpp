@@ -108,7 +108,8 @@ private:
         result_.counters.recalled_pairs = plan_.candidates - left;
         for (FoundClash& found : plan_.record->found(plan_.stored)) {
             for (const std::uint32_t part : {found.pair.a(), found.pair.b()})
-                name(part, store_.part(plan_.stored.parts[part].row));
+                if (!named_.contains(part))
+                    name(part, store_.part(plan_.stored.parts[part].row));
             found.clash.model = models_of(found.pair);
             clashes_.push_back(std::move(found));
         }

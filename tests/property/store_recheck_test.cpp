@@ -117,7 +117,7 @@ TEST(Recheck, TestsWhatHasChangedAndFindsAll) {
     Random random(6201);
     std::uint64_t tested = 0, recalled = 0, clashes = 0;
     for (int round = 0; round < many(8); ++round) {
-        ChangingSite site(random, random.integer(1, 2), 90);
+        ChangingSite site(random, random.integer(1, 2), 70);
         Recheck question(site, some_question(random));
         ASSERT_TRUE(question.ask());
         const std::uint64_t at_first = question.tested_;
@@ -177,15 +177,20 @@ TEST(Recheck, AnImportEndsTheJobThatIsUnderWay) {
         options.clearance = 0.02;
         bool begun = false;
         options.progress.report = [&](std::string_view stage, double at) {
-            if (stage == "narrow phase" && at >= 0.3 && !std::exchange(begun, true))
+            if (stage != "narrow phase" || at < 0.3 || std::exchange(begun, true))
+                return;
+            const Hash128 before = parts_key(StoreFile(site.store(), true).models());
+            do
                 site.change();
+            while (parts_key(StoreFile(site.store(), true).models()) == before);
         };
         try {
             (void)find_clashes(open_store(site.store()), options, {.memory = 700'000});
             FAIL() << "the job did not notice";
         } catch (const Error& error) {
             ASSERT_TRUE(begun) << error.what();
-            ASSERT_EQ(error.code(), ErrorCode::unreadable) << error.what();
+            ASSERT_NE(std::string(error.what()).find("changed by an import"), std::string::npos)
+                << error.what();
         }
         options.progress = {};
         const StoreClashReport found = find_clashes(open_store(site.store()), options);

@@ -24,6 +24,7 @@ public:
     /// A part by its model's number in the order of first import, and its id.
     using PartKey = std::pair<std::size_t, std::string>;
 
+    /// In          parts: of a model, at most.
     ChangingSite(Random& random, int models, int parts) : random_(random), parts_(parts) {
         for (int i = 0; i < models; ++i)
             add_model();
@@ -33,7 +34,7 @@ public:
     [[nodiscard]] std::string store() const { return folder_ / "site.abut"; }
     [[nodiscard]] const std::vector<Scene>& scenes() const { return scenes_; }
     [[nodiscard]] bool is_unchanged(std::size_t model, const std::string& part) const {
-        return unchanged_.contains({model, part});
+        return unchanged_.contains({model, part}) && files_then_.at(model) == scenes_[model].file;
     }
 
     /// From now on: all parts are unchanged.
@@ -47,13 +48,18 @@ public:
         }
     }
 
-    /// Changes some of the models, some of their parts, and imports them.
+    /// Changes some of the models, some of their parts, or takes changes back, and imports them;
+    /// perhaps none.
     void change() {
         if (drafts_.size() < 3 && random_.chance(0.15))
             add_model();
-        for (Scene& draft : drafts_)
-            if (random_.chance(0.7))
-                change(draft);
+        const std::vector<Scene> last = drafts_;
+        for (std::size_t m = 0; m < drafts_.size(); ++m)
+            if (random_.chance(0.2) && m < before_last_.size())
+                drafts_[m] = before_last_[m];
+            else if (random_.chance(0.7))
+                change(drafts_[m]);
+        before_last_ = last;
         import();
     }
 
@@ -133,8 +139,6 @@ private:
             if (found == parts.end() || !is_same(part, before, *found->second, now))
                 unchanged_.erase({model, part.id});
         }
-        if (model < files_then_.size() && files_then_[model] != now.file)
-            std::erase_if(unchanged_, [&](const PartKey& key) { return key.first == model; });
     }
 
     static bool is_same(const Part& a, const Scene& in_a, const Part& b, const Scene& in_b) {
@@ -145,8 +149,8 @@ private:
     Random& random_;
     int parts_;
     Folder folder_;
-    std::vector<Scene> drafts_; ///< as they are to be written
-    std::vector<Scene> scenes_; ///< as they were imported
+    std::vector<Scene> drafts_, before_last_; ///< as they are to be written, and were
+    std::vector<Scene> scenes_;               ///< as they were imported
     std::vector<std::string> files_then_;
     std::set<PartKey> unchanged_;
 };
