@@ -55,7 +55,7 @@ public:
             add_model();
         const std::vector<Scene> last = drafts_;
         for (std::size_t m = 0; m < drafts_.size(); ++m)
-            if (random_.chance(0.2) && m < before_last_.size())
+            if (random_.chance(0.35) && m < before_last_.size())
                 drafts_[m] = before_last_[m];
             else if (random_.chance(0.7))
                 change(drafts_[m]);
