@@ -16,7 +16,7 @@ models_with_files(const std::vector<ModelRow>& models) {
     return result;
 }
 
-std::uint64_t last_generation(const std::vector<ModelRow>& models) {
+std::uint64_t youngest_generation(const std::vector<ModelRow>& models) {
     std::uint64_t last = 0;
     for (const ModelRow& model : models)
         last = std::max(last, model.generation);

@@ -18,7 +18,7 @@ namespace abut {
 std::vector<std::pair<std::int64_t, std::uint64_t>>
 models_with_files(const std::vector<ModelRow>& models);
 /// Of the youngest part.
-std::uint64_t last_generation(const std::vector<ModelRow>& models);
+std::uint64_t youngest_generation(const std::vector<ModelRow>& models);
 
 /// What an earlier job of the same question knows of the pairs of now: the answers of those whose
 /// parts both are as they were then, as far as it came. A part that an import has brought or changed

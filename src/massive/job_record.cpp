@@ -63,7 +63,7 @@ JobRecord::JobRecord(const std::string& store, const StoredParts& stored,
         job_.question = add_question(database_, options);
     if (job_.job == 0) {
         job_.key = job_key(parts_, job_.question);
-        job_.generation = last_generation(stored.models);
+        job_.generation = youngest_generation(stored.models);
         job_.within = stored.models.size() <= 1 || options.self;
         job_.models = models_with_files(stored.models);
         job_.candidates = candidates;

@@ -130,6 +130,24 @@ TEST_F(Review, StatusesOverTheLifeOfASite) {
     EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
 }
 
+TEST_F(Review, ClashesOfAModelThatIsTakenOutAreResolved) {
+    const std::string other = folder_ / "other.glb";
+    write_glb(one_of_each_kind(), other);
+    ASSERT_EQ(run_abut({"import", other, store_, "--quiet"}).status, 0);
+    const auto both = report();
+    ASSERT_GT(both["clashes"].size(), 5U); // across the models
+    std::filesystem::remove(other);
+    expect_refused(run_abut({"import", "--remove", folder_ / "none.glb", store_}), {"none.glb"});
+    expect_refused(run_abut({"import", "--remove", other, folder_ / "none.abut"}), {"none.abut"});
+    EXPECT_EQ(
+        run_abut({"import", "--remove", other, store_, "--json"}).json()["removed"][0]["parts"],
+        10);
+    const auto one = report();
+    EXPECT_EQ(one["statuses"]["new"], 5) << "of one model, pairs within it are asked for";
+    EXPECT_EQ(one["statuses"]["resolved"], both["clashes"].size());
+    EXPECT_EQ(clashes_of(clash(model_, {"--json"})), clashes_of(clash(store_, {"--json"})));
+}
+
 TEST_F(Review, ListsWhatTheStoreKnows) {
     EXPECT_NE(review({}).out.find("no clash job has ended"), std::string::npos);
     EXPECT_EQ(review({"--json"}).json()["questions"].size(), 0U);

@@ -21,9 +21,6 @@ namespace abut::test {
 /// moment, by comparison of the files alone.
 class ChangingSite {
 public:
-    /// A part by its model's number in the order of first import, and its id.
-    using PartKey = std::pair<std::size_t, std::string>;
-
     /// In          parts: of a model, at most.
     ChangingSite(Random& random, int models, int parts) : random_(random), parts_(parts) {
         for (int i = 0; i < models; ++i)
@@ -32,43 +29,65 @@ public:
     }
 
     [[nodiscard]] std::string store() const { return folder_ / "site.abut"; }
+    /// In the order of the store.
     [[nodiscard]] const std::vector<Scene>& scenes() const { return scenes_; }
     [[nodiscard]] bool is_unchanged(std::size_t model, const std::string& part) const {
-        return unchanged_.contains({model, part}) && files_then_.at(model) == scenes_[model].file;
+        return models_.at(model).unchanged.contains(part) &&
+               models_.at(model).file_then == scenes_.at(model).file;
     }
 
     /// From now on: all parts are unchanged.
     void begin() {
-        unchanged_.clear();
-        files_then_.clear();
-        for (std::size_t m = 0; m < scenes_.size(); ++m) {
-            files_then_.push_back(scenes_[m].file);
+        for (std::size_t m = 0; m < models_.size(); ++m) {
+            models_[m].file_then = scenes_[m].file;
+            models_[m].unchanged.clear();
             for (const Part& part : scenes_[m].parts)
-                unchanged_.insert({m, part.id});
+                models_[m].unchanged.insert(part.id);
         }
     }
 
     /// Changes some of the models, some of their parts, or takes changes back, and imports them;
     /// perhaps none.
     void change() {
-        if (drafts_.size() < 3 && random_.chance(0.15))
+        if (models_.size() > 1 && random_.chance(0.15))
+            remove_model();
+        if (models_.size() < 3 && random_.chance(0.2))
             add_model();
-        const std::vector<Scene> last = drafts_;
-        for (std::size_t m = 0; m < drafts_.size(); ++m)
-            if (random_.chance(0.35) && m < before_last_.size())
-                drafts_[m] = before_last_[m];
+        for (Model& model : models_) {
+            const Scene last = model.draft;
+            if (random_.chance(0.35) && !model.before.parts.empty())
+                model.draft = model.before;
             else if (random_.chance(0.7))
-                change(drafts_[m]);
-        before_last_ = last;
+                change(model.draft);
+            model.before = last;
+        }
         import();
     }
 
 private:
+    struct Model {
+        int serial = 0;
+        Scene draft, before; ///< as it is to be written, and was
+        std::string file_then;
+        std::set<std::string> unchanged; ///< ids of parts
+    };
+
     void add_model() {
-        drafts_.push_back(some_scene(random_, random_.integer(parts_ / 2, parts_), 3));
-        // All parts that clash across models must be told apart.
-        for (Part& part : drafts_.back().parts)
+        Model model;
+        model.serial = serial_++;
+        model.draft = some_scene(random_, random_.integer(parts_ / 2, parts_), 3);
+        for (Part& part : model.draft.parts)
             part.id = part.id + "-" + std::to_string(random_.integer(0, 3));
+        models_.push_back(model);
+    }
+
+    void remove_model() {
+        const int gone = random_.integer(0, static_cast<int>(models_.size()) - 1);
+        const RemovalReport report =
+            remove_models({scenes_[static_cast<std::size_t>(gone)].file}, store());
+        ASSERT_EQ(report.models.at(0).parts, scenes_[static_cast<std::size_t>(gone)].parts.size());
+        models_.erase(models_.begin() + gone);
+        scenes_.erase(scenes_.begin() + gone);
     }
 
     void change(Scene& draft) {
@@ -113,9 +132,9 @@ private:
 
     void import() {
         std::vector<std::string> files;
-        for (std::size_t m = 0; m < drafts_.size(); ++m) {
-            const std::string name = "model" + std::to_string(m) + ".glb";
-            write_glb(drafts_[m], folder_ / name);
+        for (const Model& model : models_) {
+            const std::string name = "model" + std::to_string(model.serial) + ".glb";
+            write_glb(model.draft, folder_ / name);
             // The same file by another name is another file to rules.
             files.push_back(folder_ / (random_.chance(0.1) ? "./" + name : name));
         }
@@ -126,18 +145,19 @@ private:
         const std::vector<Scene> before = std::exchange(scenes_, {});
         for (const StoreSummary::Model& model : summary(open_store(store())).models)
             scenes_.push_back(read_scene(model.file));
+        ASSERT_EQ(scenes_.size(), models_.size());
         for (std::size_t m = 0; m < before.size(); ++m)
-            compare(m, before[m], scenes_.at(m));
+            compare(models_[m], before[m], scenes_[m]);
     }
 
-    void compare(std::size_t model, const Scene& before, const Scene& now) {
+    static void compare(Model& model, const Scene& before, const Scene& now) {
         std::map<std::string, const Part*> parts;
         for (const Part& part : now.parts)
             parts[part.id] = &part;
         for (const Part& part : before.parts) {
             const auto found = parts.find(part.id);
             if (found == parts.end() || !is_same(part, before, *found->second, now))
-                unchanged_.erase({model, part.id});
+                model.unchanged.erase(part.id);
         }
     }
 
@@ -149,10 +169,9 @@ private:
     Random& random_;
     int parts_;
     Folder folder_;
-    std::vector<Scene> drafts_, before_last_; ///< as they are to be written, and were
-    std::vector<Scene> scenes_;               ///< as they were imported
-    std::vector<std::string> files_then_;
-    std::set<PartKey> unchanged_;
+    std::vector<Model> models_;
+    std::vector<Scene> scenes_; ///< as they were imported
+    int serial_ = 0;
 };
 
 } // namespace abut::test
