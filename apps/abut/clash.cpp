@@ -7,10 +7,10 @@
 
 #include "clash_summary.h"
 #include "commands.h"
+#include "fail_on.h"
 #include "interrupt.h"
 #include "output_files.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -36,21 +36,6 @@ void refuse_repeated(const std::vector<std::string>& files) {
             if (files[i] == files[j] || std::filesystem::equivalent(files[i], files[j], missing))
                 throw Error(ErrorCode::bad_argument, files[i], "is given twice");
         }
-}
-
-std::vector<ClashKind> parse_kinds(const std::string& text) {
-    if (text.empty())
-        return {};
-    std::vector<std::string> known{"any"};
-    for (const ClashKind kind : kClashKinds)
-        known.emplace_back(abut::to_string(kind));
-    const std::vector<std::string> words = parse_words("--fail-on", text, known);
-    std::vector<ClashKind> kinds;
-    for (const ClashKind kind : kClashKinds)
-        for (const std::string& word : words)
-            if (word == "any" || word == abut::to_string(kind))
-                kinds.push_back(kind);
-    return kinds;
 }
 
 void write_reports(OutputFiles& outputs, const ClashReport& report,
@@ -112,7 +97,8 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         return help(arguments, *crew);
     // Everything that can be refused without reading a model is refused first.
     refuse_repeated(arguments.files);
-    const std::vector<ClashKind> fail_on = parse_kinds(arguments.fail_on);
+    const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
+    const FailOn fail_on(arguments.fail_on, from_store);
     ClashOptions options = arguments.options;
     if (!arguments.rules.empty())
         options.rules = read_rules(arguments.rules);
@@ -121,7 +107,6 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         outputs.emplace(arguments.out,
                         std::vector<std::string>{"report.html", "report.json", "report.csv"});
 
-    const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
     if (arguments.memory && !from_store)
         throw Error(ErrorCode::bad_argument, "--memory",
                     "is for a store alone: bring the models into one with abut import");
@@ -178,10 +163,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             text += fmt::format("\nreport      {}, .json, .csv\n", outputs->path("report.html"));
         print(text);
     }
-    const bool problem = std::any_of(fail_on.begin(), fail_on.end(), [&](ClashKind kind) {
-        return report.counts.at(static_cast<std::size_t>(kind)) > 0;
-    });
-    return problem ? kExitProblem : kExitDone;
+    return fail_on.is_problem(report) ? kExitProblem : kExitDone;
 }
 
 } // namespace
@@ -210,8 +192,9 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
         ->check(not_empty("FOLDER"));
     app->add_option("--fail-on", arguments->fail_on,
                     "Exit with status 1 if there is one of these kinds: hard, touch, contained, "
-                    "duplicate, clearance (comma-separated), or any")
-        ->check(not_empty("KINDS"));
+                    "duplicate, clearance (comma-separated), or any; of a store one that is not "
+                    "approved, or one of these statuses: new, active, reviewed, approved")
+        ->check(not_empty("WORDS"));
     add_unit_option(*app, arguments->unit);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

@@ -64,6 +64,13 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
     for (const ClashKind kind : kClashKinds)
         text += fmt::format("  {:<10} {:>9}\n", abut::to_string(kind),
                             grouped(report.counts.at(static_cast<std::size_t>(kind))));
+    if (report.statuses) {
+        std::string counts;
+        for (const ClashStatus status : kClashStatuses)
+            counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", abut::to_string(status),
+                                  grouped(report.statuses->at(static_cast<std::size_t>(status))));
+        text += fmt::format("status      {}\n", counts);
+    }
 
     const auto nearer = [](const Clash& a, const Clash& b) { return a.distance < b.distance; };
     text += extremes(

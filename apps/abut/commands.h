@@ -17,6 +17,7 @@ Subcommand add_overlap(CLI::App& root, CommonOptions& common);
 Subcommand add_contains(CLI::App& root, CommonOptions& common);
 Subcommand add_penetration(CLI::App& root, CommonOptions& common);
 Subcommand add_clash(CLI::App& root, CommonOptions& common);
+Subcommand add_review(CLI::App& root, CommonOptions& common);
 Subcommand add_graph(CLI::App& root, CommonOptions& common);
 Subcommand add_ccd(CLI::App& root, CommonOptions& common);
 Subcommand add_ccd_query(CLI::App& root, CommonOptions& common);

@@ -17,6 +17,7 @@ struct ImportArguments {
     std::vector<std::string> files; ///< the store last
     std::string memory = "512M";
     double unit = 0;
+    bool remove = false;
 };
 
 nlohmann::ordered_json describe(const ImportReport& report, const std::string& store) {
@@ -60,11 +61,31 @@ std::string table(const ImportReport& report, const std::string& store) {
                               report.seconds, peak_resident_mib());
 }
 
+int remove(const std::vector<std::string>& files, const std::string& store,
+           const CommonOptions& common) {
+    const RemovalReport report = remove_models(files, store);
+    nlohmann::ordered_json models = nlohmann::ordered_json::array();
+    std::string text;
+    for (const RemovedModel& model : report.models) {
+        models.push_back({{"file", model.file}, {"parts", model.parts}});
+        text += fmt::format("{}  {} parts removed\n", model.file, grouped(model.parts));
+    }
+    if (common.json)
+        print(dump({{"store", store},
+                    {"removed", std::move(models)},
+                    {"removed_meshes", report.removed_meshes}}));
+    else if (!common.quiet)
+        print(text + fmt::format("{}  {} meshes removed\n", store, grouped(report.removed_meshes)));
+    return kExitDone;
+}
+
 int run(const ImportArguments& arguments, const CommonOptions& common) {
     if (arguments.files.size() < 2)
         throw Error(ErrorCode::bad_argument, "import needs a model and a store: MODEL... STORE");
     const std::vector<std::string> models(arguments.files.begin(), arguments.files.end() - 1);
     const std::string& store = arguments.files.back();
+    if (arguments.remove)
+        return remove(models, store, common);
     ProgressBar bar(common.progress_style());
     ImportReport report;
     {
@@ -97,6 +118,8 @@ Subcommand add_import(CLI::App& root, CommonOptions& common) {
                     "Bytes to keep to, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
     add_unit_option(*app, arguments->unit);
+    app->add_flag("--remove", arguments->remove,
+                  "Take the models out of the store; their files need not be there");
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -1,5 +1,6 @@
 #include "info_store.h"
 
+#include <abut/clash_review.h>
 #include <abut/error.h>
 #include <abut/store.h>
 
@@ -83,6 +84,7 @@ int describe_stores(const std::vector<std::string>& files, bool verify,
             ProgressBar bar(common.progress_style());
             const InterruptScope scope(OnInterrupt::ask);
             abut::verify(store, bar.progress());
+            abut::verify_jobs(store);
         }
         throw_if_interrupted();
         const StoreSummary found = summary(store);

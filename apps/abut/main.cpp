@@ -53,8 +53,8 @@ int main(int argc, char** argv) {
         add_distance(root, common),       add_within(root, common),   add_penetration(root, common),
         add_time_of_impact(root, common), add_nearest(root, common),  add_ray(root, common),
         add_overlap(root, common),        add_contains(root, common), add_clash(root, common),
-        add_graph(root, common),          add_ccd(root, common),      add_ccd_query(root, common),
-        add_scene(root, common)};
+        add_review(root, common),         add_graph(root, common),    add_ccd(root, common),
+        add_ccd_query(root, common),      add_scene(root, common)};
     const bool known = std::any_of(commands.begin(), commands.end(), [&](const Subcommand& c) {
         return argc > 1 && c.app->get_name() == argv[1];
     });

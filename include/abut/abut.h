@@ -4,6 +4,7 @@
 #include <abut/batch.h>
 #include <abut/broad_phase.h>
 #include <abut/clash.h>
+#include <abut/clash_review.h>
 #include <abut/convex.h>
 #include <abut/convex_pieces.h>
 #include <abut/crew.h>

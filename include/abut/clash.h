@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Every clash and clearance between the parts of some models. docs/clash.md defines each kind.
@@ -18,6 +19,20 @@ inline constexpr std::array kClashKinds{ClashKind::hard, ClashKind::touch, Clash
                                         ClashKind::duplicate, ClashKind::clearance};
 /// "hard", "touch", "contained", "duplicate", "clearance".
 const char* to_string(ClashKind kind);
+
+/// What has become of a clash between the jobs of a store; docs/clash-status.md tells more.
+enum class ClashStatus : std::uint8_t {
+    fresh,    ///< "new": it was not there in the previous job of the same question
+    active,   ///< it was
+    reviewed, ///< someone has looked at it
+    approved, ///< someone has said that it may stay
+    resolved, ///< it was there in an earlier job, and is not any more
+};
+inline constexpr std::array kClashStatuses{ClashStatus::fresh, ClashStatus::active,
+                                           ClashStatus::reviewed, ClashStatus::approved,
+                                           ClashStatus::resolved};
+/// "new", "active", "reviewed", "approved", "resolved".
+const char* to_string(ClashStatus status);
 
 /// Which parts a rule means: all globs that are given must match (`*`, `?`; an empty list matches
 /// all).
@@ -63,9 +78,27 @@ struct Clash {
         0; ///< metres; negative: penetration (contained: minus the gap to the enclosing surface)
     Vec3 point_a, point_b; ///< witness on each surface, world frame
     Vec3 direction; ///< unit vector in which b moves to get away from a; zero if there is none
-    std::uint64_t triangle_pairs = 0; ///< intersecting triangle pairs
-    std::string rule;                 ///< name of the rule that decided; empty if none
+    std::uint64_t triangle_pairs = 0;  ///< intersecting triangle pairs
+    std::string rule;                  ///< name of the rule that decided; empty if none
+    std::optional<ClashStatus> status; ///< of a store alone; never `resolved`
+    std::string note;                  ///< of whoever reviewed or approved it
 };
+
+/// A clash as a store lists it: in words, since its parts may be gone.
+struct ListedClash {
+    std::uint64_t id = 0; ///< as Clash::id
+    ClashKind kind = ClashKind::hard;
+    ClashStatus status = ClashStatus::fresh;
+    std::array<std::string, 2> part, name, type, file; ///< of a and b: part is the id
+    double distance = 0;       ///< metres, as Clash::distance, when last seen
+    std::int64_t resolved = 0; ///< when it was found gone, in seconds since 1970; 0: it is there
+    std::string note;
+};
+
+/// An id as reports have it: 16 lower-case hexadecimal digits.
+std::string clash_id_text(std::uint64_t id);
+/// None if the text is no id.
+std::optional<std::uint64_t> parse_clash_id(std::string_view text);
 
 struct ClashReport {
     struct ModelSummary {
@@ -81,6 +114,10 @@ struct ClashReport {
     std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
     std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
     std::vector<Clash> clashes;            ///< sorted by model, part of a, then of b
+    /// Of a store alone: how many of each status, by ClashStatus, and those that are resolved, the last
+    /// ones first.
+    std::optional<std::array<std::uint64_t, 5>> statuses;
+    std::vector<ListedClash> resolved;
     Seconds seconds;
     double peak_rss_mb = 0; ///< of this process or its largest reader, whichever is larger; MiB
 };

@@ -64,6 +64,23 @@ struct ImportReport {
 ImportReport import_models(const std::vector<std::string>& files, const std::string& store,
                            const ImportOptions& options = {});
 
+struct RemovedModel {
+    std::string file; ///< as it was given to the import
+    std::uint64_t parts = 0;
+};
+
+struct RemovalReport {
+    std::vector<RemovedModel> models; ///< in the order of the files
+    std::uint64_t removed_meshes = 0; ///< that no part uses any more
+};
+
+/// Takes models out of a store, all of them or none. Their files need not be there any more. The file
+/// of the store keeps its size: the room is used by what comes.
+///
+/// Errors      Error, naming the file: bad_argument if a file is no model of the store, or given twice;
+///             as open_store for the store, and cannot_write.
+RemovalReport remove_models(const std::vector<std::string>& files, const std::string& store);
+
 struct StoreOptions {
     bool read_only = true;
 };

@@ -19,7 +19,8 @@ namespace {
 constexpr std::string_view kHeader =
     "id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,"
     "point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,"
-    "direction_x,direction_y,direction_z,triangle_pairs,rule\r\n";
+    "direction_x,direction_y,direction_z,triangle_pairs,rule";
+constexpr std::string_view kStatusHeader = ",status,note"; // of a store alone
 
 /// Appends a comma and the text.
 void append_cell(TextBuffer& out, std::string_view raw) {
@@ -51,7 +52,8 @@ void append_cells(TextBuffer& out, const Vec3& point) {
     append_cell(out, point.z);
 }
 
-void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& models) {
+void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& models,
+                bool with_status) {
     const Part& a = part_of(clash, 0, models);
     const Part& b = part_of(clash, 1, models);
     fmt::format_to(fmt::appender(out), "{:016x},{}", clash.id, to_string(clash.kind));
@@ -69,6 +71,10 @@ void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& m
     append_cells(out, clash.direction);
     fmt::format_to(fmt::appender(out), ",{}", clash.triangle_pairs);
     append_cell(out, clash.rule);
+    if (with_status) {
+        append_cell(out, clash.status ? to_string(*clash.status) : "");
+        append_cell(out, clash.note);
+    }
     append(out, "\r\n");
 }
 
@@ -78,8 +84,10 @@ void write_clash_csv(const ClashReport& report, const std::vector<Scene>& models
                      const std::string& path) {
     TextBuffer out;
     append(out, kHeader);
+    append(out, report.statuses ? kStatusHeader : "");
+    append(out, "\r\n");
     for (const Clash& clash : report.clashes)
-        append_row(out, clash, models);
+        append_row(out, clash, models, report.statuses.has_value());
     write_file_atomically(path, {out.data(), out.size()});
 }
 

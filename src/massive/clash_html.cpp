@@ -2,6 +2,7 @@
 #include <abut/error.h>
 
 #include "core/atomic_file.h"
+#include "massive/clash_status_text.h"
 #include "massive/clash_text.h"
 #include "massive/report_page.h"
 
@@ -38,6 +39,7 @@ public:
         for (const Clash& clash : report.clashes) {
             part_index_.push_back({index_part(clash, 0), index_part(clash, 1)});
             rule_index_.push_back(rules_.index(clash.rule));
+            note_index_.push_back(notes_.index(clash.note));
         }
     }
 
@@ -46,6 +48,8 @@ public:
         append_json_head(out, report_);
         append_parts(out);
         append_clashes(out);
+        if (report_.statuses)
+            append_statuses(out);
         append_json_tail(out, report_);
         append(out, "}");
     }
@@ -122,6 +126,17 @@ private:
                [&](std::size_t, const Clash& clash) { append_json_point(out, clash.direction); });
     }
 
+    void append_statuses(TextBuffer& out) {
+        append_texts(out, "notes", notes_);
+        append_column(out, "note", note_index_.size(),
+                      [&](std::size_t i) { put(out, note_index_[i]); });
+        append_column(out, "status", report_.clashes.size(), [&](std::size_t i) {
+            put(out,
+                static_cast<std::uint64_t>(report_.clashes[i].status.value_or(ClashStatus::fresh)));
+        });
+        append_json_resolved(out, report_);
+    }
+
     static void put(TextBuffer& out, std::uint64_t value) {
         fmt::format_to(fmt::appender(out), "{}", value);
     }
@@ -132,8 +147,8 @@ private:
     std::vector<const Part*> part_order_;
     std::vector<std::uint32_t> part_type_, part_file_;
     std::vector<std::array<std::uint32_t, 2>> part_index_; ///< of each clash
-    std::vector<std::uint32_t> rule_index_;
-    Table types_, files_, rules_;
+    std::vector<std::uint32_t> rule_index_, note_index_;
+    Table types_, files_, rules_, notes_;
 };
 
 /// Appends the template up to the marker and cuts it off `html`.

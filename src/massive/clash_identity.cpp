@@ -37,10 +37,13 @@ void require_length(double value, const char* what) {
 
 std::uint64_t clash_identity(std::string_view file_a, std::string_view part_a,
                              std::string_view file_b, std::string_view part_b, ClashKind kind) {
+    const std::string_view name_a = file_name(file_a), name_b = file_name(file_b);
+    if (name_a != name_b ? name_b < name_a : file_a == file_b && part_b < part_a)
+        return clash_identity(file_b, part_b, file_a, part_a, kind);
     StableHash hash;
-    hash.add(file_name(file_a));
+    hash.add(name_a);
     hash.add(part_a);
-    hash.add(file_name(file_b));
+    hash.add(name_b);
     hash.add(part_b);
     hash.add(to_string(kind));
     return hash.value();

@@ -8,7 +8,9 @@
 namespace abut {
 
 /// The same clash has the same number in every run: a hash of both files' names, without folders,
-/// so that an id survives that a model moves, of both parts' ids, and of the kind.
+/// so that an id survives that a model moves, of both parts' ids, and of the kind. Which of the parts
+/// is a makes no difference, nor does the order of a file's parts or of the files: but for files of
+/// one name in different folders, which keep theirs.
 ///
 /// Source      [Fowler, Noll, Vo], FNV-1a, 64 bits.
 std::uint64_t clash_identity(std::string_view file_a, std::string_view part_a,

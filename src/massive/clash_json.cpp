@@ -1,6 +1,7 @@
 #include <abut/clash.h>
 
 #include "core/atomic_file.h"
+#include "massive/clash_status_text.h"
 #include "massive/clash_text.h"
 
 namespace abut {
@@ -51,6 +52,10 @@ void append_clash(TextBuffer& out, const Clash& clash, const std::vector<Scene>&
     fmt::format_to(fmt::appender(out), ", \"triangle_pairs\": {}", clash.triangle_pairs);
     if (!clash.rule.empty())
         text("rule", clash.rule);
+    if (clash.status)
+        text("status", to_string(*clash.status));
+    if (!clash.note.empty())
+        text("note", clash.note);
     out.push_back('}');
 }
 
@@ -69,6 +74,7 @@ std::string to_json(const ClashReport& report, const std::vector<Scene>& models)
         separator = ",\n  ";
     }
     append(out, "\n],\n");
+    append_json_resolved(out, report);
     append_json_tail(out, report);
     append(out, "}\n");
     return fmt::to_string(out);

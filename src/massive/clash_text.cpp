@@ -2,6 +2,9 @@
 
 #include <abut/error.h>
 
+#include "massive/clash_status_text.h"
+
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 
@@ -116,7 +119,23 @@ void append_json_point(TextBuffer& out, const Vec3& point) {
 }
 
 std::string clash_id_text(std::uint64_t id) {
-    return fmt::format("{:016x}", id);
+    return fmt::format("{:016x}",
+                       id); // text: a JSON number of 64 bits does not survive every reader
+}
+
+std::optional<std::uint64_t> parse_clash_id(std::string_view text) {
+    std::uint64_t id = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id, 16);
+    if (error != std::errc() || end != text.data() + text.size() || clash_id_text(id) != text)
+        return std::nullopt;
+    return id;
+}
+
+std::optional<ClashKind> clash_kind_of(std::string_view text) {
+    for (const ClashKind kind : kClashKinds)
+        if (text == to_string(kind))
+            return kind;
+    return std::nullopt;
 }
 
 const Part& part_of(const Clash& clash, int side, const std::vector<Scene>& models) {
@@ -152,6 +171,11 @@ void append_json_head(TextBuffer& out, const ClashReport& report) {
         separator = ", ";
     }
     append(out, "},\n");
+    if (!report.statuses)
+        return;
+    append(out, "\"statuses\": ");
+    append_json_statuses(out, *report.statuses);
+    append(out, ",\n");
 }
 
 void append_json_tail(TextBuffer& out, const ClashReport& report) {

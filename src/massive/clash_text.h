@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <fmt/format.h>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,8 +34,8 @@ void append_json_number(TextBuffer& out, double value);
 /// Appends [x,y,z].
 void append_json_point(TextBuffer& out, const Vec3& point);
 
-/// 16 lower-case hex digits. Text, since a JSON number of 64 bits does not survive every reader.
-std::string clash_id_text(std::uint64_t id);
+/// None if the text names no kind.
+std::optional<ClashKind> clash_kind_of(std::string_view text);
 
 /// Part a (side 0) or b (side 1) of a clash.
 /// Errors      Error{bad_argument} if the clash refers to a model or a part that is not there.

@@ -7,6 +7,7 @@
 #include "massive/crew_lead.h"
 #include "massive/crew_messages.h"
 #include "massive/piece_worker.h"
+#include "massive/stored_parts.h"
 #include "store/store_file.h"
 
 #include <atomic>
@@ -112,7 +113,7 @@ void help_find_clashes(const std::string& store, Crew& crew, const Progress& pro
         const Briefing briefing = source.briefing();
         StoreFile file(store, OpenMode::immutable);
         const std::vector<ModelRow> models = file.models();
-        if (hash_of(models) != briefing.models)
+        if (parts_key(models) != briefing.models)
             throw Error(ErrorCode::bad_argument, store, "is another store than the leader's");
         PieceTester tester(file, briefing.options, models, briefing.budget);
         work(tester, source);

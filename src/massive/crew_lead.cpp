@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "massive/crew_messages.h"
+#include "massive/stored_parts.h"
 
 #include <chrono>
 #include <stdexcept>
@@ -43,7 +44,7 @@ CrewLead::~CrewLead() {
 void CrewLead::serve() {
     try {
         const std::vector<std::byte> briefing =
-            encode(Briefing{options_, plan_.budget, hash_of(plan_.stored.models)});
+            encode(Briefing{options_, plan_.budget, parts_key(plan_.stored.models)});
         for (std::size_t helper = 1; helper < crew_.size(); ++helper)
             crew_.send(helper, briefing);
         for (int i = 0; i < kPiecesAtOnce; ++i)

@@ -76,13 +76,6 @@ void Failure::rethrow() const {
     throw Error(code, file, text);
 }
 
-Hash128 hash_of(const std::vector<ModelRow>& models) {
-    Hasher hasher;
-    for (const ModelRow& model : models)
-        hasher.add_value(model.checksum());
-    return hasher.value();
-}
-
 std::vector<std::byte> encode(const CrewMessage& message) {
     MessageWriter writer;
     writer(static_cast<std::uint8_t>(message.index()));

@@ -40,9 +40,6 @@ struct NoMoreWork {};
 
 using CrewMessage = std::variant<Briefing, WorkPiece, NoMoreWork, PieceResult, Failure>;
 
-/// Two stores that hold the same share it.
-Hash128 hash_of(const std::vector<ModelRow>& models);
-
 std::vector<std::byte> encode(const CrewMessage& message);
 /// Errors      std::length_error for bytes that encode() of the same build has not made.
 CrewMessage decode(const std::vector<std::byte>& bytes);

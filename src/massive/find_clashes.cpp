@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "core/stop_watch.h"
 #include "massive/clash_identity.h"
-#include "massive/classify_pair.h"
+#include "massive/classify_by_id.h"
 #include "massive/part_instances.h"
 #include "massive/rule_match.h"
 #include "math/vector.h"
@@ -105,8 +105,8 @@ private:
         std::vector<std::optional<Clash>> found(candidates_.size());
         parallel_for(candidates_.size(), 1, [&](std::size_t k) {
             const Candidate& c = candidates_[k];
-            found[k] =
-                classify_pair(narrow_part(c.a), narrow_part(c.b), c.terms.clearance, c.terms.touch);
+            found[k] = classify_by_id(narrow_part(c.a), part(c.a).id, narrow_part(c.b),
+                                      part(c.b).id, c.terms.clearance, c.terms.touch);
             if (found[k])
                 identify(*found[k], c);
             progress.advance();

@@ -26,15 +26,6 @@ std::uint64_t bytes_for_models(const StoredParts& parts, const std::vector<Index
     return options.memory - tables;
 }
 
-/// What the answer depends on: the question and the parts.
-Hash128 key_of(const StoredParts& stored, const ClashOptions& options) {
-    Hasher hasher;
-    for (const ModelRow& model : stored.models)
-        hasher.add_value(model.checksum());
-    hasher.add_value(question_hash(options));
-    return hasher.value();
-}
-
 } // namespace
 
 JobPlan make_plan(StoreFile& store, const ClashOptions& options,
@@ -48,11 +39,9 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
     plan.candidates = pairs.size();
     progress.advance();
     if (recorded && out_of_core.keep)
-        plan.record =
-            JobRecord::open(store.path(), {key_of(plan.stored, options), options, plan.candidates});
+        plan.record = JobRecord::open(store.path(), plan.stored, options, plan.candidates);
     if (plan.record != nullptr)
-        if (auto left = plan.record->pairs_left())
-            pairs = std::move(*left);
+        pairs = plan.record->pairs_left(plan.stored, std::move(pairs));
     plan.budget = bytes_for_models(plan.stored, pairs, out_of_core, store.path());
     // One unit is tested while the next one's models come into memory.
     const std::size_t workers = out_of_core.crew == nullptr ? 1 : out_of_core.crew->size();
@@ -61,7 +50,7 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
         make_work_units(plan.stored, std::move(pairs), unit, out_of_core.order, store.path());
     plan.units = split_long_units(std::move(plan.units), plan.stored, workers);
     if (plan.record != nullptr)
-        plan.record->plan(plan.units);
+        plan.record->plan(plan.stored, plan.units);
     // What the broad phase and the partition needed is free for models, and not in small pieces.
     malloc_trim(0);
     progress.advance();

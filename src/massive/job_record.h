@@ -2,16 +2,17 @@
 
 #include <abut/broad_phase.h>
 #include <abut/clash.h>
+#include <abut/scene.h>
 
-#include "core/hash.h"
+#include "massive/job_rows.h"
+#include "massive/stored_parts.h"
+#include "massive/work_rows.h"
 #include "massive/work_units.h"
 #include "store/sqlite.h"
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace abut {
@@ -22,55 +23,53 @@ struct FoundClash {
     Clash clash; ///< without model and part
 };
 
-/// The same for the same question, of whatever parts.
-Hash128 question_hash(const ClashOptions& options);
-
 /// What a job has done, kept in its store: which pairs are left, and what the others gave. Each piece
-/// of work is recorded as a whole or not at all, so a job that is killed goes on where it was.
+/// of work is recorded as a whole or not at all, so a job that is killed goes on where it was. A new
+/// job takes over what an earlier one of the same question knows of parts that have not changed since.
 ///
-/// Of two processes that work on one job, the later takes over: the other's next piece is refused.
+/// Of two processes that work on one job, the later takes over: the other's next piece is refused. So
+/// is that of a job whose parts an import has changed meanwhile.
 ///
+/// In          stored: of all members the same, which the job is about.
 /// Errors      of all members: Error, naming the store: as Database; malformed if a row is not what
 ///             its checksum says; unreadable if another process has taken over.
 class JobRecord {
 public:
-    /// What was asked of which parts: of the same question about the same parts there is one record.
-    struct Question {
-        Hash128 key;
-        const ClashOptions& options;
-        std::uint64_t candidates = 0;
-    };
-
     /// Null if the store cannot be written to.
-    static std::unique_ptr<JobRecord> open(const std::string& store, const Question& question);
+    static std::unique_ptr<JobRecord> open(const std::string& store, const StoredParts& stored,
+                                           const ClashOptions& options, std::uint64_t candidates);
 
-    /// The pairs that are left; none if the job is new. Empty: it has ended, and nothing is written
-    /// any more.
-    [[nodiscard]] std::optional<std::vector<IndexPair>> pairs_left();
-    /// The clashes of the pieces that are done.
-    [[nodiscard]] std::vector<FoundClash> found();
+    /// Of all candidates, sorted, those whose answer is not known. None: nothing has to be written any
+    /// more if the job has ended.
+    std::vector<IndexPair> pairs_left(const StoredParts& stored, std::vector<IndexPair> candidates);
 
     /// The pieces of work from now on, in place of those that were left.
-    void plan(const std::vector<WorkUnit>& units);
-    /// Piece `unit` of the plan is done. rows: of the store, of the parts of each clash.
-    void commit(std::size_t unit, const std::vector<FoundClash>& clashes,
-                const std::vector<std::pair<std::int64_t, std::int64_t>>& rows);
+    void plan(const StoredParts& stored, const std::vector<WorkUnit>& units);
+    /// The clashes that are known. After plan().
+    std::vector<FoundClash> found(const StoredParts& stored);
+    /// Piece `unit` of the plan is done.
+    void commit(const StoredParts& stored, std::size_t unit,
+                const std::vector<FoundClash>& clashes);
     /// Pieces that are committed while it is open are committed with it: the disk is waited for once.
     [[nodiscard]] Transaction together() { return Transaction(database_); }
-    /// The job has ended: records of the same question about earlier parts go.
-    void finish();
+    /// The job has ended: the clashes of the report get their statuses, and earlier jobs of the same
+    /// question go.
+    void finish(ClashReport& report, const std::vector<Scene>& models);
 
 private:
-    JobRecord(const std::string& store, const Question& question);
+    JobRecord(const std::string& store, const StoredParts& stored, const ClashOptions& options,
+              std::uint64_t candidates);
 
-    /// Whether there is such a job; its state.
-    bool find(const Question& question);
     void require_ours();
 
     Database database_;
-    std::int64_t job_ = 0;
-    std::int64_t run_ = 0; ///< counts how often the job was begun or gone on with
-    bool planned_ = false, finished_ = false;
+    Hash128 parts_; ///< as they were when the job was opened
+    JobRow job_;
+    std::vector<ClashRow> taken_over_; ///< from an earlier job, until the plan is recorded
 };
+
+/// The same statuses where nothing is to be recorded, or nothing can be.
+void tell_statuses(Database& database, const StoredParts& stored, const ClashOptions& options,
+                   ClashReport& report);
 
 } // namespace abut

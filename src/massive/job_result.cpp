@@ -1,7 +1,5 @@
 #include "massive/job_result.h"
 
-#include <abut/error.h>
-
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -12,7 +10,7 @@ namespace abut {
 
 JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store,
                      std::size_t workers)
-    : plan_(plan), store_(store) {
+    : plan_(plan), options_(options), store_(store) {
     ClashReport& report = result_.report;
     report.clearance = options.clearance;
     report.touch = options.touch;
@@ -45,10 +43,7 @@ void JobResult::recall() {
         left += unit.pairs.size();
     result_.counters.kept = true;
     result_.counters.recalled_pairs = plan_.candidates - left;
-    for (FoundClash& found : plan_.record->found()) {
-        if (found.pair.b() >= plan_.stored.parts.size())
-            throw Error(ErrorCode::malformed, store_.path(),
-                        "is damaged: a clash of a job names parts that are not there");
+    for (FoundClash& found : plan_.record->found(plan_.stored)) {
         for (const std::uint32_t part : {found.pair.a(), found.pair.b()}) {
             if (named_.contains(part))
                 continue;
@@ -77,17 +72,15 @@ void JobResult::add(PieceResult result) {
     for (PieceResult::Named& named : result.named)
         names.emplace(named.row, &named.part);
     std::vector<FoundClash> fresh;
-    std::vector<std::pair<std::int64_t, std::int64_t>> rows;
     for (PieceResult::Found& found : result.clashes) {
         const IndexPair pair = plan_.units[result.unit].pairs[found.pair];
         for (const std::uint32_t part : {pair.a(), pair.b()})
             named_.try_emplace(part, *names.at(plan_.stored.parts[part].row));
         found.clash.model = models_of(pair);
-        rows.emplace_back(plan_.stored.parts[pair.a()].row, plan_.stored.parts[pair.b()].row);
         fresh.push_back({pair, std::move(found.clash)});
     }
     if (plan_.record != nullptr)
-        plan_.record->commit(result.unit, fresh, rows);
+        plan_.record->commit(plan_.stored, result.unit, fresh);
     std::ranges::move(fresh, std::back_inserter(clashes_));
     OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
     result.worker.units = figures.units + 1;
@@ -106,8 +99,6 @@ void JobResult::sum_up_workers() {
 }
 
 StoreClashReport JobResult::finish() {
-    if (plan_.record != nullptr)
-        plan_.record->finish();
     sum_up_workers();
     for (const ModelRow& model : plan_.stored.models)
         result_.models.emplace_back().file = model.file;
@@ -124,6 +115,12 @@ StoreClashReport JobResult::finish() {
         ++result_.report.counts.at(static_cast<std::size_t>(clash.kind));
         result_.report.clashes.push_back(std::move(clash));
     }
+    if (plan_.record != nullptr)
+        plan_.record->finish(result_.report, result_.models);
+    else
+        store_.with_connection([&](Database& database) {
+            tell_statuses(database, plan_.stored, options_, result_.report);
+        });
     return std::move(result_);
 }
 

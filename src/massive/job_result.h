@@ -16,7 +16,7 @@ namespace abut {
 /// What a job has found so far, piece by piece, recorded in the store where the plan has a record.
 class JobResult {
 public:
-    /// In          plan and store must outlive it.
+    /// In          plan, options and store must outlive it.
     JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store, std::size_t workers);
 
     /// What was found before the job was stopped.
@@ -37,6 +37,7 @@ private:
     [[nodiscard]] std::array<std::uint32_t, 2> models_of(const IndexPair& pair) const;
 
     JobPlan& plan_;
+    const ClashOptions& options_;
     StoreFile& store_;
     StoreClashReport result_;
     std::map<std::uint32_t, Part> named_; ///< parts that clash

@@ -3,7 +3,7 @@
 #include "core/parallel.h"
 #include "core/resources.h"
 #include "massive/clash_identity.h"
-#include "massive/classify_pair.h"
+#include "massive/classify_by_id.h"
 #include "massive/rule_match.h"
 
 #include <utility>
@@ -63,8 +63,8 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
     const auto placed = [&](const PartRow& row, std::uint32_t part) {
         return ClashPart{*loaded.models[use(part).mesh], row.world_from_mesh, row.box};
     };
-    std::optional<Clash> clash =
-        classify_pair(placed(a, pair.a), placed(b, pair.b), terms.clearance, terms.touch);
+    std::optional<Clash> clash = classify_by_id(placed(a, pair.a), a.id, placed(b, pair.b), b.id,
+                                                terms.clearance, terms.touch);
     if (clash) {
         if (terms.rule != nullptr)
             clash->rule = terms.rule->name;

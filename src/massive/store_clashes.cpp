@@ -4,10 +4,10 @@
 #include "core/progress.h"
 #include "core/stop_watch.h"
 #include "massive/crew_clashes.h"
-#include "massive/crew_messages.h"
 #include "massive/job_plan.h"
 #include "massive/job_result.h"
 #include "massive/piece_worker.h"
+#include "massive/stored_parts.h"
 #include "massive/work_schedule.h"
 #include "store/store_file.h"
 
@@ -45,9 +45,7 @@ void do_alone(const JobPlan& plan, JobResult& result, const ClashOptions& option
 
 /// An import that has come in between mixes up what was read before and after it.
 void require_unchanged(StoreFile& store, const JobPlan& plan) {
-    if (hash_of(store.models()) != hash_of(plan.stored.models))
-        throw Error(ErrorCode::unreadable, store.path(),
-                    "was changed by another process while the job was under way");
+    require_parts(store.models(), parts_key(plan.stored.models), store.path());
 }
 
 } // namespace
@@ -67,6 +65,7 @@ StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
         else
             lead(*crew, plan, result, options, file.path());
     } catch (const Error& error) {
+        // That a part is not there any more is no damage if an import took it out.
         if (error.code() == ErrorCode::malformed || error.code() == ErrorCode::bad_argument)
             require_unchanged(file, plan);
         throw;

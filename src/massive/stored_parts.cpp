@@ -6,9 +6,11 @@
 #include "massive/rule_match.h"
 #include "math/vector.h"
 #include "rigid/model_data.h"
+#include "store/row_hash.h"
 #include "volume/aabb.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace abut {
 
@@ -37,14 +39,44 @@ StoredParts gather_parts(StoreFile& store, bool with_names) {
             if (mesh == result.meshes.end() || mesh->mesh != part.mesh)
                 throw Error(ErrorCode::malformed, store.path(),
                             "is damaged: part " + part.id + " shows a mesh that is missing");
-            result.parts.push_back({part.box, part.part,
-                                    static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
-                                    static_cast<std::uint32_t>(part.number)});
+            result.parts.push_back(
+                {part.box, part.part, static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
+                 static_cast<std::uint32_t>(part.number),
+                 static_cast<std::uint32_t>(
+                     std::min<std::uint64_t>(part.generation, kLastGeneration))});
             if (with_names)
                 scene.parts.push_back({part.id, part.name, part.type, 0, {}});
         });
     }
     return result;
+}
+
+Hash128 parts_key(const std::vector<ModelRow>& models) {
+    RowHash hash;
+    for (const ModelRow& model : models)
+        hash.add(model.model).add(model.file).add(model.parts).add(model.parts_sum);
+    return hash.value_128();
+}
+
+void require_parts(const std::vector<ModelRow>& models, const Hash128& key,
+                   const std::string& store) {
+    if (parts_key(models) != key || std::ranges::any_of(models, &ModelRow::importing))
+        throw Error(ErrorCode::unreadable, store,
+                    "has been changed by an import while the job was under way: run it again");
+}
+
+PartsByRow::PartsByRow(const StoredParts& stored)
+    : parts_(stored.parts), order_(stored.parts.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::sort(order_, {}, [&](std::uint32_t i) { return parts_[i].row; });
+}
+
+std::optional<std::uint32_t> PartsByRow::find(std::int64_t row) const {
+    const auto at =
+        std::ranges::lower_bound(order_, row, {}, [&](std::uint32_t i) { return parts_[i].row; });
+    if (at == order_.end() || parts_[*at].row != row)
+        return std::nullopt;
+    return *at;
 }
 
 std::vector<IndexPair> find_candidates(const StoredParts& stored, const ClashOptions& options) {

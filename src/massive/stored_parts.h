@@ -5,9 +5,12 @@
 #include <abut/scene.h>
 #include <abut/types.h>
 
+#include "core/hash.h"
 #include "store/store_file.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace abut {
@@ -19,7 +22,10 @@ struct StoredPart {
     std::uint32_t mesh = 0; ///< index in StoredParts::meshes
     std::uint32_t model = 0;
     std::uint32_t number = 0; ///< in its model
+    std::uint32_t generation =
+        0; ///< of the import that brought or changed it; kLastGeneration: or a later
 };
+inline constexpr std::uint32_t kLastGeneration = 0xffffffff;
 
 struct StoredMesh {
     std::int64_t mesh = 0;          ///< of the store
@@ -37,6 +43,25 @@ struct StoredParts {
     [[nodiscard]] std::uint64_t bytes() const {
         return parts.capacity() * sizeof(StoredPart) + meshes.capacity() * sizeof(StoredMesh);
     }
+};
+
+/// Which parts there are, and in which state.
+Hash128 parts_key(const std::vector<ModelRow>& models);
+/// Errors      Error{unreadable}, naming the store: an import has changed it since the key was taken, or
+///             is about to.
+void require_parts(const std::vector<ModelRow>& models, const Hash128& key,
+                   const std::string& store);
+
+/// Finds parts by their rows in the store.
+class PartsByRow {
+public:
+    explicit PartsByRow(const StoredParts& stored);
+    /// The part's index in StoredParts; none if it is not there any more.
+    [[nodiscard]] std::optional<std::uint32_t> find(std::int64_t row) const;
+
+private:
+    const std::vector<StoredPart>& parts_;
+    std::vector<std::uint32_t> order_; ///< by row
 };
 
 /// In          with_names: ids, names and types of all parts too, which rules ask for.

@@ -5,6 +5,7 @@
 #include "core/stop_watch.h"
 #include "io/input_file.h"
 #include "io/scene_source.h"
+#include "store/generation.h"
 #include "store/import_geometry.h"
 #include "store/merge_parts.h"
 #include "store/model_file.h"
@@ -56,9 +57,7 @@ public:
     ImportReport run(const std::vector<std::string>& files, const std::vector<ModelFile>& found) {
         const StopWatch watch;
         ImportReport report;
-        generation_ = static_cast<std::uint64_t>(
-                          writer_.database().number("SELECT max(generation) FROM model")) +
-                      1;
+        generation_ = last_generation(writer_.database()) + 1;
         for (std::size_t i = 0; i < files.size(); ++i)
             report.models.push_back(import(files[i], found[i]));
         // While an import is to be continued, its meshes wait for their parts.

@@ -15,6 +15,12 @@
 
 namespace abut {
 
+std::string absolute_path(const std::string& file) {
+    std::error_code ignored;
+    const std::string path = std::filesystem::weakly_canonical(file, ignored).string();
+    return path.empty() ? file : path;
+}
+
 ModelFile look_at(const std::string& file) {
     ModelFile result;
     try {
@@ -22,10 +28,7 @@ ModelFile look_at(const std::string& file) {
     } catch (const Fault& fault) {
         throw Error(fault.code(), file, fault.what());
     }
-    std::error_code ignored;
-    result.path = std::filesystem::weakly_canonical(file, ignored).string();
-    if (result.path.empty())
-        result.path = file;
+    result.path = absolute_path(file);
     struct stat status {};
     if (stat(file.c_str(), &status) == 0)
         result.modified =

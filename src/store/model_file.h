@@ -16,6 +16,9 @@ struct ModelFile {
     std::int64_t modified = 0; ///< nanoseconds since 1970
 };
 
+/// Without links and dots; the file need not be there.
+std::string absolute_path(const std::string& file);
+
 /// Errors      Error, naming the file: file_not_found, unreadable, malformed if it is empty.
 ModelFile look_at(const std::string& file);
 

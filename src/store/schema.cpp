@@ -2,7 +2,7 @@
 
 #include <abut/error.h>
 
-#include "core/hash.h"
+#include "store/row_hash.h"
 
 #include <array>
 #include <cstring>
@@ -10,33 +10,6 @@
 namespace abut {
 
 namespace {
-
-/// Hashes values one after the other; texts with their lengths, so that none runs into the next.
-class RowHash {
-public:
-    template <typename Value>
-    RowHash& add(const Value& value) {
-        hasher_.add_value(value);
-        return *this;
-    }
-    RowHash& add(const std::string& text) {
-        hasher_.add_value(std::uint64_t{text.size()});
-        hasher_.add(std::as_bytes(std::span(text)));
-        return *this;
-    }
-    RowHash& add(const Box3& box) {
-        return add(box.lower.x)
-            .add(box.lower.y)
-            .add(box.lower.z)
-            .add(box.upper.x)
-            .add(box.upper.y)
-            .add(box.upper.z);
-    }
-    [[nodiscard]] std::uint64_t value() const { return hasher_.value_64(); }
-
-private:
-    Hasher hasher_;
-};
 
 Box3 read_box(const Statement& row, int at) {
     return {{row.real(at), row.real(at + 1), row.real(at + 2)},

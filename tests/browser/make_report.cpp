@@ -1,6 +1,6 @@
-/// abut-make-report FOLDER COUNT: writes report.html, report.json and report.csv of COUNT made-up
-/// clashes, among them names that break pages which are careless with text. The same count gives
-/// the same files.
+/// abut-make-report FOLDER COUNT [statuses]: writes report.html, report.json and report.csv of COUNT
+/// made-up clashes, among them names that break pages which are careless with text; with `statuses`
+/// as of a store. The same count gives the same files.
 #include <abut/clash.h>
 #include <abut/error.h>
 
@@ -127,11 +127,39 @@ ClashReport make_report(const std::vector<Scene>& models, std::size_t count, std
     return report;
 }
 
+/// As if a store knew the clashes, and every tenth as many that are gone.
+void add_statuses(ClashReport& report, const std::vector<Scene>& models) {
+    report.statuses.emplace();
+    for (std::size_t i = 0; i < report.clashes.size(); ++i) {
+        Clash& clash = report.clashes[i];
+        clash.status = abut::kClashStatuses.at(i % 7 % 4);
+        if (*clash.status == abut::ClashStatus::approved)
+            clash.note = kHostileNames[i % std::size(kHostileNames)];
+        ++report.statuses->at(static_cast<std::size_t>(*clash.status));
+        if (i % 10 != 0)
+            continue;
+        abut::ListedClash gone;
+        gone.id = ~clash.id;
+        gone.kind = clash.kind;
+        gone.status = abut::ClashStatus::resolved;
+        gone.resolved = 1'700'000'000 - static_cast<std::int64_t>(i);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Part& part = models[clash.model.at(side)].parts[clash.part.at(side)];
+            gone.part.at(side) = part.id;
+            gone.name.at(side) = part.name;
+            gone.file.at(side) = models[clash.model.at(side)].file;
+        }
+        report.resolved.push_back(gone);
+    }
+    report.statuses->at(static_cast<std::size_t>(abut::ClashStatus::resolved)) =
+        report.resolved.size();
+}
+
 } // namespace
 
 int main(int argc, char** argv) try {
-    if (argc != 3) {
-        fmt::print(stderr, "usage: abut-make-report FOLDER COUNT\n");
+    if (argc != 3 && argc != 4) {
+        fmt::print(stderr, "usage: abut-make-report FOLDER COUNT [statuses]\n");
         return 2;
     }
     const std::string folder = argv[1];
@@ -144,7 +172,9 @@ int main(int argc, char** argv) try {
         make_scene("models/hospital_plumbing.glb", kServices, 200 + count / 10, random));
     models.push_back(
         make_scene("models/hospital_sprinklers.glb", kServices, 200 + count / 30, random));
-    const ClashReport report = make_report(models, count, random);
+    ClashReport report = make_report(models, count, random);
+    if (argc == 4)
+        add_statuses(report, models);
     write_clash_html(report, models, folder + "/report.html");
     write_clash_json(report, models, folder + "/report.json");
     write_clash_csv(report, models, folder + "/report.csv");

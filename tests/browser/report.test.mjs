@@ -52,7 +52,7 @@ const open = async (count, hash = '') => {
 const rowsInView = () => page.$$eval('#rows tr', (rows) => rows.map((row) => ({
   place: Number(row.getAttribute('aria-rowindex')) - 2,
   cells: Array.from(row.cells, (cell) => cell.textContent),
-  id: row.cells[7].textContent,
+  id: row.cells[row.cells.length - 1].textContent,
 })));
 const shownText = () => page.textContent('#shown');
 const number = (text) => Number(text.replaceAll(',', '').replace('\u2212', '-'));
@@ -333,6 +333,54 @@ describe('100,000 clashes', () => {
     await page.waitForFunction(() => / of 100,000 clashes$/.test(document.getElementById('shown').textContent));
     const count = await shownCount();
     assert.ok(count > 1000 && count < 100000);
+  });
+});
+
+describe('1,000 clashes of a store', () => {
+  let truth;
+  before(async () => { truth = await readJson('store'); });
+  beforeEach(() => open('store'));
+
+  test('the status is in the summary, the table, the filter, the detail and the CSV', async () => {
+    const facts = await page.textContent('#facts');
+    for (const [status, count] of Object.entries(truth.statuses))
+      assert.ok(facts.includes(`${status} ${count}`), status);
+    for (const status of ['new', 'active', 'reviewed', 'approved']) {
+      await page.selectOption('#status', { label: `${status} (${truth.statuses[status]})` });
+      await page.waitForFunction((wanted) => new URLSearchParams(location.hash.slice(1)).get('status') === wanted, status);
+      await waitForCount(truth.statuses[status]);
+      assert.ok((await rowsInView()).every((row) => row.cells[1] === status));
+    }
+    await page.locator('#rows tr').first().click();
+    const id = hashOf().get('open');
+    const clash = truth.clashes.find((one) => one.id === id);
+    const detail = (await page.textContent('#detail')).replace(/\s+/g, ' ');
+    assert.ok(detail.includes('Status') && detail.includes('approved'));
+    assert.ok(detail.includes(clash.note.replace(/\s+/g, ' ')), 'the note, as text');
+    assert.equal(await page.locator('img').count(), 0);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export')]);
+    const exported = parseCsv(await readFile(await download.path(), 'utf8'));
+    const written = parseCsv(await readFile(join(FOLDER, 'store', 'report.csv'), 'utf8'));
+    assert.deepEqual(exported[0], written[0]);
+    const byId = (a, b) => (a[0] < b[0] ? -1 : 1);
+    assert.deepEqual(exported.slice(1).map(numbersRead).sort(byId),
+      written.slice(1).filter((row) => row[22] === 'approved').map(numbersRead).sort(byId));
+  });
+
+  test('sorts by status, and lists what is resolved', async () => {
+    await clickHead('status');
+    assert.equal(await sortOf('status'), 'ascending');
+    assert.equal((await rowsInView())[0].cells[1], 'new');
+    const rows = await page.$$eval('#resolved-rows tr', (all) => all.map((row) => row.cells[4].textContent));
+    assert.deepEqual(rows, truth.resolved.map((clash) => clash.id));
+    assert.ok((await page.textContent('#resolved-rows tr')).includes('2023-11-14 22:13:20 UTC'));
+  });
+
+  test('models without a store have no statuses', async () => {
+    await open(0);
+    for (const id of ['#resolved', '#status-field'])
+      assert.ok(await page.isHidden(id), id);
+    assert.equal(await page.locator('#heads th[data-key=status]').count(), 0);
   });
 });
 

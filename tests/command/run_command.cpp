@@ -173,6 +173,13 @@ std::string read_file(const std::string& path) {
     return content.str();
 }
 
+nlohmann::json clashes_of(const Outcome& outcome) {
+    nlohmann::json clashes = outcome.json()["clashes"];
+    for (auto& clash : clashes)
+        clash.erase("status"), clash.erase("note");
+    return clashes;
+}
+
 void expect_refused(const Outcome& outcome, const std::vector<std::string>& words) {
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(outcome.out, "");

@@ -58,6 +58,9 @@ private:
 
 std::string read_file(const std::string& path);
 
+/// The clashes of a JSON report, without what a store alone knows of them.
+nlohmann::json clashes_of(const Outcome& outcome);
+
 /// Refused input: status 2, nothing on standard output, one line on standard error that holds every
 /// word.
 void expect_refused(const Outcome& outcome, const std::vector<std::string>& words);

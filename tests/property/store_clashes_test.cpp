@@ -9,6 +9,7 @@
 #include "massive/stored_parts.h"
 #include "massive/work_units.h"
 #include "tests/support/clash_jobs.h"
+#include "tests/support/clash_scenes.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
@@ -124,7 +125,7 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
         scenes = read_scenes({model});
         const StoreClashReport fewer = find_clashes(open_store(store), options, little);
         expect_equal(fewer.report, fewer.models, find_clashes(scenes, options), scenes);
-        EXPECT_EQ(fewer.counters.recalled_pairs, 0U);
+        EXPECT_EQ(fewer.counters.recalled_pairs, fewer.report.candidates); // no part has changed
         verify(open_store(store));
     }
     std::cout << stops << " stops, " << recalled << " jobs went on\n";

@@ -268,6 +268,48 @@ TEST(Store, ReimportTouchesWhatChanged) {
     EXPECT_GT(changed, 20U);
 }
 
+TEST(Store, GivesUpAModelWhole) {
+    Random random(6);
+    std::size_t meshes = 0;
+    for (int round = 0; round < many(10); ++round) {
+        const Folder folder;
+        const std::string store = folder / "s.abut";
+        std::vector<std::string> files;
+        std::vector<Scene> scenes;
+        for (int i = 0; i < 3; ++i) {
+            files.push_back(folder / ("m" + std::to_string(i) + ".glb"));
+            write_glb(some_scene(random, 10), files.back());
+            scenes.push_back(read_scene(files.back()));
+            import_models({files.back()}, store, {.memory = kLittle});
+        }
+        const auto gone = static_cast<std::size_t>(random.integer(0, 2));
+        EXPECT_THROW(remove_models({files[gone], folder / "none.glb"}, store), Error);
+        EXPECT_THROW(remove_models({files[gone], files[gone]}, store), Error);
+        EXPECT_EQ(summary(open_store(store)).models.size(), 3U);
+        if (random.chance(0.5))
+            std::filesystem::remove(files[gone]);
+        const RemovalReport report = remove_models({files[gone]}, store);
+        ASSERT_EQ(report.models.at(0).parts, scenes[gone].parts.size());
+        meshes += report.removed_meshes;
+        verify(open_store(store));
+        const std::uint64_t parts = summary(open_store(store)).parts;
+        scenes.erase(scenes.begin() + static_cast<std::ptrdiff_t>(gone));
+        files.erase(files.begin() + static_cast<std::ptrdiff_t>(gone));
+        ASSERT_EQ(parts, scenes[0].parts.size() + scenes[1].parts.size());
+        for (std::size_t m = 0; m < 2; ++m)
+            expect_stored(store, scenes[m], m);
+        // Generations go on, although the last model, or all, are gone.
+        if (random.chance(0.5)) {
+            (void)remove_models(files, store);
+            ASSERT_EQ(summary(open_store(store)).meshes, 0U);
+        }
+        write_glb(some_scene(random, 10), folder / "new.glb");
+        import_models({folder / "new.glb"}, store, {.memory = kLittle});
+        ASSERT_EQ(summary(open_store(store)).generation, 4U);
+    }
+    EXPECT_GT(meshes, 0U);
+}
+
 std::string read_bytes(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};

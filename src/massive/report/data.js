@@ -1,12 +1,14 @@
 // The report's columns, and what can be asked of them: an order, a filter, CSV. No DOM here but the data.
 
 const KINDS = ['hard', 'touch', 'contained', 'duplicate', 'clearance'];
+const STATUSES = ['new', 'active', 'reviewed', 'approved', 'resolved'];
 const ANY = -1;
 
 const dataElement = document.getElementById('data');
 const report = JSON.parse(dataElement.textContent);
 dataElement.remove(); // tens of megabytes of text that nothing needs any more
 const count = report.id.length;
+const hasStatus = report.status !== undefined; // of a store alone
 
 const typeOf = (part) => report.part_type[part];
 const fileOf = (part) => report.part_file[part];
@@ -37,6 +39,7 @@ const typeRanks = once(() => ranks(report.types, byAlphabet));
 /** For each column, its sort keys as an array of numbers. */
 const SORT_KEYS = {
   kind: once(() => Int32Array.from(report.kind)),
+  ...(hasStatus && { status: once(() => Int32Array.from(report.status)) }),
   a_name: once(() => Int32Array.from(report.a, (part) => nameRanks()[part])),
   a_type: once(() => Int32Array.from(report.a, (part) => typeRanks()[typeOf(part)])),
   b_name: once(() => Int32Array.from(report.b, (part) => nameRanks()[part])),
@@ -101,7 +104,7 @@ function distanceTest(min, max) {
 
 /**
  * The clashes of `order` that pass the filter, and by kind how many pass all of it but the kind.
- * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, min, max}
+ * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, status, min, max}
  */
 function filtered(order, filter) {
   const tests = [
@@ -109,6 +112,7 @@ function filtered(order, filter) {
     sidesTest(filter.type, filter.type2, typeOf),
     sidesTest(filter.file, filter.file2, fileOf),
     filter.rule === ANY ? null : (i) => report.rule[i] === filter.rule,
+    filter.status === ANY ? null : (i) => report.status[i] === filter.status,
     textTest(filter.query),
   ].filter(Boolean);
   const byKind = new Array(KINDS.length).fill(0);
@@ -137,7 +141,7 @@ function toCsv(rows) {
   const number = (value) => value ?? '';
   const lines = ['id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,' +
     'point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,' +
-    'direction_x,direction_y,direction_z,triangle_pairs,rule'];
+    'direction_x,direction_y,direction_z,triangle_pairs,rule' + (hasStatus ? ',status,note' : '')];
   for (const i of rows) {
     const sides = [report.a[i], report.b[i]];
     lines.push([
@@ -149,6 +153,7 @@ function toCsv(rows) {
       number(report.distance[i]),
       ...report.point_a[i].map(number), ...report.point_b[i].map(number), ...report.direction[i].map(number),
       report.triangle_pairs[i], csvText(report.rules[report.rule[i]]),
+      ...(hasStatus ? [STATUSES[report.status[i]], csvText(report.notes[report.note[i]])] : []),
     ].join(','));
   }
   return lines.join('\r\n') + '\r\n';

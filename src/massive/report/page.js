@@ -9,6 +9,13 @@ const KIND_MEANING = {
   duplicate: 'The same triangles at the same place',
   clearance: 'No contact, but nearer than the clearance',
 };
+const STATUS_MEANING = {
+  new: 'Not there in the job before',
+  active: 'There in the job before, and not marked',
+  reviewed: 'Marked: someone has looked at it',
+  approved: 'Marked: it may stay',
+};
+const MOST_RESOLVED = 1_000;
 const DEFAULT_SORT = { key: 'kind', descending: false }; // the hard ones, the deepest first
 
 let state = null;
@@ -41,6 +48,7 @@ function showSummary() {
     fact('Time', inSeconds(total)),
     fact('Peak memory', `${wholeNumber.format(Math.round(report.peak_rss_mb ?? 0))} MiB`),
     fact('Clashes', wholeNumber.format(count)),
+    ...(hasStatus ? [fact('Status', STATUSES.map((s) => `${s} ${wholeNumber.format(report.statuses[s])}`).join(' · '), 'wide')] : []),
     fact('', `Import ${inSeconds(reading)} · hierarchies ${inSeconds(build)} · broad phase ${inSeconds(broad)}` +
       ` · narrow phase ${inSeconds(narrow)}`, 'wide soft'));
   byId('digest').textContent = `${report.models.length} ${report.models.length === 1 ? 'model' : 'models'}` +
@@ -48,6 +56,21 @@ function showSummary() {
     ` · ${wholeNumber.format(report.candidates)} candidate pairs · ${inSeconds(total)}`;
   byId('summary').open = innerHeight >= 640 && innerWidth >= 1000;
   byId('cut').textContent = `Only the first ${wholeNumber.format(MOST_PRINTED)} of these clashes are printed.`;
+}
+
+/** Clashes of earlier jobs that are gone: a list to read, below the summary. */
+function showResolved() {
+  const gone = report.resolved ?? [];
+  byId('resolved').hidden = gone.length === 0;
+  byId('resolved-digest').textContent = gone.length <= MOST_RESOLVED ? wholeNumber.format(gone.length)
+    : `${wholeNumber.format(gone.length)}, the last ${wholeNumber.format(MOST_RESOLVED)} listed`;
+  for (const clash of gone.slice(0, MOST_RESOLVED))
+    byId('resolved-rows').append(make('tr', {},
+      make('td', {}, make('span', { className: `mark ${clash.kind}` }, clash.kind)),
+      ...['a', 'b'].map((side) => make('td', { title: `${clash[side]}\n${clash[`${side}_file`]}` },
+        orNoName(clash[`${side}_name`]))),
+      make('td', {}, clash.resolved.replace('T', ' ').replace('Z', ' UTC')),
+      make('td', { className: 'mono soft' }, clash.id)));
 }
 
 // ── filter controls ─────────────────────────────────────────────────────────────────────────────────────
@@ -93,8 +116,9 @@ function usesOf(values, property) {
   return uses;
 }
 
-const SELECTS = ['type', 'type2', 'file', 'file2', 'rule'];
-const valuesOf = (select) => report[`${select.replace('2', '')}s`];
+const SELECTS = ['type', 'type2', 'file', 'file2', 'rule', 'status'];
+const valuesOf = (select) => (select === 'status' ? (hasStatus ? STATUSES.slice(0, -1) : [])
+  : report[`${select.replace('2', '')}s`]);
 
 function makeSelects() {
   const typeUses = usesOf(report.types, typeOf);
@@ -107,6 +131,11 @@ function makeSelects() {
   for (const id of ['file', 'file2'])
     fillSelect(byId(id), report.files, fileUses, baseName);
   fillSelect(byId('rule'), report.rules, ruleUses, (rule) => rule || '(no rule)');
+  if (hasStatus)
+    fillSelect(byId('status'), valuesOf('status'), STATUSES.map((s) => report.statuses[s]), (s) => s);
+  else
+    byId('status').append(make('option', { value: ANY }, 'any'));
+  byId('status-field').hidden = !hasStatus;
   byId('file-field').hidden = report.files.length < 3; // of two files there is one pairing
   byId('rule-field').hidden = !report.rules.some(Boolean);
 }
@@ -141,7 +170,7 @@ function setControls() {
 // ── state and address ───────────────────────────────────────────────────────────────────────────────────
 
 const emptyState = () => ({
-  kinds: allKinds(), query: '', type: ANY, type2: ANY, file: ANY, file2: ANY, rule: ANY,
+  kinds: allKinds(), query: '', type: ANY, type2: ANY, file: ANY, file2: ANY, rule: ANY, status: ANY,
   min: null, max: null, sort: { ...DEFAULT_SORT }, open: null,
 });
 
@@ -222,6 +251,8 @@ function filterInWords() {
       words.push(`${id} ${label(id)} with ${label(`${id}2`)}`);
   if (state.rule !== ANY)
     words.push(`rule ${label('rule')}`);
+  if (state.status !== ANY)
+    words.push(`status ${label('status')}`);
   if (state.min !== null || state.max !== null)
     words.push(`distance ${byId('min').value || 'any'} to ${byId('max').value || 'any'} mm`);
   return words.length === 0 ? '' : `Filter: ${words.join('; ')}.`;
@@ -300,6 +331,8 @@ function showDetail(i) {
   const close = make('button', { type: 'button', id: 'close', title: 'Close (Esc)', ariaLabel: 'Close' }, '✕');
   close.addEventListener('click', closeDetail);
   const rule = report.rules[report.rule[i]];
+  const status = hasStatus ? STATUSES[report.status[i]] : '';
+  const note = hasStatus ? report.notes[report.note[i]] : '';
   const focused = panel.contains(document.activeElement) ? document.activeElement.ariaLabel : null;
   panel.replaceChildren(
     make('header', {},
@@ -321,6 +354,8 @@ function showDetail(i) {
           make('dt', {}, 'Distance'), make('dd', {}, distance === null ? 'not finite' : `${String(distance).replace(/^-/, MINUS)} m`),
           make('dt', {}, 'Triangle pairs'), make('dd', {}, wholeNumber.format(report.triangle_pairs[i])),
           ...(rule ? [make('dt', {}, 'Rule'), make('dd', {}, rule)] : []),
+          ...(status ? [make('dt', {}, 'Status'), make('dd', { title: STATUS_MEANING[status] }, status)] : []),
+          ...(note ? [make('dt', {}, 'Note'), make('dd', {}, note)] : []),
           make('dt', {}, 'Clash id'), make('dd', {}, make('span', { className: 'mono' }, report.id[i]), copyButton('clash id', report.id[i]))))));
   if (focused)
     panel.querySelector(`[aria-label="${focused}"]`)?.focus();
@@ -357,6 +392,7 @@ const table = new ClashTable({
 function start() {
   byId('main').hidden = false;
   showSummary();
+  showResolved();
   makeKindButtons();
   makeSelects();
   let wait = 0;

@@ -9,6 +9,7 @@ const orNoName = (text) => text || '(no name)';
 
 const COLUMNS = [
   { key: 'kind', title: 'Kind', width: '104px', text: (i) => KINDS[report.kind[i]] },
+  ...(hasStatus ? [{ key: 'status', title: 'Status', width: '92px', text: (i) => STATUSES[report.status[i]] }] : []),
   { key: 'a_name', title: 'A', width: '', cut: true, text: (i) => orNoName(report.part_name[report.a[i]]) },
   { key: 'a_type', title: 'A type', width: '16%', text: (i) => report.types[typeOf(report.a[i])] },
   { key: 'b_name', title: 'B', width: '', cut: true, text: (i) => orNoName(report.part_name[report.b[i]]) },

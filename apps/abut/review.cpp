@@ -1,0 +1,151 @@
+#include <abut/clash_review.h>
+#include <abut/error.h>
+#include <abut/store.h>
+
+#include "commands.h"
+
+#include <algorithm>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <memory>
+
+namespace abut::command {
+
+namespace {
+
+struct ReviewArguments {
+    std::string store, status, note;
+    std::vector<std::string> approved, reviewed, cleared;
+    bool list = false, forget = false;
+};
+
+std::vector<std::uint64_t> parse_ids(const std::string& option,
+                                     const std::vector<std::string>& texts) {
+    std::vector<std::uint64_t> ids;
+    for (const std::string& text : texts) {
+        const auto id = parse_clash_id(text);
+        if (!id)
+            throw Error(ErrorCode::bad_argument, option,
+                        "'" + text + "' is no clash id: 16 hexadecimal digits, as in a report");
+        ids.push_back(*id);
+    }
+    return ids;
+}
+
+std::vector<ClashStatus> parse_statuses(const std::string& text) {
+    std::vector<std::string> known;
+    known.reserve(kClashStatuses.size());
+    for (const ClashStatus status : kClashStatuses)
+        known.emplace_back(abut::to_string(status));
+    const std::vector<std::string> words =
+        text.empty() ? known : parse_words("--status", text, known);
+    std::vector<ClashStatus> statuses;
+    for (const ClashStatus status : kClashStatuses)
+        if (std::find(words.begin(), words.end(), abut::to_string(status)) != words.end())
+            statuses.push_back(status);
+    return statuses;
+}
+
+std::string name_of(const ListedClash& clash, std::size_t side) {
+    const std::string& name = clash.name.at(side);
+    const std::string& type = clash.type.at(side);
+    return (name.empty() ? clash.part.at(side) : name) + (type.empty() ? "" : " (" + type + ")");
+}
+
+std::string table(const ClashReview& review) {
+    std::string text =
+        fmt::format("clearance {} m, touch tolerance {} m{}{}\n ", review.clearance, review.touch,
+                    review.self ? ", self" : "",
+                    review.rules == 0 ? "" : fmt::format(", {} rules", review.rules));
+    for (const ClashStatus status : kClashStatuses)
+        text += fmt::format(" {} {}{}", abut::to_string(status),
+                            grouped(review.statuses.at(static_cast<std::size_t>(status))),
+                            status == ClashStatus::resolved ? "\n" : ",");
+    for (const ListedClash& clash : review.clashes) {
+        text += fmt::format("  {}  {:<8}  {:<9}  {:>10.4g} m  {}  |  {}", clash_id_text(clash.id),
+                            abut::to_string(clash.status), abut::to_string(clash.kind),
+                            clash.distance, name_of(clash, 0), name_of(clash, 1));
+        if (clash.resolved != 0)
+            text += fmt::format("  [since {:%Y-%m-%d %H:%M} UTC]",
+                                fmt::gmtime(static_cast<std::time_t>(clash.resolved)));
+        text += clash.note.empty() ? "\n" : "  \"" + clash.note + "\"\n";
+    }
+    return text;
+}
+
+void print_list(const std::string& path, const std::vector<ClashStatus>& wanted,
+                const CommonOptions& common) {
+    std::vector<ClashReview> reviews = review_clashes(open_store(path));
+    std::string json, text;
+    for (ClashReview& review : reviews) {
+        std::erase_if(review.clashes, [&](const ListedClash& clash) {
+            return std::find(wanted.begin(), wanted.end(), clash.status) == wanted.end();
+        });
+        json += (json.empty() ? "" : ",\n") + abut::to_json(review);
+        text += (text.empty() ? "" : "\n") + table(review);
+    }
+    if (common.json)
+        print("{\"store\": " +
+              nlohmann::json(path).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+              ",\n\"questions\": [" + json + "]}\n");
+    else if (!common.quiet)
+        print(text.empty() ? path + ": no clash job has ended\n" : text);
+}
+
+int run(const ReviewArguments& arguments, const CommonOptions& common) {
+    const std::vector<ClashStatus> wanted = parse_statuses(arguments.status);
+    MarkChanges changes{parse_ids("--reviewed", arguments.reviewed),
+                        parse_ids("--approve", arguments.approved),
+                        parse_ids("--clear", arguments.cleared), arguments.note};
+    const std::size_t marked = changes.reviewed.size() + changes.approved.size();
+    const bool is_change = marked + changes.cleared.size() > 0 || arguments.forget;
+    if (!arguments.note.empty() && marked == 0)
+        throw Error(ErrorCode::bad_argument, "--note", "is of marks: give --approve or --reviewed");
+    if (is_change) {
+        const Store store = open_store(arguments.store, {.read_only = false});
+        mark_clashes(store, changes);
+        const std::uint64_t forgotten = arguments.forget ? forget_resolved_clashes(store) : 0;
+        if (!arguments.list && arguments.status.empty()) {
+            if (common.json)
+                print(dump({{"store", arguments.store},
+                            {"marked", marked},
+                            {"cleared", changes.cleared.size()},
+                            {"forgotten", forgotten}}));
+            else if (!common.quiet)
+                print(fmt::format("{}: {} marked, {} cleared, {} forgotten\n", arguments.store,
+                                  grouped(marked), grouped(changes.cleared.size()),
+                                  grouped(forgotten)));
+            return kExitDone;
+        }
+    }
+    print_list(arguments.store, wanted, common);
+    return kExitDone;
+}
+
+} // namespace
+
+Subcommand add_review(CLI::App& root, CommonOptions& common) {
+    auto arguments = std::make_shared<ReviewArguments>();
+    CLI::App* app = add_subcommand(root, common, "review",
+                                   "Statuses of the clashes of a store: list them, mark clashes");
+    app->add_option("STORE", arguments->store, "A store (abut import)")
+        ->required()
+        ->check(not_empty("STORE"));
+    const auto add_ids = [&](const char* name, std::vector<std::string>& ids, const char* what) {
+        app->add_option(name, ids, what)->check(not_empty("ID"));
+    };
+    add_ids("--approve", arguments->approved, "Clashes that may stay, by their ids");
+    add_ids("--reviewed", arguments->reviewed, "Clashes that someone has looked at");
+    add_ids("--clear", arguments->cleared, "Clashes whose mark is to be taken away");
+    app->add_option("--note", arguments->note, "Why, and by whom: kept with the marks")
+        ->check(not_empty("TEXT"));
+    app->add_flag("--forget-resolved", arguments->forget, "Drop resolved clashes from the lists");
+    app->add_flag("--list", arguments->list,
+                  "List the clashes, after changes too (without changes: the default)");
+    app->add_option("--status", arguments->status,
+                    "List those alone: new, active, reviewed, approved, resolved (comma-separated)")
+        ->check(not_empty("STATUSES"));
+    return {app, [arguments, &common] { return run(*arguments, common); }};
+}
+
+} // namespace abut::command
