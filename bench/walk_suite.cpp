@@ -110,6 +110,14 @@ private:
     double way_ = 0;
 };
 
+/// Wall time of so much work that asks for nothing: what the machine's other work adds.
+double spin(double seconds) {
+    const double start = wall_seconds(), computed = thread_seconds();
+    while (thread_seconds() - computed < seconds) {
+    }
+    return wall_seconds() - start;
+}
+
 double percentile(std::vector<double> values, double share) {
     if (values.empty())
         return 0;
@@ -165,7 +173,7 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
 
     const WalkStatistics begin = walk.statistics();
     const auto frames = static_cast<int>(options.seconds / kFrame);
-    std::vector<double> distance_ms, processor_ms, within_ms, move_ms, part_ms, jump_ms;
+    std::vector<double> distance_ms, processor_ms, spin_ms, within_ms, move_ms, part_ms, jump_ms;
     std::uint64_t near = 0;
     std::uint64_t late = 0, missed_frames = 0, touching = 0, candidates = 0;
     double sum_of_distances = 0;
@@ -194,6 +202,7 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
         touching += nearest.gap.distance <= 0 ? 1 : 0;
         candidates += nearest.candidates;
         sum_of_distances += nearest.gap.distance;
+        spin_ms.push_back(1e3 * spin(processor_ms.back() / 1e3));
         // A frame is 1/60 s of wall time; one that is late does not make the next ones shorter.
         next += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
             std::chrono::duration<double>(kFrame));
@@ -210,6 +219,8 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
     c["distance, 99.9th percentile, ms"] = percentile(distance_ms, 0.999);
     c["distance, worst, ms"] = percentile(distance_ms, 1);
     c["distance, worst, processor ms"] = percentile(processor_ms, 1);
+    c["as long of nothing, 99.9th percentile, ms"] = percentile(spin_ms, 0.999);
+    c["as long of nothing, worst, ms"] = percentile(spin_ms, 1);
     c["within 1 m, median, ms"] = percentile(within_ms, 0.5);
     c["within 1 m, 99th percentile, ms"] = percentile(within_ms, 0.99);
     c["parts within 1 m"] = static_cast<double>(near) / frames;

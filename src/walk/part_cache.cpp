@@ -98,6 +98,8 @@ void PartCache::begin_plan() {
 bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
     Garbage garbage;
     Lock lock(mutex_);
+    if (urgency == Urgency::at_its_place && placements_.contains(entry))
+        return true;
     const std::uint32_t piece = table_.piece_of(entry);
     for (;;) {
         if (Resident* const resident = find_resident(entry)) {
@@ -132,11 +134,6 @@ void PartCache::place(std::uint32_t entry, const Transform& world_from_mesh) {
     placements_[entry] = world_from_mesh;
     if (Resident* const resident = find_resident(entry))
         resident->world_from_mesh = world_from_mesh;
-}
-
-bool PartCache::is_in_place(std::uint32_t entry) const {
-    const std::scoped_lock lock(mutex_);
-    return !placements_.contains(entry);
 }
 
 void PartCache::remove(std::uint32_t entry) {

@@ -98,7 +98,11 @@ public:
 
     /// From now on, the first entry that is prefetched is the nearest.
     void begin_plan();
-    enum class Urgency : std::uint8_t { planned, asked_for };
+    enum class Urgency : std::uint8_t {
+        at_its_place, ///< planned, where the table has it: not if it was moved
+        planned,
+        asked_for,
+    };
     /// Brings an entry into memory if it is not there: as planned, instead of what the plan has not
     /// reached; if it was asked for, instead of anything. False if there is no such thing any more.
     ///
@@ -109,8 +113,6 @@ public:
 
     /// The entry is elsewhere than the store has it.
     void place(std::uint32_t entry, const Transform& world_from_mesh);
-    /// Whether the table tells where it is.
-    [[nodiscard]] bool is_in_place(std::uint32_t entry) const;
     /// The entry is not to be had any more.
     void remove(std::uint32_t entry);
 

@@ -32,6 +32,7 @@ void Prefetcher::follow(const PredictedPath& path, std::vector<std::uint32_t> mo
         moved_ = std::move(moved);
         are_missing_ = are_missing;
         follows_ = true;
+        followed_ = true;
         settled_ = settled_ && !has_news();
     }
     news_.notify_one();
@@ -105,9 +106,8 @@ bool Prefetcher::carry_out(const std::vector<std::uint32_t>& moved) {
     // A path that is off by so small a share of how far one has got is the same for what comes next.
     constexpr float kShare = 1.0F / 16;
     cache_.begin_plan();
-    constexpr auto kPlanned = PartCache::Urgency::planned;
     for (const std::uint32_t entry : moved)
-        bring(entry, kPlanned);
+        bring(entry, PartCache::Urgency::planned);
     NearestLanes lanes(table_.tree(), planned_);
     float reach = 0;
     while (const auto lane = lanes.next()) {
@@ -116,8 +116,10 @@ bool Prefetcher::carry_out(const std::vector<std::uint32_t>& moved) {
         if (requested_)
             serve_requests();
         reach = lane->key;
-        if (cache_.is_in_place(lane->lane) && !bring(lane->lane, kPlanned))
+        if (!bring(lane->lane, PartCache::Urgency::at_its_place))
             break;
+        if (!followed_.exchange(false))
+            continue;
         const std::scoped_lock lock(mutex_);
         if (path_.difference(planned_) > kShare * reach)
             return false;

@@ -49,6 +49,7 @@ private:
     std::vector<std::uint32_t> moved_, requests_;
     bool follows_ = false, are_missing_ = false, settled_ = true;
     std::atomic<bool> stop_{false}, requested_{false};
+    std::atomic<bool> followed_{false}; ///< the path is another than a moment ago
     // Of the thread alone, or with the lock:
     PredictedPath planned_;
     float tolerance_ = 0; ///< the path may differ by so much from the one that was planned for
