@@ -292,6 +292,9 @@ TEST_F(CrewClash, RefusesWhatOneProcessRefuses) {
     expect_refused(run_crew(2, {"clash", model_}), {model_, "store"});
     expect_refused(run_crew(2, {"clash", folder_ / "missing.abut"}), {"missing.abut"});
     expect_refused(run_crew(2, {"clahs"}), {"clahs"});
+    // Started by another MPI than that of this build: it would take itself for the only one.
+    expect_refused(run_program({"env", "PMI_RANK=0", "PMI_SIZE=2", ABUT_COMMAND, "clash", store_}),
+                   {"another MPI"});
 }
 
 } // namespace
