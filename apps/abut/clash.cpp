@@ -71,12 +71,12 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
 
 /// Appended to the report's members.
 std::string out_of_core_member(const OutOfCoreCounters& c) {
-    return fmt::format(
-        ",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
-        "\"bytes_needed\": {}, \"bytes_read\": {}, \"peak_model_bytes\": {}, \"kept\": {}, "
-        "\"recalled_pairs\": {}}}\n",
-        c.units, c.meshes, c.mesh_loads, c.bytes_needed, c.bytes_read, c.peak_bytes, c.kept,
-        c.recalled_pairs);
+    return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
+                       "\"blocks\": {}, \"block_loads\": {}, \"bytes_needed\": {}, \"bytes_read\": "
+                       "{}, \"peak_model_bytes\": {}, \"kept\": {}, "
+                       "\"recalled_pairs\": {}}}\n",
+                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads, c.bytes_needed,
+                       c.bytes_read, c.peak_bytes, c.kept, c.recalled_pairs);
 }
 
 std::string out_of_core_summary(const OutOfCoreCounters& c) {

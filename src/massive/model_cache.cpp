@@ -31,12 +31,14 @@ std::uint32_t ModelCache::next_use(std::uint32_t mesh, std::size_t from) const {
 void ModelCache::make_room(std::size_t unit, std::uint64_t bytes) {
     if (bytes_ + bytes <= budget_)
         return;
-    // Those of this unit and of the one before stay. The latest used goes first.
+    // Those of this unit and of the one before stay, unless either is to be alone. The latest used
+    // goes first.
     struct Candidate {
         std::uint32_t use, mesh;
     };
     std::vector<Candidate> candidates;
-    const auto& before = unit > 0 ? units_[unit - 1].meshes : units_[unit].meshes;
+    const bool with_before = unit > 0 && !units_[unit - 1].alone && !units_[unit].alone;
+    const auto& before = units_[with_before ? unit - 1 : unit].meshes;
     for (const std::uint32_t mesh : resident_)
         if (!std::binary_search(before.begin(), before.end(), mesh) && next_use(mesh, unit) != unit)
             candidates.push_back({next_use(mesh, unit), mesh});

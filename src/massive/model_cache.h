@@ -24,7 +24,7 @@ public:
                std::span<const WorkUnit> units, std::uint64_t budget);
 
     /// Brings all models of a unit into memory, in parallel, and keeps those of the unit before: its
-    /// pairs may be tested meanwhile. Units come one after the other.
+    /// pairs may be tested meanwhile, unless either is `alone`. Units come one after the other.
     ///
     /// Errors      those of the store.
     void load(std::size_t unit);

@@ -1,12 +1,12 @@
 #include <abut/error.h>
 #include <abut/store_clash.h>
 
-#include "core/parallel.h"
 #include "core/progress.h"
 #include "core/stop_watch.h"
 #include "massive/clash_identity.h"
 #include "massive/classify_pair.h"
 #include "massive/job_plan.h"
+#include "massive/large_meshes.h"
 #include "massive/model_cache.h"
 #include "massive/rule_match.h"
 #include "store/store_file.h"
@@ -67,6 +67,7 @@ private:
         ProgressMeter progress(options_.progress, "narrow phase", plan_.candidates);
         progress.advance(result_.counters.recalled_pairs);
         ModelCache cache(store_, plan_.stored.meshes, plan_.units, plan_.budget);
+        const LargeMeshes large(store_, plan_.stored, plan_.blocks_budget);
         const std::uint64_t read_before = store_.bytes_read();
         // On one thread, that thread does all.
         const auto policy =
@@ -78,16 +79,22 @@ private:
         for (std::size_t u = 0; u < plan_.units.size(); ++u) {
             std::future<void> next; // waits when it goes out of scope
             if (u + 1 < plan_.units.size())
-                next = std::async(policy, [&, u] { cache.load(u + 1); });
-            test(plan_.units[u], cache, progress);
+                next = std::async(plan_.units[u].alone || plan_.units[u + 1].alone
+                                      ? std::launch::deferred
+                                      : policy,
+                                  [&, u] { cache.load(u + 1); });
+            test(plan_.units[u], cache, large, progress);
             if (next.valid())
                 next.get();
             // Nothing is being read now: the store may be written to.
             record(u);
         }
         result_.counters.mesh_loads = cache.loads();
+        result_.counters.blocks = large.cache().distinct().size();
+        result_.counters.block_loads = large.cache().loads();
+        result_.counters.bytes_needed += large.bytes_needed();
         result_.counters.bytes_read = store_.bytes_read() - read_before;
-        result_.counters.peak_bytes = cache.peak_bytes();
+        result_.counters.peak_bytes = cache.peak_bytes() + large.cache().peak_bytes();
     }
 
     /// What was found before the job was stopped.
@@ -129,20 +136,23 @@ private:
         return {plan_.stored.parts[pair.a()].model, plan_.stored.parts[pair.b()].model};
     }
 
-    void test(const WorkUnit& unit, const ModelCache& cache, ProgressMeter& progress) {
+    void test(const WorkUnit& unit, const ModelCache& cache, const LargeMeshes& large,
+              ProgressMeter& progress) {
         std::unordered_map<std::uint32_t, PartRow> rows;
         for (const IndexPair& pair : unit.pairs)
             for (const std::uint32_t part : {pair.a(), pair.b()})
                 if (const auto [row, is_new] = rows.try_emplace(part); is_new)
                     row->second = store_.part(plan_.stored.parts[part].row);
         std::vector<std::optional<Clash>> found(unit.pairs.size());
-        parallel_for(unit.pairs.size(), 1, [&](std::size_t k) {
+        large.for_each_pair(unit.pairs, [&](std::size_t k) {
             const IndexPair& pair = unit.pairs[k];
             const PartRow &a = rows.at(pair.a()), &b = rows.at(pair.b());
             const PairTerms terms = terms_of_pair(pair);
             const auto placed = [&](const PartRow& row, std::uint32_t part) {
-                return ClashPart{cache.model(plan_.stored.parts[part].mesh), row.world_from_mesh,
-                                 row.box};
+                const std::uint32_t mesh = plan_.stored.parts[part].mesh;
+                const ModelBlocks* const blocks = large.find(mesh);
+                return ClashPart{blocks == nullptr ? &cache.model(mesh) : nullptr, blocks,
+                                 row.world_from_mesh, row.box};
             };
             found[k] = classify_pair(placed(a, pair.a()), placed(b, pair.b()), terms.clearance,
                                      terms.touch);
