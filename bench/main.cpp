@@ -142,6 +142,8 @@ int run(int argc, char** argv) {
         "massive",
         "Models beyond the memory: import into a store and its clashes, against the same in core");
     massive_suite->add_option("--plants", massive.plants, "Triangles of each plant");
+    massive_suite->add_option("--ground", massive.ground,
+                              "Triangles of the large mesh that small parts lie on; 0: none");
     massive_suite->add_option("--sheet", massive.sheet, "Triangles of the one large mesh; 0: none");
     massive_suite->add_option("--memory", massive.memory, "Bytes that the import keeps to");
     massive_suite->add_option("--clash-memory", massive.clash_memory,

@@ -80,10 +80,11 @@ Row import_row(const std::string& name, const ScratchFolder& folder, const std::
 /// The clash job of a store against the one in core, import and reading left out. In order and at
 /// random: what the partition saves.
 void add_clash_rows(const std::string& name, const std::string& store, const std::string& model,
-                    const MassiveSuiteOptions& options, Report& report) {
+                    const std::vector<double>& clearances, const MassiveSuiteOptions& options,
+                    Report& report) {
     const Store opened = open_store(store);
     const std::vector<Scene> models{read_scene(model)};
-    for (const double clearance : {0.005, 1.0})
+    for (const double clearance : clearances)
         for (const std::uint64_t memory : options.clash_memory)
             for (const WorkOrder order : {WorkOrder::partition, WorkOrder::random}) {
                 ClashOptions clash;
@@ -117,12 +118,61 @@ void add_clash_rows(const std::string& name, const std::string& store, const std
                 row.counters["units"] = static_cast<double>(work.units);
                 row.counters["meshes"] = static_cast<double>(work.meshes);
                 row.counters["mesh loads"] = static_cast<double>(work.mesh_loads);
+                row.counters["blocks of large meshes"] = static_cast<double>(work.blocks);
+                row.counters["block loads"] = static_cast<double>(work.block_loads);
                 row.counters["bytes read for one needed"] =
                     static_cast<double>(work.bytes_read) /
                     std::max(1.0, static_cast<double>(work.bytes_needed));
                 row.counters["peak of models, MiB"] = static_cast<double>(work.peak_bytes >> 20);
                 report.rows.push_back(row);
             }
+}
+
+/// A large sheet, and small parts all over it: each needs a little of it. No two are the same mesh.
+Scene sheet_and_parts(std::uint64_t triangles, int parts) {
+    const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 2));
+    const double size = 0.01 * side;
+    const auto height = [](double x, double z) {
+        return 0.3 * std::sin(1.3 * x) * std::cos(1.7 * z);
+    };
+    Scene scene;
+    Mesh& sheet = scene.meshes.emplace_back();
+    for (std::uint32_t i = 0; i <= side; ++i)
+        for (std::uint32_t k = 0; k <= side; ++k)
+            sheet.positions.push_back({0.01 * i, height(0.01 * i, 0.01 * k), 0.01 * k});
+    for (std::uint32_t i = 0; i < side; ++i)
+        for (std::uint32_t k = 0; k < side; ++k) {
+            const std::uint32_t at = i * (side + 1) + k, next = at + side + 1;
+            sheet.triangles.push_back({at, at + 1, next});
+            sheet.triangles.push_back({next, at + 1, next + 1});
+        }
+    scene.parts.push_back({"sheet", "", "", 0, {}});
+    for (int i = 0; i < parts; ++i) {
+        // The golden ratio and its like spread them evenly, and next to each other in no order.
+        const double x = std::fmod(0.7548776662466927 * (i + 1), 1) * (size - 1) + 0.5,
+                     z = std::fmod(0.5698402909980532 * (i + 1), 1) * (size - 1) + 0.5;
+        Mesh ball;
+        constexpr int kRings = 24;
+        for (int r = 0; r <= kRings; ++r)
+            for (int k = 0; k < kRings; ++k) {
+                const double a = 2 * 3.141592653589793 * k / kRings,
+                             b = 3.141592653589793 * (static_cast<double>(r) / kRings - 0.5);
+                ball.positions.push_back({(0.05 + 1e-7 * i) * std::cos(b) * std::cos(a),
+                                          0.05 * std::sin(b), 0.05 * std::cos(b) * std::sin(a)});
+            }
+        for (std::uint32_t r = 0; r < kRings; ++r)
+            for (std::uint32_t k = 0; k < kRings; ++k) {
+                const std::uint32_t next = (k + 1) % kRings, at = r * kRings;
+                ball.triangles.push_back({at + k, at + kRings + k, at + kRings + next});
+                ball.triangles.push_back({at + k, at + kRings + next, at + next});
+            }
+        scene.meshes.push_back(std::move(ball));
+        Transform world;
+        world.m[9] = x, world.m[10] = height(x, z) + (i % 50 == 0 ? 0.03 : 0.07), world.m[11] = z;
+        scene.parts.push_back({fmt::format("part{}", i), "", "",
+                               static_cast<std::uint32_t>(scene.meshes.size() - 1), world});
+    }
+    return scene;
 }
 
 } // namespace
@@ -138,7 +188,14 @@ Report run_massive_suite(const MassiveSuiteOptions& options) {
         write_glb(make_plant({.triangles = triangles, .distinct = true}).scene, model);
         const std::string name = fmt::format("plant of {}, nothing shared", triangles);
         report.rows.push_back(import_row("import, " + name, folder, model, options));
-        add_clash_rows(name, folder / "store.abut", model, options, report);
+        add_clash_rows(name, folder / "store.abut", model, {0.005, 1.0}, options, report);
+    }
+    if (options.ground > 0) {
+        const std::string model = folder / "ground.glb";
+        write_glb(sheet_and_parts(options.ground, 5000), model);
+        const std::string name = fmt::format("sheet of {} and 5000 parts", options.ground);
+        report.rows.push_back(import_row("import, " + name, folder, model, options));
+        add_clash_rows(name, folder / "store.abut", model, {0.005}, options, report);
     }
     if (options.sheet > 0) {
         const std::string model = folder / "sheet.stl";

@@ -32,6 +32,7 @@ Report run_import_suite(const ImportSuiteOptions& options);
 
 struct MassiveSuiteOptions {
     std::vector<std::uint64_t> plants = {2'000'000}; ///< triangles of each, instances counted
+    std::uint64_t ground = 2'000'000;                ///< of one that small parts lie on; 0: none
     std::uint64_t sheet = 2'000'000;                 ///< triangles of one mesh; 0: none
     std::uint64_t memory = std::uint64_t{512} << 20; ///< of the import
     std::vector<std::uint64_t> clash_memory = {std::uint64_t{512} << 20, std::uint64_t{64} << 20};

@@ -65,12 +65,12 @@ std::string out_of_core_member(const OutOfCoreCounters& c) {
                         "{}, \"peak_rss_mb\": {}}}",
                         workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
                         w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mb);
-    return fmt::format(
-        ",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
-        "\"bytes_needed\": {}, \"bytes_read\": {}, \"peak_model_bytes\": {}, \"kept\": {}, "
-        "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
-        c.units, c.meshes, c.mesh_loads, c.bytes_needed, c.bytes_read, c.peak_bytes, c.kept,
-        c.recalled_pairs, workers);
+    return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
+                       "\"blocks\": {}, \"block_loads\": {}, \"bytes_needed\": {}, \"bytes_read\": "
+                       "{}, \"peak_model_bytes\": {}, \"kept\": {}, "
+                       "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
+                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads, c.bytes_needed,
+                       c.bytes_read, c.peak_bytes, c.kept, c.recalled_pairs, workers);
 }
 
 std::string out_of_core_summary(const OutOfCoreCounters& c) {

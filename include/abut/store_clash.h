@@ -33,10 +33,13 @@ struct OutOfCoreOptions {
 
 /// What a job out of core did.
 struct OutOfCoreCounters {
-    std::uint64_t units = 0;          ///< pieces of work that fit into the memory
-    std::uint64_t meshes = 0;         ///< that a candidate needs
-    std::uint64_t mesh_loads = 0;     ///< each time that one was read and its hierarchy built
-    std::uint64_t bytes_needed = 0;   ///< of those meshes in the store, each once
+    std::uint64_t units = 0;      ///< pieces of work that fit into the memory
+    std::uint64_t meshes = 0;     ///< that a candidate needs, large ones left out
+    std::uint64_t mesh_loads = 0; ///< each time that one was read and its hierarchy built
+    /// Of large meshes, which are never whole in memory: needed. Of several processes, the sum.
+    std::uint64_t blocks = 0;
+    std::uint64_t block_loads = 0;    ///< each time that one was read and its hierarchy built
+    std::uint64_t bytes_needed = 0;   ///< of those meshes and blocks in the store, each once
     std::uint64_t bytes_read = 0;     ///< of the store's blocks
     std::uint64_t peak_bytes = 0;     ///< of models in memory at once
     bool kept = false;                ///< in the store
@@ -45,7 +48,9 @@ struct OutOfCoreCounters {
     /// What one process did; sums and the largest of these are above.
     struct Worker {
         std::uint64_t units = 0, pairs = 0;
-        std::uint64_t mesh_loads = 0, bytes_read = 0, peak_bytes = 0;
+        std::uint64_t mesh_loads = 0;
+        std::uint64_t blocks = 0, block_loads = 0, block_bytes_needed = 0;
+        std::uint64_t bytes_read = 0, peak_bytes = 0;
         double processor_seconds = 0; ///< since it began, of all its threads
         double waiting_seconds = 0;   ///< for pieces of work, with nothing to do
         double peak_rss_mb = 0;       ///< as peak_resident_mib
@@ -65,7 +70,8 @@ struct StoreClashReport {
 /// clashes, to the last bit.
 ///
 /// Errors      as find_clashes and open_store; Error{bad_argument}: an import into the store has
-///             not ended, or `memory` does not hold the tables, or two meshes that are to be compared.
+///             not ended, or `memory` does not hold the tables, or two meshes that are to be compared,
+///             or, of large meshes, the few blocks that are compared at a time.
 /// Cost        each mesh is read about once if `memory` holds a fair share of what a neighbourhood
 ///             needs; while one piece of work is done, the next one's meshes are read.
 StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
@@ -86,7 +92,7 @@ struct GraphReport {
     std::uint64_t isolated = 0;   ///< parts without an edge
     std::uint64_t largest_component = 0, highest_valence = 0;
     double mean_valence = 0; ///< of parts that have an edge
-    std::uint64_t bytes = 0; ///< of the models that an edge needs, each once
+    std::uint64_t bytes = 0; ///< of the models that an edge needs, each once; no large meshes
     struct Unit {
         std::uint64_t parts = 0, edges = 0, meshes = 0, bytes = 0;
         Box3 bounds; ///< of its parts' middles

@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
 #ifdef __SANITIZE_THREAD__
 #include <algorithm>
@@ -56,6 +57,17 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
                           for (std::size_t i = range.begin(); i != range.end(); ++i)
                               body(i);
                       });
+#endif
+}
+
+/// Calls body(); a thread that waits in there for parallel work takes up no other meanwhile. For
+/// whoever holds a lock.
+template <typename Body>
+void isolated(const Body& body) {
+#ifdef __SANITIZE_THREAD__
+    body();
+#else
+    tbb::this_task_arena::isolate(body);
 #endif
 }
 

@@ -99,7 +99,7 @@ void lead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions
     StoreFile file(store, OpenMode::immutable);
     CrewLead leading(crew, plan, result, options);
     try {
-        PieceTester tester(file, options, plan.stored.models, plan.budget);
+        PieceTester tester(file, options, plan.stored.models, plan.budget, plan.blocks_budget);
         work(tester, leading);
     } catch (...) {
         leading.fail();
@@ -115,7 +115,7 @@ void help_find_clashes(const std::string& store, Crew& crew, const Progress& pro
         const std::vector<ModelRow> models = file.models();
         if (parts_key(models) != briefing.models)
             throw Error(ErrorCode::bad_argument, store, "is another store than the leader's");
-        PieceTester tester(file, briefing.options, models, briefing.budget);
+        PieceTester tester(file, briefing.options, models, briefing.budget, briefing.blocks_budget);
         work(tester, source);
         source.wait_until_dismissed();
     } catch (const Dismissed&) {

@@ -43,8 +43,8 @@ CrewLead::~CrewLead() {
 
 void CrewLead::serve() {
     try {
-        const std::vector<std::byte> briefing =
-            encode(Briefing{options_, plan_.budget, parts_key(plan_.stored.models)});
+        const std::vector<std::byte> briefing = encode(
+            Briefing{options_, plan_.budget, plan_.blocks_budget, parts_key(plan_.stored.models)});
         for (std::size_t helper = 1; helper < crew_.size(); ++helper)
             crew_.send(helper, briefing);
         for (int i = 0; i < kPiecesAtOnce; ++i)

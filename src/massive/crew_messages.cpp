@@ -26,12 +26,13 @@ void fields(Stream& stream, Either<ClashRule> auto& rule) {
 template <typename Stream>
 void fields(Stream& stream, Either<Briefing> auto& briefing) {
     stream(briefing.options.clearance, briefing.options.touch, briefing.options.self,
-           briefing.options.rules, briefing.budget, briefing.models);
+           briefing.options.rules, briefing.budget, briefing.blocks_budget, briefing.models);
 }
 
 template <typename Stream>
 void fields(Stream& stream, Either<WorkPiece> auto& piece) {
-    stream(piece.unit, piece.meshes, piece.parts, piece.pairs);
+    stream(piece.unit, piece.alone, piece.meshes, piece.large, piece.parts, piece.pairs,
+           piece.large_pairs);
 }
 
 template <typename Stream>

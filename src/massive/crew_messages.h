@@ -20,9 +20,10 @@ namespace abut {
 
 /// What a helper must know before its first piece.
 struct Briefing {
-    ClashOptions options;     ///< without progress
-    std::uint64_t budget = 0; ///< bytes of models
-    Hash128 models;           ///< what the store holds
+    ClashOptions options;            ///< without progress
+    std::uint64_t budget = 0;        ///< bytes of models
+    std::uint64_t blocks_budget = 0; ///< bytes of blocks of large meshes
+    Hash128 models;                  ///< what the store holds
 };
 
 /// An exception on its way to another process.

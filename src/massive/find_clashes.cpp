@@ -8,11 +8,13 @@
 #include "core/stop_watch.h"
 #include "massive/clash_identity.h"
 #include "massive/classify_by_id.h"
+#include "massive/mesh_in_blocks.h"
 #include "massive/part_instances.h"
 #include "massive/rule_match.h"
 #include "math/vector.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 namespace abut {
@@ -94,8 +96,14 @@ private:
                 list.push_back(i);
         ProgressMeter progress(options_.progress, "hierarchies", list.size());
         meshes_.resize(parts_.meshes.size());
+        blocks_.resize(parts_.meshes.size());
         parallel_for(list.size(), 1, [&](std::size_t k) {
-            meshes_[list[k]].emplace(*parts_.meshes[list[k]]);
+            const Mesh& mesh = *parts_.meshes[list[k]];
+            // As out of core, so that both give the same.
+            if (is_whole(mesh.positions.size(), mesh.triangles.size()))
+                meshes_[list[k]].emplace(mesh);
+            else
+                blocks_[list[k]] = in_blocks(mesh);
             progress.advance();
         });
     }
@@ -121,7 +129,8 @@ private:
 
     [[nodiscard]] ClashPart narrow_part(std::uint32_t i) const {
         const PartInstance& p = parts_.parts[i];
-        return {*meshes_[p.mesh], p.world_from_mesh, p.box};
+        const std::optional<Model>& model = meshes_[p.mesh];
+        return {model ? &*model : nullptr, blocks_[p.mesh].get(), p.world_from_mesh, p.box};
     }
 
     void identify(Clash& clash, const Candidate& c) const {
@@ -139,7 +148,8 @@ private:
     ClashReport report_;
     PartInstances parts_;
     std::vector<Candidate> candidates_;
-    std::vector<std::optional<Model>> meshes_; ///< of parts that a candidate needs
+    std::vector<std::optional<Model>> meshes_;               ///< of parts that a candidate needs
+    std::vector<std::unique_ptr<const ModelBlocks>> blocks_; ///< of those that are large
 };
 
 } // namespace

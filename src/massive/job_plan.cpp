@@ -4,8 +4,10 @@
 
 #include "core/progress.h"
 #include "massive/clash_identity.h"
+#include "massive/large_meshes.h"
 #include "massive/unit_size.h"
 
+#include <algorithm>
 #include <malloc.h>
 #include <string>
 
@@ -16,13 +18,25 @@ namespace {
 /// For pairs and rows of the unit at hand.
 constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 10;
 
+[[noreturn]] void fail_for_memory(std::uint64_t least, const std::string& store) {
+    throw Error(ErrorCode::bad_argument, store,
+                "needs more memory: " + std::to_string((least >> 20) + 1) + " MiB at least");
+}
+
+/// Whether a pair has a large mesh.
+bool needs_large(const StoredParts& parts, const std::vector<IndexPair>& pairs) {
+    return !parts.large.empty() &&
+           std::any_of(pairs.begin(), pairs.end(), [&](const IndexPair& pair) {
+               return parts.find_large(parts.parts[pair.a()].mesh) != nullptr ||
+                      parts.find_large(parts.parts[pair.b()].mesh) != nullptr;
+           });
+}
+
 std::uint64_t bytes_for_models(const StoredParts& parts, const std::vector<IndexPair>& pairs,
                                const OutOfCoreOptions& options, const std::string& store) {
     const std::uint64_t tables = parts.bytes() + pairs.capacity() * sizeof(IndexPair);
     if (options.memory < kLeastMemory + tables)
-        throw Error(ErrorCode::bad_argument, store,
-                    "needs more memory: " + std::to_string(((kLeastMemory + tables) >> 20) + 1) +
-                        " MiB at least");
+        fail_for_memory(kLeastMemory + tables, store);
     return options.memory - tables;
 }
 
@@ -43,6 +57,12 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
     if (plan.record != nullptr)
         pairs = plan.record->pairs_left(plan.stored, std::move(pairs));
     plan.budget = bytes_for_models(plan.stored, pairs, out_of_core, store.path());
+    if (needs_large(plan.stored, pairs)) {
+        plan.blocks_budget = plan.budget / 2;
+        plan.budget -= plan.blocks_budget;
+        if (const std::uint64_t least = least_for_blocks(plan.stored); plan.blocks_budget < least)
+            fail_for_memory(out_of_core.memory + 2 * (least - plan.blocks_budget), store.path());
+    }
     // One unit is tested while the next one's models come into memory.
     const std::size_t workers = out_of_core.crew == nullptr ? 1 : out_of_core.crew->size();
     const std::uint64_t unit = unit_budget(plan.stored, pairs, plan.budget / 2, workers);

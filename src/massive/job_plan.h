@@ -18,7 +18,8 @@ struct JobPlan {
     StoredParts stored;
     std::vector<WorkUnit> units;
     std::uint64_t candidates = 0;
-    std::uint64_t budget = 0;          ///< bytes of models
+    std::uint64_t budget = 0;          ///< bytes of models: of a unit and of the next one
+    std::uint64_t blocks_budget = 0;   ///< bytes of blocks of large meshes
     std::unique_ptr<JobRecord> record; ///< may be none
 };
 

@@ -92,6 +92,9 @@ void JobResult::sum_up_workers() {
     OutOfCoreCounters& counters = result_.counters;
     for (const OutOfCoreCounters::Worker& worker : counters.workers) {
         counters.mesh_loads += worker.mesh_loads;
+        counters.blocks += worker.blocks;
+        counters.block_loads += worker.block_loads;
+        counters.bytes_needed += worker.block_bytes_needed;
         counters.bytes_read += worker.bytes_read;
         counters.peak_bytes = std::max(counters.peak_bytes, worker.peak_bytes);
         result_.report.peak_rss_mb = std::max(result_.report.peak_rss_mb, worker.peak_rss_mb);

@@ -3,10 +3,11 @@
 #include "core/parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace abut {
 
-void ModelCache::make_room(std::uint32_t unit, std::uint64_t bytes) {
+void ModelCache::make_room(std::uint32_t unit, std::uint64_t bytes, bool alone) {
     if (bytes_ + bytes <= budget_)
         return;
     struct Candidate {
@@ -15,7 +16,7 @@ void ModelCache::make_room(std::uint32_t unit, std::uint64_t bytes) {
     };
     std::vector<Candidate> candidates;
     for (const auto& [mesh, entry] : entries_)
-        if (entry.model != nullptr && entry.call + 1 < call_)
+        if (entry.model != nullptr && entry.call + (alone ? 0 : 1) < call_)
             // A use that should have come by now has gone to another worker.
             candidates.push_back(
                 {entry.next_use >= unit ? entry.next_use : WorkPiece::kNoUse, mesh});
@@ -44,7 +45,7 @@ std::vector<const Model*> ModelCache::load(const WorkPiece& piece) {
             bytes += use.bytes;
         }
     }
-    make_room(piece.unit, bytes);
+    make_room(piece.unit, bytes, std::exchange(was_alone_, piece.alone) || piece.alone);
     parallel_for(missing.size(), 1, [&](std::size_t i) {
         missing[i].second->model =
             std::make_unique<const Model>(store_.read_mesh(missing[i].first));

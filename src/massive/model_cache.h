@@ -23,7 +23,8 @@ public:
     ModelCache(StoreFile& store, std::uint64_t budget) : store_(store), budget_(budget) {}
 
     /// The models of a piece's meshes, read and built in parallel. They stay until the call after
-    /// the next, so that a piece may be tested while the next one's models come.
+    /// the next, so that a piece may be tested while the next one's models come; only until the next, if
+    /// either is `alone`.
     ///
     /// Errors      those of the store.
     std::vector<const Model*> load(const WorkPiece& piece);
@@ -38,12 +39,13 @@ private:
         std::uint64_t call = 0; ///< the last load() that wanted it
     };
 
-    void make_room(std::uint32_t unit, std::uint64_t bytes);
+    void make_room(std::uint32_t unit, std::uint64_t bytes, bool alone);
 
     StoreFile& store_;
     std::uint64_t budget_;
     std::unordered_map<std::int64_t, Entry> entries_; ///< by mesh
     std::uint64_t call_ = 1;
+    bool was_alone_ = false; ///< the last piece
     std::uint64_t bytes_ = 0, peak_bytes_ = 0, loads_ = 0;
 };
 

@@ -6,20 +6,27 @@
 #include "massive/classify_by_id.h"
 #include "massive/rule_match.h"
 
+#include <tbb/task_arena.h>
 #include <utility>
 
 namespace abut {
 
 PieceTester::PieceTester(StoreFile& store, const ClashOptions& options,
-                         const std::vector<ModelRow>& models, std::uint64_t budget)
-    : store_(store), options_(options), cache_(store, budget), read_before_(store.bytes_read()) {
+                         const std::vector<ModelRow>& models, std::uint64_t budget,
+                         std::uint64_t blocks_budget)
+    : store_(store), options_(options), cache_(store, budget), large_(store, blocks_budget),
+      read_before_(store.bytes_read()) {
     for (const ModelRow& model : models)
         models_.emplace_back().file = model.file;
 }
 
 PieceTester::Loaded PieceTester::load(WorkPiece piece) {
-    Loaded loaded{std::move(piece), {}, {}};
+    Loaded loaded;
+    loaded.piece = std::move(piece);
     loaded.models = cache_.load(loaded.piece);
+    for (const std::int64_t mesh : loaded.piece.large)
+        loaded.large.push_back(&large_.open(mesh));
+    loaded.threads = large_.threads();
     loaded.parts.resize(loaded.piece.parts.size());
     parallel_for(loaded.parts.size(), 64,
                  [&](std::size_t i) { loaded.parts[i] = store_.part(loaded.piece.parts[i].row); });
@@ -29,9 +36,22 @@ PieceTester::Loaded PieceTester::load(WorkPiece piece) {
 PieceResult PieceTester::test(const Loaded& loaded, const std::function<void()>& on_pair) const {
     const WorkPiece& piece = loaded.piece;
     std::vector<std::optional<Clash>> found(piece.pairs.size());
-    parallel_for(piece.pairs.size(), 1, [&](std::size_t k) {
+    const auto test = [&](std::size_t k) {
         found[k] = test_pair(loaded, piece.pairs[k]);
         on_pair();
+    };
+    // Whole meshes are in memory. Those of large ones come: what lies together one after the other.
+    std::vector<bool> is_large(piece.pairs.size());
+    for (const std::uint32_t k : piece.large_pairs)
+        is_large[k] = true;
+    parallel_for(piece.pairs.size(), 1, [&](std::size_t k) {
+        if (!is_large[k])
+            test(k);
+    });
+    tbb::task_arena arena(loaded.threads);
+    arena.execute([&] {
+        parallel_for(piece.large_pairs.size(), 1,
+                     [&](std::size_t i) { test(piece.large_pairs[i]); });
     });
     PieceResult result;
     result.unit = piece.unit;
@@ -61,7 +81,11 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
     if (!options_.rules.empty()) // a candidate has terms
         terms = *terms_of(options_, model_a, name(a), model_b, name(b));
     const auto placed = [&](const PartRow& row, std::uint32_t part) {
-        return ClashPart{*loaded.models[use(part).mesh], row.world_from_mesh, row.box};
+        const std::uint32_t mesh = use(part).mesh;
+        const auto whole = static_cast<std::uint32_t>(loaded.models.size());
+        return ClashPart{mesh < whole ? loaded.models[mesh] : nullptr,
+                         mesh < whole ? nullptr : loaded.large[mesh - whole], row.world_from_mesh,
+                         row.box};
     };
     std::optional<Clash> clash = classify_by_id(placed(a, pair.a), a.id, placed(b, pair.b), b.id,
                                                 terms.clearance, terms.touch);
@@ -75,8 +99,11 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
 
 OutOfCoreCounters::Worker PieceTester::figures() const {
     return {.mesh_loads = cache_.loads(),
+            .blocks = large_.cache().distinct().size(),
+            .block_loads = large_.cache().loads(),
+            .block_bytes_needed = large_.bytes_needed(),
             .bytes_read = store_.bytes_read() - read_before_,
-            .peak_bytes = cache_.peak_bytes(),
+            .peak_bytes = cache_.peak_bytes() + large_.cache().peak_bytes(),
             .processor_seconds = processor_seconds(),
             .peak_rss_mb = peak_resident_mib()};
 }

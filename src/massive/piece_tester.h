@@ -4,6 +4,7 @@
 #include <abut/model.h>
 #include <abut/scene.h>
 
+#include "massive/large_meshes.h"
 #include "massive/model_cache.h"
 #include "massive/work_piece.h"
 #include "store/store_file.h"
@@ -18,16 +19,18 @@ namespace abut {
 /// Does pieces of work: brings what they need into memory, tests their pairs.
 class PieceTester {
 public:
-    /// In          models: of the store; budget: bytes of models in memory. Store and options must
-    ///             outlive it.
+    /// In          models: of the store; budget: bytes of models in memory; blocks_budget: of blocks of
+    ///             large meshes. Store and options must outlive it.
     PieceTester(StoreFile& store, const ClashOptions& options, const std::vector<ModelRow>& models,
-                std::uint64_t budget);
+                std::uint64_t budget, std::uint64_t blocks_budget);
 
     /// A piece with what it needs, valid until the load after the next.
     struct Loaded {
         WorkPiece piece;
-        std::vector<const Model*> models; ///< of the piece's meshes
-        std::vector<PartRow> parts;       ///< of the piece's parts
+        std::vector<const Model*> models;      ///< of the piece's meshes
+        std::vector<const ModelBlocks*> large; ///< and of its large ones
+        int threads = 1;                       ///< that its large pairs have room for
+        std::vector<PartRow> parts;            ///< of the piece's parts
     };
     /// Errors      those of the store.
     Loaded load(WorkPiece piece);
@@ -45,6 +48,7 @@ private:
     const ClashOptions& options_;
     std::vector<Scene> models_; ///< their files alone
     ModelCache cache_;
+    LargeMeshes large_;
     std::uint64_t read_before_;
 };
 

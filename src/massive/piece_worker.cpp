@@ -16,16 +16,26 @@ void work(PieceTester& tester, WorkSource& source) {
             : std::launch::deferred;
     using Clock = std::chrono::steady_clock;
     Clock::time_point given; // the last piece
-    const auto load = [&]() -> std::optional<PieceTester::Loaded> {
-        auto piece = source.next();
+    // What follows: in memory, or to be brought there once it has the memory for itself.
+    struct Coming {
+        std::optional<WorkPiece> piece;
+        std::optional<PieceTester::Loaded> loaded;
+    };
+    const auto fetch = [&](bool beside) {
+        Coming coming{source.next(), {}};
         given = Clock::now();
-        if (piece)
-            return tester.load(std::move(*piece));
-        return std::nullopt;
+        if (coming.piece && beside && !coming.piece->alone)
+            coming.loaded = tester.load(*std::exchange(coming.piece, {}));
+        return coming;
+    };
+    const auto load = [&](Coming coming) {
+        if (coming.piece)
+            coming.loaded = tester.load(*std::move(coming.piece));
+        return std::move(coming.loaded);
     };
     double waiting = 0;
-    for (auto loaded = load(); loaded;) {
-        std::future<std::optional<PieceTester::Loaded>> next = std::async(policy, load);
+    for (auto loaded = load(fetch(false)); loaded;) {
+        std::future<Coming> next = std::async(policy, fetch, !loaded->piece.alone);
         PieceResult result;
         try {
             result = tester.test(*loaded, [&] { source.on_pair(); });
@@ -34,8 +44,9 @@ void work(PieceTester& tester, WorkSource& source) {
             throw;
         }
         const auto tested = Clock::now();
-        loaded = next.get();
+        Coming coming = next.get();
         waiting += std::max(0.0, std::chrono::duration<double>(given - tested).count());
+        loaded = load(std::move(coming));
         result.worker = tester.figures();
         result.worker.waiting_seconds = waiting;
         source.done(std::move(result));

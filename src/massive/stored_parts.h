@@ -6,6 +6,7 @@
 #include <abut/types.h>
 
 #include "core/hash.h"
+#include "massive/block_cache.h"
 #include "store/store_file.h"
 
 #include <cstdint>
@@ -27,22 +28,41 @@ struct StoredPart {
 };
 inline constexpr std::uint32_t kLastGeneration = 0xffffffff;
 
+/// A job may have a million of them: 16 bytes each.
 struct StoredMesh {
     std::int64_t mesh = 0;          ///< of the store
-    std::uint64_t bytes = 0;        ///< of a Model of it, estimated
-    std::uint64_t stored_bytes = 0; ///< of its blocks
+    std::uint32_t bytes = 0;        ///< of a Model of it, estimated; 0: it is large
+    std::uint32_t stored_bytes = 0; ///< of its block; 0: it is large
+};
+
+/// A mesh that is never in memory as a whole.
+struct LargeMesh {
+    std::uint32_t mesh = 0; ///< index in StoredParts::meshes
+    std::uint64_t triangles = 0, stored_bytes = 0;
+    std::vector<StoredBlock> blocks;
+};
+
+/// Where along a large part another one lies: pairs of one cell need about the same blocks.
+struct PairCell {
+    std::uint32_t part = 0;
+    Vec3 middle;            ///< of the other
+    std::uint64_t cell = 0; ///< cells near each other have near numbers
 };
 
 struct StoredParts {
     std::vector<ModelRow> models;
     std::vector<StoredPart> parts; ///< by model, then as in its file
     std::vector<StoredMesh> meshes;
+    std::vector<LargeMesh> large; ///< by mesh
     /// With their parts, but without meshes; no parts where names were not asked for.
     std::vector<Scene> scenes;
 
-    [[nodiscard]] std::uint64_t bytes() const {
-        return parts.capacity() * sizeof(StoredPart) + meshes.capacity() * sizeof(StoredMesh);
-    }
+    /// Of these tables.
+    [[nodiscard]] std::uint64_t bytes() const;
+    /// Null if a mesh is not large.
+    [[nodiscard]] const LargeMesh* find_large(std::uint32_t mesh) const;
+    /// In          a pair with a large mesh; of two, that with more blocks counts.
+    [[nodiscard]] PairCell cell_of(const IndexPair& pair) const;
 };
 
 /// Which parts there are, and in which state.

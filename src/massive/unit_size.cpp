@@ -18,9 +18,12 @@ WorkUnit unit_of(std::vector<IndexPair> pairs, const WorkUnit& of, const StoredP
     WorkUnit unit;
     unit.pairs = std::move(pairs);
     unit.cut = of.cut;
+    unit.alone = of.alone;
     for (const IndexPair& pair : unit.pairs)
-        unit.meshes.insert(unit.meshes.end(),
-                           {stored.parts[pair.a()].mesh, stored.parts[pair.b()].mesh});
+        for (const std::uint32_t part : {pair.a(), pair.b()})
+            if (const std::uint32_t mesh = stored.parts[part].mesh;
+                stored.find_large(mesh) == nullptr)
+                unit.meshes.push_back(mesh);
     std::ranges::sort(unit.meshes);
     unit.meshes.erase(std::unique(unit.meshes.begin(), unit.meshes.end()), unit.meshes.end());
     for (const std::uint32_t mesh : unit.meshes)
@@ -36,7 +39,7 @@ std::uint64_t unit_budget(const StoredParts& stored, std::span<const IndexPair> 
         return most;
     std::vector<bool> needed(stored.meshes.size());
     std::uint64_t all = 0, largest_pair = 0;
-    const auto need = [&](std::uint32_t mesh) {
+    const auto need = [&](std::uint32_t mesh) -> std::uint64_t {
         if (!needed[mesh])
             all += stored.meshes[mesh].bytes;
         needed[mesh] = true;

@@ -11,6 +11,32 @@ std::uint32_t place_of(const std::vector<std::uint32_t>& sorted, std::uint32_t v
     return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, value) - sorted.begin());
 }
 
+/// Where along a large mesh a pair lies.
+struct PlaceOfPair {
+    std::uint32_t part = 0;
+    std::uint64_t cell = 0;
+    std::uint32_t pair = 0;
+    friend auto operator<=>(const PlaceOfPair&, const PlaceOfPair&) = default;
+};
+
+std::vector<std::uint32_t> large_pairs(const StoredParts& stored,
+                                       const std::vector<IndexPair>& pairs) {
+    const auto is_large = [&](std::uint32_t part) {
+        return stored.find_large(stored.parts[part].mesh) != nullptr;
+    };
+    std::vector<PlaceOfPair> places;
+    for (std::uint32_t k = 0; k < pairs.size(); ++k)
+        if (is_large(pairs[k].a()) || is_large(pairs[k].b())) {
+            const PairCell cell = stored.cell_of(pairs[k]);
+            places.push_back({cell.part, cell.cell, k});
+        }
+    std::ranges::sort(places);
+    std::vector<std::uint32_t> order;
+    for (const PlaceOfPair& place : places)
+        order.push_back(place.pair);
+    return order;
+}
+
 } // namespace
 
 WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& units,
@@ -18,6 +44,7 @@ WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& uni
     const WorkUnit& work = units[unit];
     WorkPiece piece;
     piece.unit = static_cast<std::uint32_t>(unit);
+    piece.alone = work.alone;
     for (const std::uint32_t mesh : work.meshes)
         piece.meshes.push_back(
             {stored.meshes[mesh].mesh, stored.meshes[mesh].bytes, WorkPiece::kNoUse});
@@ -27,12 +54,25 @@ WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& uni
         parts.insert(parts.end(), {pair.a(), pair.b()});
     std::ranges::sort(parts);
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    const auto whole = static_cast<std::uint32_t>(work.meshes.size());
     for (const std::uint32_t part : parts) {
         const StoredPart& p = stored.parts[part];
-        piece.parts.push_back({p.row, place_of(work.meshes, p.mesh), p.model});
+        std::uint32_t mesh = 0;
+        if (stored.find_large(p.mesh) == nullptr) {
+            mesh = place_of(work.meshes, p.mesh);
+        } else {
+            const std::int64_t row = stored.meshes[p.mesh].mesh;
+            const auto at = std::ranges::find(piece.large, row);
+            mesh = whole + static_cast<std::uint32_t>(at - piece.large.begin());
+            if (at == piece.large.end())
+                piece.large.push_back(row);
+        }
+        piece.parts.push_back({p.row, mesh, p.model});
     }
     for (const IndexPair& pair : work.pairs)
         piece.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b())});
+    if (!piece.large.empty())
+        piece.large_pairs = large_pairs(stored, work.pairs);
     return piece;
 }
 

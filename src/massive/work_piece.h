@@ -21,7 +21,7 @@ struct WorkPiece {
     };
     struct PartUse {
         std::int64_t row = 0;    ///< of the store
-        std::uint32_t mesh = 0;  ///< index in meshes
+        std::uint32_t mesh = 0;  ///< index in meshes, and from their number on in large
         std::uint32_t model = 0; ///< index in the store's models
     };
     struct Pair {
@@ -30,9 +30,14 @@ struct WorkPiece {
     static constexpr std::uint32_t kNoUse = UINT32_MAX;
 
     std::uint32_t unit = 0; ///< which of the plan
+    bool alone = false;     ///< no other piece fits into the memory beside it
     std::vector<MeshUse> meshes;
+    std::vector<std::int64_t>
+        large; ///< rows of large meshes: their blocks come as they are asked for
     std::vector<PartUse> parts;
     std::vector<Pair> pairs; ///< in the order of the unit
+    /// Indices of the pairs that have a large mesh: those that lie together one after the other.
+    std::vector<std::uint32_t> large_pairs;
 };
 
 /// All but the meshes' next uses, which kNoUse stands for.

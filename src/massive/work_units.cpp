@@ -23,8 +23,8 @@ constexpr double kRoom = 1.25;
 class Partition {
 public:
     Partition(const StoredParts& stored, std::uint64_t budget, const std::string& store)
-        : stored_(stored), budget_(budget), local_(stored.parts.size()),
-          mesh_stamp_(stored.meshes.size()), shown_(stored.meshes.size()), store_(store) {}
+        : stored_(stored), budget_(budget), mesh_stamp_(stored.meshes.size()),
+          shown_(stored.meshes.size()), store_(store) {}
 
     void cut(std::vector<IndexPair> pairs, bool is_cut = false) {
         if (pairs.empty())
@@ -57,13 +57,14 @@ public:
                    (mesh_stamp_[b] == stamp_ || a == b ? 0 : bytes_of(b));
         };
         for (const IndexPair& pair : pairs) {
-            if (bytes + cost(pair) > budget_ && !some.empty()) {
+            // What asks for nothing more goes with what is there, also if that is alone.
+            if (cost(pair) > 0 && bytes + cost(pair) > budget_ && !some.empty()) {
                 units_.push_back(unit_of(std::exchange(some, {}), is_cut));
                 ++stamp_;
                 bytes = 0;
             }
             bytes += cost(pair);
-            if (bytes > budget_)
+            if (bytes > 2 * budget_)
                 fail(bytes);
             mesh_stamp_[mesh_of(pair.a())] = mesh_stamp_[mesh_of(pair.b())] = stamp_;
             some.push_back(pair);
@@ -84,7 +85,7 @@ private:
     [[noreturn]] void fail(std::uint64_t bytes) const {
         throw Error(ErrorCode::bad_argument, store_,
                     "has two parts that need " + std::to_string(bytes >> 20) +
-                        " MiB together; the memory leaves " + std::to_string(budget_ >> 20) +
+                        " MiB together; the memory leaves " + std::to_string(2 * budget_ >> 20) +
                         " MiB");
     }
 
@@ -96,32 +97,68 @@ private:
         ++stamp_;
         for (const IndexPair& pair : unit.pairs)
             for (const std::uint32_t mesh : {mesh_of(pair.a()), mesh_of(pair.b())})
-                if (mesh_stamp_[mesh] != stamp_) {
+                if (mesh_stamp_[mesh] != stamp_ && bytes_of(mesh) > 0) {
                     mesh_stamp_[mesh] = stamp_;
                     unit.meshes.push_back(mesh);
                     unit.bytes += bytes_of(mesh);
                 }
         std::sort(unit.meshes.begin(), unit.meshes.end());
+        unit.alone = unit.bytes > budget_;
         return unit;
+    }
+
+    /// A node of the graph of one list: a part, or a cell of a large one.
+    struct Node {
+        std::uint32_t part = 0;
+        std::uint64_t cell = 0;
+        Vec3 middle;
+
+        friend bool operator<(const Node& x, const Node& y) {
+            return x.part != y.part ? x.part < y.part : x.cell < y.cell;
+        }
+        friend bool operator==(const Node& x, const Node& y) {
+            return x.part == y.part && x.cell == y.cell;
+        }
+    };
+
+    [[nodiscard]] Node node_of(const IndexPair& pair, std::uint32_t part) const {
+        if (bytes_of(mesh_of(part)) == 0) {
+            const PairCell cell = stored_.cell_of(pair);
+            if (cell.part == part)
+                return {part, cell.cell, cell.middle};
+        }
+        const Box3& box = stored_.parts[part].box;
+        return {part, 0, 0.5 * box.lower + 0.5 * box.upper};
     }
 
     /// The pairs within each subgraph; last, those that were cut.
     std::vector<std::vector<IndexPair>> split(const WorkUnit& unit) {
-        std::vector<std::uint32_t> nodes;
+        std::vector<Node> nodes;
         for (const IndexPair& pair : unit.pairs)
-            nodes.insert(nodes.end(), {pair.a(), pair.b()});
+            nodes.insert(nodes.end(), {node_of(pair, pair.a()), node_of(pair, pair.b())});
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        for (std::uint32_t i = 0; i < nodes.size(); ++i)
-            local_[nodes[i]] = i;
+        std::vector<GraphEdge> edges;
+        edges.reserve(unit.pairs.size());
+        const auto index = [&](const Node& node) {
+            return static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
+                                              nodes.begin());
+        };
+        for (const IndexPair& pair : unit.pairs)
+            edges.push_back({index(node_of(pair, pair.a())), index(node_of(pair, pair.b()))});
+        // Cells that follow each other share blocks.
+        for (std::uint32_t i = 1; i < nodes.size(); ++i)
+            if (nodes[i].part == nodes[i - 1].part)
+                edges.push_back({i - 1, i});
         const bool in_space = nodes.size() > kMostNodes;
         const std::size_t subgraphs = in_space ? 2 : subgraphs_for(unit, nodes.size());
         const std::vector<std::int32_t> part =
-            in_space ? halve(nodes) : subgraphs_of(unit, nodes, subgraphs);
+            in_space ? halve(nodes)
+                     : cut_graph(weights_of(unit, nodes), edges, static_cast<int>(subgraphs));
         std::vector<std::vector<IndexPair>> lists(subgraphs + 1);
-        for (const IndexPair& pair : unit.pairs) {
-            const std::int32_t a = part[local_[pair.a()]], b = part[local_[pair.b()]];
-            (a == b ? lists[static_cast<std::size_t>(a)] : lists.back()).push_back(pair);
+        for (std::size_t i = 0; i < unit.pairs.size(); ++i) {
+            const std::int32_t a = part[edges[i].a], b = part[edges[i].b];
+            (a == b ? lists[static_cast<std::size_t>(a)] : lists.back()).push_back(unit.pairs[i]);
         }
         return lists;
     }
@@ -133,38 +170,28 @@ private:
         return std::min({static_cast<std::size_t>(needed) + 1, kMostSubgraphs, nodes});
     }
 
-    std::vector<std::int32_t> subgraphs_of(const WorkUnit& unit,
-                                           const std::vector<std::uint32_t>& nodes,
-                                           std::size_t subgraphs) {
-        std::vector<GraphEdge> edges;
-        edges.reserve(unit.pairs.size());
-        for (const IndexPair& pair : unit.pairs)
-            edges.push_back({local_[pair.a()], local_[pair.b()]});
-        // A mesh's bytes are borne by all the parts that show it; all weights together are below 2^30.
-        for (const std::uint32_t node : nodes)
-            shown_[mesh_of(node)] = 0;
-        for (const std::uint32_t node : nodes)
-            ++shown_[mesh_of(node)];
+    /// A mesh's bytes are borne by all the parts that show it; all weights together are below 2^30.
+    std::vector<std::int32_t> weights_of(const WorkUnit& unit, const std::vector<Node>& nodes) {
+        for (const Node& node : nodes)
+            shown_[mesh_of(node.part)] = 0;
+        for (const Node& node : nodes)
+            ++shown_[mesh_of(node.part)];
         const std::uint64_t unit_bytes = 1 + unit.bytes / (std::uint64_t{1} << 29);
         std::vector<std::int32_t> weights;
         weights.reserve(nodes.size());
-        for (const std::uint32_t node : nodes)
-            weights.push_back(static_cast<std::int32_t>(
-                1 + bytes_of(mesh_of(node)) / shown_[mesh_of(node)] / unit_bytes));
-        return cut_graph(weights, edges, static_cast<int>(subgraphs));
+        for (const Node& node : nodes) {
+            const std::uint32_t mesh = mesh_of(node.part);
+            weights.push_back(
+                static_cast<std::int32_t>(1 + bytes_of(mesh) / shown_[mesh] / unit_bytes));
+        }
+        return weights;
     }
 
     /// By the middles of the boxes, across where they reach farthest.
-    std::vector<std::int32_t> halve(const std::vector<std::uint32_t>& nodes) const {
-        const auto middle = [&](std::uint32_t node) {
-            const Box3& box = stored_.parts[node].box;
-            return 0.5 * box.lower + 0.5 * box.upper;
-        };
+    static std::vector<std::int32_t> halve(const std::vector<Node>& nodes) {
         Box3 bounds;
-        for (const std::uint32_t node : nodes) {
-            bounds.lower = min(bounds.lower, middle(node));
-            bounds.upper = max(bounds.upper, middle(node));
-        }
+        for (const Node& node : nodes)
+            extend(bounds, node.middle);
         const Vec3 extent = bounds.upper - bounds.lower;
         const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
                          : extent.y >= extent.z                       ? 1
@@ -174,8 +201,8 @@ private:
         std::nth_element(order.begin(),
                          order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2), order.end(),
                          [&](std::uint32_t i, std::uint32_t k) {
-                             const double at = component(middle(nodes[i]), axis),
-                                          other = component(middle(nodes[k]), axis);
+                             const double at = component(nodes[i].middle, axis),
+                                          other = component(nodes[k].middle, axis);
                              return at != other ? at < other : i < k;
                          });
         std::vector<std::int32_t> half(nodes.size(), 0);
@@ -187,7 +214,6 @@ private:
     const StoredParts& stored_;
     std::uint64_t budget_;
     std::vector<WorkUnit> units_;
-    std::vector<std::uint32_t> local_;      ///< of a part: its node
     std::vector<std::uint32_t> mesh_stamp_; ///< of a mesh: the last list that it was found in
     std::vector<std::uint64_t> shown_;      ///< by how many nodes
     const std::string& store_;

@@ -36,6 +36,13 @@ inline double sum_of_sizes(const Transform& t) {
     return sum;
 }
 
+/// With a translation of the world added.
+inline Transform translated(const Transform& t, const Vec3& shift) {
+    Transform moved = t;
+    moved.m[9] += shift.x, moved.m[10] += shift.y, moved.m[11] += shift.z;
+    return moved;
+}
+
 /// First b, then a: rounded, so for bounds only.
 Transform compose(const Transform& a, const Transform& b);
 

@@ -70,6 +70,11 @@ inline void extend(Box3& box, const Vec3& p) {
 inline bool is_empty(const Box3& box) {
     return !(box.lower.x <= box.upper.x);
 }
+/// With `margin` all around it.
+inline Box3 grown(const Box3& box, double margin) {
+    const Vec3 by{margin, margin, margin};
+    return {box.lower - by, box.upper + by};
+}
 /// Whether the closed boxes are at most `gap` apart on every axis.
 inline bool overlap(const Box3& a, const Box3& b, double gap = 0) {
     return a.lower.x - b.upper.x <= gap && b.lower.x - a.upper.x <= gap &&

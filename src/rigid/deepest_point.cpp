@@ -66,9 +66,10 @@ double largest_of_smaller(const CornerDistances& f, const CornerDistances& g, st
 
 class Search {
 public:
-    Search(const PlacedSolid& surface, const PlacedSolid& solid, const SurfacePart& part,
+    Search(const PlacedModel& surface, const WorldSolid& solid, const SurfacePart& part,
            const DepthSearch& options, double deeper_than)
-        : surface_(surface), solid_(solid), part_(part), options_(options) {
+        : surface_(surface), solid_(solid), bounds_(solid.bounds()), part_(part),
+          options_(options) {
         best_.depth = deeper_than;
     }
 
@@ -76,7 +77,7 @@ public:
         for (const std::uint32_t triangle : starts)
             for (const Vec3& corner : surface_.world_triangle(triangle))
                 try_point(corner, triangle, nullptr);
-        if (!surface_.model().tree().empty() && !solid_.model().tree().empty())
+        if (!surface_.model().tree().empty() && bounds_.box.lower[0] <= bounds_.box.upper[0])
             add_box(NodeRef::node(0), surface_.model().tree().bounds, {}, {});
         while (!pieces_.empty() && !finished(pieces_.top().at_most)) {
             const Piece piece = pieces_.top();
@@ -148,12 +149,12 @@ private:
     void add_clipped(std::uint32_t slot, const Piece& parent) {
         Polygon polygon;
         for (const Vec3& p : surface_.world_slot(slot))
-            polygon.push_back(apply(solid_.tree_from_world(), p));
-        clip(polygon, solid_.model().tree().bounds);
+            polygon.push_back(apply(bounds_.frame_from_world, p));
+        clip(polygon, bounds_.box);
         for (std::size_t i = 2; i < polygon.size(); ++i)
-            add_triangle({apply(solid_.world_from_tree(), polygon[0]),
-                          apply(solid_.world_from_tree(), polygon[i - 1]),
-                          apply(solid_.world_from_tree(), polygon[i])},
+            add_triangle({apply(bounds_.world_from_frame, polygon[0]),
+                          apply(bounds_.world_from_frame, polygon[i - 1]),
+                          apply(bounds_.world_from_frame, polygon[i])},
                          slot, parent);
     }
 
@@ -258,9 +259,9 @@ private:
         ++evaluations_;
         const Sample known = piece.sample;
         // A triangle that is near enough to rule the piece out ends the search for the nearest.
-        const PlacedSolid::NearestSearch search{.enough = wanted() - piece.radius,
-                                                .seed = known.any() ? &known.slot : nullptr};
-        const PlacedSolid::Nearest nearest = solid_.nearest(piece.middle, search);
+        const WorldSolid::NearestSearch search{.enough = wanted() - piece.radius,
+                                               .seed = known.any() ? &known.slot : nullptr};
+        const WorldSolid::Nearest nearest = solid_.nearest(piece.middle, search);
         if (nearest.distance <= search.enough) {
             // Nothing in the piece is deeper than that.
             (void)worth_keeping((nearest.distance + piece.radius) * kSafe);
@@ -312,7 +313,7 @@ private:
     // ---- points of the surface, for a depth that is reached
 
     /// The sample of a piece of a triangle; its corners, if that is deeper than what was known.
-    void try_points(const Piece& piece, const PlacedSolid::Nearest& nearest) {
+    void try_points(const Piece& piece, const WorldSolid::Nearest& nearest) {
         const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
         if (!(nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle)))
             return;
@@ -334,7 +335,7 @@ private:
         if (!belongs(point, triangle))
             return;
         const double least = beyond(point);
-        const PlacedSolid::Nearest nearest = solid_.nearest(point, {.enough = least, .seed = seed});
+        const WorldSolid::Nearest nearest = solid_.nearest(point, {.enough = least, .seed = seed});
         if (nearest.distance > least && solid_.contains_off_surface(point))
             take(point, triangle, nearest);
     }
@@ -347,15 +348,16 @@ private:
     [[nodiscard]] bool belongs(const Vec3& point, std::uint32_t triangle) const {
         return part_.takes(triangle) && part_.may_hold(point, 0);
     }
-    void take(const Vec3& point, std::uint32_t triangle, const PlacedSolid::Nearest& nearest) {
+    void take(const Vec3& point, std::uint32_t triangle, const WorldSolid::Nearest& nearest) {
         best_.depth = nearest.distance;
         best_.on_surface = point, best_.on_solid = nearest.point;
         best_.surface_triangle = triangle;
-        best_.solid_triangle = solid_.model().triangle_at(nearest.slot);
+        best_.solid_triangle = solid_.triangle_at(nearest.slot);
     }
 
-    const PlacedSolid& surface_;
-    const PlacedSolid& solid_;
+    const PlacedModel& surface_;
+    const WorldSolid& solid_;
+    const WorldSolid::Bounds bounds_;
     const SurfacePart& part_;
     const DepthSearch& options_;
     DeepestPoint best_;
@@ -366,7 +368,7 @@ private:
 
 } // namespace
 
-DeepestPoint find_deepest_point(const PlacedSolid& surface, const PlacedSolid& solid,
+DeepestPoint find_deepest_point(const PlacedModel& surface, const WorldSolid& solid,
                                 std::span<const std::uint32_t> starts, const SurfacePart& part,
                                 const DepthSearch& options, double deeper_than) {
     return Search(surface, solid, part, options, deeper_than).run(starts);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "rigid/contact_regions.h"
-#include "rigid/placed_solid.h"
+#include "rigid/world_solid.h"
 
 #include <cstdint>
 #include <span>
@@ -52,7 +52,7 @@ struct DeepestPoint {
 ///             No point of a piece of radius r is deeper than d + r, d being the distance from its
 ///             middle to any triangle of the solid, nor deeper than its corners' largest distance
 ///             to one triangle (the distance to a convex set is convex).
-DeepestPoint find_deepest_point(const PlacedSolid& surface, const PlacedSolid& solid,
+DeepestPoint find_deepest_point(const PlacedModel& surface, const WorldSolid& solid,
                                 std::span<const std::uint32_t> starts, const SurfacePart& part,
                                 const DepthSearch& options, double deeper_than);
 

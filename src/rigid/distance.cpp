@@ -34,10 +34,10 @@ struct Slack {
 /// Pairs that cheap bounds do not rule out are collected, and measured eight at a time.
 class NearestPairFinder : public LeafPairVisitor {
 public:
-    /// `first`: stop at the first pair within the bound. The slack is what the answer may exceed
+    /// `first`: stop at the first pair within the bound, which is a squared distance. The slack is what the answer may exceed
     /// the distance by.
-    NearestPairFinder(const PlacedPair& pair, double bound, bool first, const Slack& slack = {})
-        : first_(first), pair_(pair), leaves_(pair), slack_(slack), best_sq_(bound * bound) {}
+    NearestPairFinder(const PlacedPair& pair, double bound_sq, bool first, const Slack& slack = {})
+        : first_(first), pair_(pair), leaves_(pair), slack_(slack), best_sq_(bound_sq) {}
 
     double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) override {
         leaves_.set_leaves(leaf_a, leaf_b);
@@ -100,6 +100,8 @@ public:
 
     [[nodiscard]] bool found() const { return found_; }
     [[nodiscard]] const TrianglePair& indices() const { return best_.indices; }
+    /// As it was compared with others.
+    [[nodiscard]] double measured_sq() const { return best_sq_; }
     void report(Gap& gap) const {
         if (!found_)
             return;
@@ -126,12 +128,15 @@ private:
         // What stands in unused lanes is measured too, and not looked at.
         double lanes_sq[TrianglePairBlock::kLanes];
         distance_sq(block_, lanes_sq);
-        const auto* nearest = std::min_element(lanes_sq, lanes_sq + collected_);
-        if (*nearest < best_sq_ || (first_ && *nearest <= best_sq_)) {
-            const auto lane = static_cast<std::size_t>(nearest - lanes_sq);
-            found_ = true;
-            best_sq_ = *nearest;
-            best_ = {block_.get_a(lane), block_.get_b(lane), indices_[lane]};
+        for (std::size_t lane = 0; lane < collected_; ++lane) {
+            // Of equal distances, that of the least triangles: so the order of the search is not seen.
+            const double sq = lanes_sq[lane];
+            if (sq < best_sq_ ||
+                (sq == best_sq_ && (found_ ? indices_[lane] < best_.indices : first_))) {
+                found_ = true;
+                best_sq_ = sq;
+                best_ = {block_.get_a(lane), block_.get_b(lane), indices_[lane]};
+            }
         }
         collected_ = 0;
     }
@@ -163,7 +168,7 @@ void report_beyond(double bound, Gap& gap) {
 Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     const std::uint64_t exact_before = exact_signs();
     const Slack slack{options.absolute_error, options.relative_error};
-    NearestPairFinder finder(pair, options.upper_bound, false, slack);
+    NearestPairFinder finder(pair, options.upper_bound * options.upper_bound, false, slack);
     Workspace* const workspace = options.workspace;
     Gap gap;
     if (workspace == nullptr || !workspace->used || !finder.begin_with(workspace->last)) {
@@ -185,6 +190,19 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
         *workspace = {true, {gap.triangle_a, gap.triangle_b}};
     gap.counters.exact_tests = exact_signs() - exact_before;
     return gap;
+}
+
+MeasuredGap nearest_gap(const PlacedPair& pair, double bound_sq) {
+    NearestPairFinder finder(pair, bound_sq, false);
+    PairTraversal traversal = pair.traversal(bound_sq);
+    pair.visit_nearest(traversal, finder);
+    finder.finish();
+    MeasuredGap result;
+    if (finder.found()) {
+        finder.report(result.gap);
+        result.measured_sq = finder.measured_sq();
+    }
+    return result;
 }
 
 Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
@@ -211,7 +229,7 @@ bool within(const Model& a, const Transform& world_from_a, const Model& b,
     if (far_apart(a.data(), world_from_a, b.data(), world_from_b, tolerance))
         return false;
     const PlacedPair pair(a, world_from_a, b, world_from_b);
-    NearestPairFinder finder(pair, tolerance, true);
+    NearestPairFinder finder(pair, tolerance * tolerance, true);
     if (workspace != nullptr && workspace->used && finder.begin_with(workspace->last))
         return true;
     PairTraversal traversal = pair.traversal(tolerance * tolerance);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNudge = 0x1p-30; // far above the rounding of positions, far below anything built
 
-std::vector<Vec3> directions(const PlacedSolid& a, const PlacedSolid& b,
+std::vector<Vec3> directions(const WorldSolid& a, const WorldSolid& b,
                              std::span<const Contact> contacts) {
     constexpr std::size_t kContacts = 64;
     struct Direction {
@@ -49,16 +49,22 @@ std::vector<Vec3> directions(const PlacedSolid& a, const PlacedSolid& b,
     return result;
 }
 
-bool parted(const PlacedSolid& a, const PlacedSolid& b, const Vec3& shift) {
+bool parted(const WorldSolid& a, const WorldSolid& b, const Vec3& shift) {
     Counters unused;
-    const PlacedPair pair(a.public_model(), a.world(), b.public_model(), b.world_moved(shift));
-    return find_contacts(pair, ContactMode::first, unused).empty();
+    bool apart = true;
+    for_each_block_pair(
+        a, b, shift, [&](const WorldSolid::Block& of_a, const WorldSolid::Block& of_b) {
+            const PlacedPair pair(of_a.model.public_model(), of_a.model.world(),
+                                  of_b.model.public_model(), translated(of_b.model.world(), shift));
+            apart = find_contacts(pair, ContactMode::first, unused).empty();
+            return apart;
+        });
+    return apart;
 }
 
 } // namespace
 
-Vec3 nudge_that_parts(const PlacedSolid& a, const PlacedSolid& b,
-                      std::span<const Contact> contacts) {
+Vec3 nudge_that_parts(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts) {
     const double nudge = kNudge * std::max(a.world_size(), b.world_size());
     for (const Vec3& d : directions(a, b, contacts))
         if (parted(a, b, nudge * d))
@@ -66,7 +72,7 @@ Vec3 nudge_that_parts(const PlacedSolid& a, const PlacedSolid& b,
     return {};
 }
 
-Escape find_escape(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts) {
+Escape find_escape(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts) {
     const double size = a.world_size() + b.world_size();
     Escape best;
     for (const Vec3& d : directions(a, b, contacts)) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "rigid/contacts.h"
-#include "rigid/placed_solid.h"
+#include "rigid/world_solid.h"
 
 #include <span>
 
@@ -18,11 +18,10 @@ struct Escape {
 ///
 /// Accuracy    exact for the moved positions; the directions tried are the separating ones of the
 ///             contacts, the commonest first, their mean, and 26 evenly spread.
-Vec3 nudge_that_parts(const PlacedSolid& a, const PlacedSolid& b,
-                      std::span<const Contact> contacts);
+Vec3 nudge_that_parts(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
 
 /// The shortest translation along the same directions that parts the surfaces, within one part in
 /// 256.
-Escape find_escape(const PlacedSolid& a, const PlacedSolid& b, std::span<const Contact> contacts);
+Escape find_escape(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
 
 } // namespace abut

@@ -11,7 +11,7 @@ namespace abut {
 
 namespace {
 
-LocalPenetration deepest_crossing(const PlacedSolid& a, const PlacedSolid& b,
+LocalPenetration deepest_crossing(const WorldSolid& a, const WorldSolid& b,
                                   std::span<const Contact> contacts) {
     LocalPenetration best;
     for (const Contact& c : contacts) {
@@ -40,20 +40,54 @@ std::vector<std::uint32_t> some_triangles(std::span<const Contact> contacts,
     return triangles;
 }
 
-LocalPenetration deepest_inside(const PlacedSolid& a, const PlacedSolid& b,
+/// Of a surface's triangles, those that a block has, by their numbers there.
+std::vector<std::uint32_t> in_block(const std::vector<std::uint32_t>& triangles,
+                                    const WorldSolid::Block& block) {
+    if (block.numbers.empty())
+        return triangles;
+    std::vector<std::uint32_t> local;
+    for (const std::uint32_t triangle : triangles) {
+        const auto found = std::lower_bound(block.numbers.begin(), block.numbers.end(), triangle);
+        if (found != block.numbers.end() && *found == triangle)
+            local.push_back(static_cast<std::uint32_t>(found - block.numbers.begin()));
+    }
+    return local;
+}
+
+/// Block by block: what one has reached is the least that matters in the next.
+DeepestPoint deepest_of(const WorldSolid& surface, const WorldSolid& solid,
+                        const std::vector<std::uint32_t>& starts, const SurfacePart& part,
+                        const DepthSearch& options, double deeper_than) {
+    DeepestPoint best;
+    best.depth = best.at_most = deeper_than;
+    surface.for_each_block(solid.world_box(), [&](const WorldSolid::Block& block) {
+        const double at_most = best.at_most;
+        DeepestPoint found = find_deepest_point(block.model, solid, in_block(starts, block), part,
+                                                options, best.depth);
+        if (found.depth > best.depth) {
+            found.surface_triangle = block.number(found.surface_triangle);
+            best = found;
+        }
+        best.at_most = std::max(at_most, found.at_most);
+        return true;
+    });
+    return best;
+}
+
+LocalPenetration deepest_inside(const WorldSolid& a, const WorldSolid& b,
                                 std::span<const Contact> contacts, const DepthSearch& options,
                                 const SurfacePart& part_a, const SurfacePart& part_b) {
     LocalPenetration best;
-    if (b.solid().solid) {
-        const DeepestPoint p = find_deepest_point(a, b, some_triangles(contacts, &TrianglePair::a),
-                                                  part_a, options, 0);
+    if (b.bounds_solid()) {
+        const DeepestPoint p =
+            deepest_of(a, b, some_triangles(contacts, &TrianglePair::a), part_a, options, 0);
         best = {p.depth, p.at_most, p.on_surface, p.on_solid,
                 normalized_or_zero(p.on_surface - p.on_solid)};
         best.triangles = {p.surface_triangle, p.solid_triangle};
     }
-    if (a.solid().solid) {
-        const DeepestPoint p = find_deepest_point(b, a, some_triangles(contacts, &TrianglePair::b),
-                                                  part_b, options, best.depth);
+    if (a.bounds_solid()) {
+        const DeepestPoint p = deepest_of(b, a, some_triangles(contacts, &TrianglePair::b), part_b,
+                                          options, best.depth);
         if (p.depth > best.depth) {
             best = {p.depth, best.at_most, p.on_solid, p.on_surface,
                     normalized_or_zero(p.on_solid - p.on_surface)};
@@ -66,15 +100,15 @@ LocalPenetration deepest_inside(const PlacedSolid& a, const PlacedSolid& b,
 
 } // namespace
 
-LocalPenetration local_penetration(const PlacedSolid& a, const PlacedSolid& b,
+LocalPenetration local_penetration(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options,
                                    const SurfacePart& part_a, const SurfacePart& part_b) {
-    return a.solid().solid || b.solid().solid
+    return a.bounds_solid() || b.bounds_solid()
                ? deepest_inside(a, b, contacts, options, part_a, part_b)
                : deepest_crossing(a, b, contacts);
 }
 
-LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
+LocalPenetration penetration_depth(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options) {
     LocalPenetration best = local_penetration(a, b, contacts, options);
     if (best.depth == 0) {

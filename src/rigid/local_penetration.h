@@ -2,7 +2,7 @@
 
 #include "rigid/contacts.h"
 #include "rigid/deepest_point.h"
-#include "rigid/placed_solid.h"
+#include "rigid/world_solid.h"
 
 #include <span>
 
@@ -27,13 +27,13 @@ struct LocalPenetration {
 /// Accuracy    with a solid, `depth` is reached at point_a and point_b to rounding, and
 ///             [depth, at_most] encloses the true value; else it is the definition's value at a
 ///             common point.
-LocalPenetration local_penetration(const PlacedSolid& a, const PlacedSolid& b,
+LocalPenetration local_penetration(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options,
                                    const SurfacePart& part_a = {}, const SurfacePart& part_b = {});
 
 /// The same for whole models; where the surfaces give no depth although the models are locked into
 /// each other (coplanar faces only), the shortest translation found that parts them.
-LocalPenetration penetration_depth(const PlacedSolid& a, const PlacedSolid& b,
+LocalPenetration penetration_depth(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options);
 
 } // namespace abut

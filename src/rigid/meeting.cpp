@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace abut {
@@ -53,23 +54,19 @@ EdgeRun edge_run(const Vec3& e0, const Vec3& e1, const Triangle& t, int axis) {
             static_cast<std::size_t>(right - side.begin())};
 }
 
-/// The faces of a model around one of its triangles' edges, as rays around the line e0 e1.
-void add_edge_rays(const PlacedSolid& model, std::uint32_t triangle, std::size_t edge,
+/// The faces of a surface around one of its triangles' edges, as rays around the line e0 e1.
+void add_edge_rays(const WorldSolid& surface, std::uint32_t triangle, std::size_t edge,
                    const Vec3& e0, const Vec3& e1, bool of_a, EdgeSectors& sectors) {
-    const auto& t = model.model().mesh().triangles[triangle];
-    const Topology& topology = model.solid().topology;
     const int k = e0.x != e1.x ? 0 : e0.y != e1.y ? 1 : 2;
     const bool up = component(e0, k) < component(e1, k);
-    for (const HalfEdge& h :
-         topology.edge(topology.vertex_of[t[edge]], topology.vertex_of[t[(edge + 1) % 3]])) {
-        const bool h_up =
-            component(model.world_vertex(h.from), k) < component(model.world_vertex(h.to), k);
-        sectors.add({model.world_vertex(h.apex), of_a, model.outward() * (h_up == up ? 1 : -1)});
+    for (const EdgeFace& face : surface.faces_around(triangle, edge)) {
+        const bool face_up = component(face.from, k) < component(face.to, k);
+        sectors.add({face.apex, of_a, surface.outward() * (face_up == up ? 1 : -1)});
     }
 }
 
 /// Edges of `first`'s triangle that run along the triangle of `second`.
-bool sectors_overlap(const PlacedSolid& first, std::uint32_t i, const PlacedSolid& second,
+bool sectors_overlap(const WorldSolid& first, std::uint32_t i, const WorldSolid& second,
                      std::uint32_t j, bool first_is_a) {
     const Triangle s = first.world_triangle(i), t = second.world_triangle(j);
     const int axis = projection_axis(t);
@@ -101,22 +98,22 @@ bool sectors_overlap(const PlacedSolid& first, std::uint32_t i, const PlacedSoli
 
 /// A vertex or a middle of the triangles in contact, or another component, strictly inside the
 /// solid.
-bool reaches_inside(const PlacedSolid& surface, std::vector<std::uint32_t> triangles,
-                    const PlacedSolid& solid) {
-    if (!solid.solid().solid)
+bool reaches_inside(const WorldSolid& surface, std::vector<std::uint32_t> triangles,
+                    const WorldSolid& solid) {
+    if (!solid.bounds_solid())
         return false;
     std::sort(triangles.begin(), triangles.end());
     triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-    std::vector<std::uint32_t> vertices;
-    for (const std::uint32_t i : surface.solid().components)
-        vertices.push_back(surface.model().mesh().triangles[i][0]);
+    std::vector<Vec3> vertices = surface.component_points();
     for (const std::uint32_t i : triangles)
-        for (const std::uint32_t v : surface.model().mesh().triangles[i])
-            vertices.push_back(surface.solid().topology.vertex_of[v]);
-    std::sort(vertices.begin(), vertices.end());
+        for (const Vec3& vertex : surface.world_triangle(i))
+            vertices.push_back(vertex);
+    std::sort(vertices.begin(), vertices.end(), [](const Vec3& p, const Vec3& q) {
+        return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+    });
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    for (const std::uint32_t v : vertices)
-        if (solid.contains(surface.world_vertex(v)))
+    for (const Vec3& vertex : vertices)
+        if (solid.contains(vertex))
             return true;
     for (const std::uint32_t i : triangles) {
         const Triangle t = surface.world_triangle(i);
@@ -132,7 +129,7 @@ bool reaches_inside(const PlacedSolid& surface, std::vector<std::uint32_t> trian
 
 } // namespace
 
-Meeting examine_meeting(const PlacedSolid& a, const PlacedSolid& b,
+Meeting examine_meeting(const WorldSolid& a, const WorldSolid& b,
                         std::span<const Contact> contacts) {
     if (std::any_of(contacts.begin(), contacts.end(),
                     [](const Contact& c) { return c.kind == TriangleContact::cross; }))

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "rigid/contacts.h"
-#include "rigid/placed_solid.h"
+#include "rigid/world_solid.h"
 
 #include <span>
 
@@ -25,7 +25,7 @@ struct Meeting {
 /// Accuracy    crossing, inside at stored vertices, overlap along edges: exact, by orientation
 ///             signs of stored points. Triangles that lie inside a solid and touch its surface at
 ///             vertices only are found by their middles.
-Meeting examine_meeting(const PlacedSolid& a, const PlacedSolid& b,
+Meeting examine_meeting(const WorldSolid& a, const WorldSolid& b,
                         std::span<const Contact> contacts);
 
 } // namespace abut

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <bit>
+#include <limits>
 #include <optional>
 
 namespace abut {
@@ -105,5 +106,15 @@ bool for_each_pair(std::uint32_t pairs, const Body& body) {
 
 /// As the public query, for a pair placed already.
 Gap distance(const PlacedPair& pair, const DistanceOptions& options);
+
+/// The gap of a pair, and its square as the search compared it: to two scalar roundings the same.
+struct MeasuredGap {
+    Gap gap;
+    double measured_sq = std::numeric_limits<double>::infinity(); ///< infinite: none was found
+};
+/// The nearest two triangles whose squared distance is less than the bound; of equally near ones,
+/// those of least index. For models that are blocks of larger ones: whichever way these are cut, the
+/// least of all is the same, to the last bit.
+MeasuredGap nearest_gap(const PlacedPair& pair, double bound_sq);
 
 } // namespace abut

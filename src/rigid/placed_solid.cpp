@@ -1,24 +1,8 @@
 #include "rigid/placed_solid.h"
 
-#include "geometry/point_triangle_distance.h"
-#include "math/predicates.h"
-
-#include <cmath>
+#include "math/transform.h"
 
 namespace abut {
-
-namespace {
-
-/// Directions with no special relation to each other or to any axis; which one is tried k-th.
-Vec3 ray_direction(std::uint32_t k) {
-    const double u = 0.7548776662466927 * (k + 1),
-                 v = 0.5698402909980532 * (k + 1); // plastic number
-    const double z = 2 * (u - std::floor(u)) - 1, angle = 6.283185307179586 * (v - std::floor(v));
-    const double r = std::sqrt(1 - z * z);
-    return {r * std::cos(angle), r * std::sin(angle), z};
-}
-
-} // namespace
 
 PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model)
     : PlacedModel(model, world_from_model), solid_(solid) {
@@ -26,82 +10,45 @@ PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
 }
 
-bool PlacedSolid::odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const {
-    bool odd = false;
-    clear = true;
-    for_each_on_segment(from, to, [&](std::uint32_t slot) {
-        const Triangle t = world_slot(slot);
-        const int side_from = orient3d(t[0], t[1], t[2], from),
-                  side_to = orient3d(t[0], t[1], t[2], to);
-        if (side_from * side_to > 0)
-            return;
-        const int u = orient3d(from, to, t[0], t[1]), v = orient3d(from, to, t[1], t[2]),
-                  w = orient3d(from, to, t[2], t[0]);
-        const bool in = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-        if (!in)
-            return;
-        if (side_from == 0 || side_to == 0 || u == 0 || v == 0 || w == 0)
-            clear = false;
-        else
-            odd = !odd;
-    });
-    return odd;
+std::vector<Vec3> PlacedSolid::component_points() const {
+    std::vector<Vec3> points;
+    points.reserve(solid_.components.size());
+    for (const std::uint32_t triangle : solid_.components)
+        points.push_back(world_vertex(model().mesh().triangles[triangle][0]));
+    return points;
 }
 
-bool PlacedSolid::contains_off_surface(const Vec3& point) const {
-    const double off = length(point - middle());
-    if (!(off <= 2 * reach()))
-        return false;
-    const double far = off + 2 * reach();
-    const std::uint32_t wanted = solid_.closed ? 1 : 3;
-    std::uint32_t clear_rays = 0, odd_rays = 0;
-    // A ray is unclear with probability next to zero; the limit ends the loop on absurd input only.
-    for (std::uint32_t k = 0; k < 64 && clear_rays < wanted; ++k) {
-        bool clear = false;
-        const bool odd = odd_crossings(point, point + far * ray_direction(k), clear);
-        clear_rays += clear ? 1 : 0;
-        odd_rays += clear && odd ? 1 : 0;
-    }
-    return 2 * odd_rays > clear_rays;
+std::vector<EdgeFace> PlacedSolid::faces_around(std::uint32_t triangle, std::size_t edge) const {
+    const auto& t = model().mesh().triangles[triangle];
+    const Topology& topology = solid_.topology;
+    std::vector<EdgeFace> faces;
+    for (const HalfEdge& h :
+         topology.edge(topology.vertex_of[t[edge]], topology.vertex_of[t[(edge + 1) % 3]]))
+        faces.push_back({world_vertex(h.from), world_vertex(h.to), world_vertex(h.apex)});
+    return faces;
 }
 
-bool PlacedSolid::contains_off_surface(const Vec3& point, const Vec3& known, bool inside) const {
-    bool clear = false;
-    const bool odd = solid_.closed && odd_crossings(known, point, clear);
-    return clear ? odd != inside : contains_off_surface(point);
+Box3 PlacedSolid::world_box() const {
+    const Aabb& b = model().tree().bounds;
+    Box3 box;
+    if (model().tree().empty())
+        return box;
+    for (unsigned i = 0; i < 8; ++i)
+        extend(box, apply(world_from_tree(),
+                          {i & 1U ? b.upper[0] : b.lower[0], i & 2U ? b.upper[1] : b.lower[1],
+                           i & 4U ? b.upper[2] : b.lower[2]}));
+    // The tree's frame is off by rounding.
+    return grown(box, 0x1p-40 * (reach() + max_abs(middle())));
 }
 
-bool PlacedSolid::winds_around(const Vec3& point) const {
-    if (solid_.closed)
-        return contains(point);
+void PlacedSolid::for_each_block(const Box3& /*region*/,
+                                 const std::function<bool(const Block&)>& visit) const {
+    visit({*this, {}, world_box()});
+}
+
+double PlacedSolid::winding(const Vec3& point) const {
     // The winding number does not change under an affine map that moves the mesh and the point.
-    const Vec3 local = apply(inverse(world()), point);
-    return std::abs(std::abs(winding_number(model().mesh(), local)) - 1) <= kWindingRounding;
-}
-
-PlacedSolid::Nearest PlacedSolid::nearest(const Vec3& point, const NearestSearch& search) const {
-    Nearest best;
-    double best_sq = search.bound * search.bound;
-    // What matters from now on; negative: near enough.
-    const auto bound_sq = [&](double distance) {
-        const double d = distance / (1 + search.slack);
-        return distance <= search.enough ? -1 : d * d;
-    };
-    double next_sq = bound_sq(search.bound);
-    const auto visit = [&](std::uint32_t slot) {
-        const ClosestPoints c = point_triangle_distance(point, world_slot(slot));
-        if (c.distance_sq < best_sq) {
-            best_sq = c.distance_sq;
-            best = {std::sqrt(c.distance_sq), c.b, slot};
-            next_sq = bound_sq(best.distance);
-        }
-        return next_sq;
-    };
-    if (search.seed != nullptr)
-        visit(*search.seed);
-    if (next_sq >= 0)
-        for_each_near(point, next_sq, visit);
-    return best;
+    return winding_number(model().mesh(), apply(inverse(world()), point));
 }
 
 } // namespace abut

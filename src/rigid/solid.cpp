@@ -16,10 +16,6 @@ Triangle triangle(const Mesh& mesh, std::uint32_t i) {
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-double doubled_area_sq(const Triangle& t) {
-    return length_sq(cross(t[1] - t[0], t[2] - t[0]));
-}
-
 std::vector<std::uint32_t> largest_triangles(const Mesh& mesh, std::size_t count) {
     std::vector<std::pair<double, std::uint32_t>> by_area;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
@@ -33,28 +29,18 @@ std::vector<std::uint32_t> largest_triangles(const Mesh& mesh, std::size_t count
     return result;
 }
 
-/// +1 or -1 if the mesh winds once around the points just under (over) its largest triangles and
-/// not around those on the other side; else 0.
 int outward_by_winding(const Mesh& mesh) {
-    constexpr std::size_t kProbes = 6;
-    int outward = 0;
+    OutwardVote vote;
     for (const std::uint32_t i : largest_triangles(mesh, kProbes)) {
-        const Triangle t = triangle(mesh, i);
-        const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
-        const Vec3 centre = (1.0 / 3) * (t[0] + t[1] + t[2]);
-        // A thousandth of the triangle's size off its middle.
-        const Vec3 step = (1e-3 * std::sqrt(length(n))) * normalized_or_zero(n);
-        const auto is = [](double w, double integer) {
-            return std::abs(w - integer) <= kWindingRounding;
-        };
-        const double over = winding_number(mesh, centre + step);
-        const int here = is(over, 0) ? 1 : is(over, -1) ? -1 : 0;
-        if (here == 0 || (outward != 0 && outward != here) ||
-            !is(winding_number(mesh, centre - step), here > 0 ? 1 : 0))
+        if (vote.failed())
+            break;
+        const FaceProbe probe = face_probe(triangle(mesh, i));
+        const double over = winding_number(mesh, probe.over);
+        if (OutwardVote::side(over) == 0)
             return 0;
-        outward = here;
+        vote.add(over, winding_number(mesh, probe.under));
     }
-    return outward;
+    return vote.outward();
 }
 
 /// Of a closed mesh.
@@ -72,18 +58,47 @@ int outward_by_volume(const Mesh& mesh, const Topology& topology) {
     return (volume > 0) - (volume < 0);
 }
 
+bool is_near(double winding, double integer) {
+    return std::abs(winding - integer) <= kWindingRounding;
+}
+
 } // namespace
+
+double doubled_area_sq(const Triangle& t) {
+    return length_sq(cross(t[1] - t[0], t[2] - t[0]));
+}
+
+FaceProbe face_probe(const Triangle& t) {
+    const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const Vec3 centre = (1.0 / 3) * (t[0] + t[1] + t[2]);
+    // A thousandth of the triangle's size off its middle.
+    const Vec3 step = (1e-3 * std::sqrt(length(n))) * normalized_or_zero(n);
+    return {centre + step, centre - step};
+}
+
+int OutwardVote::side(double over) {
+    return is_near(over, 0) ? 1 : is_near(over, -1) ? -1 : 0;
+}
+
+void OutwardVote::add(double over, double under) {
+    const int here = side(over);
+    failed_ = failed_ || here == 0 || (outward_ != 0 && outward_ != here) ||
+              !is_near(under, here > 0 ? 1 : 0);
+    outward_ = here;
+}
+
+double half_solid_angle(const Triangle& t, const Vec3& point) {
+    const Vec3 a = t[0] - point, b = t[1] - point, c = t[2] - point;
+    const double la = length(a), lb = length(b), lc = length(c);
+    // tan(angle / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
+    return std::atan2(dot(a, cross(b, c)),
+                      la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+}
 
 double winding_number(const Mesh& mesh, const Vec3& point) {
     double sum = 0;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Triangle t = triangle(mesh, i);
-        const Vec3 a = t[0] - point, b = t[1] - point, c = t[2] - point;
-        const double la = length(a), lb = length(b), lc = length(c);
-        // tan(angle / 2) = a . (b x c) / (|a||b||c| + (a.b)|c| + (b.c)|a| + (c.a)|b|)
-        sum += std::atan2(dot(a, cross(b, c)),
-                          la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-    }
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+        sum += half_solid_angle(triangle(mesh, i), point);
     return sum / (2 * std::numbers::pi);
 }
 

@@ -2,8 +2,10 @@
 
 #include <abut/mesh.h>
 
+#include "math/vector.h"
 #include "mesh/topology.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -44,12 +46,43 @@ private:
     mutable Solid solid_;
 };
 
+/// Half of the solid angle under which a triangle is seen, positive from behind it (from where its
+/// corners go round clockwise).
+///
+/// Source      [Van Oosterom, Strackee 1983].
+double half_solid_angle(const Triangle& t, const Vec3& point);
+
 /// Signed number of times that the mesh winds around a point: the sum of the solid angles over 4
 /// pi.
 ///
 /// Accuracy    to rounding for points off the surface.
-/// Source      [Van Oosterom, Strackee 1983].
 double winding_number(const Mesh& mesh, const Vec3& point);
+
+double doubled_area_sq(const Triangle& t);
+
+/// Points just over and just under a triangle, as its normal points.
+struct FaceProbe {
+    Vec3 over, under;
+};
+FaceProbe face_probe(const Triangle& t);
+/// Of so many triangles, the largest, winding numbers tell whether a mesh bounds a solid.
+inline constexpr std::size_t kProbes = 6;
+
+/// +1 or -1 if a mesh winds once around the points just under (over) its largest triangles and not
+/// around those on the other side; else 0.
+class OutwardVote {
+public:
+    [[nodiscard]] bool failed() const { return failed_; }
+    /// What the winding number over a triangle says, if that under it agrees.
+    static int side(double over);
+    /// Winding numbers over and under one more triangle.
+    void add(double over, double under);
+    [[nodiscard]] int outward() const { return failed_ ? 0 : outward_; }
+
+private:
+    int outward_ = 0;
+    bool failed_ = false;
+};
 
 /// What a winding number may differ from an integer by, and still be that integer: stored
 /// coordinates are floats, so an edge that should coincide with two others (a T-junction) misses

@@ -40,7 +40,7 @@ std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, cons
 
 void PieceCutter::add(const PieceTriangle& triangle) {
     triangles_.push_back(triangle);
-    if (triangles_.size() == kPieceTriangles)
+    if (triangles_.size() == most_)
         emit_triangles();
 }
 
@@ -92,10 +92,14 @@ void PieceCutter::emit_unused() {
 }
 
 void cut_mesh(const Mesh& mesh, const std::function<void(const MeshBlock&)>& emit) {
-    if (std::max(mesh.positions.size(), mesh.triangles.size()) <= kLargestWhole) {
+    if (is_whole(mesh.positions.size(), mesh.triangles.size()))
         emit({mesh, {}, {}});
-        return;
-    }
+    else
+        cut_into_pieces(mesh, kPieceTriangles, emit);
+}
+
+void cut_into_pieces(const Mesh& mesh, std::uint64_t most,
+                     const std::function<void(const MeshBlock&)>& emit) {
     Box3 bounds;
     for (const Vec3& p : mesh.positions)
         extend(bounds, p);
@@ -111,7 +115,7 @@ void cut_mesh(const Mesh& mesh, const std::function<void(const MeshBlock&)>& emi
             used[v] = true;
     }
     std::sort(triangles.begin(), triangles.end());
-    PieceCutter cutter([&](std::uint32_t v) { return mesh.positions[v]; }, emit);
+    PieceCutter cutter([&](std::uint32_t v) { return mesh.positions[v]; }, emit, most);
     for (const PieceTriangle& triangle : triangles)
         cutter.add(triangle);
     for (std::uint32_t v = 0; v < used.size(); ++v)

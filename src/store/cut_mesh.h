@@ -4,6 +4,7 @@
 
 #include "store/mesh_codec.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -34,10 +35,10 @@ std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, cons
 /// mesh in memory and for one on the disk.
 class PieceCutter {
 public:
-    /// In          position: of a vertex by its number; emit: takes each piece.
+    /// In          position: of a vertex by its number; emit: takes each piece; most: triangles of one.
     PieceCutter(std::function<Vec3(std::uint32_t)> position,
-                std::function<void(const MeshBlock&)> emit)
-        : position_(std::move(position)), emit_(std::move(emit)) {}
+                std::function<void(const MeshBlock&)> emit, std::uint64_t most = kPieceTriangles)
+        : position_(std::move(position)), emit_(std::move(emit)), most_(most) {}
 
     void add(const PieceTriangle& triangle);
     /// After all triangles: vertices that none of them uses, ascending.
@@ -50,11 +51,20 @@ private:
 
     std::function<Vec3(std::uint32_t)> position_;
     std::function<void(const MeshBlock&)> emit_;
+    std::uint64_t most_;
     std::vector<PieceTriangle> triangles_;
     std::vector<std::uint32_t> unused_;
 };
 
+/// Whether a mesh lies whole in one block.
+inline bool is_whole(std::uint64_t vertices, std::uint64_t triangles) {
+    return std::max(vertices, triangles) <= kLargestWhole;
+}
+
 /// Cuts a mesh in memory, or passes it on whole if it is small.
 void cut_mesh(const Mesh& mesh, const std::function<void(const MeshBlock&)>& emit);
+/// Cuts a mesh however small it is; most: triangles of a piece.
+void cut_into_pieces(const Mesh& mesh, std::uint64_t most,
+                     const std::function<void(const MeshBlock&)>& emit);
 
 } // namespace abut

@@ -166,7 +166,7 @@ private:
     void cut() {
         PieceCutter cutter([&](std::uint32_t v) { return positions_->get(v).exact(); },
                            [&](const MeshBlock& block) { emit(block); });
-        if (std::max(joined_, triangles_) <= kLargestWhole) {
+        if (is_whole(joined_, triangles_)) {
             emit_whole();
         } else {
             by_key_.drain([&](const PieceTriangle& triangle) { cutter.add(triangle); });

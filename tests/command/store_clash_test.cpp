@@ -83,7 +83,7 @@ TEST_F(StoreClash, GraphPrintsAndDraws) {
 }
 
 TEST_F(StoreClash, RefusesWhatItCannotDo) {
-    make(crowd(4, 8));
+    make(crowd(4, 14));
     expect_refused(clash(model_, {"--memory", "64M"}), {"--memory", "store"});
     expect_refused(clash(store_, {"--memory", "many"}), {"--memory"});
     expect_refused(clash(store_, {"--unit", "2"}), {"--unit", "store"});

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "massive/classify_pair.h"
+#include "rigid/placed_blocks.h"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace abut {
+
+/// The models that a part consists of: one, or the blocks of a large mesh. For one thread.
+class BlockList {
+public:
+    /// In          a part that outlives the list, with all that it refers to.
+    explicit BlockList(const ClashPart& part) : part_(part) {
+        if (part.blocks != nullptr)
+            placed_.emplace(*part.blocks, part.world_from_mesh);
+    }
+
+    /// One of the models, and what keeps it in memory.
+    struct Held {
+        std::shared_ptr<const ModelBlock> block;
+        const Model* model = nullptr;
+        /// That its triangles have in the whole; empty: it is the whole.
+        std::span<const std::uint32_t> numbers;
+
+        [[nodiscard]] std::uint32_t number(std::uint32_t triangle) const {
+            return numbers.empty() ? triangle : numbers[triangle];
+        }
+    };
+
+    [[nodiscard]] const ClashPart& part() const { return part_; }
+    [[nodiscard]] std::uint64_t triangles() const {
+        return placed_ ? part_.blocks->triangles() : part_.model->mesh().triangles.size();
+    }
+    [[nodiscard]] std::size_t size() const { return placed_ ? placed_->size() : 1; }
+    /// Holds model i in the world.
+    [[nodiscard]] const Box3& box(std::size_t i) const {
+        return placed_ ? placed_->box(i) : part_.box;
+    }
+    [[nodiscard]] Held hold(std::size_t i) const {
+        if (!placed_)
+            return {nullptr, part_.model, {}};
+        auto block = placed_->block(i);
+        const Model* const model = &block->model;
+        const std::span<const std::uint32_t> numbers = block->numbers;
+        return {std::move(block), model, numbers};
+    }
+    /// Null for a part that is whole.
+    [[nodiscard]] PlacedBlocks* placed() { return placed_ ? &*placed_ : nullptr; }
+
+private:
+    const ClashPart& part_;
+    std::optional<PlacedBlocks> placed_;
+};
+
+} // namespace abut
