@@ -11,31 +11,37 @@
 #include <exception>
 #include <fmt/format.h>
 #include <new>
+#include <string_view>
 
 namespace {
 
 using namespace abut::command;
 
-/// One line on standard error, by one of the processes that mpirun may have started, whatever a third-party message or a file's name holds.
-int fail(int status, std::string message) {
+/// Of several processes that mpirun started for one job, the first speaks for all.
+bool is_spoken_for(int argc, char** argv) {
+    return argc > 1 && std::string_view(argv[1]) == "clash" && abut::is_helper();
+}
+
+/// One line on standard error, unless silent, whatever a third-party message or a file's name holds.
+int fail(bool silent, int status, std::string message) {
     std::replace_if(
         message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-    if (!abut::is_helper())
+    if (!silent)
         fmt::print(stderr, "abut: {}\n", message);
     return status;
 }
 
-int run(const Subcommand& command, const CommonOptions& common) {
+int run(const Subcommand& command, const CommonOptions& common, bool silent) {
     try {
         abut::set_threads(common.threads);
         return command.run();
     } catch (const abut::Error& error) {
         const bool interrupted = error.code() == abut::ErrorCode::interrupted;
-        return fail(interrupted ? kExitInterrupted : kExitBadInput, error.what());
+        return fail(silent, interrupted ? kExitInterrupted : kExitBadInput, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(kExitBadInput, "out of memory");
+        return fail(silent, kExitBadInput, "out of memory");
     } catch (const std::exception& error) {
-        return fail(kExitBadInput, error.what());
+        return fail(silent, kExitBadInput, error.what());
     }
 }
 
@@ -47,6 +53,7 @@ int main(int argc, char** argv) {
     CLI::App root("Proximity queries on triangle models: clashes, contacts, distances", "abut");
     root.set_version_flag("--version", "abut " ABUT_VERSION);
     root.require_subcommand(1);
+    const bool silent = is_spoken_for(argc, argv);
     CommonOptions common;
     const std::array commands{
         add_info(root, common),           add_import(root, common),   add_collide(root, common),
@@ -59,16 +66,16 @@ int main(int argc, char** argv) {
         return argc > 1 && c.app->get_name() == argv[1];
     });
     if (argc > 1 && argv[1][0] != '-' && !known)
-        return fail(kExitBadInput,
+        return fail(silent, kExitBadInput,
                     fmt::format("unknown subcommand '{}' (see abut --help)", argv[1]));
     try {
         root.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
             return root.exit(error); // --help, --version
-        return fail(kExitBadInput, error.what());
+        return fail(silent, kExitBadInput, error.what());
     }
     const auto* command = std::find_if(commands.begin(), commands.end(),
                                        [](const Subcommand& c) { return c.app->parsed(); });
-    return run(*command, common);
+    return run(*command, common, silent);
 }
