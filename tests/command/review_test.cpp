@@ -269,10 +269,11 @@ Scene balls(int count, int shift) {
         for (Vec3& p : mesh.positions)
             p.x *= 1 + 0.001 * i;
         scene.meshes.push_back(std::move(mesh));
+        const int row = i / 20, column = i % 20;
         const double aside = shift > 0 && i % 11 == shift % 11 ? 0.07 * shift : 0;
         scene.parts.push_back(part("ball" + std::to_string(i), "Ball",
                                    static_cast<std::uint32_t>(i),
-                                   placed(1.9 * (i % 20), 1.9 * (i / 20) + aside, 0)));
+                                   placed(1.9 * column, 1.9 * row + aside, 0)));
     }
     return scene;
 }
