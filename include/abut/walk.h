@@ -177,7 +177,8 @@ public:
 
     /// Brings in a part that is not in the store. The model is the caller's: its memory does not count.
     ///
-    /// Errors      Error{bad_argument} if the transform is not finite.
+    /// Errors      Error{bad_argument} if the transform is not finite, or the memory of the walk does
+    ///             not hold the table of one more part.
     WalkPart add(const Model& model, const Transform& world_from_part);
     /// Puts a part elsewhere, for this walk: the store stays as it is.
     ///
