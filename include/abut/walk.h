@@ -7,7 +7,6 @@
 #include <abut/store.h>
 #include <abut/types.h>
 
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -21,7 +20,8 @@ namespace abut {
 /// A part of the store, by its row in the table `part`; or one that was added, by a negative number.
 struct WalkPart {
     std::int64_t number = 0;
-    friend auto operator<=>(const WalkPart&, const WalkPart&) = default;
+    friend bool operator==(const WalkPart&, const WalkPart&) = default;
+    friend bool operator<(const WalkPart& a, const WalkPart& b) { return a.number < b.number; }
 };
 
 struct WalkOptions {

@@ -253,13 +253,16 @@ private:
             EXPECT_EQ(answer.parts, truth);
             return;
         }
-        EXPECT_TRUE(std::ranges::includes(truth, answer.parts));
+        EXPECT_TRUE(
+            std::includes(truth.begin(), truth.end(), answer.parts.begin(), answer.parts.end()));
         EXPECT_TRUE(!answer.complete || answer.parts.empty() == truth.empty());
         incomplete += answer.complete ? 0 : 1;
     }
 
     void expect_parts(const NearParts& answer, const std::map<WalkPart, BodyGap>& truth) {
-        EXPECT_TRUE(std::ranges::is_sorted(answer.parts, {}, &WalkGap::part));
+        EXPECT_TRUE(
+            std::is_sorted(answer.parts.begin(), answer.parts.end(),
+                           [](const WalkGap& a, const WalkGap& b) { return a.part < b.part; }));
         EXPECT_TRUE(!answer.complete || answer.parts.size() == truth.size());
         incomplete += answer.complete ? 0 : 1;
         for (const WalkGap& gap : answer.parts) {
