@@ -7,7 +7,6 @@
 #include <abut/store.h>
 #include <abut/types.h>
 
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -21,7 +20,8 @@ namespace abut {
 /// A part of the store, by its row in the table `part`; or one that was added, by a negative number.
 struct WalkPart {
     std::int64_t number = 0;
-    friend auto operator<=>(const WalkPart&, const WalkPart&) = default;
+    friend bool operator==(const WalkPart&, const WalkPart&) = default;
+    friend bool operator<(const WalkPart& a, const WalkPart& b) { return a.number < b.number; }
 };
 
 struct WalkOptions {
@@ -177,7 +177,8 @@ public:
 
     /// Brings in a part that is not in the store. The model is the caller's: its memory does not count.
     ///
-    /// Errors      Error{bad_argument} if the transform is not finite.
+    /// Errors      Error{bad_argument} if the transform is not finite, or the memory of the walk does
+    ///             not hold the table of one more part.
     WalkPart add(const Model& model, const Transform& world_from_part);
     /// Puts a part elsewhere, for this walk: the store stays as it is.
     ///

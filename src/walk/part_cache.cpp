@@ -20,14 +20,14 @@ PartCache::PartCache(StoreFile& store, const PartTable& table, std::uint64_t mem
     : store_(store), table_(table), memory_(memory), farthest_(order_.end()) {}
 
 PartCache::Pin PartCache::pin(Resident& resident) {
-    ++resident.pins;
+    pinned_ += resident.pins++ == 0 ? 1 : 0;
     resident.last_use = ++lookups_;
     return {*this, resident};
 }
 
 void PartCache::unpin(Resident& resident) {
     const std::scoped_lock lock(mutex_);
-    --resident.pins;
+    pinned_ -= --resident.pins == 0 ? 1 : 0;
 }
 
 Resident* PartCache::find_resident(std::uint32_t entry) {
@@ -55,7 +55,7 @@ PartCache::Pin PartCache::load(std::uint32_t entry) {
             return pin(*resident);
         if (loading_.contains(piece)) {
             changed_.wait(lock);
-        } else if (make_room(bytes_to_load(piece), Expendable::anything, garbage)) {
+        } else if (make_room_for(piece, Expendable::anything, garbage)) {
             break;
         } else {
             wait_for_a_load(lock);
@@ -113,8 +113,7 @@ bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
         changed_.wait(lock); // a query reads it
     }
     const bool is_urgent = urgency == Urgency::asked_for;
-    if (!make_room(bytes_to_load(piece), is_urgent ? Expendable::anything : Expendable::beyond_plan,
-                   garbage))
+    if (!make_room_for(piece, is_urgent ? Expendable::anything : Expendable::beyond_plan, garbage))
         return false;
     Resident& resident = bring(lock, entry, garbage);
     is_urgent ? move_to_end(resident) : reach(resident);
@@ -147,9 +146,9 @@ void PartCache::remove(std::uint32_t entry) {
 
 void PartCache::set_table_bytes(std::uint64_t bytes) {
     Garbage garbage;
-    const std::scoped_lock lock(mutex_);
-    if (bytes > table_bytes_)
-        make_room(bytes - table_bytes_, Expendable::anything, garbage);
+    Lock lock(mutex_);
+    while (bytes > table_bytes_ && !make_room(bytes - table_bytes_, Expendable::anything, garbage))
+        wait_for_a_load(lock);
     counters_.bytes -= table_bytes_;
     add_bytes(bytes);
     table_bytes_ = bytes;
@@ -227,14 +226,25 @@ std::shared_ptr<LoadedPiece> PartCache::read(const StoredPiece& piece) {
     return loaded;
 }
 
+/// Room to read a piece.
+bool PartCache::make_room_for(std::uint32_t piece, Expendable expendable, Garbage& garbage) {
+    for (;;) {
+        const std::uint64_t bytes = bytes_to_load(piece);
+        if (!make_room(bytes, expendable, garbage))
+            return false;
+        if (bytes_to_load(piece) == bytes)
+            return true;
+        // It was in memory for another part, and has gone with that.
+    }
+}
+
 /// False if what may go is not enough.
 bool PartCache::make_room(std::uint64_t bytes, Expendable expendable, Garbage& garbage) {
     // So many that were used by the last queries are spared; more, and memory is too little for them.
     constexpr int kMostSpared = 64;
     int spared = 0;
-    std::size_t pinned = 0;
     while (counters_.bytes + bytes > memory_) {
-        if (pinned >= order_.size())
+        if (order_.size() <= pinned_)
             return false;
         const auto first = residents_.find(order_.front());
         Resident& resident = first->second;
@@ -244,7 +254,6 @@ bool PartCache::make_room(std::uint64_t bytes, Expendable expendable, Garbage& g
         const bool is_spared =
             is_recent && (expendable == Expendable::beyond_plan || spared++ < kMostSpared);
         if (resident.pins > 0 || is_spared) {
-            pinned += resident.pins > 0 ? 1 : 0;
             move_to_end(resident);
             continue;
         }

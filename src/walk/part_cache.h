@@ -140,6 +140,7 @@ private:
     Resident& bring(Lock& lock, std::uint32_t entry, Garbage& garbage);
     std::shared_ptr<LoadedPiece> read(const StoredPiece& piece);
     void wait_for_a_load(Lock& lock);
+    bool make_room_for(std::uint32_t piece, Expendable expendable, Garbage& garbage);
     bool make_room(std::uint64_t bytes, Expendable expendable, Garbage& garbage);
     void reach(Resident& resident);
     void move_to_end(Resident& resident);
@@ -161,6 +162,7 @@ private:
     std::list<std::uint32_t> order_;                          ///< residents, first to go first
     std::list<std::uint32_t>::iterator farthest_;             ///< of this plan; or the end
     std::uint64_t plan_ = 1;
+    std::size_t pinned_ = 0; ///< residents
     std::uint64_t lookups_ = 0, frames_ = 0;
     std::uint64_t recent_ = 0, next_recent_ = 0; ///< lookups after it are recent
     CacheCounters counters_;

@@ -16,8 +16,11 @@ namespace {
 /// A part, or a piece of one, in memory.
 struct NearEntry {
     WalkPart part;
-    PlacedBody body;
-    const LoadedPiece* piece; ///< null for a part that was added
+    const BodyShape& shape;
+    const Transform& world;
+    const LoadedPiece* piece = nullptr; ///< null for a part that was added
+
+    [[nodiscard]] PlacedBody body() const { return {shape, world}; }
 };
 
 /// One query: the entries in reach, nearest boxes first; of those that are not in memory, what the
@@ -41,7 +44,7 @@ public:
             ++answer_.candidates;
             if (walk_.is_added(entry)) {
                 const AddedPart& added = walk_.added(entry);
-                reach = visit(NearEntry{part, {added.shape, added.world_from_part}, nullptr});
+                reach = visit(NearEntry{part, added.shape, added.world_from_part});
                 return reach;
             }
             const std::uint64_t misses = walk_.misses();
@@ -54,7 +57,7 @@ public:
             if (asks_for_solids_ && !pin->piece->is_block)
                 walk_.cache().count_solid(pin);
             reach =
-                visit(NearEntry{part, {pin->piece->shape, pin->world_from_mesh}, pin->piece.get()});
+                visit(NearEntry{part, pin->piece->shape, pin->world_from_mesh, pin->piece.get()});
             return reach;
         });
     }
@@ -80,7 +83,7 @@ private:
 BodyGap measure(const NearEntry& entry, const PlacedProbe& probe, double upper_bound,
                 Depths depths) {
     PairWorkspace workspace;
-    return gap_between(entry.body, probe.body(), upper_bound, depths, workspace);
+    return gap_between(entry.body(), probe.body(), upper_bound, depths, workspace);
 }
 
 WalkGap gap_to(const NearEntry& entry, const PlacedProbe& probe, Depths depths) {
@@ -112,7 +115,7 @@ std::optional<WalkGap> gap_up_to(const NearEntry& entry, const PlacedProbe& prob
 
 bool touches(const NearEntry& entry, const PlacedProbe& probe) {
     PairWorkspace workspace;
-    return touch(entry.body, probe.body(), workspace);
+    return touch(entry.body(), probe.body(), workspace);
 }
 
 /// Of several pieces of a part, the nearest.

@@ -23,11 +23,12 @@ WalkData::WalkData(const Store& store, const WalkOptions& options)
       next_entry_(table_.size()), cache_(store.file(), table_, options.memory) {
     require(options.look_ahead >= 0 && std::isfinite(options.look_ahead),
             "seconds to look ahead must not be negative, and finite");
-    const std::uint64_t least = table_bytes() + PartCache::least_memory(table_.largest_piece());
-    if (options.memory < least)
+    if (!has_room_for(0)) {
+        const std::uint64_t least = table_bytes() + PartCache::least_memory(table_.largest_piece());
         throw Error(ErrorCode::bad_argument, store.file().path(),
                     "a walk through it needs at least " + std::to_string((least >> 20) + 1) +
                         " MiB of memory: for the table of parts and the largest mesh");
+    }
     cache_.set_table_bytes(table_bytes());
     if (options.prefetch)
         prefetcher_ = std::make_unique<Prefetcher>(cache_, table_);
@@ -35,9 +36,20 @@ WalkData::WalkData(const Store& store, const WalkOptions& options)
 
 std::uint64_t WalkData::table_bytes() const {
     constexpr std::uint64_t kNode = 64; // of a map
-    std::uint64_t bytes = table_.bytes() + away_.size() / 8 + loose_.bytes() +
-                          added_.size() * (sizeof(AddedPart) + kNode);
-    return bytes + moved_.size() * (sizeof(MovedPart) + sizeof(Box3) + kNode);
+    const std::uint64_t bytes = table_.bytes() + away_.size() / 8 + loose_.bytes() +
+                                added_.size() * (sizeof(AddedPart) + kNode);
+    return bytes + moved_.size() * (sizeof(MovedPart) + kNode) + loose_.size() * sizeof(Box3);
+}
+
+bool WalkData::has_room_for(std::uint64_t more) const {
+    return table_bytes() + more + PartCache::least_memory(table_.largest_piece()) <=
+           options_.memory;
+}
+
+void WalkData::require_room_for_a_part(std::size_t entries) const {
+    constexpr std::uint64_t kOfPart = 512, kOfEntry = 256; // at least what table_bytes() says
+    require(has_room_for(kOfPart + kOfEntry * entries),
+            "the memory of the walk does not hold another part that was added or moved");
 }
 
 Vec3 WalkData::velocity_at(const Vec3& position) {
@@ -92,6 +104,7 @@ void WalkData::wait() {
 
 WalkPart WalkData::add(const Model& model, const Transform& world_from_part) {
     require_finite(world_from_part, "transform of the part");
+    require_room_for_a_part(1);
     const std::uint32_t entry = next_entry_++;
     const Box3 own_box = bounds_of(BodyShape(model));
     added_.emplace(entry, AddedPart{model, world_from_part, own_box});
@@ -134,6 +147,8 @@ void WalkData::move(WalkPart part, const Transform& world_from_part) {
 
 void WalkData::move_stored(WalkPart part, const Transform& world_from_part) {
     const std::span<const std::uint32_t> entries = stored_entries(part);
+    if (!moved_.contains(part.number))
+        require_room_for_a_part(entries.size());
     const auto [moved, is_new] = moved_.try_emplace(part.number);
     if (is_new) {
         StoreFile& store = store_.file();

@@ -78,6 +78,9 @@ private:
     /// Some entries of the store that were moved and are near to the path, and whether one is missing.
     std::pair<std::vector<std::uint32_t>, bool> moved_near(const PredictedPath& path);
     [[nodiscard]] std::uint64_t table_bytes() const;
+    /// Whether the memory holds the tables, so much more, and the largest mesh.
+    [[nodiscard]] bool has_room_for(std::uint64_t more) const;
+    void require_room_for_a_part(std::size_t entries) const;
 
     Store store_;
     WalkOptions options_;

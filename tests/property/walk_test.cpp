@@ -56,7 +56,7 @@ std::string some_store(Random& random, const Folder& folder, bool with_large) {
     if (with_large)
         scene.meshes.push_back(torus_mesh(3, 1, 300, 150));
     for (int i = 0; i < parts; ++i) {
-        if (scene.meshes.empty() || random.chance(0.6))
+        if (scene.meshes.size() < (with_large ? 2 : 1) || random.chance(0.6))
             scene.meshes.push_back(some_body(random));
         const auto last = static_cast<int>(scene.meshes.size()) - 1;
         const int mesh = with_large && i < 2 ? 0 : random.integer(with_large ? 1 : 0, last);
@@ -253,13 +253,16 @@ private:
             EXPECT_EQ(answer.parts, truth);
             return;
         }
-        EXPECT_TRUE(std::ranges::includes(truth, answer.parts));
+        EXPECT_TRUE(
+            std::includes(truth.begin(), truth.end(), answer.parts.begin(), answer.parts.end()));
         EXPECT_TRUE(!answer.complete || answer.parts.empty() == truth.empty());
         incomplete += answer.complete ? 0 : 1;
     }
 
     void expect_parts(const NearParts& answer, const std::map<WalkPart, BodyGap>& truth) {
-        EXPECT_TRUE(std::ranges::is_sorted(answer.parts, {}, &WalkGap::part));
+        EXPECT_TRUE(
+            std::is_sorted(answer.parts.begin(), answer.parts.end(),
+                           [](const WalkGap& a, const WalkGap& b) { return a.part < b.part; }));
         EXPECT_TRUE(!answer.complete || answer.parts.size() == truth.size());
         incomplete += answer.complete ? 0 : 1;
         for (const WalkGap& gap : answer.parts) {
@@ -311,14 +314,15 @@ std::uint64_t some_memory(Random& random, const Store& store) {
             EXPECT_EQ(error.code(), ErrorCode::bad_argument) << error.what();
         }
     }
-    return memory << random.integer(0, 4);
+    constexpr std::uint64_t kForChanges = 1 << 16; // parts that are added or moved
+    return (memory << random.integer(0, 3)) + kForChanges;
 }
 
 TEST(Walk, AnswersWhatAllPartsInMemoryWould) {
     Random random(6301);
     std::size_t asked = 0, touched = 0, incomplete = 0, changes = 0;
     std::uint64_t lookups = 0, misses = 0, evicted = 0, read_ahead = 0;
-    for (int round = 0; round < many(6); ++round) {
+    for (int round = 0; round < many(9); ++round) {
         const Folder folder;
         const std::string path = some_store(random, folder, round % 3 == 0);
         const Store store = open_store(path);
@@ -341,9 +345,9 @@ TEST(Walk, AnswersWhatAllPartsInMemoryWould) {
               << evicted << " evicted, " << read_ahead << " read ahead\n";
     EXPECT_GT(touched, asked / 8);
     EXPECT_LT(touched, asked * 7 / 8);
-    EXPECT_GT(misses, 20U);
+    EXPECT_GT(misses, 10U);
     EXPECT_LT(misses, lookups * 3 / 4);
-    EXPECT_GT(evicted, 20U);
+    EXPECT_GT(evicted, 10U);
     EXPECT_GT(read_ahead, 20U);
 }
 

@@ -185,6 +185,24 @@ TEST_F(WalkBy, BadArgumentsAreRefused) {
     EXPECT_FALSE(walk.distance(Model(Mesh{}), Pose{}).found);
 }
 
+TEST_F(WalkBy, TooManyPartsAreRefused) {
+    Walk walk(two_cubes(), {.memory = 1 << 17});
+    const Model cube(box_mesh({-1, -1, -1}, {1, 1, 1}));
+    std::vector<WalkPart> added;
+    EXPECT_EQ(code_of([&] {
+                  for (int i = 0; i < 10'000; ++i)
+                      added.push_back(walk.add(cube, translation(0, 10.0 * i, 0)));
+              }),
+              ErrorCode::bad_argument);
+    EXPECT_GT(added.size(), 100U);
+    EXPECT_EQ(walk.distance(ball_, Pose{{10, 0, 2}}).gap.part.number, 2);
+    EXPECT_EQ(walk.distance(ball_, Pose{{0, 100, 2}}).gap.part, added.at(10));
+    EXPECT_LE(walk.statistics().peak_bytes, 1U << 17);
+    for (const WalkPart part : added)
+        walk.remove(part);
+    walk.remove(walk.add(cube, Pose{}));
+}
+
 TEST_F(WalkBy, DamageIsToldWhereItMatters) {
     (void)two_cubes();
     Database(store_, OpenMode::read_write).run("UPDATE block SET data = zeroblob(length(data))");
