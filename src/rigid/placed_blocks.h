@@ -63,8 +63,8 @@ protected:
 
 private:
     struct PlacedBlock {
-        PlacedBlock(std::shared_ptr<const ModelBlock> block, const Transform& world)
-            : block(std::move(block)), placed(this->block->model, world) {}
+        PlacedBlock(std::shared_ptr<const ModelBlock> held, const Transform& world)
+            : block(std::move(held)), placed(block->model, world) {}
         std::shared_ptr<const ModelBlock> block;
         PlacedModel placed;
     };

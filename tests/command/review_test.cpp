@@ -305,8 +305,9 @@ TEST_F(Review, KillsLoseNothing) {
             for (const auto& [id, status] : ids)
                 if (status != "resolved" && std::stoull(id, nullptr, 16) % 7 == 0)
                     command.push_back(id);
-            if (command.size() > 4)
+            if (command.size() > 4) {
                 ASSERT_EQ(run_abut(command).status, 0);
+            }
         }
         write_glb(balls(160, round), model_);
         for (const std::string& store : {store_, calm})

@@ -10,7 +10,6 @@
 #include "massive/mesh_in_blocks.h"
 #include "massive/stored_parts.h"
 #include "massive/work_units.h"
-#include "tests/support/clash_jobs.h"
 #include "tests/support/clash_scenes.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"

@@ -125,8 +125,9 @@ TEST(Recheck, TestsWhatHasChangedAndFindsAll) {
             for (int imports = random.integer(1, 2); imports > 0; --imports)
                 site.change();
             ASSERT_TRUE(question.ask());
-            if (random.chance(0.2)) // of a job that has ended all is known
+            if (random.chance(0.2)) { // of a job that has ended all is known
                 ASSERT_TRUE(question.ask());
+            }
             if (HasFailure())
                 return;
         }

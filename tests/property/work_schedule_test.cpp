@@ -23,7 +23,7 @@ struct SomeWork {
         const int parts = random.integer(2, 400), meshes = random.integer(1, parts);
         for (int i = 0; i < meshes; ++i)
             stored.meshes.push_back(
-                {i + 1, static_cast<std::uint64_t>(random.integer(10'000, 5'000'000)), 1});
+                {i + 1, static_cast<std::uint32_t>(random.integer(10'000, 5'000'000)), 1});
         for (int i = 0; i < parts; ++i) {
             StoredPart part;
             part.row = 10 + i;

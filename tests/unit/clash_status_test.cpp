@@ -49,7 +49,7 @@ TEST(ClassifyById, TheOrderOfThePartsChangesSidesAlone) {
     const Model box(box_mesh({0, 0, 0}, {1, 1, 1})), ball(sphere_mesh(0.6, 16, 9));
     const Transform at_box, at_ball = Pose{.translation = {1.1, 0.4, 0.55}};
     const Box3 box_bounds{{0, 0, 0}, {1, 1, 1}}, ball_bounds{{0.5, -0.2, -0.05}, {1.7, 1.0, 1.15}};
-    const ClashPart a{box, at_box, box_bounds}, b{ball, at_ball, ball_bounds};
+    const ClashPart a{&box, nullptr, at_box, box_bounds}, b{&ball, nullptr, at_ball, ball_bounds};
     const auto one = classify_by_id(a, "box", b, "ball", 0, 0);
     auto other = classify_by_id(b, "ball", a, "box", 0, 0);
     ASSERT_TRUE(one && other);
@@ -151,7 +151,7 @@ TEST_F(JobTables, OfAnEarlierVersionAreMadeAnew) {
 TEST_F(JobTables, OfAnotherVersionAreMadeAnewAndMarksStay) {
     const StoreClashReport before = ask();
     const std::uint64_t id = before.report.clashes.at(1).id;
-    mark_clashes(open_store(store_, {.read_only = false}), {.approved = {id}, .note = "stays"});
+    mark_clashes(open_store(store_, {.read_only = false}), {{}, {id}, {}, "stays"});
     Database(store_, OpenMode::read_write)
         .run("DROP VIEW clash_status; DROP TABLE job; DROP TABLE job_unit; DROP TABLE clash");
     Database(store_, OpenMode::read_write).run(kFirstTables);
@@ -168,7 +168,7 @@ TEST_F(JobTables, OfAnotherVersionAreMadeAnewAndMarksStay) {
 TEST_F(JobTables, MissTheirRows) {
     const StoreClashReport found = ask();
     mark_clashes(open_store(store_, {.read_only = false}),
-                 {.reviewed = {found.report.clashes.at(0).id}});
+                 {{found.report.clashes.at(0).id}, {}, {}, {}});
     for (const char* const table : {"job", "clash", "clash_history", "clash_mark"}) {
         std::filesystem::copy_file(store_, folder_ / "copy.abut",
                                    std::filesystem::copy_options::overwrite_existing);
