@@ -12,6 +12,7 @@ namespace {
 
 std::atomic<bool> g_interrupted{false};
 std::atomic<OnInterrupt> g_answer{OnInterrupt::exit};
+std::atomic<bool> g_silent{false};
 
 // Only async-signal-safe calls here: write and _exit; the atomics are lock-free.
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -23,13 +24,16 @@ void on_signal(int) {
     if (answer == OnInterrupt::defer || (answer == OnInterrupt::ask && !again))
         return;
     constexpr std::string_view kLine = "abut: interrupted\n";
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kLine.data(), kLine.size());
+    if (!g_silent.load()) {
+        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kLine.data(), kLine.size());
+    }
     _exit(kExitInterrupted);
 }
 
 } // namespace
 
-void install_interrupt_handlers() {
+void install_interrupt_handlers(bool silent) {
+    g_silent = silent;
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;

@@ -14,8 +14,8 @@ enum class OnInterrupt : int {
 };
 
 /// Installs the handlers; until a scope says otherwise a signal ends the process at once with
-/// status 130.
-void install_interrupt_handlers();
+/// status 130, with one line on standard error unless `silent`.
+void install_interrupt_handlers(bool silent);
 
 /// The flag to hand to Progress::stop.
 const std::atomic<bool>& interrupt_flag();

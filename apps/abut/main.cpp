@@ -49,11 +49,11 @@ int run(const Subcommand& command, const CommonOptions& common, bool silent) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): declaring options throws for mistakes of ours only.
 int main(int argc, char** argv) {
-    install_interrupt_handlers();
+    const bool silent = is_spoken_for(argc, argv);
+    install_interrupt_handlers(silent);
     CLI::App root("Proximity queries on triangle models: clashes, contacts, distances", "abut");
     root.set_version_flag("--version", "abut " ABUT_VERSION);
     root.require_subcommand(1);
-    const bool silent = is_spoken_for(argc, argv);
     CommonOptions common;
     const std::array commands{
         add_info(root, common),           add_import(root, common),   add_collide(root, common),
