@@ -1,6 +1,7 @@
 #include "massive/work_piece.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace abut {
 
@@ -16,7 +17,9 @@ struct PlaceOfPair {
     std::uint32_t part = 0;
     std::uint64_t cell = 0;
     std::uint32_t pair = 0;
-    friend auto operator<=>(const PlaceOfPair&, const PlaceOfPair&) = default;
+    friend bool operator<(const PlaceOfPair& a, const PlaceOfPair& b) {
+        return std::tie(a.part, a.cell, a.pair) < std::tie(b.part, b.cell, b.pair);
+    }
 };
 
 std::vector<std::uint32_t> large_pairs(const StoredParts& stored,
@@ -30,8 +33,9 @@ std::vector<std::uint32_t> large_pairs(const StoredParts& stored,
             const PairCell cell = stored.cell_of(pairs[k]);
             places.push_back({cell.part, cell.cell, k});
         }
-    std::ranges::sort(places);
+    std::sort(places.begin(), places.end());
     std::vector<std::uint32_t> order;
+    order.reserve(places.size());
     for (const PlaceOfPair& place : places)
         order.push_back(place.pair);
     return order;
