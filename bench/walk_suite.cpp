@@ -267,6 +267,7 @@ Report run_walk_suite(const WalkSuiteOptions& options) {
     std::vector<std::uint64_t> memory = options.memory;
     std::sort(memory.begin(), memory.end());
     std::vector<std::pair<WalkCase, std::uint64_t>> cases;
+    cases.reserve(memory.size() + 5);
     for (const std::uint64_t bytes : memory)
         cases.push_back({{.name = "walking, 1.4 m/s"}, bytes});
     const std::uint64_t some = memory.front();
