@@ -20,7 +20,8 @@ std::vector<ModelRow> find_models(Database& database, const std::vector<std::str
     for (const std::string& file : files) {
         Statement find(database, std::string("SELECT ") + kModelColumns +
                                      " FROM model WHERE path = ? OR file = ?");
-        find.bind(absolute_path(file), file);
+        const std::string path = absolute_path(file);
+        find.bind(path, file);
         if (!find.step())
             throw Error(ErrorCode::bad_argument, file, "is no model of " + database.path());
         found.push_back(read_model_row(find, database.path()));
