@@ -16,13 +16,6 @@ constexpr std::uint64_t kBlocksAThread = 6;
 /// Of the budget, for the examination of a solid.
 constexpr std::uint64_t kExaminationShare = 8;
 
-std::uint64_t largest_of(const std::vector<StoredBlock>& blocks) {
-    std::uint64_t bytes = 0;
-    for (const StoredBlock& block : blocks)
-        bytes = std::max(bytes, block.bytes);
-    return bytes;
-}
-
 std::uint64_t for_blocks(std::uint64_t budget) {
     return budget - budget / kExaminationShare;
 }
@@ -77,7 +70,8 @@ const ModelBlocks& LargeMeshes::open(std::int64_t mesh) {
     if (blocks == nullptr) {
         const MeshRow row = store_.mesh(mesh);
         std::vector<StoredBlock> list = stored_blocks(store_, row);
-        largest_block_ = std::max(largest_block_, largest_of(list));
+        for (const StoredBlock& block : list)
+            largest_block_ = std::max(largest_block_, block.bytes);
         blocks = std::make_unique<const Blocks>(
             cache_, row, std::move(list), folder_of(store_.path()), budget_ / kExaminationShare);
     }
@@ -102,8 +96,8 @@ std::uint64_t LargeMeshes::bytes_needed() const {
 
 std::uint64_t least_for_blocks(const StoredParts& stored) {
     std::uint64_t largest = 0;
-    for (const LargeMesh& mesh : stored.large)
-        largest = std::max(largest, largest_of(mesh.blocks));
+    for (const StoredLargeMesh& mesh : stored.large)
+        largest = std::max(largest, mesh.largest_block);
     const std::uint64_t blocks = kBlocksAThread * largest;
     return blocks + blocks / (kExaminationShare - 1) + kExaminationShare;
 }

@@ -26,17 +26,15 @@ StoredParts gather_parts(StoreFile& store, bool with_names) {
                 static_cast<std::uint32_t>(most_model_bytes(mesh.triangles, mesh.vertices));
             stored.stored_bytes = static_cast<std::uint32_t>(mesh.stored_bytes);
         } else {
-            result.large.push_back({static_cast<std::uint32_t>(result.meshes.size()),
-                                    mesh.triangles,
-                                    mesh.stored_bytes,
-                                    {}});
+            result.large.push_back({static_cast<std::uint32_t>(result.meshes.size()), mesh.blocks});
             large.push_back(mesh);
         }
         result.meshes.push_back(stored);
     });
     result.meshes.shrink_to_fit(); // it is kept
     for (std::size_t i = 0; i < large.size(); ++i)
-        result.large[i].blocks = stored_blocks(store, large[i]);
+        for (const StoredBlock& block : stored_blocks(store, large[i]))
+            result.large[i].largest_block = std::max(result.large[i].largest_block, block.bytes);
     result.models = store.models();
     std::uint64_t parts = 0;
     for (const ModelRow& model : result.models) {
@@ -99,30 +97,28 @@ std::optional<std::uint32_t> PartsByRow::find(std::int64_t row) const {
 std::uint64_t StoredParts::bytes() const {
     std::uint64_t sum = parts.capacity() * sizeof(StoredPart) +
                         meshes.capacity() * sizeof(StoredMesh) +
-                        large.capacity() * sizeof(LargeMesh);
-    for (const LargeMesh& mesh : large) // its boxes are in ModelBlocks too
-        sum += mesh.blocks.capacity() * (sizeof(StoredBlock) + sizeof(Box3));
+                        large.capacity() * sizeof(StoredLargeMesh);
+    for (const StoredLargeMesh& mesh : large)
+        sum += mesh.blocks * (sizeof(StoredBlock) + sizeof(Box3));
     return sum;
 }
 
-const LargeMesh* StoredParts::find_large(std::uint32_t mesh) const {
+const StoredLargeMesh* StoredParts::find_large(std::uint32_t mesh) const {
     if (meshes[mesh].bytes != 0)
         return nullptr;
-    return &*std::ranges::lower_bound(large, mesh, {}, &LargeMesh::mesh);
+    return &*std::ranges::lower_bound(large, mesh, {}, &StoredLargeMesh::mesh);
 }
 
 PairCell StoredParts::cell_of(const IndexPair& pair) const {
-    const LargeMesh* const of_a = find_large(parts[pair.a()].mesh);
-    const LargeMesh* const of_b = find_large(parts[pair.b()].mesh);
-    const bool a_counts =
-        of_b == nullptr || (of_a != nullptr && of_a->blocks.size() >= of_b->blocks.size());
+    const StoredLargeMesh* const of_a = find_large(parts[pair.a()].mesh);
+    const StoredLargeMesh* const of_b = find_large(parts[pair.b()].mesh);
+    const bool a_counts = of_b == nullptr || (of_a != nullptr && of_a->blocks >= of_b->blocks);
     const std::uint32_t part = a_counts ? pair.a() : pair.b(),
                         other = a_counts ? pair.b() : pair.a();
     const Box3& box = parts[other].box;
     const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
     // Blocks lie on a surface, cells in space: of three bits of the key about one tells nothing.
-    const auto bits =
-        static_cast<unsigned>(std::bit_width((a_counts ? of_a : of_b)->blocks.size()));
+    const auto bits = static_cast<unsigned>(std::bit_width((a_counts ? of_a : of_b)->blocks));
     return {part, middle,
             spatial_key(parts[part].box, middle, middle, middle) >> (63 - 3 * bits / 2)};
 }

@@ -36,10 +36,10 @@ struct StoredMesh {
 };
 
 /// A mesh that is never in memory as a whole.
-struct LargeMesh {
+struct StoredLargeMesh {
     std::uint32_t mesh = 0; ///< index in StoredParts::meshes
-    std::uint64_t triangles = 0, stored_bytes = 0;
-    std::vector<StoredBlock> blocks;
+    std::uint64_t blocks = 0;
+    std::uint64_t largest_block = 0; ///< bytes of a ModelBlock of it, estimated
 };
 
 /// Where along a large part another one lies: pairs of one cell need about the same blocks.
@@ -53,14 +53,14 @@ struct StoredParts {
     std::vector<ModelRow> models;
     std::vector<StoredPart> parts; ///< by model, then as in its file
     std::vector<StoredMesh> meshes;
-    std::vector<LargeMesh> large; ///< by mesh
+    std::vector<StoredLargeMesh> large; ///< by mesh
     /// With their parts, but without meshes; no parts where names were not asked for.
     std::vector<Scene> scenes;
 
-    /// Of these tables.
+    /// Of these tables, and of what LargeMeshes keeps of blocks.
     [[nodiscard]] std::uint64_t bytes() const;
     /// Null if a mesh is not large.
-    [[nodiscard]] const LargeMesh* find_large(std::uint32_t mesh) const;
+    [[nodiscard]] const StoredLargeMesh* find_large(std::uint32_t mesh) const;
     /// In          a pair with a large mesh; of two, that with more blocks counts.
     [[nodiscard]] PairCell cell_of(const IndexPair& pair) const;
 };

@@ -40,7 +40,7 @@ BoundedPair pop(std::vector<BoundedPair>& heap) {
 
 } // namespace
 
-bool PairSearch::try_pair(const HullPair& hulls, const ClosestPointSearch& start) {
+bool PiecePairSearch::try_pair(const HullPair& hulls, const ClosestPointSearch& start) {
     ClosestPointSearch search;
     search.at.a = start.at.a, search.at.b = start.at.b;
     if (start.at.end == WalkEnd::meeting)
@@ -60,7 +60,7 @@ bool PairSearch::try_pair(const HullPair& hulls, const ClosestPointSearch& start
     return ends();
 }
 
-void PairSearch::measure_pieces(BoundedPair& pair) {
+void PiecePairSearch::measure_pieces(BoundedPair& pair) {
     ClosestPointSearch search;
     search.at.a = pair.a, search.at.b = pair.b;
     ++counters_.hull_pairs;
@@ -74,7 +74,7 @@ void PairSearch::measure_pieces(BoundedPair& pair) {
         best_ = {pair.hulls, search, pair.bound, true};
 }
 
-void PairSearch::measure_hulls(BoundedPair& pair, double floor) {
+void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
     WalkState state;
     state.a = pair.a, state.b = pair.b;
     ++counters_.hull_pairs;
@@ -92,7 +92,7 @@ void PairSearch::measure_hulls(BoundedPair& pair, double floor) {
 
 /// Sets the features to the vertices that are farthest towards each other in a direction. Returns
 /// how far apart the hulls are along it.
-double PairSearch::begin(BoundedPair& pair) {
+double PiecePairSearch::begin(BoundedPair& pair) {
     const PolytopePair hulls = placed_.hulls(pair.hulls);
     const Vec3 along = pair.along == Vec3{} ? placed_.between(pair.hulls) : pair.along;
     const std::uint32_t a = farthest(*hulls.a.polytope, hulls.a.pulled_back(along)),
@@ -106,7 +106,7 @@ double PairSearch::begin(BoundedPair& pair) {
                : 0;
 }
 
-bool PairSearch::may_meet(const HullPair& hulls) {
+bool PiecePairSearch::may_meet(const HullPair& hulls) {
     BoundedPair pair;
     pair.hulls = hulls;
     if (begin(pair) > 0)
@@ -115,13 +115,13 @@ bool PairSearch::may_meet(const HullPair& hulls) {
     return !(pair.bound > 0);
 }
 
-void PairSearch::measure(BoundedPair& pair, double floor) {
+void PiecePairSearch::measure(BoundedPair& pair, double floor) {
     placed_.are_pieces(pair.hulls) ? measure_pieces(pair) : measure_hulls(pair, floor);
 }
 
 /// To the pieces that have the closest vertices of the whole: they are the closest pieces, often,
 /// and never far from it.
-void PairSearch::jump(const BoundedPair& roots) {
+void PiecePairSearch::jump(const BoundedPair& roots) {
     const HullPair pieces{placed_.a.tree.leaf_at[roots.a.vertex],
                           placed_.b.tree.leaf_at[roots.b.vertex]};
     BoundedPair pair;
@@ -131,7 +131,7 @@ void PairSearch::jump(const BoundedPair& roots) {
     measure_pieces(pair);
 }
 
-void PairSearch::open(const BoundedPair& pair, PairFront& front) {
+void PiecePairSearch::open(const BoundedPair& pair, PairFront& front) {
     placed_.for_each_child(pair.hulls, [&](const HullPair& hulls) {
         ++counters_.sphere_pairs;
         BoundedPair child;
@@ -143,7 +143,7 @@ void PairSearch::open(const BoundedPair& pair, PairFront& front) {
     });
 }
 
-void PairSearch::run(PairFront& front, bool keep) {
+void PiecePairSearch::run(PairFront& front, bool keep) {
     const bool fresh = front.heap.empty();
     const std::uint64_t before = counters_.hull_pairs;
     if (fresh) {

@@ -45,9 +45,9 @@ struct ClosestPieces {
 };
 
 /// Looks for the closest pieces of two solids, nearest bound first.
-class PairSearch {
+class PiecePairSearch {
 public:
-    PairSearch(const PlacedPieces& placed, PiecesCounters& counters)
+    PiecePairSearch(const PlacedPieces& placed, PiecesCounters& counters)
         : placed_(placed), counters_(counters) {}
 
     /// Nothing from here on matters; what is found must be nearer.

@@ -24,7 +24,7 @@ public:
             ++contacts_.counters.sphere_pairs;
             if (placed_.sphere_gap(pair) > 0)
                 continue;
-            PairSearch search(placed_, contacts_.counters);
+            PiecePairSearch search(placed_, contacts_.counters);
             if (placed_.are_pieces(pair)) {
                 if (search.try_pair(pair, {}))
                     contacts_.pairs.push_back(

@@ -31,7 +31,7 @@ class PiecesQuery {
 public:
     PiecesQuery(const PlacedPieces& placed, PiecesWorkspace* workspace, PiecesCounters& counters);
 
-    [[nodiscard]] PairSearch& search() { return search_; }
+    [[nodiscard]] PiecePairSearch& search() { return search_; }
     /// Finds the closest pieces, or what else `search` was told to. Returns whether it found any.
     bool run();
     /// Triangles that held the closest points of the closest pieces before; null if there were none.
@@ -56,7 +56,7 @@ private:
 
     const PlacedPieces& placed_;
     PiecesWorkspace::Data* last_ = nullptr;
-    PairSearch search_;
+    PiecePairSearch search_;
 };
 
 } // namespace abut

@@ -34,8 +34,8 @@ struct Slack {
 /// Pairs that cheap bounds do not rule out are collected, and measured eight at a time.
 class NearestPairFinder : public LeafPairVisitor {
 public:
-    /// `first`: stop at the first pair within the bound, which is a squared distance. The slack is what the answer may exceed
-    /// the distance by.
+    /// `first`: stop at the first pair within the bound. The slack is what the answer may exceed the
+    /// distance by.
     NearestPairFinder(const PlacedPair& pair, double bound_sq, bool first, const Slack& slack = {})
         : first_(first), pair_(pair), leaves_(pair), slack_(slack), best_sq_(bound_sq) {}
 

@@ -270,8 +270,12 @@ TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
             ASSERT_GE(2 * model.bytes() + 2048, mesh.bytes);
         }
         ASSERT_EQ(stored.large.size(), 1U);
-        ASSERT_EQ(stored.large.front().triangles, 90'000U);
-        for (const StoredBlock& block : stored.large.front().blocks) {
+        const StoredLargeMesh& large = stored.large.front();
+        const std::int64_t row = stored.meshes[large.mesh].mesh;
+        const std::vector<StoredBlock> blocks = stored_blocks(store.file(), store.file().mesh(row));
+        ASSERT_EQ(blocks.size(), large.blocks);
+        for (const StoredBlock& block : blocks) {
+            ASSERT_LE(block.bytes, large.largest_block);
             const ModelBlock piece = make_model_block(store.file().read_block(block.row));
             const std::uint64_t bytes = piece.model.bytes() + 4 * piece.numbers.size();
             ASSERT_LE(bytes, block.bytes);
@@ -292,7 +296,7 @@ TEST(WorkUnits, HoldEveryPairOnceAndFit) {
         const int large = random.chance(0.5) ? random.integer(1, std::min(3, meshes)) : 0;
         for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(large); ++i) {
             stored.meshes[i].bytes = 0;
-            stored.large.push_back({i, 1, 1, std::vector<StoredBlock>(random.integer(1, 50))});
+            stored.large.push_back({i, static_cast<std::uint64_t>(random.integer(1, 50)), 1});
         }
         for (int i = 0; i < parts; ++i) {
             StoredPart part;
