@@ -1,34 +1,12 @@
 #include "pieces/pieces_containment.h"
 
-#include "math/predicates.h"
-#include "rigid/placed_model.h"
+#include "rigid/world_solid.h"
 
 #include <cmath>
 
 namespace abut {
 
 namespace {
-
-/// How often the surface winds around a point, as counted along a segment to a point that it does
-/// not wind around; nothing if the segment meets an edge or a vertex, and the count says nothing.
-std::optional<int> crossings(const PlacedModel& surface, const Vec3& from, const Vec3& to) {
-    int count = 0;
-    bool clear = true;
-    surface.for_each_on_segment(from, to, [&](std::uint32_t slot) {
-        const Triangle t = surface.world_slot(slot);
-        const int side_from = orient3d(t[0], t[1], t[2], from),
-                  side_to = orient3d(t[0], t[1], t[2], to);
-        if (side_from * side_to > 0)
-            return;
-        const int u = orient3d(from, to, t[0], t[1]), v = orient3d(from, to, t[1], t[2]),
-                  w = orient3d(from, to, t[2], t[0]);
-        if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
-            return;
-        clear = clear && side_from != 0 && side_to != 0 && u != 0 && v != 0 && w != 0;
-        count += side_to;
-    });
-    return clear ? std::optional(count) : std::nullopt;
-}
 
 /// Whether the surface winds around a point off it.
 bool winds_around(const PlacedModel& surface, const Vec3& point) {

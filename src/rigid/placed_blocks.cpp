@@ -196,13 +196,17 @@ void PlacedBlocks::for_each_block(const Box3& region,
     }
 }
 
-bool PlacedBlocks::odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const {
-    bool odd = false;
-    clear = true;
-    for (std::size_t i = 0; clear && i < size(); ++i)
-        if (!is_empty(boxes_[i]) && may_meet(from, to, boxes_[i]))
-            odd ^= abut::odd_crossings(placed(i)->placed, from, to, clear);
-    return odd;
+std::optional<int> PlacedBlocks::crossings(const Vec3& from, const Vec3& to) const {
+    int sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (is_empty(boxes_[i]) || !may_meet(from, to, boxes_[i]))
+            continue;
+        const std::optional<int> count = abut::crossings(placed(i)->placed, from, to);
+        if (!count)
+            return std::nullopt;
+        sum += *count;
+    }
+    return sum;
 }
 
 double PlacedBlocks::winding(const Vec3& point) const {

@@ -58,7 +58,7 @@ public:
                         const std::function<bool(const Block&)>& visit) const override;
 
 protected:
-    [[nodiscard]] bool odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const override;
+    [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override;
     [[nodiscard]] double winding(const Vec3& point) const override;
 
 private:

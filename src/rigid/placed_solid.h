@@ -63,8 +63,8 @@ public:
                         const std::function<bool(const Block&)>& visit) const override;
 
 protected:
-    [[nodiscard]] bool odd_crossings(const Vec3& from, const Vec3& to, bool& clear) const override {
-        return abut::odd_crossings(*this, from, to, clear);
+    [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override {
+        return abut::crossings(*this, from, to);
     }
     [[nodiscard]] double winding(const Vec3& point) const override;
 

@@ -30,18 +30,16 @@ bool WorldSolid::contains_off_surface(const Vec3& point) const {
     std::uint32_t clear_rays = 0, odd_rays = 0;
     // A ray is unclear with probability next to zero; the limit ends the loop on absurd input only.
     for (std::uint32_t k = 0; k < 64 && clear_rays < wanted; ++k) {
-        bool clear = false;
-        const bool odd = odd_crossings(point, point + far * ray_direction(k), clear);
-        clear_rays += clear ? 1 : 0;
-        odd_rays += clear && odd ? 1 : 0;
+        const std::optional<int> count = crossings(point, point + far * ray_direction(k));
+        clear_rays += count ? 1 : 0;
+        odd_rays += count && *count % 2 != 0 ? 1 : 0;
     }
     return 2 * odd_rays > clear_rays;
 }
 
 bool WorldSolid::contains_off_surface(const Vec3& point, const Vec3& known, bool inside) const {
-    bool clear = false;
-    const bool odd = closed() && odd_crossings(known, point, clear);
-    return clear ? odd != inside : contains_off_surface(point);
+    const std::optional<int> count = closed() ? crossings(known, point) : std::nullopt;
+    return count ? (*count % 2 != 0) != inside : contains_off_surface(point);
 }
 
 bool WorldSolid::winds_around(const Vec3& point) const {
@@ -63,9 +61,9 @@ void for_each_block_pair(
     });
 }
 
-bool odd_crossings(const PlacedModel& model, const Vec3& from, const Vec3& to, bool& clear) {
-    bool odd = false;
-    clear = true;
+std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to) {
+    int count = 0;
+    bool clear = true;
     model.for_each_on_segment(from, to, [&](std::uint32_t slot) {
         const Triangle t = model.world_slot(slot);
         const int side_from = orient3d(t[0], t[1], t[2], from),
@@ -74,15 +72,12 @@ bool odd_crossings(const PlacedModel& model, const Vec3& from, const Vec3& to, b
             return;
         const int u = orient3d(from, to, t[0], t[1]), v = orient3d(from, to, t[1], t[2]),
                   w = orient3d(from, to, t[2], t[0]);
-        const bool in = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-        if (!in)
+        if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
             return;
-        if (side_from == 0 || side_to == 0 || u == 0 || v == 0 || w == 0)
-            clear = false;
-        else
-            odd = !odd;
+        clear = clear && side_from != 0 && side_to != 0 && u != 0 && v != 0 && w != 0;
+        count += side_to;
     });
-    return odd;
+    return clear ? std::optional(count) : std::nullopt;
 }
 
 WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,

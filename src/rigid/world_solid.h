@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -111,10 +112,8 @@ public:
                                 const std::function<bool(const Block&)>& visit) const = 0;
 
 protected:
-    /// Parity of the crossings; false in `clear` if the ray meets an edge or a vertex and the count
-    /// says nothing.
-    [[nodiscard]] virtual bool odd_crossings(const Vec3& from, const Vec3& to,
-                                             bool& clear) const = 0;
+    /// As of one model, below.
+    [[nodiscard]] virtual std::optional<int> crossings(const Vec3& from, const Vec3& to) const = 0;
     /// How often the surface winds around a point.
     [[nodiscard]] virtual double winding(const Vec3& point) const = 0;
 };
@@ -125,8 +124,10 @@ void for_each_block_pair(
     const WorldSolid& a, const WorldSolid& b, const Vec3& shift,
     const std::function<bool(const WorldSolid::Block&, const WorldSolid::Block&)>& visit);
 
-/// The same of one model: parity of crossings, nearest point.
-bool odd_crossings(const PlacedModel& model, const Vec3& from, const Vec3& to, bool& clear);
+/// How often a model's triangles are crossed from `from` to `to`, along their normals less against
+/// them: none if the segment meets an edge or a vertex, and the count says nothing. Exact.
+std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to);
+/// The nearest point of one model.
 WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
                                   const WorldSolid::NearestSearch& search);
 
