@@ -132,24 +132,25 @@ void JobRecord::plan(const StoredParts& stored, const std::vector<WorkUnit>& uni
     job_ = planned;
 }
 
-std::vector<FoundClash> JobRecord::found(const StoredParts& stored) {
+std::vector<Clash> JobRecord::found(const StoredParts& stored) {
     const PartsByRow by_row(stored);
-    std::vector<FoundClash> result;
+    std::vector<Clash> result;
     for_each_clash(database_, job_.job, [&](ClashRow&& row) {
         const auto a = by_row.find(row.parts.first), b = by_row.find(row.parts.second);
         if (!a || !b)
             damaged_job(database_, "a clash of a job names parts that are not there");
-        result.push_back({{*a, *b}, std::move(row.clash)});
+        row.clash.part = {*a, *b};
+        result.push_back(std::move(row.clash));
     });
     return result;
 }
 
 void JobRecord::commit(const StoredParts& stored, std::size_t unit,
-                       const std::vector<FoundClash>& clashes) {
+                       std::span<const Clash> clashes) {
     std::vector<ClashRow> rows;
     rows.reserve(clashes.size());
-    for (const auto& [pair, clash] : clashes)
-        rows.push_back({{stored.parts[pair.a()].row, stored.parts[pair.b()].row}, clash});
+    for (const Clash& clash : clashes)
+        rows.push_back({{stored.parts[clash.part[0]].row, stored.parts[clash.part[1]].row}, clash});
     Transaction transaction(database_);
     require_ours();
     add_clashes(database_, job_.job, rows);

@@ -12,16 +12,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace abut {
-
-/// A clash that a job has found, by the parts' indices in StoredParts.
-struct FoundClash {
-    IndexPair pair;
-    Clash clash; ///< without model and part
-};
 
 /// What a job has done, kept in its store: which pairs are left, and what the others gave. Each piece
 /// of work is recorded as a whole or not at all, so a job that is killed goes on where it was. A new
@@ -45,11 +40,12 @@ public:
 
     /// The pieces of work from now on, in place of those that were left.
     void plan(const StoredParts& stored, const std::vector<WorkUnit>& units);
-    /// The clashes that are known. After plan().
-    std::vector<FoundClash> found(const StoredParts& stored);
-    /// Piece `unit` of the plan is done.
-    void commit(const StoredParts& stored, std::size_t unit,
-                const std::vector<FoundClash>& clashes);
+    /// The clashes that are known, without models; their parts are indices in StoredParts. After
+    /// plan().
+    std::vector<Clash> found(const StoredParts& stored);
+    /// Piece `unit` of the plan is done, and found some clashes, whose parts are indices in
+    /// StoredParts.
+    void commit(const StoredParts& stored, std::size_t unit, std::span<const Clash> clashes);
     /// Pieces that are committed while it is open are committed with it: the disk is waited for once.
     [[nodiscard]] Transaction together() { return Transaction(database_); }
     /// The job has ended: the clashes of the report get their statuses, and earlier jobs of the same

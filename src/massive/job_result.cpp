@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -31,8 +31,9 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
         }
 }
 
-std::array<std::uint32_t, 2> JobResult::models_of(const IndexPair& pair) const {
-    return {plan_.stored.parts[pair.a()].model, plan_.stored.parts[pair.b()].model};
+void JobResult::set_models(Clash& clash) const {
+    for (std::size_t side = 0; side < 2; ++side)
+        clash.model[side] = plan_.stored.parts[clash.part[side]].model;
 }
 
 void JobResult::recall() {
@@ -43,15 +44,15 @@ void JobResult::recall() {
         left += unit.pairs.size();
     result_.counters.kept = true;
     result_.counters.recalled_pairs = plan_.candidates - left;
-    for (FoundClash& found : plan_.record->found(plan_.stored)) {
-        for (const std::uint32_t part : {found.pair.a(), found.pair.b()}) {
+    result_.report.clashes = plan_.record->found(plan_.stored);
+    for (Clash& clash : result_.report.clashes) {
+        set_models(clash);
+        for (const std::uint32_t part : clash.part) {
             if (named_.contains(part))
                 continue;
             const PartRow row = store_.part(plan_.stored.parts[part].row);
             named_.try_emplace(part, Part{row.id, row.name, row.type, 0, {}});
         }
-        found.clash.model = models_of(found.pair);
-        clashes_.push_back(std::move(found));
     }
 }
 
@@ -71,17 +72,18 @@ void JobResult::add(PieceResult result) {
     std::unordered_map<std::int64_t, Part*> names;
     for (PieceResult::Named& named : result.named)
         names.emplace(named.row, &named.part);
-    std::vector<FoundClash> fresh;
+    std::vector<Clash>& clashes = result_.report.clashes;
+    const std::size_t before = clashes.size();
     for (PieceResult::Found& found : result.clashes) {
         const IndexPair pair = plan_.units[result.unit].pairs[found.pair];
-        for (const std::uint32_t part : {pair.a(), pair.b()})
+        found.clash.part = {pair.a(), pair.b()};
+        set_models(found.clash);
+        for (const std::uint32_t part : found.clash.part)
             named_.try_emplace(part, *names.at(plan_.stored.parts[part].row));
-        found.clash.model = models_of(pair);
-        fresh.push_back({pair, std::move(found.clash)});
+        clashes.push_back(std::move(found.clash));
     }
     if (plan_.record != nullptr)
-        plan_.record->commit(plan_.stored, result.unit, fresh);
-    std::ranges::move(fresh, std::back_inserter(clashes_));
+        plan_.record->commit(plan_.stored, result.unit, std::span(clashes).subspan(before));
     OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
     result.worker.units = figures.units + 1;
     result.worker.pairs = figures.pairs + result.pairs;
@@ -111,12 +113,11 @@ StoreClashReport JobResult::finish() {
         place.emplace(part, static_cast<std::uint32_t>(parts.size()));
         parts.push_back(std::move(named));
     }
-    std::sort(clashes_.begin(), clashes_.end(),
-              [](const FoundClash& a, const FoundClash& b) { return a.pair < b.pair; });
-    for (auto& [pair, clash] : clashes_) {
-        clash.part = {place.at(pair.a()), place.at(pair.b())};
+    std::vector<Clash>& clashes = result_.report.clashes;
+    std::ranges::sort(clashes, {}, &Clash::part);
+    for (Clash& clash : clashes) {
+        clash.part = {place.at(clash.part[0]), place.at(clash.part[1])};
         ++result_.report.counts.at(static_cast<std::size_t>(clash.kind));
-        result_.report.clashes.push_back(std::move(clash));
     }
     if (plan_.record != nullptr)
         plan_.record->finish(result_.report, result_.models);

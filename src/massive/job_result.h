@@ -34,14 +34,13 @@ public:
 private:
     void add(PieceResult result);
     void sum_up_workers();
-    [[nodiscard]] std::array<std::uint32_t, 2> models_of(const IndexPair& pair) const;
+    void set_models(Clash& clash) const;
 
     JobPlan& plan_;
     const ClashOptions& options_;
     StoreFile& store_;
-    StoreClashReport result_;
+    StoreClashReport result_; ///< the clashes' parts are indices in the plan's until finish()
     std::map<std::uint32_t, Part> named_; ///< parts that clash
-    std::vector<FoundClash> clashes_;
 };
 
 } // namespace abut
