@@ -1,5 +1,6 @@
 #include "geometry/rounded_box_distance.h"
 
+#include "geometry/least_box_overlap.h"
 #include "geometry/triangle_triangle_distance.h"
 
 #include <algorithm>
@@ -58,6 +59,7 @@ struct Candidate {
     double distance_sq = std::numeric_limits<double>::infinity();
     Vec3 a, b;
 
+    [[nodiscard]] double distance() const { return std::sqrt(distance_sq); }
     void take_nearer(const Vec3& p, const Vec3& q) {
         const double sq = length_sq(q - p);
         if (sq < distance_sq)
@@ -65,19 +67,77 @@ struct Candidate {
     }
 };
 
-/// Of boxes that are apart: a vertex and a box, or two edges.
-Candidate nearest_features(const RoundedBox& a, const RoundedBox& b) {
+double reach(const RoundedBox& box, const Vec3& direction) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        sum += std::abs(dot(direction, box.axis[k])) * box.half[k];
+    return sum;
+}
+
+/// Two boxes along a unit vector from a to b.
+struct Slab {
+    Vec3 origin, normal;
+    double top_a, bottom_b;
+    double rounding; ///< of heights
+
+    Slab(const RoundedBox& a, const RoundedBox& b, const Vec3& along)
+        : origin(a.centre), normal(along), top_a(reach(a, along)) {
+        const double reach_b = reach(b, along);
+        bottom_b = height(b.centre) - reach_b;
+        rounding = 0x1p-50 * (length(b.centre - a.centre) + top_a + reach_b);
+    }
+    [[nodiscard]] double height(const Vec3& p) const { return dot(p - origin, normal); }
+    [[nodiscard]] double gap() const { return bottom_b - top_a; }
+    /// Whether what is `low` and above may be nearer to what is `high` and below.
+    [[nodiscard]] bool may_be_nearer(double high, double low, double distance) const {
+        return low - high < distance - rounding;
+    }
+};
+
+/// Of boxes that are apart: a vertex and a box.
+Candidate nearest_vertex(const RoundedBox& a, const RoundedBox& b, const Slab& slab) {
     Candidate best;
     for (const Vec3& p : vertices_of(a))
-        best.take_nearer(p, nearest_of_box(b, p));
+        if (slab.may_be_nearer(slab.height(p), slab.bottom_b, best.distance()))
+            best.take_nearer(p, nearest_of_box(b, p));
     for (const Vec3& q : vertices_of(b))
-        best.take_nearer(nearest_of_box(a, q), q);
+        if (slab.may_be_nearer(slab.top_a, slab.height(q), best.distance()))
+            best.take_nearer(nearest_of_box(a, q), q);
+    return best;
+}
+
+/// Of boxes that are apart: two edges, if they are nearer than the best so far.
+void take_nearer_edges(const RoundedBox& a, const RoundedBox& b, const Slab& slab,
+                       Candidate& best) {
     const auto edges_b = edges_of(b);
-    for (const auto& [p0, p1] : edges_of(a))
+    for (const auto& [p0, p1] : edges_of(a)) {
+        const double high = std::max(slab.height(p0), slab.height(p1));
+        if (!slab.may_be_nearer(high, slab.bottom_b, best.distance()))
+            continue;
         for (const auto& [q0, q1] : edges_b) {
+            const double low = std::min(slab.height(q0), slab.height(q1));
+            if (!slab.may_be_nearer(high, low, best.distance()))
+                continue;
             const ClosestPoints points = segment_segment_distance(p0, p1, q0, q1);
             best.take_nearer(points.a, points.b);
         }
+    }
+}
+
+/// Of boxes that are apart: a vertex and a box, or two edges. What a plane keeps farther apart than
+/// the best so far is not looked at.
+///
+/// In          normal: a unit vector from a to b; the better it separates, the less is looked at.
+Candidate nearest_features(const RoundedBox& a, const RoundedBox& b, const Vec3& normal) {
+    Slab slab(a, b, normal);
+    Candidate best = nearest_vertex(a, b, slab);
+    if (const double distance = best.distance(); distance > 0) {
+        const Slab across(a, b, (1 / distance) * (best.b - best.a));
+        if (across.gap() > slab.gap())
+            slab = across;
+    }
+    if (slab.may_be_nearer(slab.top_a, slab.bottom_b, best.distance()))
+        take_nearer_edges(a, b, slab, best);
     return best;
 }
 
@@ -89,47 +149,6 @@ Vec3 farthest(const RoundedBox& box, const Vec3& direction) {
         p = p + (along > 0 ? box.half[k] : along < 0 ? -box.half[k] : 0) * box.axis[k];
     }
     return p;
-}
-
-double reach(const RoundedBox& box, const Vec3& direction) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        sum += std::abs(dot(direction, box.axis[k])) * box.half[k];
-    return sum;
-}
-
-/// The axis along which two boxes overlap least, or are apart.
-struct LeastOverlap {
-    double overlap = std::numeric_limits<double>::infinity(); ///< negative: apart
-    Vec3 normal;                                              ///< from a to b
-    enum class Kind : std::uint8_t { face_a, face_b, edges } kind = Kind::face_a;
-
-    void try_axis(const RoundedBox& a, const RoundedBox& b, const Vec3& axis, Kind of) {
-        const double between = dot(b.centre - a.centre, axis);
-        const double depth = reach(a, axis) + reach(b, axis) - std::abs(between);
-        if (depth < overlap) {
-            overlap = depth, kind = of;
-            normal = between < 0 ? -axis : axis;
-        }
-    }
-};
-
-LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
-    using Kind = LeastOverlap::Kind;
-    LeastOverlap least;
-    for (const Vec3& axis : a.axis)
-        least.try_axis(a, b, axis, Kind::face_a);
-    for (const Vec3& axis : b.axis)
-        least.try_axis(a, b, axis, Kind::face_b);
-    for (const Vec3& u : a.axis)
-        for (const Vec3& v : b.axis) {
-            const Vec3 axis = cross(u, v);
-            const double sq = length_sq(axis);
-            // Nearly parallel edges: what their product would tell, the faces' axes do.
-            if (sq > 0x1p-40)
-                least.try_axis(a, b, (1 / std::sqrt(sq)) * axis, Kind::edges);
-        }
-    return least;
 }
 
 /// Of boxes that overlap: points that moving b by the overlap brings together.
@@ -148,7 +167,7 @@ Candidate deepest_points(const RoundedBox& a, const RoundedBox& b, const LeastOv
     case LeastOverlap::Kind::edges:
         RoundedBox parted = b;
         parted.centre = b.centre + way;
-        points = nearest_features(a, parted);
+        points = nearest_features(a, parted, least.normal);
         points.b = points.b - way;
         break;
     }
@@ -177,8 +196,8 @@ SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b, double u
     if (points || least.overlap < 0) {
         const Candidate nearest =
             points ? Candidate{length_sq(b.centre - a.centre), a.centre, b.centre}
-                   : nearest_features(a, b);
-        const double distance = std::sqrt(nearest.distance_sq);
+                   : nearest_features(a, b, least.normal);
+        const double distance = nearest.distance();
         if (distance > 0)
             return with_radii(a, b, distance, nearest, (1 / distance) * (nearest.b - nearest.a));
         if (points)

@@ -33,8 +33,8 @@ struct SolidGap {
 ///             a distance beyond the bound, no points.
 /// Degenerate  of several shortest translations, one; concentric spheres are parted along an axis.
 /// Accuracy    a few roundings of the coordinates' differences.
-/// Cost        from 30 ns (spheres) to some microseconds (two boxes): all vertices against solids and
-///             all edges against edges where they are apart; 15 axes where the boxes overlap.
+/// Cost        from 30 ns (spheres) to a microsecond (two boxes): 15 axes; of boxes that are apart also
+///             the vertices and edges that the best axis leaves.
 /// Source      separating axes [Gottschalk, Lin, Manocha 1996]; the shortest translation of two boxes is
 ///             along one of these axes.
 SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b,

@@ -2,10 +2,14 @@
 // boxes, and translations that must part or join them.
 
 #include "geometry/rounded_box_distance.h"
+#include "geometry/triangle_triangle_distance.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace abut::test {
 namespace {
@@ -85,6 +89,80 @@ TEST(RoundedBox, IsTheSameTurnedRound) {
         const RoundedBox a = random_box(random, 1), b = random_box(random, 1);
         EXPECT_NEAR(rounded_box_distance(a, b).distance, rounded_box_distance(b, a).distance, 1e-9);
     }
+}
+
+/// The points of a box's grid {-1, 1}^3: some coincide where it has no extent.
+std::vector<Vec3> corners(const RoundedBox& box) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 8; ++i) {
+        Vec3 p = box.centre;
+        for (std::size_t k = 0; k < 3; ++k)
+            p = p + ((i >> k & 1) != 0 ? box.half[k] : -box.half[k]) * box.axis[k];
+        points.push_back(p);
+    }
+    return points;
+}
+
+double distance_to(const RoundedBox& box, const Vec3& p) {
+    const Vec3 d = p - box.centre;
+    double sq = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        sq += std::pow(std::max(0.0, std::abs(dot(d, box.axis[k])) - box.half[k]), 2);
+    return std::sqrt(sq);
+}
+
+/// Of boxes that are apart, by all pairs of features.
+double by_all_features(const RoundedBox& a, const RoundedBox& b) {
+    const std::vector<Vec3> p = corners(a), q = corners(b);
+    double sq = HUGE_VAL;
+    for (const Vec3& v : p)
+        sq = std::min(sq, std::pow(distance_to(b, v), 2));
+    for (const Vec3& v : q)
+        sq = std::min(sq, std::pow(distance_to(a, v), 2));
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t k = 0; k < 8; ++k)
+            for (const std::size_t u : {1, 2, 4})
+                for (const std::size_t v : {1, 2, 4})
+                    if ((i & u) == 0 && (k & v) == 0)
+                        sq = std::min(
+                            sq,
+                            segment_segment_distance(p[i], p[i + u], q[k], q[k + v]).distance_sq);
+    return std::sqrt(sq);
+}
+
+TEST(RoundedBox, IsTheDistanceOfAllFeatures) {
+    Random random(5104);
+    int apart = 0, edges = 0;
+    for (int round = 0; round < many(6000); ++round) {
+        RoundedBox a = random_box(random, 1.5), b = random_box(random, 1.5);
+        a.radius = b.radius = 0;
+        if (random.chance(0.3))
+            b.axis = a.axis;
+        if (random.chance(0.2))
+            a.half[0] = 100; // a needle or a plate
+        const double far = random.chance(0.2) ? 1e7 : 0;
+        a = moved(a, {far, -far, far}), b = moved(b, {far, -far, far});
+        const SolidGap first = rounded_box_distance(a, b);
+        // As far apart as one likes: the nearest features stay or become others.
+        if (random.chance(0.5))
+            b = moved(b, (std::pow(10, random.uniform(-9, 0)) - first.distance) * first.normal);
+        const SolidGap gap = rounded_box_distance(a, b);
+        if (gap.distance <= 1e-12 * (1 + far))
+            continue;
+        SCOPED_TRACE(round);
+        ++apart;
+        const double rounding = 1e-13 + 1e-14 * far;
+        EXPECT_NEAR(gap.distance, by_all_features(a, b), rounding);
+        EXPECT_LT(distance_to(a, gap.point_a), rounding);
+        EXPECT_LT(distance_to(b, gap.point_b), rounding);
+        const auto on_vertex = [](const RoundedBox& box, const Vec3& p) {
+            return std::ranges::any_of(corners(box),
+                                       [&](const Vec3& v) { return length(v - p) < 1e-6; });
+        };
+        edges += !on_vertex(a, gap.point_a) && !on_vertex(b, gap.point_b) ? 1 : 0;
+    }
+    EXPECT_GT(apart, many(6000) / 3);
+    EXPECT_GT(edges, many(6000) / 40);
 }
 
 TEST(RoundedBox, SpheresAndCoincidentOnes) {

@@ -1,0 +1,73 @@
+#include "geometry/least_box_overlap.h"
+
+#include <cmath>
+
+namespace abut {
+
+// All axes share the products of the boxes' own axes.
+LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
+    using Kind = LeastOverlap::Kind;
+    const Vec3 d = b.centre - a.centre;
+    double turn[3][3], way_a[3], way_b[3]; // b's axes and the way to b, in a's frame and in b's
+    for (std::size_t i = 0; i < 3; ++i) {
+        way_a[i] = dot(d, a.axis[i]);
+        way_b[i] = dot(d, b.axis[i]);
+        for (std::size_t k = 0; k < 3; ++k)
+            turn[i][k] = dot(a.axis[i], b.axis[k]);
+    }
+    LeastOverlap least;
+    std::size_t best_i = 0, best_k = 0;
+    double best_way = 0;
+    const auto keep = [&](double overlap, double way, Kind kind, std::size_t i, std::size_t k) {
+        if (overlap < least.overlap) {
+            least.overlap = overlap, least.kind = kind;
+            best_way = way, best_i = i, best_k = k;
+        }
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        double reach_b = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            reach_b += std::abs(turn[i][k]) * b.half[k];
+        keep(a.half[i] + reach_b - std::abs(way_a[i]), way_a[i], Kind::face_a, i, 0);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        double reach_a = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            reach_a += std::abs(turn[i][k]) * a.half[i];
+        keep(reach_a + b.half[k] - std::abs(way_b[k]), way_b[k], Kind::face_b, 0, k);
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3,
+                              k2 = (k + 2) % 3;
+            const double sq = turn[i1][k] * turn[i1][k] + turn[i2][k] * turn[i2][k];
+            // Nearly parallel edges: what their product would tell, the faces' axes do.
+            if (sq <= 0x1p-40)
+                continue;
+            const double scale = 1 / std::sqrt(sq);
+            const double reach_a =
+                a.half[i1] * std::abs(turn[i2][k]) + a.half[i2] * std::abs(turn[i1][k]);
+            const double reach_b =
+                b.half[k1] * std::abs(turn[i][k2]) + b.half[k2] * std::abs(turn[i][k1]);
+            const double way = way_a[i2] * turn[i1][k] - way_a[i1] * turn[i2][k];
+            keep(scale * (reach_a + reach_b - std::abs(way)), way, Kind::edges, i, k);
+        }
+    switch (least.kind) {
+    case Kind::face_a:
+        least.normal = a.axis[best_i];
+        break;
+    case Kind::face_b:
+        least.normal = b.axis[best_k];
+        break;
+    case Kind::edges: {
+        const Vec3 across = cross(a.axis[best_i], b.axis[best_k]);
+        least.normal = (1 / length(across)) * across;
+        break;
+    }
+    }
+    if (best_way < 0)
+        least.normal = -least.normal;
+    return least;
+}
+
+} // namespace abut
