@@ -10,7 +10,7 @@
 #include "massive/classify_by_id.h"
 #include "massive/mesh_in_blocks.h"
 #include "massive/part_instances.h"
-#include "massive/rule_match.h"
+#include "massive/rule_table.h"
 #include "math/vector.h"
 
 #include <algorithm>
@@ -68,17 +68,19 @@ private:
         progress.advance();
         std::vector<Box3> boxes;
         boxes.reserve(parts_.parts.size());
-        for (const PartInstance& p : parts_.parts)
+        RuleTable rules(options_);
+        for (std::uint32_t i = 0; i < parts_.parts.size(); ++i) {
+            const PartInstance& p = parts_.parts[i];
             boxes.push_back(p.box);
+            rules.add({p.model, models_[p.model].file, part(i).id, part(i).name, part(i).type});
+        }
         const bool across = models_.size() > 1 && !options_.self;
         const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
             return !across || parts_.parts[i].model != parts_.parts[j].model;
         };
         for (const IndexPair pair : overlapping_boxes(boxes, largest_clearance(options_), wanted)) {
             const std::uint32_t i = pair.a(), j = pair.b();
-            const Scene &model_i = models_[parts_.parts[i].model],
-                        &model_j = models_[parts_.parts[j].model];
-            const auto terms = terms_of(options_, model_i, part(i), model_j, part(j));
+            const auto terms = rules.terms(i, j);
             if (terms && overlap(boxes[i], boxes[j], terms->clearance))
                 candidates_.push_back({i, j, *terms});
         }

@@ -47,9 +47,11 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
     require_tolerances(options);
     ProgressMeter progress(options.progress, "broad phase", 3);
     JobPlan plan;
-    plan.stored = gather_parts(store, !options.rules.empty());
+    std::optional<RuleTable> rules(options);
+    plan.stored = gather_parts(store, &*rules);
     progress.advance();
-    std::vector<IndexPair> pairs = find_candidates(plan.stored, options);
+    std::vector<IndexPair> pairs = find_candidates(plan.stored, *rules, options);
+    rules.reset();
     plan.candidates = pairs.size();
     progress.advance();
     if (recorded && out_of_core.keep)

@@ -4,7 +4,6 @@
 #include "core/resources.h"
 #include "massive/clash_identity.h"
 #include "massive/classify_by_id.h"
-#include "massive/rule_match.h"
 
 #include <tbb/task_arena.h>
 #include <utility>
@@ -17,7 +16,7 @@ PieceTester::PieceTester(StoreFile& store, const ClashOptions& options,
     : store_(store), options_(options), cache_(store, budget), large_(store, blocks_budget),
       read_before_(store.bytes_read()) {
     for (const ModelRow& model : models)
-        models_.emplace_back().file = model.file;
+        files_.push_back(model.file);
 }
 
 PieceTester::Loaded PieceTester::load(WorkPiece piece) {
@@ -30,6 +29,13 @@ PieceTester::Loaded PieceTester::load(WorkPiece piece) {
     loaded.parts.resize(loaded.piece.parts.size());
     parallel_for(loaded.parts.size(), 64,
                  [&](std::size_t i) { loaded.parts[i] = store_.part(loaded.piece.parts[i].row); });
+    auto rules = std::make_unique<RuleTable>(options_);
+    for (std::size_t i = 0; i < loaded.parts.size(); ++i) {
+        const PartRow& part = loaded.parts[i];
+        const std::uint32_t model = loaded.piece.parts[i].model;
+        rules->add({model, files_[model], part.id, part.name, part.type});
+    }
+    loaded.rules = std::move(rules);
     return loaded;
 }
 
@@ -75,11 +81,8 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
                                             const WorkPiece::Pair& pair) const {
     const PartRow &a = loaded.parts[pair.a], &b = loaded.parts[pair.b];
     const auto use = [&](std::uint32_t part) { return loaded.piece.parts[part]; };
-    const Scene &model_a = models_[use(pair.a).model], &model_b = models_[use(pair.b).model];
-    const auto name = [](const PartRow& row) { return Part{row.id, row.name, row.type, 0, {}}; };
-    PairTerms terms{options_.clearance, options_.touch, nullptr};
-    if (!options_.rules.empty()) // a candidate has terms
-        terms = *terms_of(options_, model_a, name(a), model_b, name(b));
+    const std::string &file_a = files_[use(pair.a).model], &file_b = files_[use(pair.b).model];
+    const PairTerms terms = *loaded.rules->terms(pair.a, pair.b); // a candidate has some
     const auto placed = [&](const PartRow& row, std::uint32_t part) {
         const std::uint32_t mesh = use(part).mesh;
         const auto whole = static_cast<std::uint32_t>(loaded.models.size());
@@ -92,7 +95,7 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
     if (clash) {
         if (terms.rule != nullptr)
             clash->rule = terms.rule->name;
-        clash->id = clash_identity(model_a.file, a.id, model_b.file, b.id, clash->kind);
+        clash->id = clash_identity(file_a, a.id, file_b, b.id, clash->kind);
     }
     return clash;
 }

@@ -2,16 +2,18 @@
 
 #include <abut/clash.h>
 #include <abut/model.h>
-#include <abut/scene.h>
 
 #include "massive/large_meshes.h"
 #include "massive/model_cache.h"
+#include "massive/rule_table.h"
 #include "massive/work_piece.h"
 #include "store/store_file.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace abut {
@@ -27,10 +29,11 @@ public:
     /// A piece with what it needs, valid until the load after the next.
     struct Loaded {
         WorkPiece piece;
-        std::vector<const Model*> models;      ///< of the piece's meshes
-        std::vector<const ModelBlocks*> large; ///< and of its large ones
-        int threads = 1;                       ///< that its large pairs have room for
-        std::vector<PartRow> parts;            ///< of the piece's parts
+        std::vector<const Model*> models;       ///< of the piece's meshes
+        std::vector<const ModelBlocks*> large;  ///< and of its large ones
+        int threads = 1;                        ///< that its large pairs have room for
+        std::vector<PartRow> parts;             ///< of the piece's parts
+        std::unique_ptr<const RuleTable> rules; ///< of the same
     };
     /// Errors      those of the store.
     Loaded load(WorkPiece piece);
@@ -46,7 +49,7 @@ private:
 
     StoreFile& store_;
     const ClashOptions& options_;
-    std::vector<Scene> models_; ///< their files alone
+    std::vector<std::string> files_; ///< of the models
     ModelCache cache_;
     LargeMeshes large_;
     std::uint64_t read_before_;

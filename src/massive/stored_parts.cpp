@@ -3,7 +3,6 @@
 #include <abut/error.h>
 
 #include "massive/clash_identity.h"
-#include "massive/rule_match.h"
 #include "math/vector.h"
 #include "rigid/model_data.h"
 #include "store/cut_mesh.h"
@@ -16,7 +15,7 @@
 
 namespace abut {
 
-StoredParts gather_parts(StoreFile& store, bool with_names) {
+StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
     StoredParts result;
     std::vector<MeshRow> large;
     store.for_each_mesh([&](const MeshRow& mesh) {
@@ -45,8 +44,6 @@ StoredParts gather_parts(StoreFile& store, bool with_names) {
     }
     result.parts.reserve(parts);
     for (std::uint32_t m = 0; m < result.models.size(); ++m) {
-        Scene& scene = result.scenes.emplace_back();
-        scene.file = result.models[m].file;
         store.for_each_part(result.models[m], [&](const PartRow& part) {
             // Meshes come in the order of their numbers.
             const auto mesh =
@@ -56,11 +53,10 @@ StoredParts gather_parts(StoreFile& store, bool with_names) {
                             "is damaged: part " + part.id + " shows a mesh that is missing");
             result.parts.push_back(
                 {part.box, part.part, static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
-                 static_cast<std::uint32_t>(part.number),
                  static_cast<std::uint32_t>(
                      std::min<std::uint64_t>(part.generation, kLastGeneration))});
-            if (with_names)
-                scene.parts.push_back({part.id, part.name, part.type, 0, {}});
+            if (rules != nullptr)
+                rules->add({m, result.models[m].file, part.id, part.name, part.type});
         });
     }
     return result;
@@ -123,7 +119,8 @@ PairCell StoredParts::cell_of(const IndexPair& pair) const {
             spatial_key(parts[part].box, middle, middle, middle) >> (63 - 3 * bits / 2)};
 }
 
-std::vector<IndexPair> find_candidates(const StoredParts& stored, const ClashOptions& options) {
+std::vector<IndexPair> find_candidates(const StoredParts& stored, const RuleTable& rules,
+                                       const ClashOptions& options) {
     std::vector<Box3> boxes;
     boxes.reserve(stored.parts.size());
     for (const StoredPart& part : stored.parts)
@@ -136,11 +133,9 @@ std::vector<IndexPair> find_candidates(const StoredParts& stored, const ClashOpt
     if (options.rules.empty())
         return pairs;
     const auto out_of_reach = [&](const IndexPair& pair) {
-        const StoredPart &a = stored.parts[pair.a()], &b = stored.parts[pair.b()];
-        const Scene &model_a = stored.scenes[a.model], &model_b = stored.scenes[b.model];
-        const auto terms =
-            terms_of(options, model_a, model_a.parts[a.number], model_b, model_b.parts[b.number]);
-        return !terms || !overlap(a.box, b.box, terms->clearance);
+        const auto terms = rules.terms(pair.a(), pair.b());
+        return !terms ||
+               !overlap(stored.parts[pair.a()].box, stored.parts[pair.b()].box, terms->clearance);
     };
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_reach), pairs.end());
     return pairs;

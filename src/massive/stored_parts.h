@@ -2,11 +2,11 @@
 
 #include <abut/broad_phase.h>
 #include <abut/clash.h>
-#include <abut/scene.h>
 #include <abut/types.h>
 
 #include "core/hash.h"
 #include "massive/block_cache.h"
+#include "massive/rule_table.h"
 #include "store/store_file.h"
 
 #include <cstdint>
@@ -22,7 +22,6 @@ struct StoredPart {
     std::int64_t row = 0;   ///< of the store
     std::uint32_t mesh = 0; ///< index in StoredParts::meshes
     std::uint32_t model = 0;
-    std::uint32_t number = 0; ///< in its model
     std::uint32_t generation =
         0; ///< of the import that brought or changed it; kLastGeneration: or a later
 };
@@ -54,8 +53,6 @@ struct StoredParts {
     std::vector<StoredPart> parts; ///< by model, then as in its file
     std::vector<StoredMesh> meshes;
     std::vector<StoredLargeMesh> large; ///< by mesh
-    /// With their parts, but without meshes; no parts where names were not asked for.
-    std::vector<Scene> scenes;
 
     /// Of these tables, and of what LargeMeshes keeps of blocks.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -84,12 +81,13 @@ private:
     std::vector<std::uint32_t> order_; ///< by row
 };
 
-/// In          with_names: ids, names and types of all parts too, which rules ask for.
+/// In          rules: gets the parts in the same order; null: no rules will be asked.
 /// Errors      those of the store; Error{bad_argument}, naming it, if an import has not ended.
-StoredParts gather_parts(StoreFile& store, bool with_names);
+StoredParts gather_parts(StoreFile& store, RuleTable* rules = nullptr);
 
 /// The pairs of parts that are to be looked at, in order: boxes in reach of each other, and of
 /// interest to the options and their rules.
-std::vector<IndexPair> find_candidates(const StoredParts& parts, const ClashOptions& options);
+std::vector<IndexPair> find_candidates(const StoredParts& parts, const RuleTable& rules,
+                                       const ClashOptions& options);
 
 } // namespace abut

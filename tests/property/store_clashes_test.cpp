@@ -128,7 +128,7 @@ TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
             std::count_if(truth.clashes.begin(), truth.clashes.end(),
                           [&](const Clash& clash) { return clash.part[1] >= small; }));
         const Store opened = open_store(store);
-        const std::uint64_t least = 2 * least_for_blocks(gather_parts(opened.file(), false));
+        const std::uint64_t least = 2 * least_for_blocks(gather_parts(opened.file()));
         for (const std::uint64_t memory :
              {std::uint64_t{512} << 20, 2 * least, least + (1 << 20)}) {
             const StoreClashReport found =
@@ -261,7 +261,7 @@ TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
         write_glb(scene, folder / "a.glb");
         (void)import_models({folder / "a.glb"}, folder / "a.abut");
         const Store store = open_store(folder / "a.abut");
-        const StoredParts stored = gather_parts(store.file(), false);
+        const StoredParts stored = gather_parts(store.file());
         for (const StoredMesh& mesh : stored.meshes) {
             if (mesh.bytes == 0)
                 continue;

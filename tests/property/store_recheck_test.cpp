@@ -45,13 +45,13 @@ public:
         if (!was_asked_)
             return 0;
         const Store store = open_store(site_.store());
-        const StoredParts stored = gather_parts(store.file(), true);
+        RuleTable rules(options_);
+        const StoredParts stored = gather_parts(store.file(), &rules);
         std::uint64_t known = 0;
-        for (const IndexPair& pair : find_candidates(stored, options_)) {
+        for (const IndexPair& pair : find_candidates(stored, rules, options_)) {
             const StoredPart &a = stored.parts[pair.a()], &b = stored.parts[pair.b()];
             const auto unchanged = [&](const StoredPart& part) {
-                return site_.is_unchanged(part.model,
-                                          stored.scenes[part.model].parts[part.number].id);
+                return site_.is_unchanged(part.model, store.file().part(part.row).id);
             };
             known += unchanged(a) && unchanged(b) && (within_ || a.model != b.model) &&
                              !left_.contains({std::min(a.row, b.row), std::max(a.row, b.row)})

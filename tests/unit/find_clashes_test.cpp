@@ -3,7 +3,7 @@
 #include <abut/clash.h>
 #include <abut/error.h>
 
-#include "massive/rule_match.h"
+#include "massive/glob_match.h"
 #include "tests/support/shapes.h"
 
 #include <atomic>
