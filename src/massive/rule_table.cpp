@@ -32,8 +32,7 @@ RuleTable::RuleTable(const ClashOptions& options) : options_(options) {
             lengths_.push_back(rule.ignore.same_name_prefix);
     }
     std::ranges::sort(lengths_);
-    const auto repeated = std::ranges::unique(lengths_);
-    lengths_.erase(repeated.begin(), repeated.end());
+    lengths_.erase(std::unique(lengths_.begin(), lengths_.end()), lengths_.end());
 }
 
 void RuleTable::add(const RuleSubject& part) {
