@@ -145,7 +145,8 @@ std::vector<FoundClash> JobRecord::found(const StoredParts& stored) {
 }
 
 void JobRecord::commit(const StoredParts& stored, std::size_t unit,
-                       const std::vector<FoundClash>& clashes) {
+                       const std::vector<FoundClash>& clashes,
+                       const std::vector<HierarchyRow>& hierarchies) {
     std::vector<ClashRow> rows;
     rows.reserve(clashes.size());
     for (const auto& [pair, clash] : clashes)
@@ -154,6 +155,7 @@ void JobRecord::commit(const StoredParts& stored, std::size_t unit,
     require_ours();
     add_clashes(database_, job_.job, rows);
     remove_unit(database_, job_.job, unit);
+    keep_hierarchies(database_, hierarchies);
     transaction.commit();
 }
 

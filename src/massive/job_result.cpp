@@ -80,7 +80,8 @@ void JobResult::add(PieceResult result) {
         fresh.push_back({pair, std::move(found.clash)});
     }
     if (plan_.record != nullptr)
-        plan_.record->commit(plan_.stored, result.unit, fresh);
+        plan_.record->commit(plan_.stored, result.unit, fresh, result.hierarchies);
+    result_.counters.hierarchies_kept += result.hierarchies.size();
     std::ranges::move(fresh, std::back_inserter(clashes_));
     OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
     result.worker.units = figures.units + 1;
@@ -94,6 +95,7 @@ void JobResult::sum_up_workers() {
         counters.mesh_loads += worker.mesh_loads;
         counters.blocks += worker.blocks;
         counters.block_loads += worker.block_loads;
+        counters.hierarchies_found += worker.hierarchies_found;
         counters.bytes_needed += worker.block_bytes_needed;
         counters.bytes_read += worker.bytes_read;
         counters.peak_bytes = std::max(counters.peak_bytes, worker.peak_bytes);
