@@ -128,6 +128,50 @@ void add_clash_rows(const std::string& name, const std::string& store, const std
             }
 }
 
+/// What kept hierarchies cost the job that builds them, and save one that asks something else: of two
+/// copies of the store, one keeps them. Nothing else that a job leaves is used by the next.
+void add_hierarchy_rows(const std::string& name, const ScratchFolder& folder,
+                        const std::string& store, double clearance,
+                        const MassiveSuiteOptions& options, Report& report) {
+    const std::string with = folder / "with.abut", without = folder / "without.abut";
+    const OutOfCoreOptions keeping{.memory = options.clash_memory.front()};
+    OutOfCoreOptions leaving = keeping, reading = keeping;
+    leaving.keep_hierarchies = false;
+    reading.keep = false;
+    ClashOptions question;
+    question.clearance = clearance;
+    const auto first_job = [&](const std::string& copy, const OutOfCoreOptions& how) {
+        std::filesystem::copy_file(store, copy, std::filesystem::copy_options::overwrite_existing);
+        return find_clashes(open_store(copy), question, how).counters;
+    };
+    OutOfCoreCounters first, second;
+    Row row{name + ", first job, hierarchies kept", 0, "not kept", 0, "s", 1, {}};
+    Turns turns = take_turns(
+        options.rounds, [&] { first = first_job(with, keeping); },
+        [&] { (void)first_job(without, leaving); });
+    row.ours = turns.ours;
+    row.theirs = turns.theirs;
+    row.counters["hierarchies kept"] = static_cast<double>(first.hierarchies_kept);
+    const StoreSummary kept = summary(open_store(with));
+    row.counters["bytes of hierarchies"] = static_cast<double>(kept.hierarchy_bytes);
+    row.counters["bytes of blocks"] = static_cast<double>(kept.stored_bytes);
+    row.counters["bytes of the store"] = static_cast<double>(kept.file_bytes);
+    report.rows.push_back(row);
+
+    const Store opened_with = open_store(with), opened_without = open_store(without);
+    row = {name + ", second job, hierarchies read", 0, "built", 0, "s", 1, {}};
+    turns = take_turns(
+        options.rounds, [&] { second = find_clashes(opened_with, question, reading).counters; },
+        [&] { (void)find_clashes(opened_without, question, reading); });
+    row.ours = turns.ours;
+    row.theirs = turns.theirs;
+    row.counters["loads"] = static_cast<double>(second.mesh_loads + second.block_loads);
+    row.counters["hierarchies found"] = static_cast<double>(second.hierarchies_found);
+    row.counters["bytes read for one of the store"] =
+        static_cast<double>(second.bytes_read) / static_cast<double>(kept.file_bytes);
+    report.rows.push_back(row);
+}
+
 /// A large sheet, and small parts all over it: each needs a little of it. No two are the same mesh.
 Scene sheet_and_parts(std::uint64_t triangles, int parts) {
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 2));
@@ -189,6 +233,9 @@ Report run_massive_suite(const MassiveSuiteOptions& options) {
         const std::string name = fmt::format("plant of {}, nothing shared", triangles);
         report.rows.push_back(import_row("import, " + name, folder, model, options));
         add_clash_rows(name, folder / "store.abut", model, {0.005, 1.0}, options, report);
+        for (const double clearance : {0.005, 0.2})
+            add_hierarchy_rows(fmt::format("{}, clash {} m", name, clearance), folder,
+                               folder / "store.abut", clearance, options, report);
     }
     if (options.ground > 0) {
         const std::string model = folder / "ground.glb";
@@ -196,6 +243,7 @@ Report run_massive_suite(const MassiveSuiteOptions& options) {
         const std::string name = fmt::format("sheet of {} and 5000 parts", options.ground);
         report.rows.push_back(import_row("import, " + name, folder, model, options));
         add_clash_rows(name, folder / "store.abut", model, {0.005}, options, report);
+        add_hierarchy_rows(name, folder, folder / "store.abut", 0.005, options, report);
     }
     if (options.sheet > 0) {
         const std::string model = folder / "sheet.stl";

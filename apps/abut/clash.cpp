@@ -25,6 +25,7 @@ struct ClashArguments {
     ClashOptions options; ///< clearance, touch, self; the rest is filled by run()
     std::string rules, out, fail_on;
     std::optional<std::string> memory;
+    bool no_hierarchies = false;
     double unit = 0;
 };
 
@@ -66,11 +67,13 @@ std::string out_of_core_member(const OutOfCoreCounters& c) {
                         workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
                         w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mb);
     return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
-                       "\"blocks\": {}, \"block_loads\": {}, \"bytes_needed\": {}, \"bytes_read\": "
+                       "\"blocks\": {}, \"block_loads\": {}, \"hierarchies_found\": {}, "
+                       "\"hierarchies_kept\": {}, \"bytes_needed\": {}, \"bytes_read\": "
                        "{}, \"peak_model_bytes\": {}, \"kept\": {}, "
                        "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
-                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads, c.bytes_needed,
-                       c.bytes_read, c.peak_bytes, c.kept, c.recalled_pairs, workers);
+                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads,
+                       c.hierarchies_found, c.hierarchies_kept, c.bytes_needed, c.bytes_read,
+                       c.peak_bytes, c.kept, c.recalled_pairs, workers);
 }
 
 std::string out_of_core_summary(const OutOfCoreCounters& c) {
@@ -107,6 +110,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         outputs.emplace(arguments.out,
                         std::vector<std::string>{"report.html", "report.json", "report.csv"});
 
+    if (arguments.no_hierarchies && !from_store)
+        throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
+                    "is for a store: what was read of models is not kept");
     if (arguments.memory && !from_store)
         throw Error(ErrorCode::bad_argument, "--memory",
                     "is for a store alone: bring the models into one with abut import");
@@ -127,6 +133,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             OutOfCoreOptions limits;
             if (arguments.memory)
                 limits.memory = parse_bytes("--memory", *arguments.memory);
+            limits.keep_hierarchies = !arguments.no_hierarchies;
             limits.crew = crew.get();
             StoreClashReport found =
                 find_clashes(open_store(arguments.files.front()), options, limits);
@@ -178,6 +185,8 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
     app->add_option("--memory", arguments->memory,
                     "A store: bytes to keep to, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
+    app->add_flag("--no-keep-hierarchies", arguments->no_hierarchies,
+                  "A store: do not keep there the hierarchies that are built");
     app->add_option("--clearance", arguments->options.clearance,
                     "Report parts that are nearer than this, in metres (default 0: off)")
         ->check(not_negative());

@@ -32,6 +32,8 @@ nlohmann::ordered_json describe(const StoreSummary& summary, bool verified) {
                                  {"blocks", summary.blocks},
                                  {"raw_bytes", summary.raw_bytes},
                                  {"stored_bytes", summary.stored_bytes},
+                                 {"hierarchies", summary.hierarchies},
+                                 {"hierarchy_bytes", summary.hierarchy_bytes},
                                  {"file_bytes", summary.file_bytes},
                                  {"unused_bytes", summary.unused_bytes}};
     // Of nothing there are no bounds: JSON has no infinity.
@@ -56,10 +58,12 @@ std::string table(const StoreSummary& summary, bool verified) {
     text += fmt::format("  parts       {:>14}  {} triangles\n"
                         "  meshes      {:>14}  {} triangles in {} blocks\n"
                         "  geometry    {:>14}  bytes, {} before compression\n"
+                        "  hierarchies {:>14}  bytes, of {} blocks\n"
                         "  file        {:>14}  bytes, {} of them unused\n",
                         grouped(summary.parts), grouped(summary.triangles), grouped(summary.meshes),
                         grouped(summary.stored_triangles), grouped(summary.blocks),
                         grouped(summary.stored_bytes), grouped(summary.raw_bytes),
+                        grouped(summary.hierarchy_bytes), grouped(summary.hierarchies),
                         grouped(summary.file_bytes), grouped(summary.unused_bytes));
     const Vec3 &lower = summary.bounds.lower, &upper = summary.bounds.upper;
     if (lower.x <= upper.x)

@@ -28,6 +28,8 @@ public:
     ///             beyond 1e18.
     /// Cost        O(n log n); parallel over subtrees.
     explicit Model(Mesh mesh, const ModelOptions& options = {});
+    /// For the library itself, which alone can make such data.
+    explicit Model(std::shared_ptr<const ModelData> data);
 
     [[nodiscard]] const Mesh& mesh() const noexcept;
     /// Memory of mesh and hierarchy, in bytes.

@@ -126,6 +126,8 @@ struct StoreSummary {
     std::uint64_t raw_bytes =
         0; ///< of the meshes' coordinates and indices, as floats where they are
     std::uint64_t stored_bytes = 0; ///< of the compressed blocks
+    std::uint64_t hierarchies = 0;  ///< that jobs have kept, one a block at most
+    std::uint64_t hierarchy_bytes = 0;
     std::uint64_t file_bytes = 0;
     std::uint64_t unused_bytes = 0; ///< of the file: room for what comes
     Box3 bounds;                    ///< of all parts in the world
@@ -135,7 +137,7 @@ struct StoreSummary {
 /// Cost        one pass over the parts.
 StoreSummary summary(const Store& store);
 
-/// Reads all of a store and checks every page, row and block against its checksum.
+/// Reads all of a store and checks every page, row, block and hierarchy against its checksum.
 ///
 /// Errors      Error{malformed}, naming the file and the damage; Error{interrupted}.
 void verify(const Store& store, const Progress& progress = {});

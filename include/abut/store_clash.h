@@ -26,6 +26,10 @@ struct OutOfCoreOptions {
     /// What is done is kept in the store, if it can be written to: a job that is killed goes on where
     /// it was, and one that has ended is not done again as long as its parts are the same.
     bool keep = true;
+    /// With what is done, the hierarchies that were built are kept in the store: one to two bytes a
+    /// triangle, for later jobs and walks to read instead of building them. Not by a crew. What is kept
+    /// there is read in any case.
+    bool keep_hierarchies = true;
     /// Processes that do the job together, this one the leader; null: this process alone. `memory` is
     /// that of each. The result does not depend on how many they are.
     Crew* crew = nullptr;
@@ -35,21 +39,25 @@ struct OutOfCoreOptions {
 struct OutOfCoreCounters {
     std::uint64_t units = 0;      ///< pieces of work that fit into the memory
     std::uint64_t meshes = 0;     ///< that a candidate needs, large ones left out
-    std::uint64_t mesh_loads = 0; ///< each time that one was read and its hierarchy built
+    std::uint64_t mesh_loads = 0; ///< each time that one was read
     /// Of large meshes, which are never whole in memory: needed. Of several processes, the sum.
     std::uint64_t blocks = 0;
-    std::uint64_t block_loads = 0;    ///< each time that one was read and its hierarchy built
-    std::uint64_t bytes_needed = 0;   ///< of those meshes and blocks in the store, each once
-    std::uint64_t bytes_read = 0;     ///< of the store's blocks
-    std::uint64_t peak_bytes = 0;     ///< of models in memory at once
-    bool kept = false;                ///< in the store
-    std::uint64_t recalled_pairs = 0; ///< done before, by a job that was stopped or has ended
+    std::uint64_t block_loads = 0;  ///< each time that one was read
+    std::uint64_t bytes_needed = 0; ///< of those meshes and blocks in the store, each once
+    std::uint64_t bytes_read = 0;   ///< of the store's blocks and hierarchies
+    /// Of these loads, those whose hierarchy was in the store; the others built it.
+    std::uint64_t hierarchies_found = 0;
+    std::uint64_t hierarchies_kept = 0; ///< in the store, of those that were built
+    std::uint64_t peak_bytes = 0;       ///< of models in memory at once
+    bool kept = false;                  ///< in the store
+    std::uint64_t recalled_pairs = 0;   ///< done before, by a job that was stopped or has ended
 
     /// What one process did; sums and the largest of these are above.
     struct Worker {
         std::uint64_t units = 0, pairs = 0;
         std::uint64_t mesh_loads = 0;
         std::uint64_t blocks = 0, block_loads = 0, block_bytes_needed = 0;
+        std::uint64_t hierarchies_found = 0;
         std::uint64_t bytes_read = 0, peak_bytes = 0;
         double processor_seconds = 0; ///< since it began, of all its threads
         double waiting_seconds = 0;   ///< for pieces of work, with nothing to do

@@ -1,7 +1,6 @@
 #include "massive/block_cache.h"
 
 #include "core/parallel.h"
-#include "massive/mesh_in_blocks.h"
 #include "rigid/model_data.h"
 
 #include <algorithm>
@@ -59,9 +58,7 @@ std::shared_ptr<const ModelBlock> BlockCache::get(const StoredBlock& block) {
 std::shared_ptr<const ModelBlock> BlockCache::read(const StoredBlock& block) {
     std::shared_ptr<const ModelBlock> result;
     // Others may be waiting for this: no other work meanwhile.
-    isolated([&] {
-        result = std::make_shared<const ModelBlock>(make_model_block(store_.read_block(block.row)));
-    });
+    isolated([&] { result = std::make_shared<const ModelBlock>(reader_.read_block(block.row)); });
     return result;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "rigid/model_blocks.h"
-#include "store/store_file.h"
+#include "store/model_reader.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -32,8 +32,8 @@ std::vector<StoredBlock> stored_blocks(StoreFile& store, const MeshRow& mesh);
 /// What somebody still holds cannot go: only that may exceed the budget.
 class BlockCache {
 public:
-    /// In          budget: bytes; the store must outlive the cache.
-    BlockCache(StoreFile& store, std::uint64_t budget) : store_(store), budget_(budget) {}
+    /// In          budget: bytes; the reader must outlive the cache.
+    BlockCache(ModelReader& reader, std::uint64_t budget) : reader_(reader), budget_(budget) {}
 
     /// Errors      those of the store.
     [[nodiscard]] std::shared_ptr<const ModelBlock> get(const StoredBlock& block);
@@ -53,7 +53,7 @@ private:
     void make_room(std::uint64_t bytes);
     [[nodiscard]] std::shared_ptr<const ModelBlock> read(const StoredBlock& block);
 
-    StoreFile& store_;
+    ModelReader& reader_;
     std::uint64_t budget_;
     std::mutex mutex_;
     std::condition_variable changed_;

@@ -18,6 +18,9 @@ namespace {
 /// For pairs and rows of the unit at hand.
 constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 10;
 
+/// Of the memory, for hierarchies that wait to be kept: of models in half of it, more than they take.
+constexpr std::uint64_t kHierarchiesShare = 64;
+
 [[noreturn]] void fail_for_memory(std::uint64_t least, const std::string& store) {
     throw Error(ErrorCode::bad_argument, store,
                 "needs more memory: " + std::to_string((least >> 20) + 1) + " MiB at least");
@@ -33,8 +36,10 @@ bool needs_large(const StoredParts& parts, const std::vector<IndexPair>& pairs) 
 }
 
 std::uint64_t bytes_for_models(const StoredParts& parts, const std::vector<IndexPair>& pairs,
-                               const OutOfCoreOptions& options, const std::string& store) {
-    const std::uint64_t tables = parts.bytes() + pairs.capacity() * sizeof(IndexPair);
+                               std::uint64_t hierarchies_room, const OutOfCoreOptions& options,
+                               const std::string& store) {
+    const std::uint64_t tables =
+        parts.bytes() + pairs.capacity() * sizeof(IndexPair) + hierarchies_room;
     if (options.memory < kLeastMemory + tables)
         fail_for_memory(kLeastMemory + tables, store);
     return options.memory - tables;
@@ -58,7 +63,11 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
         plan.record = JobRecord::open(store.path(), plan.stored, options, plan.candidates);
     if (plan.record != nullptr)
         pairs = plan.record->pairs_left(plan.stored, std::move(pairs));
-    plan.budget = bytes_for_models(plan.stored, pairs, out_of_core, store.path());
+    // Those of the processes of a crew are not kept: its stores are read without locks.
+    if (plan.record != nullptr && out_of_core.keep_hierarchies && out_of_core.crew == nullptr)
+        plan.hierarchies_room = out_of_core.memory / kHierarchiesShare;
+    plan.budget =
+        bytes_for_models(plan.stored, pairs, plan.hierarchies_room, out_of_core, store.path());
     if (needs_large(plan.stored, pairs)) {
         plan.blocks_budget = plan.budget / 2;
         plan.budget -= plan.blocks_budget;

@@ -18,9 +18,10 @@ struct JobPlan {
     StoredParts stored;
     std::vector<WorkUnit> units;
     std::uint64_t candidates = 0;
-    std::uint64_t budget = 0;          ///< bytes of models: of a unit and of the next one
-    std::uint64_t blocks_budget = 0;   ///< bytes of blocks of large meshes
-    std::unique_ptr<JobRecord> record; ///< may be none
+    std::uint64_t budget = 0;           ///< bytes of models: of a unit and of the next one
+    std::uint64_t blocks_budget = 0;    ///< bytes of blocks of large meshes
+    std::uint64_t hierarchies_room = 0; ///< bytes of hierarchies that wait to be kept
+    std::unique_ptr<JobRecord> record;  ///< may be none
 };
 
 /// In          recorded: what the store knows of this job counts, and it is to be kept there.

@@ -146,7 +146,8 @@ std::vector<Clash> JobRecord::found(const StoredParts& stored) {
 }
 
 void JobRecord::commit(const StoredParts& stored, std::size_t unit,
-                       std::span<const Clash> clashes) {
+                       std::span<const Clash> clashes,
+                       const std::vector<HierarchyRow>& hierarchies) {
     std::vector<ClashRow> rows;
     rows.reserve(clashes.size());
     for (const Clash& clash : clashes)
@@ -155,6 +156,7 @@ void JobRecord::commit(const StoredParts& stored, std::size_t unit,
     require_ours();
     add_clashes(database_, job_.job, rows);
     remove_unit(database_, job_.job, unit);
+    keep_hierarchies(database_, hierarchies);
     transaction.commit();
 }
 

@@ -8,6 +8,7 @@
 #include "massive/stored_parts.h"
 #include "massive/work_rows.h"
 #include "massive/work_units.h"
+#include "store/hierarchy_table.h"
 #include "store/sqlite.h"
 
 #include <cstdint>
@@ -44,8 +45,9 @@ public:
     /// plan().
     std::vector<Clash> found(const StoredParts& stored);
     /// Piece `unit` of the plan is done, and found some clashes, whose parts are indices in
-    /// StoredParts.
-    void commit(const StoredParts& stored, std::size_t unit, std::span<const Clash> clashes);
+    /// StoredParts; hierarchies that were built are kept with it.
+    void commit(const StoredParts& stored, std::size_t unit, std::span<const Clash> clashes,
+                const std::vector<HierarchyRow>& hierarchies);
     /// Pieces that are committed while it is open are committed with it: the disk is waited for once.
     [[nodiscard]] Transaction together() { return Transaction(database_); }
     /// The job has ended: the clashes of the report get their statuses, and earlier jobs of the same

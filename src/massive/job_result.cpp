@@ -83,7 +83,9 @@ void JobResult::add(PieceResult result) {
         clashes.push_back(std::move(found.clash));
     }
     if (plan_.record != nullptr)
-        plan_.record->commit(plan_.stored, result.unit, std::span(clashes).subspan(before));
+        plan_.record->commit(plan_.stored, result.unit, std::span(clashes).subspan(before),
+                             result.hierarchies);
+    result_.counters.hierarchies_kept += result.hierarchies.size();
     OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
     result.worker.units = figures.units + 1;
     result.worker.pairs = figures.pairs + result.pairs;
@@ -96,6 +98,7 @@ void JobResult::sum_up_workers() {
         counters.mesh_loads += worker.mesh_loads;
         counters.blocks += worker.blocks;
         counters.block_loads += worker.block_loads;
+        counters.hierarchies_found += worker.hierarchies_found;
         counters.bytes_needed += worker.block_bytes_needed;
         counters.bytes_read += worker.bytes_read;
         counters.peak_bytes = std::max(counters.peak_bytes, worker.peak_bytes);

@@ -60,8 +60,8 @@ private:
     std::vector<StoredBlock> blocks_;
 };
 
-LargeMeshes::LargeMeshes(StoreFile& store, std::uint64_t budget)
-    : store_(store), budget_(budget), cache_(store, for_blocks(budget)) {}
+LargeMeshes::LargeMeshes(ModelReader& reader, std::uint64_t budget)
+    : store_(reader.store()), budget_(budget), cache_(reader, for_blocks(budget)) {}
 
 LargeMeshes::~LargeMeshes() = default;
 

@@ -3,7 +3,7 @@
 #include "massive/block_cache.h"
 #include "massive/stored_parts.h"
 #include "rigid/model_blocks.h"
-#include "store/store_file.h"
+#include "store/model_reader.h"
 
 #include <cstdint>
 #include <map>
@@ -14,8 +14,8 @@ namespace abut {
 /// The large meshes that a worker meets, whose blocks come into memory as they are asked for.
 class LargeMeshes {
 public:
-    /// In          budget: bytes of blocks; the store must outlive this.
-    LargeMeshes(StoreFile& store, std::uint64_t budget);
+    /// In          budget: bytes of blocks; the reader must outlive this.
+    LargeMeshes(ModelReader& reader, std::uint64_t budget);
     ~LargeMeshes();
 
     /// In          mesh: row of the store. Calls come one after the other; what an earlier one gave may

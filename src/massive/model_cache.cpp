@@ -48,7 +48,7 @@ std::vector<const Model*> ModelCache::load(const WorkPiece& piece) {
     make_room(piece.unit, bytes, std::exchange(was_alone_, piece.alone) || piece.alone);
     parallel_for(missing.size(), 1, [&](std::size_t i) {
         missing[i].second->model =
-            std::make_unique<const Model>(store_.read_mesh(missing[i].first));
+            std::make_unique<const Model>(reader_.read_mesh(missing[i].first));
     });
     for (const auto& [mesh, entry] : missing)
         bytes_ += entry->model->bytes();

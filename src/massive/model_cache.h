@@ -3,7 +3,7 @@
 #include <abut/model.h>
 
 #include "massive/work_piece.h"
-#include "store/store_file.h"
+#include "store/model_reader.h"
 
 #include <cstdint>
 #include <memory>
@@ -19,10 +19,10 @@ namespace abut {
 /// Source      [Belady 1966]. Differs: only the uses that are known when a piece is handed out count.
 class ModelCache {
 public:
-    /// In          store: must outlive the cache.
-    ModelCache(StoreFile& store, std::uint64_t budget) : store_(store), budget_(budget) {}
+    /// In          reader: must outlive the cache.
+    ModelCache(ModelReader& reader, std::uint64_t budget) : reader_(reader), budget_(budget) {}
 
-    /// The models of a piece's meshes, read and built in parallel. They stay until the call after
+    /// The models of a piece's meshes, read in parallel. They stay until the call after
     /// the next, so that a piece may be tested while the next one's models come; only until the next, if
     /// either is `alone`.
     ///
@@ -41,7 +41,7 @@ private:
 
     void make_room(std::uint32_t unit, std::uint64_t bytes, bool alone);
 
-    StoreFile& store_;
+    ModelReader& reader_;
     std::uint64_t budget_;
     std::unordered_map<std::int64_t, Entry> entries_; ///< by mesh
     std::uint64_t call_ = 1;

@@ -12,9 +12,9 @@ namespace abut {
 
 PieceTester::PieceTester(StoreFile& store, const ClashOptions& options,
                          const std::vector<ModelRow>& models, std::uint64_t budget,
-                         std::uint64_t blocks_budget)
-    : store_(store), options_(options), cache_(store, budget), large_(store, blocks_budget),
-      read_before_(store.bytes_read()) {
+                         std::uint64_t blocks_budget, std::uint64_t hierarchies_room)
+    : store_(store), options_(options), reader_(store, hierarchies_room), cache_(reader_, budget),
+      large_(reader_, blocks_budget), read_before_(store.bytes_read()) {
     for (const ModelRow& model : models)
         files_.push_back(model.file);
 }
@@ -105,6 +105,7 @@ OutOfCoreCounters::Worker PieceTester::figures() const {
             .blocks = large_.cache().distinct().size(),
             .block_loads = large_.cache().loads(),
             .block_bytes_needed = large_.bytes_needed(),
+            .hierarchies_found = reader_.found(),
             .bytes_read = store_.bytes_read() - read_before_,
             .peak_bytes = cache_.peak_bytes() + large_.cache().peak_bytes(),
             .processor_seconds = processor_seconds(),

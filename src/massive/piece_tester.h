@@ -7,7 +7,7 @@
 #include "massive/model_cache.h"
 #include "massive/rule_table.h"
 #include "massive/work_piece.h"
-#include "store/store_file.h"
+#include "store/model_reader.h"
 
 #include <cstdint>
 #include <functional>
@@ -22,9 +22,11 @@ namespace abut {
 class PieceTester {
 public:
     /// In          models: of the store; budget: bytes of models in memory; blocks_budget: of blocks of
-    ///             large meshes. Store and options must outlive it.
+    ///             large meshes; hierarchies_room: of hierarchies that are to be kept. Store and
+    ///             options must outlive it.
     PieceTester(StoreFile& store, const ClashOptions& options, const std::vector<ModelRow>& models,
-                std::uint64_t budget, std::uint64_t blocks_budget);
+                std::uint64_t budget, std::uint64_t blocks_budget,
+                std::uint64_t hierarchies_room = 0);
 
     /// A piece with what it needs, valid until the load after the next.
     struct Loaded {
@@ -41,6 +43,9 @@ public:
     /// In          on_pair: called after each pair, from any thread; what it throws ends the test.
     PieceResult test(const Loaded& loaded, const std::function<void()>& on_pair) const;
 
+    /// Hierarchies that were built since the last call, and are to be kept.
+    std::vector<HierarchyRow> take_built() { return reader_.take_built(); }
+
     /// What it did so far, but for units and pairs.
     [[nodiscard]] OutOfCoreCounters::Worker figures() const;
 
@@ -50,6 +55,7 @@ private:
     StoreFile& store_;
     const ClashOptions& options_;
     std::vector<std::string> files_; ///< of the models
+    ModelReader reader_;
     ModelCache cache_;
     LargeMeshes large_;
     std::uint64_t read_before_;

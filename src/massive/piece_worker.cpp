@@ -49,6 +49,7 @@ void work(PieceTester& tester, WorkSource& source) {
         loaded = load(std::move(coming));
         result.worker = tester.figures();
         result.worker.waiting_seconds = waiting;
+        result.hierarchies = tester.take_built();
         source.done(std::move(result));
     }
 }

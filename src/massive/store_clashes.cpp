@@ -39,7 +39,8 @@ private:
 void do_alone(const JobPlan& plan, JobResult& result, const ClashOptions& options,
               StoreFile& store) {
     AllWork source(plan, result, options.progress);
-    PieceTester tester(store, options, plan.stored.models, plan.budget, plan.blocks_budget);
+    PieceTester tester(store, options, plan.stored.models, plan.budget, plan.blocks_budget,
+                       plan.hierarchies_room);
     work(tester, source);
 }
 

@@ -6,6 +6,7 @@
 
 #include "massive/stored_parts.h"
 #include "massive/work_units.h"
+#include "store/hierarchy_table.h"
 
 #include <cstdint>
 #include <vector>
@@ -56,10 +57,12 @@ struct PieceResult {
     };
 
     std::uint32_t unit = 0;
-    std::uint32_t from = 0;           ///< rank of the worker; filled in by who receives it
-    std::uint64_t pairs = 0;          ///< tested
-    std::vector<Found> clashes;       ///< in the order of the pairs
-    std::vector<Named> named;         ///< the parts that clash, each once
+    std::uint32_t from = 0;     ///< rank of the worker; filled in by who receives it
+    std::uint64_t pairs = 0;    ///< tested
+    std::vector<Found> clashes; ///< in the order of the pairs
+    std::vector<Named> named;   ///< the parts that clash, each once
+    /// Built for this piece or the next, to be kept. They stay in the process that built them.
+    std::vector<HierarchyRow> hierarchies;
     OutOfCoreCounters::Worker worker; ///< so far, without units and pairs
 };
 

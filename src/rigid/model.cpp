@@ -38,18 +38,32 @@ std::vector<Vec3> tree_positions(const Mesh& mesh, const Transform& model_from_t
 
 ModelData::ModelData(Mesh mesh, const ModelOptions& options)
     : mesh_(std::move(mesh)), options_(options) {
+    build(nullptr);
+}
+
+ModelData::ModelData(Mesh mesh, const ModelOutline& outline) : mesh_(std::move(mesh)) {
+    build(&outline);
+}
+
+/// In: null if it is not known.
+void ModelData::build(const ModelOutline* outline) {
     require_valid(mesh_);
     Box3 bounds;
     for (const auto& t : mesh_.triangles)
         for (const std::uint32_t v : t)
             extend(bounds, mesh_.positions[v]);
     const double scale = scale_of(bounds);
-    model_from_tree_ = choose_tree_frame(mesh_, bounds);
+    const TreeFrame frame = outline == nullptr ? choose_tree_frame(mesh_, bounds)
+                                               : tree_frame(mesh_, bounds, outline->axes);
+    axes_ = frame.axes;
+    model_from_tree_ = frame.model_from_tree;
     for (std::size_t i = 0; i < 9; ++i)
         model_from_tree_.m[i] *= scale;
     const std::vector<Vec3> positions = tree_positions(mesh_, model_from_tree_, scale);
-    tree_ = build_tree(TreeMesh{positions, mesh_.triangles}, options.volume != Volume::aabb);
-    volumes_ = build_volume_tree(options.volume, tree_, {positions, mesh_.triangles});
+    const TreeMesh tree_mesh{positions, mesh_.triangles};
+    tree_ = outline == nullptr ? build_tree(tree_mesh, options_.volume != Volume::aabb)
+                               : build_tree(tree_mesh, outline->tree);
+    volumes_ = build_volume_tree(options_.volume, tree_, tree_mesh);
     sort_vertices();
     support_ = SupportBound(vertices_);
 }
@@ -91,6 +105,7 @@ Model baked(const Model& model, const Transform& world) {
 
 Model::Model(Mesh mesh, const ModelOptions& options)
     : data_(std::make_shared<const ModelData>(std::move(mesh), options)) {}
+Model::Model(std::shared_ptr<const ModelData> data) : data_(std::move(data)) {}
 const Mesh& Model::mesh() const noexcept {
     return data_->mesh();
 }

@@ -6,6 +6,8 @@
 
 #include "math/transform.h"
 #include "rigid/solid.h"
+#include "rigid/tree_frame.h"
+#include "tree/outline.h"
 #include "tree/tree.h"
 #include "tree/volume_tree.h"
 #include "volume/support_bound.h"
@@ -17,13 +19,26 @@
 
 namespace abut {
 
+/// What is dear to find of a model's hierarchy.
+struct ModelOutline {
+    TreeAxes axes{};
+    TreeOutline tree;
+
+    friend bool operator==(const ModelOutline&, const ModelOutline&) = default;
+};
+
 /// A mesh and its tree. The tree's boxes are aligned to a frame of its own, chosen so that they fit
 /// tightly.
 class ModelData {
 public:
     /// Errors      Error{bad_mesh}.
     ModelData(Mesh mesh, const ModelOptions& options);
+    /// As with default options, of a hierarchy whose outline is known.
+    ///
+    /// In          outline: passes is_outline for the mesh's triangles.
+    ModelData(Mesh mesh, const ModelOutline& outline);
 
+    [[nodiscard]] ModelOutline outline() const { return {axes_, outline_of(tree_)}; }
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }
     /// What was asked for.
@@ -53,10 +68,12 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    void build(const ModelOutline* outline);
     void sort_vertices();
 
     Mesh mesh_;
     ModelOptions options_;
+    TreeAxes axes_{}; ///< of the tree
     SupportBound support_{{}};
     Transform model_from_tree_;
     Tree tree_;

@@ -57,30 +57,65 @@ double summed_box_area(const std::vector<Triangle>& triangles, const Axes& axes)
     return sum;
 }
 
-} // namespace
-
-Transform choose_tree_frame(const Mesh& mesh, const Box3& bounds) {
-    if (is_empty(bounds))
-        return {};
-    const Vec3 origin = 0.5 * bounds.lower + 0.5 * bounds.upper;
-
+/// Some triangles, evenly chosen, as seen from the origin.
+std::vector<Triangle> some_triangles(const Mesh& mesh, const Vec3& origin) {
     std::vector<Triangle> sample;
     const std::size_t count = std::min(kSamples, mesh.triangles.size());
+    sample.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto& t = mesh.triangles[i * mesh.triangles.size() / count];
         sample.push_back({mesh.positions[t[0]] - origin, mesh.positions[t[1]] - origin,
                           mesh.positions[t[2]] - origin});
     }
+    return sample;
+}
+
+Axes axes_of(const std::vector<Triangle>& sample, TreeAxes axes) {
+    switch (axes) {
+    case TreeAxes::principal:
+        return principal_axes(std::span<const Triangle>(sample));
+    case TreeAxes::of_largest_face:
+        return largest_face(sample);
+    default:
+        return kModelAxes;
+    }
+}
+
+Vec3 middle_of(const Box3& box) {
+    return 0.5 * box.lower + 0.5 * box.upper;
+}
+
+Transform transform_of(const Axes& axes, const Vec3& origin) {
+    return Transform({axes[0].x, axes[0].y, axes[0].z, axes[1].x, axes[1].y, axes[1].z, axes[2].x,
+                      axes[2].y, axes[2].z, origin.x, origin.y, origin.z});
+}
+
+} // namespace
+
+TreeFrame choose_tree_frame(const Mesh& mesh, const Box3& bounds) {
+    if (is_empty(bounds))
+        return {};
+    const Vec3 origin = middle_of(bounds);
+    const std::vector<Triangle> sample = some_triangles(mesh, origin);
+    TreeAxes chosen = TreeAxes::of_model;
     Axes best = kModelAxes;
     double least = summed_box_area(sample, best);
-    for (const Axes& axes :
-         {principal_axes(std::span<const Triangle>(sample)), largest_face(sample)}) {
+    for (const TreeAxes candidate : {TreeAxes::principal, TreeAxes::of_largest_face}) {
+        const Axes axes = axes_of(sample, candidate);
         const double sum = summed_box_area(sample, axes);
         if (sum < least)
-            best = axes, least = sum;
+            chosen = candidate, best = axes, least = sum;
     }
-    return Transform({best[0].x, best[0].y, best[0].z, best[1].x, best[1].y, best[1].z, best[2].x,
-                      best[2].y, best[2].z, origin.x, origin.y, origin.z});
+    return {chosen, transform_of(best, origin)};
+}
+
+TreeFrame tree_frame(const Mesh& mesh, const Box3& bounds, TreeAxes axes) {
+    if (is_empty(bounds))
+        return {};
+    const Vec3 origin = middle_of(bounds);
+    if (axes == TreeAxes::of_model)
+        return {axes, transform_of(kModelAxes, origin)};
+    return {axes, transform_of(axes_of(some_triangles(mesh, origin), axes), origin)};
 }
 
 } // namespace abut

@@ -1,58 +1,25 @@
 #include "store/mesh_codec.h"
 
 #include "io/fault.h"
+#include "store/byte_planes.h"
+#include "store/zstd_frame.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
-#include <memory>
 #include <type_traits>
-#include <zstd.h>
 
 namespace abut {
 
 namespace {
 
-/// Enough of the gain at a speed that keeps up with a disk.
-constexpr int kLevel = 3;
 constexpr std::size_t kHeaderBytes = 16;
 
-struct FreeContext {
-    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
-    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
-};
-
 template <typename Word>
-void append_planes(std::vector<std::byte>& out, std::span<const Word> words) {
-    const std::size_t start = out.size();
-    out.resize(start + words.size_bytes());
-    for (std::size_t plane = 0; plane < sizeof(Word); ++plane) {
-        std::byte* const to = out.data() + start + plane * words.size();
-        for (std::size_t i = 0; i < words.size(); ++i)
-            to[i] = static_cast<std::byte>(words[i] >> (8 * plane));
-    }
-}
-
-template <typename Word>
-void take_planes(std::span<const std::byte>& in, std::span<Word> words) {
-    if (in.size() < words.size_bytes())
+void take_block_planes(std::span<const std::byte>& in, std::span<Word> words) {
+    if (!take_planes(in, words))
         malformed("a block is too short");
-    std::fill(words.begin(), words.end(), Word{0});
-    for (std::size_t plane = 0; plane < sizeof(Word); ++plane) {
-        const std::byte* const from = in.data() + plane * words.size();
-        for (std::size_t i = 0; i < words.size(); ++i)
-            words[i] |= static_cast<Word>(static_cast<Word>(from[i]) << (8 * plane));
-    }
-    in = in.subspan(words.size_bytes());
-}
-
-/// Small differences of either sign become small numbers.
-std::uint32_t zigzag(std::uint32_t difference) {
-    return difference << 1 ^ (0 - (difference >> 31));
-}
-std::uint32_t unzigzag(std::uint32_t code) {
-    return code >> 1 ^ (0 - (code & 1));
 }
 
 bool all_floats(const std::vector<Vec3>& positions) {
@@ -85,7 +52,7 @@ template <typename Real, typename Word>
 void take_positions(std::span<const std::byte>& in, std::vector<Vec3>& positions) {
     std::vector<Word> words(positions.size());
     for (const auto axis : kAxes) {
-        take_planes(in, std::span<Word>(words));
+        take_block_planes(in, std::span<Word>(words));
         Word bits = 0;
         for (std::size_t i = 0; i < positions.size(); ++i) {
             bits += words[i];
@@ -103,7 +70,7 @@ void append_ids(std::vector<std::byte>& out, const std::vector<std::uint32_t>& i
 
 std::vector<std::uint32_t> take_ids(std::span<const std::byte>& in, std::size_t count) {
     std::vector<std::uint32_t> ids(count);
-    take_planes(in, std::span<std::uint32_t>(ids));
+    take_block_planes(in, std::span<std::uint32_t>(ids));
     for (std::size_t i = 1; i < count; ++i) {
         if (ids[i] == 0 || ids[i] > 0xffffffff - ids[i - 1])
             malformed("the numbers of a block do not ascend");
@@ -126,7 +93,7 @@ void append_corners(std::vector<std::byte>& out, const Mesh& mesh) {
 
 void take_corners(std::span<const std::byte>& in, Mesh& mesh) {
     std::vector<std::uint32_t> words(3 * mesh.triangles.size());
-    take_planes(in, std::span<std::uint32_t>(words));
+    take_block_planes(in, std::span<std::uint32_t>(words));
     std::uint32_t next = 0;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::uint32_t corner = next - unzigzag(words[i]);
@@ -158,30 +125,19 @@ EncodedBlock encode_block(const MeshBlock& block) {
         append_positions<double, std::uint64_t>(raw, mesh.positions);
     append_corners(raw, mesh);
 
-    thread_local const std::unique_ptr<ZSTD_CCtx, FreeContext> context(ZSTD_createCCtx());
     EncodedBlock encoded;
     encoded.raw_bytes = raw.size();
-    encoded.data.resize(ZSTD_compressBound(raw.size()));
-    const std::size_t size = ZSTD_compressCCtx(context.get(), encoded.data.data(),
-                                               encoded.data.size(), raw.data(), raw.size(), kLevel);
-    if (ZSTD_isError(size) != 0)
-        throw Fault(ErrorCode::cannot_write,
-                    std::string("a block cannot be compressed: ") + ZSTD_getErrorName(size));
-    encoded.data.resize(size);
-    encoded.data.shrink_to_fit();
+    encoded.data = compress(raw);
     return encoded;
 }
 
 MeshBlock decode_block(std::span<const std::byte> data, std::uint64_t raw_bytes) {
     // What a block can hold at most: the length is checked before memory is taken for it.
     constexpr std::uint64_t kLargest = std::uint64_t{1} << 36;
-    if (raw_bytes < kHeaderBytes || raw_bytes > kLargest ||
-        ZSTD_getFrameContentSize(data.data(), data.size()) != raw_bytes)
+    if (raw_bytes < kHeaderBytes || raw_bytes > kLargest || content_bytes(data) != raw_bytes)
         malformed("a block's length is wrong");
-    std::vector<std::byte> raw(raw_bytes);
-    thread_local const std::unique_ptr<ZSTD_DCtx, FreeContext> context(ZSTD_createDCtx());
-    if (ZSTD_decompressDCtx(context.get(), raw.data(), raw.size(), data.data(), data.size()) !=
-        raw.size())
+    const std::vector<std::byte> raw = decompress(data, raw_bytes);
+    if (raw.size() != raw_bytes)
         malformed("a block cannot be decompressed");
 
     std::array<std::uint32_t, 4> header{};

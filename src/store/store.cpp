@@ -5,6 +5,7 @@
 #include "io/fault.h"
 #include "io/input_file.h"
 #include "math/vector.h"
+#include "store/hierarchy_codec.h"
 #include "store/mesh_draft.h"
 #include "store/store_file.h"
 
@@ -46,6 +47,28 @@ void check_mesh(StoreFile& file, const MeshRow& row) {
     if (hash != Hash128{row.hash_low, row.hash_high})
         throw Error(ErrorCode::malformed, file.path(),
                     "is damaged: mesh " + std::to_string(row.mesh) + " is not what its hash says");
+}
+
+/// Hierarchies of this format are those of their blocks. Jobs build damaged ones anew.
+void check_hierarchies(StoreFile& file) {
+    std::vector<std::int64_t> blocks;
+    file.with_connection([&](Database& database) {
+        if (!has_hierarchies(database))
+            return;
+        Statement rows(database, "SELECT block FROM hierarchy JOIN block USING (block) "
+                                 "WHERE format = ? AND block_checksum = data_checksum");
+        rows.bind(TreeOutline::kFormat);
+        while (rows.step())
+            blocks.push_back(rows.integer(0));
+    });
+    for (const std::int64_t block : blocks) {
+        StoredBlockData read = file.read_block_and_row(block);
+        const auto kept = file.find_hierarchy(read.row);
+        if (!kept || !decode_hierarchy(kept->data, read.row.triangles))
+            throw Error(ErrorCode::malformed, file.path(),
+                        "is damaged: the hierarchy of block " + std::to_string(block) +
+                            " is not what its checksum says");
+    }
 }
 
 /// Boxes in the index are those of the parts, rounded outwards.
@@ -110,6 +133,13 @@ StoreSummary summary(const Store& store) {
         result.stored_bytes += mesh.stored_bytes;
     });
     file.with_connection([&](Database& database) {
+        if (has_hierarchies(database)) {
+            const auto number = [&](const char* sql) {
+                return static_cast<std::uint64_t>(database.number(sql));
+            };
+            result.hierarchies = number("SELECT count(*) FROM hierarchy");
+            result.hierarchy_bytes = number("SELECT sum(length(data)) FROM hierarchy");
+        }
         const auto page = static_cast<std::uint64_t>(database.number("PRAGMA page_size"));
         result.file_bytes = page * static_cast<std::uint64_t>(database.number("PRAGMA page_count"));
         result.unused_bytes =
@@ -122,7 +152,7 @@ void verify(const Store& store, const Progress& progress) {
     StoreFile& file = store.file();
     std::vector<MeshRow> meshes;
     file.for_each_mesh([&](const MeshRow& mesh) { meshes.push_back(mesh); });
-    ProgressMeter meter(progress, "verify", meshes.size() + 3);
+    ProgressMeter meter(progress, "verify", meshes.size() + 4);
     check_pages(file);
     meter.advance();
     std::unordered_map<std::int64_t, bool> known;
@@ -138,6 +168,8 @@ void verify(const Store& store, const Progress& progress) {
     });
     meter.advance();
     check_boxes(file);
+    meter.advance();
+    check_hierarchies(file);
     meter.advance();
 }
 

@@ -59,6 +59,8 @@ StoreFile::Lease::~Lease() {
     connection->block_row.reset();
     connection->mesh.reset();
     connection->part.reset();
+    if (connection->hierarchy)
+        connection->hierarchy->reset();
     const std::scoped_lock lock(owner.mutex_);
     owner.idle_.push_back(std::move(connection));
 }
@@ -146,7 +148,7 @@ std::vector<BlockRow> StoreFile::blocks(const MeshRow& mesh) {
     return blocks;
 }
 
-MeshBlock StoreFile::decode(const Statement& row) {
+StoredBlockData StoreFile::decode(const Statement& row) {
     const BlockRow block = read_block_row(row, path_);
     const std::span<const std::byte> data = read_block_data(row, block, path_);
     bytes_read_ += data.size();
@@ -156,20 +158,37 @@ MeshBlock StoreFile::decode(const Statement& row) {
         if (result.mesh.positions.size() != block.vertices ||
             result.mesh.triangles.size() != block.triangles)
             malformed("it has other sizes than its row says");
-        return result;
+        return {block, std::move(result)};
     } catch (const Fault& fault) {
         throw Error(ErrorCode::malformed, path_,
                     "is damaged: block " + std::to_string(block.block) + ": " + fault.what());
     }
 }
 
-MeshBlock StoreFile::read_block(std::int64_t block) {
+StoredBlockData StoreFile::read_block_and_row(std::int64_t block) {
     Lease lease(*this);
     Statement& row = lease.connection->block;
     if (!row.bind(block).step())
         throw Error(ErrorCode::malformed, path_,
                     "is damaged: block " + std::to_string(block) + " is missing");
     return decode(row);
+}
+
+std::optional<HierarchyRow> StoreFile::find_hierarchy(const BlockRow& block) {
+    std::optional<HierarchyRow> found;
+    try {
+        Lease lease(*this);
+        std::optional<Statement>& row = lease.connection->hierarchy;
+        if (!row)
+            row.emplace(lease.connection->database, kFindHierarchy);
+        if (row->bind(block.block).step())
+            found = read_hierarchy_row(*row, block.data_checksum);
+    } catch (const Error&) {
+        return std::nullopt; // what comes of it shows where it matters
+    }
+    if (found)
+        bytes_read_ += found->data.size();
+    return found;
 }
 
 namespace {
@@ -216,27 +235,33 @@ private:
     std::size_t vertices_ = 0, triangles_ = 0;
 };
 
+[[noreturn]] void damaged_mesh(const std::string& store, std::int64_t mesh, const char* what) {
+    throw Error(ErrorCode::malformed, store, "is damaged: mesh " + std::to_string(mesh) + what);
+}
+
 } // namespace
+
+Mesh StoreFile::whole_mesh(const MeshRow& row, MeshBlock block) const {
+    if (block.mesh.positions.size() != row.vertices || block.mesh.triangles.size() != row.triangles)
+        damaged_mesh(path_, row.mesh, " has other sizes than its block");
+    if (block.vertex_ids.empty() && block.triangle_ids.empty())
+        return std::move(block.mesh);
+    MeshAssembly assembly(row);
+    if (!assembly.add(block) || !assembly.is_whole())
+        damaged_mesh(path_, row.mesh, " is not whole");
+    return assembly.take();
+}
 
 Mesh StoreFile::read_mesh(std::int64_t mesh) {
     const MeshRow row = this->mesh(mesh);
-    const auto damaged = [&](const char* what) {
-        throw Error(ErrorCode::malformed, path_, "is damaged: mesh " + std::to_string(mesh) + what);
-    };
-    if (row.blocks == 1) {
-        MeshBlock block = read_block(row.first_block);
-        if (block.mesh.positions.size() != row.vertices ||
-            block.mesh.triangles.size() != row.triangles)
-            damaged(" has other sizes than its block");
-        if (block.vertex_ids.empty() && block.triangle_ids.empty())
-            return std::move(block.mesh);
-    }
+    if (row.blocks == 1)
+        return whole_mesh(row, read_block(row.first_block));
     MeshAssembly assembly(row);
     for (std::uint64_t i = 0; i < row.blocks; ++i)
         if (!assembly.add(read_block(row.first_block + static_cast<std::int64_t>(i))))
-            damaged(" has a piece that does not belong to it");
+            damaged_mesh(path_, mesh, " has a piece that does not belong to it");
     if (!assembly.is_whole())
-        damaged(" is not whole");
+        damaged_mesh(path_, mesh, " is not whole");
     return assembly.take();
 }
 

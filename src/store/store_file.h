@@ -3,6 +3,7 @@
 #include <abut/mesh.h>
 #include <abut/types.h>
 
+#include "store/hierarchy_table.h"
 #include "store/mesh_codec.h"
 #include "store/schema.h"
 #include "store/sqlite.h"
@@ -12,11 +13,18 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace abut {
+
+/// A block with its row.
+struct StoredBlockData {
+    BlockRow row;
+    MeshBlock block;
+};
 
 /// A store that is read: what jobs that do not fit into the memory work on. Every row and block is
 /// checked against its checksum when it is read.
@@ -56,9 +64,16 @@ public:
     std::vector<BlockRow> blocks(const MeshRow& mesh);
     /// One block: of a mesh that was cut, a piece with the numbers that its vertices and triangles
     /// have in the whole.
-    MeshBlock read_block(std::int64_t block);
+    MeshBlock read_block(std::int64_t block) { return read_block_and_row(block).block; }
+    StoredBlockData read_block_and_row(std::int64_t block);
+    /// The mesh that lies in one block.
+    Mesh whole_mesh(const MeshRow& row, MeshBlock block) const;
 
-    /// Since the store was opened: compressed bytes of blocks, and how many.
+    /// The hierarchy that is kept for a block. None if there is none of this format, or if it cannot be
+    /// read: it can be built.
+    std::optional<HierarchyRow> find_hierarchy(const BlockRow& block);
+
+    /// Since the store was opened: compressed bytes of blocks and hierarchies; how many blocks.
     [[nodiscard]] std::uint64_t bytes_read() const noexcept { return bytes_read_; }
     [[nodiscard]] std::uint64_t blocks_read() const noexcept { return blocks_read_; }
 
@@ -74,6 +89,7 @@ private:
         Connection(const std::string& path, OpenMode mode);
         Database database;
         Statement block, block_row, mesh, part;
+        std::optional<Statement> hierarchy; ///< once there is the table
     };
     struct Lease {
         explicit Lease(StoreFile& file);
@@ -84,7 +100,7 @@ private:
         std::unique_ptr<Connection> connection;
     };
 
-    MeshBlock decode(const Statement& row);
+    StoredBlockData decode(const Statement& row);
 
     std::string path_;
     OpenMode mode_;

@@ -2,6 +2,8 @@
 
 #include <abut/error.h>
 
+#include "store/hierarchy_table.h"
+
 #include <algorithm>
 #include <sys/stat.h>
 #include <utility>
@@ -152,6 +154,7 @@ std::uint64_t StoreWriter::remove_unused_meshes() {
                 remove.bind(unused.integer(0), unused.integer(0) + unused.integer(1)).run();
         }
         database_.run("DELETE FROM mesh WHERE mesh IN (SELECT mesh FROM unused)");
+        remove_lost_hierarchies(database_);
     }
     database_.run("DROP TABLE unused");
     transaction.commit();

@@ -426,7 +426,8 @@ Tree build_tree(const TreeMesh& mesh, bool own_axes) {
     });
     Tree tree = build_tree(primitives);
     primitives = std::vector<Primitive>();
-    orient_nodes(tree, mesh, own_axes);
+    fill_leaves(tree, mesh);
+    orient_nodes(tree, mesh, own_axes ? OwnAxes::where_smaller : OwnAxes::never);
     return tree;
 }
 

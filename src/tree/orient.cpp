@@ -59,7 +59,7 @@ void add_triangle(const TriangleLeaf& leaf, std::size_t lane, Moments& m) {
         add(x, area / 12);
 }
 
-/// Principal axes of the surface about its centroid. False if it has none.
+/// Principal axes of the surface about its centroid. False if it has none, or they are the tree's.
 bool principal_frame(const Moments& m, NodeFrame& frame) {
     if (!(m.area > 0))
         return false;
@@ -88,7 +88,7 @@ bool principal_frame(const Moments& m, NodeFrame& frame) {
     frame.turn = {column(x.x, y.x, z.x), column(x.y, y.y, z.y), column(x.z, y.z, z.z)};
     frame.origin = {static_cast<float>(mean.x), static_cast<float>(mean.y),
                     static_cast<float>(mean.z)};
-    return true;
+    return frame.turn != NodeFrame().turn;
 }
 
 /// Box of the triangles of some slots in a frame, rounded as it comes.
@@ -141,13 +141,13 @@ float reach_of(const Aabb& box) {
 
 class Orienter {
 public:
-    Orienter(Tree& tree, const TreeMesh& mesh, bool own_axes)
+    Orienter(Tree& tree, const TreeMesh& mesh, OwnAxes own_axes)
         : tree_(tree), mesh_(mesh), own_axes_(own_axes),
           position_rounding_(0x1p-23F * reach_of(tree.bounds)) {}
 
     void run() {
-        fill_leaves();
-        gather_moments();
+        if (own_axes_ != OwnAxes::never)
+            gather_moments();
         const std::size_t count = tree_.nodes.size();
         parallel_for(count, 64, [&](std::size_t i) { fit(i); });
         parallel_for(count, 64, [&](std::size_t i) { turn_leaves(tree_.nodes[i]); });
@@ -158,20 +158,6 @@ public:
     }
 
 private:
-    void fill_leaves() {
-        tree_.leaves.resize(tree_.order.size() / kLanes);
-        parallel_for(tree_.leaves.size(), 1024, [&](std::size_t i) {
-            TriangleLeaf& leaf = tree_.leaves[i];
-            for (std::size_t lane = 0; lane < kLanes; ++lane) {
-                const auto& t = mesh_.triangles[tree_.order[i * kLanes + lane]];
-                for (std::size_t v = 0; v < 3; ++v)
-                    for (std::size_t axis = 0; axis < 3; ++axis)
-                        leaf.v[v][axis][lane] = static_cast<float>(
-                            component(mesh_.positions[t[v]], static_cast<int>(axis)));
-            }
-        });
-    }
-
     [[nodiscard]] Moments of_leaf(NodeRef leaf) const {
         Moments m;
         m.first = leaf.first();
@@ -181,9 +167,27 @@ private:
         return m;
     }
 
+    /// Nodes that may get axes of their own, and those below them.
+    [[nodiscard]] std::vector<std::uint8_t> with_moments() const {
+        std::vector<std::uint8_t> wanted(tree_.nodes.size(), 1);
+        if (own_axes_ == OwnAxes::where_smaller)
+            return wanted;
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            wanted[i] = tree_.nodes[i].frame.turned ? 1 : 0;
+        // Children come after their parent.
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            for (const NodeRef child : tree_.nodes[i].child)
+                if (wanted[i] != 0 && !child.is_none() && !child.is_leaf())
+                    wanted[child.index()] = 1;
+        return wanted;
+    }
+
     void gather_moments() {
         moments_.resize(tree_.nodes.size());
+        const std::vector<std::uint8_t> wanted = with_moments();
         const auto gather = [&](std::size_t i, bool leaves) {
+            if (wanted[i] == 0)
+                return;
             for (const NodeRef child : tree_.nodes[i].child)
                 if (!child.is_none() && child.is_leaf() == leaves)
                     moments_[i].merge(leaves ? of_leaf(child) : moments_[child.index()]);
@@ -194,16 +198,21 @@ private:
             gather(i, false);
     }
 
+    [[nodiscard]] bool may_turn(std::size_t index) const {
+        if (own_axes_ == OwnAxes::never ||
+            (own_axes_ == OwnAxes::where_turned && !tree_.nodes[index].frame.turned))
+            return false;
+        return moments_[index].end - moments_[index].first <= kMostSlots;
+    }
+
     void fit(std::size_t index) {
         Node& node = tree_.nodes[index];
-        const Moments& m = moments_[index];
-        float area = 0;
-        for (std::size_t i = 0; i < Node::kWidth; ++i)
-            area += node.box(i).half_area();
         NodeFrame own;
         std::array<Aabb, Node::kWidth> boxes;
-        if (own_axes_ && m.end - m.first <= kMostSlots && principal_frame(m, own)) {
-            float own_area = 0;
+        if (may_turn(index) && principal_frame(moments_[index], own)) {
+            float area = 0, own_area = 0;
+            for (std::size_t i = 0; i < Node::kWidth; ++i)
+                area += node.box(i).half_area();
             for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i) {
                 const NodeRef child = node.child[i];
                 const std::uint32_t first =
@@ -213,7 +222,7 @@ private:
                 boxes[i] = box_of(tree_, own, first, end);
                 own_area += boxes[i].half_area();
             }
-            if (own_area < area) {
+            if (own_area < area || own_axes_ == OwnAxes::where_turned) {
                 set_boxes(node, own, boxes);
                 return;
             }
@@ -274,14 +283,28 @@ private:
 
     Tree& tree_;
     const TreeMesh& mesh_;
-    bool own_axes_;
+    OwnAxes own_axes_;
     float position_rounding_; ///< of a position in single precision
     std::vector<Moments> moments_;
 };
 
 } // namespace
 
-void orient_nodes(Tree& tree, const TreeMesh& mesh, bool own_axes) {
+void fill_leaves(Tree& tree, const TreeMesh& mesh) {
+    tree.leaves.resize(tree.order.size() / kLanes);
+    parallel_for(tree.leaves.size(), 1024, [&](std::size_t i) {
+        TriangleLeaf& leaf = tree.leaves[i];
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const auto& t = mesh.triangles[tree.order[i * kLanes + lane]];
+            for (std::size_t v = 0; v < 3; ++v)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    leaf.v[v][axis][lane] =
+                        static_cast<float>(component(mesh.positions[t[v]], static_cast<int>(axis)));
+        }
+    });
+}
+
+void orient_nodes(Tree& tree, const TreeMesh& mesh, OwnAxes own_axes) {
     if (!tree.empty())
         Orienter(tree, mesh, own_axes).run();
 }

@@ -17,7 +17,7 @@ constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 128, kPieceBytes = 1536
 } // namespace
 
 PartCache::PartCache(StoreFile& store, const PartTable& table, std::uint64_t memory)
-    : store_(store), table_(table), memory_(memory), farthest_(order_.end()) {}
+    : store_(store), reader_(store, 0), table_(table), memory_(memory), farthest_(order_.end()) {}
 
 PartCache::Pin PartCache::pin(Resident& resident) {
     pinned_ += resident.pins++ == 0 ? 1 : 0;
@@ -214,12 +214,12 @@ Resident& PartCache::bring(Lock& lock, std::uint32_t entry, Garbage& garbage) {
 std::shared_ptr<LoadedPiece> PartCache::read(const StoredPiece& piece) {
     std::shared_ptr<LoadedPiece> loaded;
     if (piece.is_block) {
-        MeshBlock block = store_.read_block(piece.number);
-        loaded = std::make_shared<LoadedPiece>(std::move(block.mesh));
+        ModelBlock block = reader_.read_block(piece.number);
+        loaded = std::make_shared<LoadedPiece>(std::move(block.model));
         loaded->is_block = true;
-        loaded->triangle_ids = std::move(block.triangle_ids);
+        loaded->triangle_ids = std::move(block.numbers);
     } else {
-        loaded = std::make_shared<LoadedPiece>(store_.read_mesh(piece.number));
+        loaded = std::make_shared<LoadedPiece>(reader_.read_mesh(piece.number));
     }
     loaded->bytes = std::get<Model>(loaded->shape).bytes() +
                     loaded->triangle_ids.capacity() * sizeof(std::uint32_t) + kPieceBytes;

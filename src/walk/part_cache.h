@@ -2,7 +2,7 @@
 
 #include <abut/types.h>
 
-#include "store/store_file.h"
+#include "store/model_reader.h"
 #include "walk/part_table.h"
 #include "world/body.h"
 
@@ -20,7 +20,7 @@ namespace abut {
 
 /// A piece in memory: a model, shared by all parts that show it.
 struct LoadedPiece {
-    explicit LoadedPiece(Mesh mesh) : shape(Model(std::move(mesh))) {}
+    explicit LoadedPiece(Model model) : shape(std::move(model)) {}
 
     BodyShape shape; ///< a Model
     /// Of a block: the numbers of its triangles in the mesh. Empty for a whole mesh.
@@ -150,6 +150,7 @@ private:
     void add_bytes(std::uint64_t bytes);
 
     StoreFile& store_;
+    ModelReader reader_;
     const PartTable& table_;
     mutable std::mutex mutex_;
     std::condition_variable changed_; ///< something has been read, or could not be
