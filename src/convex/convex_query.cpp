@@ -22,7 +22,7 @@ double rounding_of(const ConvexData& a, const Transform& world_from_a, const Con
 }
 
 Vec3 between_middles(const ConvexData& a, const ConvexData& b, const PolytopePair& pair) {
-    return pair.b.place(b.middle) - pair.a.place(a.middle);
+    return pair.b.place(b.ball.middle) - pair.a.place(a.ball.middle);
 }
 
 VertexPair facing_vertices(const PolytopePair& pair, const Vec3& direction) {

@@ -1,5 +1,6 @@
 #include "convex/expanding_polytope.h"
 
+#include "convex/climb.h"
 #include "geometry/point_triangle_distance.h"
 
 #include <algorithm>
@@ -45,11 +46,7 @@ ExpandingPolytope::Corner ExpandingPolytope::placed(const VertexPair& vertices) 
 }
 
 ExpandingPolytope::Corner ExpandingPolytope::farthest_corner(const Vec3& direction) const {
-    const Vec3 from_a = pair_.a.pulled_back(-direction), from_b = pair_.b.pulled_back(direction);
-    // Both starts first: what the first climb waits for, the second look-up need not.
-    const Polytope &a = *pair_.a.polytope, &b = *pair_.b.polytope;
-    const std::uint32_t start_a = a.starts.vertex(from_a), start_b = b.starts.vertex(from_b);
-    return placed({climb(a, from_a, start_a), climb(b, from_b, start_b)});
+    return placed(farthest(pair_, -direction));
 }
 
 /// Makes four corners of a simplex that may have fewer, or is flat. False if no corner lies beyond

@@ -1,5 +1,6 @@
 #include "convex/normal_table.h"
 
+#include "convex/climb.h"
 #include "convex/polytope.h"
 
 #include <algorithm>
