@@ -12,8 +12,11 @@ namespace abut {
 Transform::Transform(const Pose& pose) {
     double w = pose.rotation[0], x = pose.rotation[1], y = pose.rotation[2], z = pose.rotation[3];
     // Scaled by the largest first: no square of a valid quaternion over- or underflows.
-    const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
-    if (!std::isfinite(w) || !is_finite({x, y, z}) || !is_finite(pose.translation))
+    const double largest =
+        std::max(std::max(std::abs(w), std::abs(x)), std::max(std::abs(y), std::abs(z)));
+    // Zero times what is not finite is not a number.
+    const Vec3& at = pose.translation;
+    if (!(0 * w + 0 * x + 0 * y + 0 * z + 0 * at.x + 0 * at.y + 0 * at.z == 0))
         throw Error(ErrorCode::bad_argument, "pose has a value that is not finite");
     if (largest == 0)
         throw Error(ErrorCode::bad_argument, "pose has a quaternion of zero length");
