@@ -17,9 +17,9 @@ HullFeature spanned_feature(const Polytope& polytope, const Vec3& n,
     if (vertices.size() == 1)
         return feature;
     const HullVertex& v = polytope.vertices[vertices[0]];
-    const auto below = [&](std::uint32_t edge) { return dot(n, v.at - polytope.edges[edge].to); };
+    const auto below = [&](std::uint32_t edge) { return dot(n, v.at - polytope.to(edge)); };
     for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
-        if (vertices.size() == 2 && polytope.edges[e].target == vertices[1])
+        if (vertices.size() == 2 && polytope.target(e) == vertices[1])
             return {vertices[0], e, Feature::edge};
     feature = {vertices[0], v.first_edge, Feature::face};
     double least = std::numeric_limits<double>::infinity();

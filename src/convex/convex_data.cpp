@@ -62,7 +62,7 @@ double deviation(std::span<const Vec3> vertices, const HullLevel& level, double 
     const Transform unmoved;
     const Vec3& centre = level.polytope.vertices[0].at;
     for (const Vec3& v : vertices) {
-        const Polytope point{{{v, 0, 0}}, {}, {}};
+        const Polytope point = make_polytope({&v, 1}, {});
         ClosestPointSearch search;
         search.at.a = vertex_feature(level.polytope.starts.vertex(v - centre));
         find_closest_points({level.polytope, unmoved, point, unmoved}, rounding, search);
@@ -92,10 +92,7 @@ ConvexData::ConvexData(std::span<const Vec3> points) {
         for (std::uint32_t& v : t)
             v = number[v];
     reach = reach_of(vertices);
-    Box3 box;
-    for (const Vec3& p : vertices)
-        extend(box, p);
-    middle = box.lower + 0.5 * (box.upper - box.lower);
+    ball = inner_ball(vertices, triangles);
     levels.push_back(make_level(vertices, triangles));
     levels[0].number.resize(vertices.size());
     std::iota(levels[0].number.begin(), levels[0].number.end(), 0);
@@ -115,33 +112,32 @@ void ConvexData::number_features() {
         for (std::size_t i = 0; i < triangles.size(); ++i)
             face_of.push_back(i < triangles.size() / 2 ? 0 : 1);
 
-    face_number.resize(p.edges.size());
+    face_number.resize(p.edge_end());
     for (std::size_t i = 0; i < triangles.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             const HullVertex& v = p.vertices[triangles[i][k]];
             std::uint32_t edge = v.first_edge;
-            while (p.edges[edge].target != triangles[i][(k + 1) % 3])
+            while (p.target(edge) != triangles[i][(k + 1) % 3])
                 ++edge;
             face_number[edge] = face_of[i];
         }
 
-    edge_number.assign(p.edges.size(), kNoEdge);
-    for (std::uint32_t e = 0; e < p.edges.size(); ++e) {
-        const std::uint32_t twin = p.edges[e].twin;
-        if (dimension > 1 && face_number[e] == face_number[twin])
-            continue;
-        if (e < twin) {
+    edge_number.assign(p.edge_end(), kNoEdge);
+    for (std::uint32_t v = 0; v < p.vertices.size(); ++v)
+        for (std::uint32_t k = 0; k < p.vertices[v].degree; ++k) {
+            const std::uint32_t e = p.vertices[v].first_edge + k, twin = p.twin(e);
+            if (e > twin || (dimension > 1 && face_number[e] == face_number[twin]))
+                continue;
             edge_number[e] = edge_number[twin] = static_cast<std::uint32_t>(edges.size());
-            edges.push_back({p.origin(e), p.edges[e].target});
+            edges.push_back({v, p.target(e)});
         }
-    }
 
     // The border of a face: from an edge to the one that leaves its end and has the face on its
     // left too.
     const std::uint32_t faces =
         face_of.empty() ? 0 : 1 + *std::max_element(face_of.begin(), face_of.end());
     std::vector<std::uint32_t> border(faces, kNoEdge);
-    for (std::uint32_t e = 0; e < p.edges.size(); ++e)
+    for (std::uint32_t e = 0; e < p.edge_end(); ++e)
         if (faces > 0 && edge_number[e] != kNoEdge)
             border[face_number[e]] = e;
     for (const std::uint32_t first : border) {
@@ -149,8 +145,8 @@ void ConvexData::number_features() {
         std::uint32_t edge = first;
         do {
             face_vertices.push_back(p.origin(edge));
-            const HullVertex& end = p.vertices[p.edges[edge].target];
-            edge = p.before(end, p.edges[edge].twin);
+            const HullVertex& end = p.vertices[p.target(edge)];
+            edge = p.before(end, p.twin(edge));
             while (edge_number[edge] == kNoEdge)
                 edge = p.before(end, edge);
         } while (edge != first);
@@ -174,8 +170,7 @@ std::size_t ConvexData::bytes() const {
                       bytes_of(face_begin) + bytes_of(face_vertices) + bytes_of(triangles) +
                       bytes_of(edge_number) + bytes_of(face_number);
     for (const HullLevel& level : levels)
-        sum += sizeof(level) + bytes_of(level.polytope.vertices) + bytes_of(level.polytope.edges) +
-               bytes_of(level.polytope.starts.vertices()) + bytes_of(level.number);
+        sum += sizeof(level) + level.polytope.bytes() + bytes_of(level.number);
     return sum;
 }
 

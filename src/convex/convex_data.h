@@ -3,6 +3,7 @@
 #include <abut/convex.h>
 
 #include "convex/exact_hull.h"
+#include "convex/inner_ball.h"
 #include "convex/polytope.h"
 
 #include <vector>
@@ -37,7 +38,7 @@ public:
     std::vector<HullLevel> levels; ///< the body's own polytope first, then ever coarser ones
     std::size_t entry = 0;         ///< the level where an incoherent search begins
     double reach = 0;              ///< largest |x| + |y| + |z| of a vertex
-    Vec3 middle;                   ///< of the box around the vertices
+    InnerBall ball;                ///< radius 0 if the body is flat
 
 private:
     void number_features();

@@ -61,13 +61,31 @@ void search_along(const PolytopePair& pair, const Vec3& direction, double roundi
     find_closest_points(pair, rounding, search);
 }
 
+/// Whether the bodies' inner balls meet: then the point between their middles lies in both.
+bool balls_meet(const PlacedBodies& bodies, const PolytopePair& pair, const Vec3& between,
+                double rounding, WalkState& at) {
+    const double radius_a = least_stretch_by_discs(bodies.world_from_a) * bodies.a.ball.radius,
+                 radius_b = least_stretch_by_discs(bodies.world_from_b) * bodies.b.ball.radius;
+    const double room = radius_a + radius_b - 4 * rounding;
+    if (!(room > 0 && length_sq(between) < room * room))
+        return false;
+    at.point_a = pair.a.place(bodies.a.ball.middle) + radius_a / (radius_a + radius_b) * between;
+    at.distance_sq = 0;
+    at.end = WalkEnd::meeting;
+    return true;
+}
+
 /// Without a workspace: first the hulls that are small enough to walk on from anywhere. Where these
-/// are closest, the tables of normals of the others begin. Whether it came to the others.
+/// are closest, the tables of normals of the others begin. Whether `search.at` holds features of the
+/// others, or its simplex is one of theirs.
 bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& search) {
     const std::size_t entry_a = std::max(bodies.a.entry, bodies.level_a),
                       entry_b = std::max(bodies.b.entry, bodies.level_b);
     const PolytopePair first = bodies.at(entry_a, entry_b);
-    search_along(first, between_middles(bodies.a, bodies.b, first), rounding, search);
+    const Vec3 between = between_middles(bodies.a, bodies.b, first);
+    if (balls_meet(bodies, first, between, rounding, search.at))
+        return false;
+    search_along(first, between, rounding, search);
     // Hulls lie inside of the bodies: where they meet, so do these.
     if (entry_a == bodies.level_a && entry_b == bodies.level_b)
         return true;
@@ -148,13 +166,15 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
     }
     ConvexWorkspace* const workspace = options.workspace;
     ClosestPointSearch search;
-    bool features_last = true;
+    bool worth_keeping = true;
     if (workspace != nullptr && workspace->kind != ConvexWorkspace::Kind::empty)
-        features_last = go_on(bodies, rounding, *workspace, search);
+        worth_keeping = go_on(bodies, rounding, *workspace, search);
     else
-        features_last = descend(bodies, rounding, search);
-    if (workspace != nullptr && features_last)
+        worth_keeping = descend(bodies, rounding, search);
+    if (workspace != nullptr && worth_keeping)
         remember(search, *workspace);
+    else if (workspace != nullptr)
+        workspace->kind = ConvexWorkspace::Kind::empty;
 
     ConvexGap gap;
     const WalkState& at = search.at;

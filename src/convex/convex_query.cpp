@@ -3,17 +3,22 @@
 #include "math/transform.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace abut {
 
 double rounding_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
                    const Transform& world_from_b) {
-    double offset = 0;
-    for (std::size_t i = 9; i < 12; ++i)
-        offset += std::abs(world_from_b.m[i] - world_from_a.m[i]);
-    const double rounding = 0x1p-51 * (sum_of_sizes(world_from_a) * a.reach +
-                                       sum_of_sizes(world_from_b) * b.reach + offset);
+    const auto &m = world_from_a.m, &n = world_from_b.m;
+    // Two sums, that two lanes may do.
+    std::array<double, 2> sums{};
+    for (std::size_t i = 0; i < 8; i += 2)
+        for (std::size_t k = 0; k < 2; ++k)
+            sums[k] += std::abs(m[i + k]) * a.reach + std::abs(n[i + k]) * b.reach;
+    const double last = std::abs(m[8]) * a.reach + std::abs(n[8]) * b.reach;
+    const double offset = sum_of_sizes(Vec3{n[9] - m[9], n[10] - m[10], n[11] - m[11]});
+    const double rounding = 0x1p-51 * (sums[0] + sums[1] + last + offset);
     if (!std::isfinite(rounding)) {
         require_finite(world_from_a, "transform of a");
         require_finite(world_from_b, "transform of b");
@@ -22,7 +27,7 @@ double rounding_of(const ConvexData& a, const Transform& world_from_a, const Con
 }
 
 Vec3 between_middles(const ConvexData& a, const ConvexData& b, const PolytopePair& pair) {
-    return pair.b.place(b.middle) - pair.a.place(a.middle);
+    return pair.b.place(b.ball.middle) - pair.a.place(a.ball.middle);
 }
 
 VertexPair facing_vertices(const PolytopePair& pair, const Vec3& direction) {

@@ -15,7 +15,7 @@ namespace abut {
 double rounding_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
                    const Transform& world_from_b);
 
-/// From the middle of one body's box to that of the other, in the pair's frame.
+/// From the middle of one body's inner ball to that of the other, in the pair's frame.
 Vec3 between_middles(const ConvexData& a, const ConvexData& b, const PolytopePair& pair);
 
 /// The vertices that face each other along a direction, as the tables of normals say.

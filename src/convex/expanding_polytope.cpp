@@ -1,5 +1,6 @@
 #include "convex/expanding_polytope.h"
 
+#include "convex/climb.h"
 #include "geometry/point_triangle_distance.h"
 
 #include <algorithm>
@@ -36,8 +37,8 @@ ExpandingPolytope::ExpandingPolytope(const PolytopePair& pair, double rounding)
     corners_.reserve(64);
     faces_.reserve(256);
     open_.resize(64);
-    visible_.reserve(64);
-    horizon_.reserve(64);
+    visible_.resize(64);
+    horizon_.resize(64);
 }
 
 ExpandingPolytope::Corner ExpandingPolytope::placed(const VertexPair& vertices) const {
@@ -45,8 +46,7 @@ ExpandingPolytope::Corner ExpandingPolytope::placed(const VertexPair& vertices) 
 }
 
 ExpandingPolytope::Corner ExpandingPolytope::farthest_corner(const Vec3& direction) const {
-    return placed({farthest(*pair_.a.polytope, pair_.a.pulled_back(-direction)),
-                   farthest(*pair_.b.polytope, pair_.b.pulled_back(direction))});
+    return placed(farthest(pair_, -direction));
 }
 
 /// Makes four corners of a simplex that may have fewer, or is flat. False if no corner lies beyond
@@ -124,23 +124,31 @@ std::uint32_t ExpandingPolytope::nearest_face() {
     return open_[nearest];
 }
 
-/// Faces that see the corner, beginning with one of them, go; the border around them stays.
+/// Faces that see the corner, beginning with one of them, go; the border around them stays. (Both
+/// lists are written to always, and counted by what is seen: branches would be coins'.)
 void ExpandingPolytope::remove_visible(const Vec3& corner, std::uint32_t seen_by) {
-    visible_.clear();
-    visible_.push_back(seen_by);
-    horizon_.clear();
-    faces_[seen_by].remove();
-    for (std::size_t i = 0; i < visible_.size(); ++i)
+    visible_[0] = seen_by;
+    faces_[seen_by].gone = 1;
+    std::size_t visible = 1, horizon = 0;
+    for (std::size_t i = 0; i < visible; ++i) {
+        if (visible + 3 > visible_.size())
+            visible_.resize(2 * visible_.size());
+        if (horizon + 3 > horizon_.size())
+            horizon_.resize(2 * horizon_.size());
         for (const Side& side : faces_[visible_[i]].across) {
             Face& beyond = faces_[side.face];
-            // Nothing is above a face that is gone.
-            if (above(beyond, corner) > rounding_) {
-                beyond.remove();
-                visible_.push_back(side.face);
-            } else if (beyond.alive()) {
-                horizon_.push_back(side);
-            }
+            const std::uint32_t seen = above(beyond, corner) > rounding_ ? 1 : 0;
+            const std::uint32_t alive = 1 - beyond.gone;
+            visible_[visible] = side.face;
+            horizon_[horizon] = side;
+            visible += seen & alive;
+            horizon += (1 - seen) & alive;
+            beyond.gone |= seen;
         }
+    }
+    for (std::size_t i = 0; i < visible; ++i)
+        faces_[visible_[i]].remove();
+    horizon_count_ = horizon;
 }
 
 void ExpandingPolytope::join(const Side& one, const Side& other) {
@@ -153,7 +161,8 @@ void ExpandingPolytope::add_corner(const Corner& corner, std::uint32_t seen_by) 
     const auto point = static_cast<std::uint32_t>(corners_.size());
     corners_.push_back(corner);
     const auto first = static_cast<std::uint32_t>(faces_.size());
-    for (const Side& side : horizon_) {
+    for (std::size_t i = 0; i < horizon_count_; ++i) {
+        const Side side = horizon_[i];
         const Face& beyond = faces_[side.face];
         const std::uint32_t from = beyond.corners[next(side.edge)], to = beyond.corners[side.edge];
         const auto face = static_cast<std::uint32_t>(faces_.size());

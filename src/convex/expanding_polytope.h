@@ -68,12 +68,13 @@ private:
         std::array<std::uint32_t, 3> corners{};
         std::array<Side, 3> across{}; ///< across[k]: beyond the edge from corner k
         Vec3 normal;
-        double offset = 0; ///< of its plane from the origin; infinite once the face is gone
+        double offset = 0; ///< of its plane from the origin
 
-        [[nodiscard]] bool alive() const {
-            return offset < std::numeric_limits<double>::infinity();
-        }
-        void remove() { offset = std::numeric_limits<double>::infinity(); }
+        std::uint32_t gone = 0;
+
+        [[nodiscard]] bool alive() const { return gone == 0; }
+        /// It is never the nearest then.
+        void remove() { gone = 1, offset = std::numeric_limits<double>::infinity(); }
     };
 
     [[nodiscard]] Corner farthest_corner(const Vec3& direction) const;
@@ -99,8 +100,9 @@ private:
     std::vector<Face> faces_;
     std::vector<std::uint32_t> open_; ///< faces that may be the nearest, some that went, and room
     std::size_t open_count_ = 0;      ///< without the room
-    std::vector<std::uint32_t> visible_; ///< faces
-    std::vector<Side> horizon_;          ///< of faces that stay
+    std::vector<std::uint32_t> visible_; ///< faces, and room
+    std::vector<Side> horizon_;          ///< of faces that stay, and room
+    std::size_t horizon_count_ = 0;      ///< without the room
     bool recalled_ = false;
     bool around_ = true; ///< of what was recalled: the origin lies below all faces
 };

@@ -1,5 +1,6 @@
 #include "convex/feature_walk.h"
 
+#include "convex/climb.h"
 #include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
 
@@ -106,12 +107,12 @@ inline Vec3 corner0(const PlacedPolytope& side, const HullFeature& f) {
     return side.place(side.polytope->vertices[f.vertex].at);
 }
 inline Vec3 corner1(const PlacedPolytope& side, const HullFeature& f) {
-    return side.place(side.polytope->edges[f.edge].to);
+    return side.place(side.polytope->to(f.edge));
 }
 inline Triangle triangle(const PlacedPolytope& side, const HullFeature& f) {
     const Polytope& p = *side.polytope;
     return {corner0(side, f), corner1(side, f),
-            side.place(p.edges[p.after(p.vertices[f.vertex], f.edge)].to)};
+            side.place(p.to(p.after(p.vertices[f.vertex], f.edge)))};
 }
 
 inline Measured measure(const PolytopePair& pair, const HullFeature& a, const HullFeature& b) {
@@ -148,14 +149,14 @@ inline void shrink(const Polytope& p, Corners corners, HullFeature& f) {
         f.kind = Feature::vertex;
         break;
     case 2:
-        f.vertex = p.edges[f.edge].target;
+        f.vertex = p.target(f.edge);
         f.kind = Feature::vertex;
         break;
     case 3:
         f.kind = Feature::edge;
         break;
     case 4:
-        f.vertex = p.edges[next].target;
+        f.vertex = p.target(next);
         f.kind = Feature::vertex;
         break;
     case 5:
@@ -163,8 +164,8 @@ inline void shrink(const Polytope& p, Corners corners, HullFeature& f) {
         f.kind = Feature::edge;
         break;
     case 6:
-        f.vertex = p.edges[f.edge].target;
-        f.edge = p.before(p.vertices[f.vertex], p.edges[f.edge].twin);
+        f.vertex = p.target(f.edge);
+        f.edge = p.before(p.vertices[f.vertex], p.twin(f.edge));
         f.kind = Feature::edge;
         break;
     default:
@@ -186,7 +187,7 @@ inline Growth grow(const PlacedPolytope& side, const HullFeature& f, const Vec3&
     const Polytope& p = *side.polytope;
     const Vec3 n = side.pulled_back(gap);
     const HullVertex& v = p.vertices[f.vertex];
-    const auto excess = [&](std::uint32_t edge) { return dot(n, p.edges[edge].to - v.at); };
+    const auto excess = [&](std::uint32_t edge) { return dot(n, p.to(edge) - v.at); };
     if (f.kind == Feature::edge) {
         const std::uint32_t right = p.before(v, f.edge);
         const double to_left = excess(p.after(v, f.edge)), to_right = excess(right);
@@ -196,12 +197,8 @@ inline Growth grow(const PlacedPolytope& side, const HullFeature& f, const Vec3&
             return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0};
         // Between coplanar triangles: a part of a face, whose side only the others tell.
     }
-    double most = 0;
-    std::uint32_t best = v.first_edge;
-    for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
-        if (const double x = excess(e); x > most)
-            most = x, best = e;
-    return {most, {f.vertex, best, Feature::edge}, most > 0 && f.kind == Feature::vertex};
+    const HighestNeighbour h = highest_neighbour(p, v, n);
+    return {h.excess, {f.vertex, h.edge, Feature::edge}, h.excess > 0 && f.kind == Feature::vertex};
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "convex/normal_table.h"
 
+#include "convex/climb.h"
 #include "convex/polytope.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ void fold(double& u, double& v, double by) {
 } // namespace
 
 NormalTable::NormalTable(const Polytope& polytope, std::uint32_t resolution)
-    : resolution_(resolution) {
+    : resolution_(resolution), half_(0.5 * resolution) {
     vertices_.reserve(std::size_t{resolution} * resolution);
     const auto middle = [&](std::uint32_t i) { return (2 * i + 1.0) / resolution - 1; };
     std::uint32_t last = 0;
@@ -39,10 +40,10 @@ std::uint32_t NormalTable::vertex(const Vec3& d) const {
         return 0;
     const double share = 1 / size;
     double u = share * d.x, v = share * d.y;
-    fold(u, v, std::max(-share * d.z, 0.0));
-    const double half = 0.5 * resolution_;
+    // The larger of -z and 0: a branch on which half it is would be a coin's.
+    fold(u, v, 0.5 * share * (std::abs(d.z) - d.z));
     const auto cell = [&](double w) {
-        return std::min(static_cast<std::uint32_t>(w * half + half), resolution_ - 1);
+        return std::min(static_cast<std::uint32_t>(w * half_ + half_), resolution_ - 1);
     };
     return vertices_[cell(u) * resolution_ + cell(v)];
 }

@@ -29,6 +29,7 @@ public:
 
 private:
     std::uint32_t resolution_ = 1;
+    double half_ = 0.5; ///< of the resolution
     std::vector<std::uint32_t> vertices_;
 };
 

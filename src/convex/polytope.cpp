@@ -34,6 +34,27 @@ void order_ring(std::span<Corner> ring) {
                               [](const Corner& c, std::uint32_t vertex) { return c.to < vertex; });
 }
 
+void add_ring(std::span<const Vec3> points, std::span<const Corner> ring,
+              std::vector<RingBlock>& rings) {
+    for (std::size_t first = 0; first < ring.size(); first += RingBlock::kEdges) {
+        RingBlock& block = rings.emplace_back();
+        for (std::size_t k = 0; k < RingBlock::kEdges; ++k) {
+            const std::uint32_t to = ring[first + k < ring.size() ? first + k : 0].to;
+            block.target[k] = to;
+            block.x[k] = points[to].x, block.y[k] = points[to].y, block.z[k] = points[to].z;
+        }
+    }
+}
+
+/// So that two blocks can be read where the last ring begins. What is there is a vertex too.
+void add_room(Polytope& polytope) {
+    RingBlock last;
+    const Vec3& at = polytope.vertices[0].at;
+    last.x.fill(at.x), last.y.fill(at.y), last.z.fill(at.z);
+    while (polytope.edge_end() < polytope.vertices.back().first_edge + 2 * RingBlock::kEdges)
+        polytope.rings.push_back(last);
+}
+
 void set_twins(Polytope& polytope) {
     struct Ends {
         std::uint32_t low, high, edge;
@@ -42,16 +63,19 @@ void set_twins(Polytope& polytope) {
     for (std::uint32_t v = 0; v < polytope.vertices.size(); ++v) {
         const HullVertex& vertex = polytope.vertices[v];
         for (std::uint32_t e = vertex.first_edge; e < vertex.first_edge + vertex.degree; ++e) {
-            const std::uint32_t w = polytope.edges[e].target;
+            const std::uint32_t w = polytope.target(e);
             ends.push_back({std::min(v, w), std::max(v, w), e});
         }
     }
     std::sort(ends.begin(), ends.end(), [](const Ends& a, const Ends& b) {
         return a.low != b.low ? a.low < b.low : a.high < b.high;
     });
+    const auto twin = [&](std::uint32_t edge) -> std::uint32_t& {
+        return polytope.rings[edge / RingBlock::kEdges].twin[edge % RingBlock::kEdges];
+    };
     for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
-        polytope.edges[ends[i].edge].twin = ends[i + 1].edge;
-        polytope.edges[ends[i + 1].edge].twin = ends[i].edge;
+        twin(ends[i].edge) = ends[i + 1].edge;
+        twin(ends[i + 1].edge) = ends[i].edge;
     }
 }
 
@@ -62,45 +86,25 @@ Polytope make_polytope(std::span<const Vec3> points, std::span<const IndexTriang
     if (triangles.empty() && points.size() == 2)
         corners = {{0, 1, 1}, {1, 0, 0}};
     Polytope polytope;
-    polytope.edges.reserve(corners.size());
+    polytope.vertices.reserve(points.size());
     auto ring = corners.begin();
     for (std::uint32_t v = 0; v < points.size(); ++v) {
         const auto end =
             std::find_if(ring, corners.end(), [v](const Corner& c) { return c.from != v; });
         order_ring({ring, end});
-        const auto first = static_cast<std::uint32_t>(polytope.edges.size());
-        for (; ring != end; ++ring)
-            polytope.edges.push_back({points[ring->to], ring->to, 0});
         polytope.vertices.push_back(
-            {points[v], first, static_cast<std::uint32_t>(polytope.edges.size()) - first});
+            {points[v], polytope.edge_end(), static_cast<std::uint32_t>(end - ring)});
+        add_ring(points, {ring, end}, polytope.rings);
+        ring = end;
     }
+    add_room(polytope);
     set_twins(polytope);
     return polytope;
 }
 
-std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32_t start) {
-    // Most vertices have no more neighbours than this. To look at so many always, the next vertices'
-    // neighbours among them, costs less than a branch on their number.
-    constexpr std::uint32_t kRun = 8;
-    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
-    std::uint32_t best = start;
-    double height = dot(direction, polytope.vertices[start].at);
-    for (;;) {
-        const HullVertex& vertex = polytope.vertices[best];
-        const std::uint32_t at = best;
-        const auto look = [&](const HullEdge& edge) {
-            if (const double h = dot(direction, edge.to); h > height)
-                height = h, best = edge.target;
-        };
-        const HullEdge* const first = polytope.edges.data() + vertex.first_edge;
-        if (vertex.degree <= kRun && vertex.first_edge + kRun <= edges)
-            for (std::uint32_t k = 0; k < kRun; ++k)
-                look(first[k]);
-        else
-            std::for_each(first, first + vertex.degree, look);
-        if (best == at)
-            return best;
-    }
+std::size_t Polytope::bytes() const {
+    return vertices.capacity() * sizeof(HullVertex) + rings.capacity() * sizeof(RingBlock) +
+           starts.vertices().capacity() * sizeof(std::uint32_t);
 }
 
 } // namespace abut

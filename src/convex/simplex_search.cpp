@@ -1,5 +1,6 @@
 #include "convex/simplex_search.h"
 
+#include "convex/climb.h"
 #include "geometry/point_triangle_distance.h"
 
 #include <algorithm>
@@ -150,8 +151,7 @@ SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& s
     while (!simplex.holds_origin() && simplex.distance_sq() > rounding_sq) {
         const Vec3 gap = simplex.gap();
         const double sq = simplex.distance_sq();
-        last = {farthest(*pair.a.polytope, pair.a.pulled_back(gap)),
-                farthest(*pair.b.polytope, pair.b.pulled_back(-gap))};
+        last = farthest(pair, gap);
         state.excess = std::max(0.0, sq - dot(gap, simplex.difference(last)));
         if (state.excess * state.excess <= rounding_sq * sq || simplex.holds(last))
             break;

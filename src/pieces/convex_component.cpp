@@ -88,7 +88,7 @@ private:
                 at = &polytope.vertices[v].at;
                 const HullVertex& h = polytope.vertices[v];
                 for (std::uint32_t e = h.first_edge; e < h.first_edge + h.degree; ++e)
-                    if (side(t, polytope.edges[e].to) > 0)
+                    if (side(t, polytope.to(e)) > 0)
                         return false;
                 break;
             }

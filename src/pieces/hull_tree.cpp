@@ -201,9 +201,7 @@ std::size_t HullTree::bytes() const {
                       (leaf_of.capacity() + leaf_at.capacity()) * sizeof(std::uint32_t) +
                       sources.capacity() * sizeof(std::vector<std::uint32_t>);
     for (const HullNode& n : nodes)
-        sum += n.hull.vertices.capacity() * sizeof(HullVertex) +
-               n.hull.edges.capacity() * sizeof(HullEdge) +
-               n.hull.starts.vertices().capacity() * sizeof(std::uint32_t);
+        sum += n.hull.bytes();
     for (const auto& s : sources)
         sum += s.capacity() * sizeof(std::uint32_t);
     return sum;

@@ -1,5 +1,6 @@
 #include "pieces/pair_search.h"
 
+#include "convex/climb.h"
 #include "convex/convex_query.h"
 
 #include <algorithm>
@@ -95,8 +96,7 @@ void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
 double PiecePairSearch::begin(BoundedPair& pair) {
     const PolytopePair hulls = placed_.hulls(pair.hulls);
     const Vec3 along = pair.along == Vec3{} ? placed_.between(pair.hulls) : pair.along;
-    const std::uint32_t a = farthest(*hulls.a.polytope, hulls.a.pulled_back(along)),
-                        b = farthest(*hulls.b.polytope, hulls.b.pulled_back(-along));
+    const auto [a, b] = farthest(hulls, along);
     pair.a = vertex_feature(a), pair.b = vertex_feature(b);
     pair.begun = true;
     ++counters_.directions;

@@ -12,7 +12,7 @@ namespace {
 
 /// The triangles of a hull, and for each edge the triangle on its left.
 struct HullTriangles {
-    explicit HullTriangles(const Polytope& hull) : left_of(hull.edges.size(), kNoEdge) {
+    explicit HullTriangles(const Polytope& hull) : left_of(hull.edge_end(), kNoEdge) {
         for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) {
             const HullVertex& vertex = hull.vertices[v];
             for (std::uint32_t e = vertex.first_edge; e < vertex.first_edge + vertex.degree; ++e) {
@@ -21,13 +21,13 @@ struct HullTriangles {
                 // On along the border of the triangle: back from each edge's end to the one before
                 // its twin there.
                 const auto next = [&](std::uint32_t edge) {
-                    const HullVertex& end = hull.vertices[hull.edges[edge].target];
-                    return hull.before(end, hull.edges[edge].twin);
+                    const HullVertex& end = hull.vertices[hull.target(edge)];
+                    return hull.before(end, hull.twin(edge));
                 };
                 const std::uint32_t second = next(e), third = next(second);
                 for (const std::uint32_t edge : {e, second, third})
                     left_of[edge] = static_cast<std::uint32_t>(corners.size());
-                corners.push_back({v, hull.edges[e].target, hull.edges[second].target});
+                corners.push_back({v, hull.target(e), hull.target(second)});
             }
         }
     }
@@ -48,7 +48,7 @@ PieceFaces find_piece_faces(const SurfaceGraph& surface, const Polytope& hull,
     const std::vector<std::uint32_t> face_of = coplanar_groups(points, hull_triangles.corners);
     PieceFaces faces;
     for (const std::uint32_t t : hull_triangles.left_of)
-        faces.face_of_edge.push_back(face_of[t]);
+        faces.face_of_edge.push_back(t == kNoEdge ? kNoEdge : face_of[t]);
 
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found; // face, triangle
     std::vector<std::uint32_t> order(source.size());

@@ -86,7 +86,7 @@ SurfaceFeature name(const Side& s, const Vec3& origin, double rounding, const st
     } else {
         const std::uint32_t face = faces.face_of_edge[s.on.edge];
         result = nearest_feature(s, faces.in(face), least_sq);
-        const std::uint32_t beyond = faces.face_of_edge[s.place.polytope->edges[s.on.edge].twin];
+        const std::uint32_t beyond = faces.face_of_edge[s.place.polytope->twin(s.on.edge)];
         if (s.on.kind == Feature::edge && beyond != face) {
             double of_face_sq = least_sq;
             const SurfaceFeature there = nearest_feature(s, faces.in(beyond), of_face_sq);

@@ -1,5 +1,6 @@
 #include "world/body.h"
 
+#include "convex/climb.h"
 #include "convex/convex_data.h"
 #include "deform/deformable_data.h"
 #include "math/transform.h"
