@@ -173,9 +173,8 @@ EncodedBlock encode_block(const MeshBlock& block) {
 }
 
 MeshBlock decode_block(std::span<const std::byte> data, std::uint64_t raw_bytes) {
-    // What a block can hold at most: the length is checked before memory is taken for it.
-    constexpr std::uint64_t kLargest = std::uint64_t{1} << 36;
-    if (raw_bytes < kHeaderBytes || raw_bytes > kLargest ||
+    // Checked before memory is taken for it.
+    if (raw_bytes < kHeaderBytes || raw_bytes > kLargestBlockBytes ||
         ZSTD_getFrameContentSize(data.data(), data.size()) != raw_bytes)
         malformed("a block's length is wrong");
     std::vector<std::byte> raw(raw_bytes);

@@ -8,6 +8,7 @@
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
+#include "tests/support/world_motions.h"
 #include "tests/support/world_script.h"
 
 #include <algorithm>
@@ -21,43 +22,6 @@ namespace abut::test {
 namespace {
 
 using Script = WorldScript<Random>;
-
-/// A surface of a world, and the step that it has there.
-struct Surface {
-    BodyId body;
-    MovingSurface& moving;
-    std::vector<Vec3> start, end;
-    Surface(BodyId id, MovingSurface& m)
-        : body(id), moving(m), start(m.mesh.positions), end(m.end) {}
-};
-
-/// Where a motion's body is at a time, as a pose.
-Pose pose_at(const Motion& motion, double t) {
-    const Transform now = at(motion, t);
-    // The motion's rotation about its centre, after the start's.
-    const Vec3 w = t * motion.angular_velocity;
-    const double angle = length(w), s = angle > 0 ? std::sin(angle / 2) / angle : 0.5;
-    const std::array<double, 4> turn{std::cos(angle / 2), s * w.x, s * w.y, s * w.z};
-    const auto& q = motion.start.rotation;
-    return {{now.m[9], now.m[10], now.m[11]},
-            {turn[0] * q[0] - turn[1] * q[1] - turn[2] * q[2] - turn[3] * q[3],
-             turn[0] * q[1] + turn[1] * q[0] + turn[2] * q[3] - turn[3] * q[2],
-             turn[0] * q[2] - turn[1] * q[3] + turn[2] * q[0] + turn[3] * q[1],
-             turn[0] * q[3] + turn[1] * q[2] - turn[2] * q[1] + turn[3] * q[0]}};
-}
-
-void move_to(World& world, const std::vector<BodyMotion>& motions,
-             const std::vector<Surface>& surfaces, double t) {
-    for (const BodyMotion& each : motions)
-        world.move(each.body, pose_at(each.motion, t));
-    for (const Surface& each : surfaces) {
-        std::vector<Vec3> now(each.start.size());
-        for (std::size_t i = 0; i < now.size(); ++i)
-            now[i] = (1 - t) * each.start[i] + t * each.end[i];
-        each.moving.set_step(now, now);
-        world.refresh(each.body);
-    }
-}
 
 /// The first of many small steps at which two bodies share a point; nothing if none does.
 std::optional<double> first_contact(World& world, const std::vector<BodyMotion>& motions,
