@@ -22,10 +22,31 @@ struct Layout {
     BoxLayout layout;
     const char* name;
 };
-constexpr std::array kLayouts{
-    Layout{BoxLayout::uniform, "uniform"}, Layout{BoxLayout::clustered, "clustered"},
-    Layout{BoxLayout::spanned, "uniform and one around the world"},
-    Layout{BoxLayout::planes, "on ten floors"}, Layout{BoxLayout::sizes, "of many sizes"}};
+constexpr std::array kLayouts{Layout{BoxLayout::uniform, "uniform"},
+                              Layout{BoxLayout::clustered, "clustered"},
+                              Layout{BoxLayout::spanned, "uniform and one around the world"},
+                              Layout{BoxLayout::crossed, "uniform and a hundred around the world"},
+                              Layout{BoxLayout::planes, "on ten floors"},
+                              Layout{BoxLayout::sizes, "of many sizes"},
+                              Layout{BoxLayout::piles, "in piles"}};
+
+struct MotionName {
+    BoxMotion motion;
+    const char* name;
+};
+constexpr std::array kMotions{
+    MotionName{BoxMotion::coherent, "coherent"}, MotionName{BoxMotion::teleport, "teleport"},
+    MotionName{BoxMotion::bursts, "bursts"}, MotionName{BoxMotion::resets, "resets"}};
+/// Beyond this many, a hundred boxes around the world have more pairs than fit into a machine's memory.
+constexpr std::size_t kMostCrossed = 200'000;
+
+/// The kinds of motion that a layout is measured in: all where nothing else is special.
+bool is_measured(BoxLayout layout, BoxMotion motion, std::size_t count) {
+    if (layout == BoxLayout::crossed && count > kMostCrossed)
+        return false;
+    return layout == BoxLayout::uniform || motion == BoxMotion::coherent ||
+           motion == BoxMotion::teleport;
+}
 
 std::vector<MakeBoxPeer> all_peers() {
     std::vector<MakeBoxPeer> peers;
@@ -73,12 +94,13 @@ public:
     Report run() && {
         set_threads(1);
         for (const Layout& layout : kLayouts)
-            for (const bool teleport : {false, true})
+            for (const MotionName& motion : kMotions)
                 for (const std::size_t count : options_.counts) {
-                    const std::string name = fmt::format("{} {}, {}", count, layout.name,
-                                                         teleport ? "teleport" : "coherent");
-                    if (name.find(options_.only) != std::string::npos)
-                        run_case(name, layout.layout, teleport, count);
+                    const std::string name =
+                        fmt::format("{} {}, {}", count, layout.name, motion.name);
+                    if (is_measured(layout.layout, motion.motion, count) &&
+                        name.find(options_.only) != std::string::npos)
+                        run_case(name, layout.layout, motion.motion, count);
                 }
         if (options_.only.empty() || options_.only == "flight")
             add_flight_rows(report_, 1000, options_.seed);
@@ -87,9 +109,8 @@ public:
     }
 
 private:
-    void run_case(const std::string& name, BoxLayout layout, bool teleport, std::size_t count) {
+    void run_case(const std::string& name, BoxLayout layout, BoxMotion motion, std::size_t count) {
         BoxScene scene(layout, count, options_.seed);
-        const auto next = [&] { teleport ? scene.teleport() : scene.drift(); };
         std::vector<BroadPhaseMethod> methods{BroadPhaseMethod::automatic};
         if (options_.methods)
             methods = {BroadPhaseMethod::automatic, BroadPhaseMethod::tree, BroadPhaseMethod::sweep,
@@ -105,10 +126,10 @@ private:
         std::vector<Times> theirs;
         if (!options_.alone)
             for (const MakeBoxPeer make : all_peers())
-                add_peer(make, scene, teleport, peers, theirs);
+                add_peer(make, scene, motion, peers, theirs);
         const int steps = steps_of(count);
         for (int step = -1; step < steps; ++step) { // one step to warm up
-            next();
+            scene.step(motion);
             for (std::size_t i = 0; i < phases.size(); ++i)
                 time_step(step, ours[i], [&] {
                     phases[i].update(scene.boxes());
@@ -118,7 +139,7 @@ private:
                 time_step(step, theirs[i], [&] { return peers[i]->step(scene.boxes()); });
         }
         for (const Times& peer : theirs) {
-            Experience& last = last_[{peer.name, teleport}];
+            Experience& last = last_[{peer.name, motion}];
             last.seconds = std::max(last.seconds, mean(peer.seconds));
         }
         add_rows(name, count, ours, theirs);
@@ -130,11 +151,11 @@ private:
     }
 
     /// Leaves out one that would be too slow, by what it took with fewer boxes.
-    void add_peer(MakeBoxPeer make, const BoxScene& scene, bool teleport,
+    void add_peer(MakeBoxPeer make, const BoxScene& scene, BoxMotion motion,
                   std::vector<std::unique_ptr<BoxPeer>>& peers, std::vector<Times>& theirs) {
         const std::string name = make(std::span<const Box3>())->name();
         const std::size_t count = scene.boxes().size();
-        for (const bool pattern : {false, teleport}) {
+        for (const BoxMotion pattern : {BoxMotion::coherent, motion}) {
             const auto last = last_.find({name, pattern});
             if (last != last_.end() && last->second.expected(count) > options_.peer_limit)
                 return;
@@ -143,7 +164,7 @@ private:
         peers.push_back(make(scene.boxes()));
         peers.back()->step(scene.boxes());
         theirs.push_back({name});
-        Experience& built = last_[{name, teleport}];
+        Experience& built = last_[{name, motion}];
         built = {count, (process_seconds() - start) / kStepsOfBuild};
     }
 
@@ -187,7 +208,7 @@ private:
 
     const WorldSuiteOptions& options_;
     Report report_;
-    std::map<std::pair<std::string, bool>, Experience> last_; ///< by peer; teleport?
+    std::map<std::pair<std::string, BoxMotion>, Experience> last_; ///< by peer
 };
 
 } // namespace

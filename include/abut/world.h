@@ -72,7 +72,7 @@ struct BodyMotion {
 };
 struct BodyImpact {
     BodyId a, b;
-    Impact impact; ///< as `time_of_impact` of models; of other bodies, triangles are 0
+    Impact impact; ///< as `time_of_impact`; of bodies without triangles of their own these are 0
 };
 
 /// How a body may move from now on: its origin as x + v t + a t^2 / 2, but for another acceleration of
@@ -120,7 +120,8 @@ public:
     BodyId add(const Box3& box, const Pose& pose, const BodyOptions& options = {});
     BodyId add(const Deformable& surface, const BodyOptions& options = {});
 
-    /// Moves a body. Errors as `add`: nothing has changed then; also if the id is not valid.
+    /// Moves a body. Errors as `add`: nothing has changed then; also if the id is not valid, or that of a
+    /// deformable, which moves as its own step says.
     void move(BodyId body, const Pose& pose);
     /// Says that a deformable body's surface has another step. Errors, of this and what follows:
     /// Error{bad_argument} if the id is not valid.
@@ -164,13 +165,17 @@ public:
     /// Errors      Error{bad_argument} if the distance is negative or not finite.
     std::vector<BodyGap> closer_than(double distance);
 
-    /// When bodies that move in this step first meet, each pair once, sorted; bodies that are not named
-    /// stay where they are, deformables are left out. Does not move anything.
+    /// When bodies that move in this step first meet, each pair once, sorted. Deformables move as their
+    /// steps say, while t goes from 0 to 1 as in the motions; other bodies that are not named stay
+    /// where they are. Does not move anything.
     ///
     /// Accuracy    no time is later than the first contact, and no contact is missed: as
-    ///             `time_of_impact`.
-    /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; if an id is not valid
-    ///             or comes twice.
+    ///             `time_of_impact`. Two deformables: exact, as `first_impact`; `contact_time` is less
+    ///             than 1e-9 behind the first contact.
+    /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; if an id is not valid, comes
+    ///             twice, or is that of a deformable.
+    /// Cost        of a deformable and another body, that of its triangles near the other's way; of two
+    ///             deformables, that of `first_impact`.
     std::vector<BodyImpact> impacts(const std::vector<BodyMotion>& motions,
                                     const ImpactOptions& options = {});
 

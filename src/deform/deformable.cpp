@@ -78,6 +78,11 @@ void refit(SweptTree& swept, const DeformableData& data, double until) {
 DeformableData::DeformableData() = default;
 DeformableData::~DeformableData() = default;
 
+bool DeformableData::is_at_rest() const {
+    return std::all_of(vertices.begin(), vertices.end(),
+                       [](const MovingVertex& v) { return v.start == v.end; });
+}
+
 void DeformableData::find_edges_of_triangles() {
     if (features.edges_of.empty())
         features = make_surface_features(vertices.size(), triangles);

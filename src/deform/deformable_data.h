@@ -38,6 +38,8 @@ public:
     std::unique_ptr<FeatureTrees> feature_trees; ///< for Scheme::features
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
+    /// Whether no vertex moves in this step.
+    [[nodiscard]] bool is_at_rest() const;
 
     /// Makes `features.edges_of`, if it is not there.
     void find_edges_of_triangles();

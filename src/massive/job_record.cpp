@@ -145,8 +145,7 @@ std::vector<Clash> JobRecord::found(const StoredParts& stored) {
     return result;
 }
 
-void JobRecord::commit(const StoredParts& stored, std::size_t unit,
-                       std::span<const Clash> clashes,
+void JobRecord::commit(const StoredParts& stored, std::size_t unit, std::span<const Clash> clashes,
                        const std::vector<HierarchyRow>& hierarchies) {
     std::vector<ClashRow> rows;
     rows.reserve(clashes.size());

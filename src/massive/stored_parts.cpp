@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <filesystem>
 #include <numeric>
 
 namespace abut {
@@ -35,14 +36,17 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
         for (const StoredBlock& block : stored_blocks(store, large[i]))
             result.large[i].largest_block = std::max(result.large[i].largest_block, block.bytes);
     result.models = store.models();
+    // A row takes more bytes of the file: a damaged number takes no memory.
+    constexpr std::uint64_t kLeastRow = 64;
+    const std::uint64_t most_parts = std::filesystem::file_size(store.path()) / kLeastRow;
     std::uint64_t parts = 0;
     for (const ModelRow& model : result.models) {
         if (model.importing)
             throw Error(ErrorCode::bad_argument, store.path(),
                         "is incomplete: the import of " + model.file + " has not ended");
-        parts += model.parts;
+        parts += std::min(model.parts, most_parts);
     }
-    result.parts.reserve(parts);
+    result.parts.reserve(std::min(parts, most_parts));
     for (std::uint32_t m = 0; m < result.models.size(); ++m) {
         store.for_each_part(result.models[m], [&](const PartRow& part) {
             // Meshes come in the order of their numbers.

@@ -24,7 +24,7 @@ std::uint64_t spread(std::uint64_t v) {
 std::uint64_t step(double lower, double extent, double sum) {
     constexpr double kSteps = (1 << kAxisBits) - 1;
     const double share = extent > 0 ? (sum / 3 - lower) / extent : 0;
-    return static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * kSteps);
+    return share > 0 ? static_cast<std::uint64_t>(std::min(share, 1.0) * kSteps) : 0; // NaN too
 }
 
 } // namespace

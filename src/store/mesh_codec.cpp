@@ -132,9 +132,9 @@ EncodedBlock encode_block(const MeshBlock& block) {
 }
 
 MeshBlock decode_block(std::span<const std::byte> data, std::uint64_t raw_bytes) {
-    // What a block can hold at most: the length is checked before memory is taken for it.
-    constexpr std::uint64_t kLargest = std::uint64_t{1} << 36;
-    if (raw_bytes < kHeaderBytes || raw_bytes > kLargest || content_bytes(data) != raw_bytes)
+    // Checked before memory is taken for it.
+    if (raw_bytes < kHeaderBytes || raw_bytes > kLargestBlockBytes ||
+        content_bytes(data) != raw_bytes)
         malformed("a block's length is wrong");
     const std::vector<std::byte> raw = decompress(data, raw_bytes);
     if (raw.size() != raw_bytes)

@@ -22,6 +22,10 @@ struct EncodedBlock {
     std::uint64_t raw_bytes = 0; ///< before compression
 };
 
+/// No block is longer before compression: what cut_mesh.h leaves together takes less than 4 MB. So a
+/// damaged length takes little memory.
+inline constexpr std::uint64_t kLargestBlockBytes = std::uint64_t{1} << 24;
+
 /// Packs a block without loss: positions as floats where all of them are, else as doubles.
 ///
 ///     u32 vertices | u32 triangles | u32 bytes of a coordinate | u32 1 for a piece, else 0
@@ -32,7 +36,7 @@ struct EncodedBlock {
 /// Corners count back from the largest index so far plus one: a vertex that is new costs a zero.
 EncodedBlock encode_block(const MeshBlock& block);
 
-/// Errors      Fault malformed if the bytes are not those of a block.
+/// Errors      Fault malformed if the bytes are not those of a block, or it is longer than any.
 MeshBlock decode_block(std::span<const std::byte> data, std::uint64_t raw_bytes);
 
 } // namespace abut

@@ -4,7 +4,9 @@
 
 #include "io/fault.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 namespace abut {
@@ -24,6 +26,14 @@ void mend(const std::string& path) {
                         "is read-only");
         throw;
     }
+}
+
+/// That its blocks have numbers: their sum does not overflow.
+void require_numbers(const MeshRow& mesh, const std::string& store) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
+    if (mesh.first_block < 0 || mesh.blocks > kMost - static_cast<std::uint64_t>(mesh.first_block))
+        throw Error(ErrorCode::malformed, store,
+                    "is damaged: mesh " + std::to_string(mesh.mesh) + " has impossible blocks");
 }
 
 std::string select(const char* columns, const char* rest) {
@@ -136,6 +146,7 @@ MeshRow StoreFile::mesh(std::int64_t mesh) {
 }
 
 std::vector<BlockRow> StoreFile::blocks(const MeshRow& mesh) {
+    require_numbers(mesh, path_);
     Lease lease(*this);
     Statement& row = lease.connection->block_row;
     std::vector<BlockRow> blocks;
@@ -256,6 +267,15 @@ Mesh StoreFile::read_mesh(std::int64_t mesh) {
     const MeshRow row = this->mesh(mesh);
     if (row.blocks == 1)
         return whole_mesh(row, read_block(row.first_block));
+    // Memory is taken for no more than its blocks have.
+    std::uint64_t vertices = 0, triangles = 0;
+    for (const BlockRow& block : blocks(row)) {
+        if (std::max(block.vertices, block.triangles) > kLargestBlockBytes)
+            damaged_mesh(path_, mesh, " has a block that is too large");
+        vertices += block.vertices, triangles += block.triangles;
+    }
+    if (row.vertices > vertices || row.triangles > triangles)
+        damaged_mesh(path_, mesh, " is not whole");
     MeshAssembly assembly(row);
     for (std::uint64_t i = 0; i < row.blocks; ++i)
         if (!assembly.add(read_block(row.first_block + static_cast<std::int64_t>(i))))

@@ -2,6 +2,7 @@
 
 #include "convex/climb.h"
 #include "convex/convex_data.h"
+#include "core/parallel.h"
 #include "deform/deformable_data.h"
 #include "math/transform.h"
 #include "rigid/shape_arguments.h"
@@ -61,13 +62,14 @@ Box3 bounds_of_deformable(const Deformable& surface) {
 } // namespace
 
 const Model& Snapshot::model() const {
-    std::call_once(once_, [&] {
+    const auto make = [&] {
         Mesh mesh;
         for (const MovingVertex& vertex : surface_.data().vertices)
             mesh.positions.push_back(vertex.start);
         mesh.triangles = surface_.triangles();
         model_.emplace(std::move(mesh));
-    });
+    };
+    std::call_once(once_, [&] { isolated(make); });
     return *model_;
 }
 
@@ -143,7 +145,7 @@ Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& 
         return bounds_of_rounded(placed(*box, world_from_body));
     if (const auto* convex = std::get_if<ConvexShape>(&shape))
         return bounds_of_convex(convex->solid.data(), world_from_body);
-    if (is_empty(own_bounds) || std::holds_alternative<DeformableShape>(shape))
+    if (is_empty(own_bounds) || is_deformable(shape))
         return own_bounds;
     return placed_bounds(own_bounds, world_from_body);
 }

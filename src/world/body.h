@@ -43,6 +43,10 @@ struct ConvexShape {
 /// What a body is, in its own frame.
 using BodyShape = std::variant<Model, ConvexShape, RoundedBox, DeformableShape>;
 
+inline bool is_deformable(const BodyShape& shape) {
+    return std::holds_alternative<DeformableShape>(shape);
+}
+
 /// Errors, of all: Error{bad_argument} for values that are not finite or out of range.
 BodyShape shape_of(const Convex& convex);
 BodyShape shape_of(const Sphere& sphere);

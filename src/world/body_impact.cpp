@@ -1,6 +1,7 @@
 #include "world/body_impact.h"
 
 #include "math/transform.h"
+#include "world/deforming_impact.h"
 #include "world/narrow_phase.h"
 
 #include <algorithm>
@@ -110,6 +111,8 @@ Box3 swept_bounds(const MovingBody& body) {
     const Box3 box = bounds_of(body.shape, body.own_bounds, start);
     if (is_empty(box))
         return box;
+    if (is_deformable(body.shape)) // its box holds the step but for rounding
+        return grown(box, kRounding * (max_abs(box.lower) + max_abs(box.upper)));
     const double reach = reach_of(body);
     // A point turns by at most the arc, and stays on its sphere.
     const double turned = std::min(length(body.motion.angular_velocity), 2.0) * reach;
@@ -120,6 +123,8 @@ Box3 swept_bounds(const MovingBody& body) {
 }
 
 Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options) {
+    if (is_deformable(a.shape) || is_deformable(b.shape))
+        return deforming_impact(a, b, options);
     if (std::holds_alternative<Model>(a.shape) && std::holds_alternative<Model>(b.shape))
         return time_of_impact(model_of(a.shape), a.motion, model_of(b.shape), b.motion, options);
     return Advancement(a, b, options).run();

@@ -6,7 +6,7 @@
 
 namespace abut {
 
-/// A shape and how it moves.
+/// A shape and how it moves; a deformable as its step says, whatever the motion.
 struct MovingBody {
     const BodyShape& shape;
     const Box3& own_bounds;
@@ -19,8 +19,9 @@ Box3 swept_bounds(const MovingBody& body);
 /// When two bodies first meet.
 ///
 /// Accuracy    never later than the first contact, and none is missed.
-/// Source      two models: `time_of_impact`; else conservative advancement [Mirtich 1996], between two convex
-///             bodies along the direction in which they are apart [Zhang, Lee, Kim 2006].
+/// Source      two models: `time_of_impact`; with deformables: `deforming_impact`; else conservative
+///             advancement [Mirtich 1996], between two convex bodies along the direction in which they are
+///             apart [Zhang, Lee, Kim 2006].
 Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options);
 
 } // namespace abut

@@ -38,7 +38,7 @@ Vec3 CollisionSchedule::origin_of(std::uint32_t body) const {
 
 bool CollisionSchedule::takes_part(std::uint32_t body) const {
     const Body& b = world_.bodies()[body];
-    return b.alive && !std::holds_alternative<DeformableShape>(b.shape) && !is_empty(b.own_bounds);
+    return b.alive && !is_deformable(b.shape) && !is_empty(b.own_bounds);
 }
 
 double CollisionSchedule::reach_of(std::uint32_t body) const {

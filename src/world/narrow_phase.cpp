@@ -5,6 +5,7 @@
 #include "math/transform.h"
 #include "rigid/containment.h"
 #include "rigid/model_data.h"
+#include "world/offset_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,36 +43,6 @@ Box3 own_box(const RoundedBox& box) {
     return {box.centre - half, box.centre + half};
 }
 
-/// From -1 to 1 on all axes.
-const Model& cube() {
-    static const Model model(Mesh{{{-1, -1, -1},
-                                   {1, -1, -1},
-                                   {-1, 1, -1},
-                                   {1, 1, -1},
-                                   {-1, -1, 1},
-                                   {1, -1, 1},
-                                   {-1, 1, 1},
-                                   {1, 1, 1}},
-                                  {{0, 2, 1},
-                                   {1, 2, 3},
-                                   {4, 5, 6},
-                                   {5, 7, 6},
-                                   {0, 1, 4},
-                                   {1, 5, 4},
-                                   {2, 6, 3},
-                                   {3, 6, 7},
-                                   {0, 4, 2},
-                                   {2, 4, 6},
-                                   {1, 3, 5},
-                                   {3, 7, 5}}});
-    return model;
-}
-Transform world_from_cube(const PlacedRounded& box) {
-    const Vec3& c = box.shape.centre;
-    const auto& h = box.shape.half;
-    return compose(box.world, Transform({h[0], 0, 0, 0, h[1], 0, 0, 0, h[2], c.x, c.y, c.z}));
-}
-
 /// A rounded box without its radius: the convex hull of the points at -1 and 1 on the axes along which
 /// it extends, under a transform.
 struct Core {
@@ -79,17 +50,13 @@ struct Core {
     Transform world;
 };
 Core core_of(const RoundedBox& solid) {
-    static const Convex point(std::vector<Vec3>{{}}), cube(abut::cube().mesh().positions),
+    static const Convex point(std::vector<Vec3>{{}}), cube(unit_cube().mesh().positions),
         segment(std::vector<Vec3>{{-1, -1, -1}, {1, 1, 1}});
-    Transform world;
-    const Vec3& c = solid.centre;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 side = solid.half[k] * solid.axis[k];
-        world.m[3 * k] = side.x, world.m[3 * k + 1] = side.y, world.m[3 * k + 2] = side.z;
-    }
-    world.m[9] = c.x, world.m[10] = c.y, world.m[11] = c.z;
     // A flat box is a cube without extent on an axis.
-    return {dimension(solid) == 0 ? point : dimension(solid) == 1 ? segment : cube, world};
+    return {dimension(solid) == 0   ? point
+            : dimension(solid) == 1 ? segment
+                                    : cube,
+            offset_surface_of(solid).body_from_surface};
 }
 
 bool has_inside(const Model& model) {
@@ -254,8 +221,10 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         return with_radius(core, solid.radius);
     }
     default:
-        BodyGap gap = measure_models(a.shape, a.world, cube(), world_from_cube(b), upper_bound,
-                                     depths, workspace);
+        const OffsetSurface faces = offset_surface_of(b.shape);
+        BodyGap gap = measure_models(a.shape, a.world, faces.surface,
+                                     compose(b.world, faces.body_from_surface), upper_bound, depths,
+                                     workspace);
         // A surface inside the box is none that its faces are near to.
         if (gap.distance > 0 && meet(a, b, workspace))
             gap.distance = 0, gap.normal = {};

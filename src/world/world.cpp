@@ -2,6 +2,7 @@
 #include <abut/world.h>
 
 #include "core/parallel.h"
+#include "deform/deformable_data.h"
 #include "rigid/shape_arguments.h"
 #include "world/body_impact.h"
 #include "world/collision_schedule.h"
@@ -27,6 +28,10 @@ auto naming(BodyId id, const Work& work) {
     } catch (const Error& error) {
         throw Error(error.code(), "body " + std::to_string(id.index) + ": " + error.what());
     }
+}
+
+void require_rigid(const Body& body) {
+    require(!is_deformable(body.shape), "is deformable: it moves as its own step says");
 }
 
 template <typename Shape>
@@ -97,8 +102,9 @@ BodyId World::add(const Deformable& surface, const BodyOptions& options) {
 }
 
 void World::move(BodyId body, const Pose& pose) {
-    static_cast<void>(data_->body(body)); // an id that is not valid has no name
+    const Body& moved = data_->body(body); // an id that is not valid has no name
     naming(body, [&] {
+        require_rigid(moved);
         require_point(pose.translation, "position");
         data_->move(body, pose);
     });
@@ -194,12 +200,14 @@ std::vector<BodyGap> World::closer_than(double distance) {
 
 std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
                                        const ImpactOptions& options) {
+    require(!options.tolerance || *options.tolerance >= 0, "tolerance must not be negative");
     const std::vector<Body>& bodies = data_->bodies();
     std::vector<Motion> motion_of(bodies.size());
     std::vector<std::uint8_t> moves(bodies.size(), 0);
     for (const BodyMotion& each : motions) {
         static_cast<void>(data_->body(each.body)); // checks it
         naming(each.body, [&] {
+            require_rigid(bodies[each.body.index]);
             require(moves[each.body.index] == 0, "moves twice in one step");
             static_cast<void>(at(each.motion, 1)); // checks it
         });
@@ -209,10 +217,12 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
     std::vector<Box3> swept(bodies.size());
     parallel_for(bodies.size(), 64, [&](std::size_t i) {
         const Body& body = bodies[i];
-        if (!body.alive || std::holds_alternative<DeformableShape>(body.shape))
+        if (!body.alive)
             return;
         if (moves[i] == 0)
             motion_of[i] = Motion::fixed(body.pose);
+        if (const auto* surface = std::get_if<DeformableShape>(&body.shape))
+            moves[i] = surface->surface->data().is_at_rest() ? 0 : 1;
         swept[i] = swept_bounds({body.shape, body.own_bounds, motion_of[i]});
     });
     const std::vector<IndexPair> pairs =

@@ -8,160 +8,17 @@
 
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/world_script.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <iterator>
-#include <map>
 #include <optional>
 #include <variant>
 
 namespace abut::test {
 namespace {
 
-Mesh tetrahedron(double size) {
-    return {{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}},
-            {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-}
-
-/// A body as the test knows it.
-struct Known {
-    std::variant<Model, Convex, Sphere, Capsule, Box3> shape;
-    Pose pose;
-    BodyOptions options;
-};
-
-bool is_apart(const Box3& a, const Box3& b) {
-    return a.upper.x < b.lower.x || b.upper.x < a.lower.x || a.upper.y < b.lower.y ||
-           b.upper.y < a.lower.y || a.upper.z < b.lower.z || b.upper.z < a.lower.z;
-}
-
-class WorldScript {
-public:
-    WorldScript(Random& random, World& world, double offset)
-        : random_(random), world_(world), offset_(offset), model_(tetrahedron(0.3)) {}
-
-    [[nodiscard]] const std::map<BodyId, Known>& bodies() const { return bodies_; }
-    [[nodiscard]] const std::vector<BodyId>& removed() const { return removed_; }
-
-    void step() {
-        for (int count = random_.integer(0, 12); count > 0; --count) {
-            const double choice = random_.uniform(0, 1);
-            if (bodies_.size() < 10 || choice < 0.35)
-                add();
-            else if (choice < 0.8)
-                move(choice < 0.5 ? 2 : 0.05);
-            else if (choice < 0.95)
-                remove();
-            else
-                change_options();
-        }
-    }
-    void add() {
-        Known body{sphere(), pose(), options()};
-        switch (random_.integer(0, 4)) {
-        case 0:
-            body.shape = model_;
-            break;
-        case 3: {
-            std::vector<Vec3> points(static_cast<std::size_t>(random_.integer(1, 20)));
-            for (Vec3& p : points)
-                p = random_.in_cube(0.25);
-            body.shape = Convex(points);
-            break;
-        }
-        case 1:
-            body.shape = Capsule{{random_.in_cube(0.2), random_.in_cube(0.2)}, radius()};
-            break;
-        case 2: {
-            const Vec3 half = 0.2 * (random_.in_cube() + Vec3{1.1, 1.1, 1.1});
-            body.shape = random_.chance(0.1) ? Box3{{}, {}} : Box3{-half, half};
-            break;
-        }
-        default:
-            break;
-        }
-        if (!bodies_.empty() && random_.chance(0.1)) // coincident bodies
-            body = any()->second;
-        const BodyId id = std::visit(
-            [&](const auto& shape) { return world_.add(shape, body.pose, body.options); },
-            body.shape);
-        EXPECT_TRUE(bodies_.emplace(id, body).second);
-    }
-
-private:
-    double radius() { return random_.chance(0.2) ? 0 : random_.uniform(0, 0.2); }
-    Sphere sphere() {
-        if (random_.chance(0.02))
-            return {{}, 1e3}; // spans the world
-        return {random_.in_cube(0.1), radius()};
-    }
-    Pose pose() {
-        Pose pose = random_.pose(1);
-        pose.translation = pose.translation + Vec3{offset_, -offset_, offset_};
-        return pose;
-    }
-    BodyOptions options() {
-        BodyOptions options;
-        options.is_static = random_.chance(0.2);
-        options.groups = std::uint32_t(random_.integer(1, 3));
-        options.mask = random_.chance(0.8) ? ~0U : std::uint32_t(random_.integer(0, 3));
-        return options;
-    }
-    std::map<BodyId, Known>::iterator any() {
-        return std::next(bodies_.begin(), random_.integer(0, int(bodies_.size()) - 1));
-    }
-    void move(double by) {
-        auto& [id, body] = *any();
-        Pose next = pose();
-        if (by < 1) {
-            next = body.pose;
-            next.translation = next.translation + by * random_.in_cube();
-        }
-        world_.move(id, next);
-        body.pose = next;
-    }
-    void remove() {
-        const auto body = any();
-        world_.remove(body->first);
-        removed_.push_back(body->first);
-        bodies_.erase(body);
-    }
-    void change_options() {
-        auto& [id, body] = *any();
-        body.options = options();
-        world_.set_options(id, body.options);
-    }
-
-    Random& random_;
-    World& world_;
-    double offset_;
-    Model model_;
-    std::map<BodyId, Known> bodies_;
-    std::vector<BodyId> removed_;
-};
-
-bool may_meet(const BodyOptions& a, const BodyOptions& b) {
-    return !(a.is_static && b.is_static) && (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
-}
-
-using Pairs = std::vector<BodyPair>;
-
-template <typename Holds>
-Pairs pairs_where(const WorldScript& script, const Holds& holds) {
-    Pairs pairs;
-    for (const auto& [a, body_a] : script.bodies())
-        for (const auto& [b, body_b] : script.bodies())
-            if (a.index < b.index && may_meet(body_a.options, body_b.options) && holds(a, b))
-                pairs.push_back({a, b});
-    return pairs;
-}
-
-Pairs without(const Pairs& a, const Pairs& b) {
-    Pairs rest;
-    std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
-    return rest;
-}
+using Script = WorldScript<Random>;
 
 TEST(World, ScriptsAgreeWithAllPairs) {
     Random random(5201);
@@ -170,13 +27,12 @@ TEST(World, ScriptsAgreeWithAllPairs) {
         set_threads(random.integer(1, 4));
         const auto method = static_cast<BroadPhaseMethod>(random.integer(0, 3));
         World world({method, {}});
-        WorldScript script(random, world, round % 4 == 0 ? 1e7 : 0);
-        Pairs last;
+        Script script(random, world, {round % 4 == 0 ? 1e7 : 0, true});
+        BodyPairs last;
         for (int step = 0; step < 40; ++step) {
             script.step();
             world.update();
-            const Pairs now = pairs_where(
-                script, [&](BodyId a, BodyId b) { return !is_apart(world.box(a), world.box(b)); });
+            const BodyPairs now = pairs_of_boxes(script, world);
             ASSERT_EQ(world.pairs(), now);
             ASSERT_EQ(world.begun(), without(now, last));
             ASSERT_EQ(world.ended(), without(last, now));
@@ -237,6 +93,12 @@ std::optional<bool> touch_convex_by_hand(const Convex& convex, const Pose& pose,
     return std::abs(gap) < 1e-12 ? std::nullopt : std::optional(inside || gap <= 0);
 }
 
+/// A deformable as the model that it is at the start of its step.
+Known at_start(const Known& body) {
+    const auto* moving = std::get_if<std::shared_ptr<MovingSurface>>(&body.shape);
+    return moving != nullptr ? Known{Model((*moving)->mesh), {}, body.options} : body;
+}
+
 /// By the queries of two models, or of a model and a shape; nothing where the test has no other way.
 std::optional<bool> touch_by_hand(const Known& a, const Known& b) {
     if (const auto* convex = std::get_if<Convex>(&a.shape))
@@ -266,22 +128,19 @@ std::optional<bool> touch_by_hand(const Known& a, const Known& b) {
     return std::abs(gap) < 1e-12 ? std::nullopt : std::optional(gap <= 0);
 }
 
-bool holds(const Pairs& pairs, BodyPair pair) {
-    return std::binary_search(pairs.begin(), pairs.end(), pair);
-}
-
 TEST(World, TouchingPairsAreThoseOfAllPairs) {
     Random random(5202);
     std::size_t met = 0, apart = 0;
     for (int round = 0; round < many(10); ++round) {
         set_threads(random.integer(1, 4));
         World world;
-        WorldScript script(random, world, 0);
+        Script script(random, world, {0, true});
         for (int step = 0; step < 12; ++step) {
             script.step();
-            const Pairs touching = world.touching();
-            const Pairs known = pairs_where(script, [&](BodyId a, BodyId b) {
-                const auto by_hand = touch_by_hand(script.bodies().at(a), script.bodies().at(b));
+            const BodyPairs touching = world.touching();
+            const BodyPairs known = pairs_where(script, [&](BodyId a, BodyId b) {
+                const auto by_hand =
+                    touch_by_hand(at_start(script.bodies().at(a)), at_start(script.bodies().at(b)));
                 return by_hand ? *by_hand : holds(touching, {a, b});
             });
             ASSERT_EQ(touching, known);
@@ -306,17 +165,17 @@ TEST(World, ClosePairsAreThoseOfAllPairs) {
     std::size_t near = 0, far = 0;
     for (int round = 0; round < many(10); ++round) {
         World world;
-        WorldScript script(random, world, 0);
+        Script script(random, world);
         for (int step = 0; step < 12; ++step)
             script.step();
         const double limit = random.uniform(0, 0.3);
         const auto all = world.closer_than(10);
-        Pairs expected;
+        BodyPairs expected;
         for (const BodyGap& gap : all)
             if (gap.distance <= limit)
                 expected.push_back({gap.a, gap.b});
         EXPECT_EQ(pairs_where(script, [](BodyId, BodyId) { return true; }).size(), all.size());
-        Pairs found;
+        BodyPairs found;
         for (const BodyGap& gap : world.closer_than(limit)) {
             found.push_back({gap.a, gap.b});
             EXPECT_LE(gap.distance, limit);
@@ -373,7 +232,7 @@ TEST(World, IdsAreNeverGivenAgainAndBodiesMayGoWhilePairsAreLookedAt) {
     EXPECT_EQ(gone, 3U);
     EXPECT_TRUE(world.touching().empty());
     EXPECT_EQ(world.ended().size(), 5U);
-    const Pairs ended = world.ended();
+    const BodyPairs ended = world.ended();
     for (int i = 0; i < 6; ++i) {
         const BodyId id = world.add(Sphere{{double(i), 0, 0}, 0.6}, {});
         EXPECT_EQ(std::count(ids.begin(), ids.end(), id), 0);
@@ -412,83 +271,6 @@ TEST(World, DeformablesMeetModelsAsTheyAreAtTheStart) {
     const auto near = world.closer_than(1);
     EXPECT_EQ(near.size(), 3U);
     EXPECT_NEAR(near[0].distance, -0.2, 1e-12);
-}
-
-/// The first of many small steps at which two bodies share a point; nothing if none does.
-std::optional<double> first_contact(World& world, const std::vector<BodyMotion>& motions,
-                                    BodyPair pair, int steps) {
-    for (int step = 0; step <= steps; ++step) {
-        const double t = double(step) / steps;
-        for (const BodyMotion& each : motions) {
-            const Transform now = at(each.motion, t);
-            // The motion's rotation about its centre, after the start's.
-            const Vec3 w = t * each.motion.angular_velocity;
-            const double angle = length(w), s = angle > 0 ? std::sin(angle / 2) / angle : 0.5;
-            const std::array<double, 4> turn{std::cos(angle / 2), s * w.x, s * w.y, s * w.z};
-            const auto& q = each.motion.start.rotation;
-            world.move(each.body,
-                       {{now.m[9], now.m[10], now.m[11]},
-                        {turn[0] * q[0] - turn[1] * q[1] - turn[2] * q[2] - turn[3] * q[3],
-                         turn[0] * q[1] + turn[1] * q[0] + turn[2] * q[3] - turn[3] * q[2],
-                         turn[0] * q[2] - turn[1] * q[3] + turn[2] * q[0] + turn[3] * q[1],
-                         turn[0] * q[3] + turn[1] * q[2] - turn[2] * q[1] + turn[3] * q[0]}});
-        }
-        const auto touching = world.touching();
-        if (std::binary_search(touching.begin(), touching.end(), pair))
-            return t;
-    }
-    return std::nullopt;
-}
-
-TEST(World, ImpactsComeNoLaterThanAnyContactOfFineSteps) {
-    Random random(5204);
-    int hits = 0, misses = 0, tight = 0, proven = 0;
-    for (int round = 0; round < many(900); ++round) {
-        World world;
-        WorldScript script(random, world, 0);
-        script.add(), script.add();
-        std::vector<BodyMotion> motions;
-        for (const auto& [id, body] : script.bodies()) {
-            world.set_options(id, {});
-            if (random.chance(0.8))
-                motions.push_back({id,
-                                   {body.pose, body.pose.translation + random.in_cube(0.1),
-                                    2 * random.in_cube(), 3 * random.in_cube()}});
-        }
-        const BodyPair pair{script.bodies().begin()->first, script.bodies().rbegin()->first};
-        const auto impacts = world.impacts(motions);
-        const auto contact = first_contact(world, motions, pair, 60);
-        if (motions.empty())
-            continue;
-        SCOPED_TRACE(round);
-        if (contact) {
-            ++hits;
-            ASSERT_EQ(impacts.size(), 1U);
-            EXPECT_EQ(impacts[0].a, pair.a);
-            EXPECT_EQ(impacts[0].b, pair.b);
-            EXPECT_LE(impacts[0].impact.time, *contact + 1e-9);
-            tight += impacts[0].impact.time > *contact - 1.5 / 60 ? 1 : 0;
-            proven += impacts[0].impact.status == Status::exact ? 1 : 0;
-        } else if (impacts.empty()) {
-            ++misses;
-        }
-    }
-    EXPECT_GT(hits, 60);
-    EXPECT_GT(misses, 60);
-    EXPECT_GT(tight, hits * 8 / 10);
-    EXPECT_GT(proven, hits * 8 / 10);
-}
-
-TEST(World, AFastBallDoesNotPassAThinWall) {
-    World world;
-    const BodyId wall = world.add(Box3{{-0.001, -5, -5}, {0.001, 5, 5}}, {});
-    const BodyId ball = world.add(Sphere{{}, 0.1}, Pose{{-50, 0, 0}, {1, 0, 0, 0}});
-    const BodyMotion motion{ball, {{{-50, 0, 0}, {1, 0, 0, 0}}, {-50, 0, 0}, {100, 0, 0}, {}}};
-    const auto impacts = world.impacts({motion});
-    ASSERT_EQ(impacts.size(), 1U);
-    EXPECT_EQ(impacts[0].a, wall);
-    EXPECT_NEAR(impacts[0].impact.time, (50 - 0.101) / 100, 1e-5);
-    EXPECT_THROW(world.impacts({motion, motion}), Error);
 }
 
 } // namespace

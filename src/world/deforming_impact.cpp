@@ -1,0 +1,314 @@
+#include "world/deforming_impact.h"
+
+#include <abut/deformable.h>
+
+#include "math/transform.h"
+#include "world/deforming_pair.h"
+#include "world/narrow_phase.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+Vec3 extent_of(const Box3& box) {
+    return box.upper - box.lower;
+}
+
+/// The earliest contact of a deformable surface and a rigid body that do not meet at the start.
+class DeformingSearch {
+public:
+    DeformingSearch(const DeformingPair& pair, const ImpactOptions& options)
+        : pair_(pair), tree_a_(pair.tree_a()), tree_b_(pair.tree_b()),
+          tolerance_(
+              std::max(options.tolerance.value_or(kTolerance * pair.size()), 4 * pair.margin())) {}
+
+    Impact run() {
+        if (!tree_a_.empty() && !tree_b_.empty())
+            keep_if_near({{0, 1}, kRootName, kRootName});
+        while (!queue_.empty() && queue_.front().range.begin <= found_.time) {
+            std::pop_heap(queue_.begin(), queue_.end(), Later{});
+            const Waiting pair = queue_.back();
+            queue_.pop_back();
+            open(pair);
+        }
+        return impact();
+    }
+
+private:
+    /// Default tolerance, of the larger body's size.
+    static constexpr double kTolerance = 1e-6;
+    /// Of two triangles. What is left then is reported as a hit, to be safe.
+    static constexpr int kMostSteps = 1000;
+    /// Shorter ranges of time are not halved.
+    static constexpr double kShortestRange = 0x1p-12;
+
+    /// Two boxes by their names, and when they may meet.
+    struct Waiting {
+        TimeRange range;
+        std::uint32_t a, b;
+    };
+    /// The earliest range first; of the same, one that is deeper in the trees.
+    struct Later {
+        bool operator()(const Waiting& x, const Waiting& y) const {
+            // The root's name is the largest; one more is 0.
+            return std::tuple(x.range.begin, x.range.end, y.a + 1, y.b + 1) >
+                   std::tuple(y.range.begin, y.range.end, x.a + 1, x.b + 1);
+        }
+    };
+    /// Two triangles that come near each other; b by its slot.
+    struct Found {
+        double time = kNever;
+        std::uint32_t a = 0, b = 0;
+        ClosestPoints closest{};
+        double speed = 0; ///< at which they seemed to approach each other
+    };
+
+    void keep_if_near(const Waiting& pair) {
+        ++counters_.volume_tests;
+        if (overlap(pair_.box_a(pair.a, pair.range), pair_.box_b(pair.b, pair.range))) {
+            queue_.push_back(pair);
+            std::push_heap(queue_.begin(), queue_.end(), Later{});
+        }
+    }
+
+    /// Replaces a pair of boxes by halves of its time, or by the pairs below it.
+    void open(const Waiting& pair) {
+        const NodeRef a = tree_a_.named(pair.a), b = tree_b_.named(pair.b);
+        if (a.is_leaf() && b.is_leaf()) {
+            open_leaves(a, b, pair.range);
+            return;
+        }
+        const TimeRange& range = pair.range;
+        const double size_a = size_at(range.begin, pair, true),
+                     size_b = size_at(range.begin, pair, false);
+        const double moved =
+            std::max(size_in(range, pair, true) - size_a, size_in(range, pair, false) - size_b);
+        if (moved > std::max(size_a, size_b) && range.end - range.begin > kShortestRange) {
+            const double middle = 0.5 * (range.begin + range.end);
+            keep_if_near({{range.begin, middle}, pair.a, pair.b});
+            keep_if_near({{middle, range.end}, pair.a, pair.b});
+            return;
+        }
+        if (!a.is_leaf() && (b.is_leaf() || size_a >= size_b)) {
+            for_each_child(tree_a_.nodes[a.index()], a.index(), [&](std::uint32_t child) {
+                keep_if_near({range, child, pair.b});
+            });
+        } else {
+            for_each_child(tree_b_.nodes[b.index()], b.index(), [&](std::uint32_t child) {
+                keep_if_near({range, pair.a, child});
+            });
+        }
+    }
+    [[nodiscard]] double size_in(const TimeRange& range, const Waiting& pair, bool of_a) const {
+        return length(extent_of(of_a ? pair_.box_a(pair.a, range) : pair_.box_b(pair.b, range)));
+    }
+    [[nodiscard]] double size_at(double time, const Waiting& pair, bool of_a) const {
+        return size_in({time, time}, pair, of_a);
+    }
+    template <typename AnyNode, typename Visit>
+    static void for_each_child(const AnyNode& node, std::uint32_t index, const Visit& visit) {
+        for (std::uint32_t lane = 0; lane < AnyNode::kWidth && !node.child[lane].is_none(); ++lane)
+            visit(child_name(index, lane));
+    }
+
+    void open_leaves(NodeRef a, NodeRef b, const TimeRange& range) {
+        for (const std::uint32_t triangle : pair_.triangles_a(a))
+            for (std::uint32_t slot = b.first(); slot < b.first() + b.count(); ++slot)
+                advance(triangle, slot, range);
+    }
+
+    /// Lets two triangles move on for as long as they are certainly apart.
+    void advance(std::uint32_t triangle, std::uint32_t slot, const TimeRange& range) {
+        Found pair{range.begin, triangle, slot, {}, 0};
+        for (int step = 0; pair.time <= std::min(range.end, found_.time); ++step) {
+            ++counters_.primitive_tests;
+            const Triangle a = pair_.triangle_a(triangle, pair.time),
+                           b = pair_.triangle_b(slot, pair.time);
+            pair.closest = triangle_triangle_distance(a, b);
+            const double gap = gap_of(pair);
+            const double free =
+                pair_.free_time(triangle, a, b, pair.closest, pair.time, tolerance_);
+            if (gap <= tolerance_ || step == kMostSteps) {
+                keep(pair);
+                return;
+            }
+            pair.speed = gap / free;
+            pair.time += free;
+        }
+    }
+    [[nodiscard]] double gap_of(const Found& pair) const {
+        return std::sqrt(pair.closest.distance_sq) - pair_.radius();
+    }
+    void keep(const Found& pair) {
+        const auto key = [](const Found& p) { return std::tuple(p.time, p.a, p.b); };
+        if (key(pair) < key(found_))
+            found_ = pair;
+    }
+
+    [[nodiscard]] Impact impact() const {
+        Impact impact;
+        impact.counters = counters_;
+        if (found_.time == kNever)
+            return impact;
+        const Vec3 shift = pair_.shift(found_.time);
+        impact.hit = true, impact.time = found_.time;
+        impact.gap = std::max(gap_of(found_), 0.0);
+        impact.normal = normalized_or_zero(found_.closest.b - found_.closest.a);
+        impact.point_a = found_.closest.a + shift;
+        impact.point_b = found_.closest.b - pair_.radius() * impact.normal + shift;
+        impact.triangle_a = found_.a, impact.triangle_b = pair_.number_b(found_.b);
+        impact.contact_time = contact_time();
+        impact.status = impact.contact_time < kNever ? Status::exact : Status::bound_only;
+        return impact;
+    }
+    /// A time at which the two triangles meet, if they do so where it is expected.
+    [[nodiscard]] double contact_time() const {
+        const double expected = found_.speed > 0 ? tolerance_ / found_.speed : 0;
+        for (const double part : {0.0, 1.0, 2.0, 4.0, 16.0}) {
+            const double time = std::min(1.0, found_.time + part * expected);
+            if (pair_.meet(found_.a, found_.b, time))
+                return time;
+        }
+        return kNever;
+    }
+
+    const DeformingPair& pair_;
+    const MovingTree& tree_a_;
+    const Tree& tree_b_;
+    double tolerance_;
+    std::vector<Waiting> queue_; ///< a heap
+    Found found_;
+    Counters counters_;
+};
+
+const Deformable* deformable_of(const MovingBody& body) {
+    const auto* shape = std::get_if<DeformableShape>(&body.shape);
+    return shape != nullptr ? shape->surface : nullptr;
+}
+
+/// Some triangle that has these vertices, the n first of the array.
+std::uint32_t triangle_with(const DeformableData& data, std::span<const std::uint32_t> vertices) {
+    const auto has_all = [&](const IndexTriangle& t) {
+        return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
+            return std::find(t.begin(), t.end(), v) != t.end();
+        });
+    };
+    return static_cast<std::uint32_t>(
+        std::find_if(data.triangles.begin(), data.triangles.end(), has_all) -
+        data.triangles.begin());
+}
+
+/// A point of a feature, and a triangle that the feature belongs to.
+struct FeaturePoint {
+    Vec3 point;
+    std::uint32_t triangle = 0;
+};
+FeaturePoint on_feature(const DeformableData& data, std::span<const std::uint32_t> vertices,
+                        std::span<const double> weights, double time) {
+    FeaturePoint result{{}, triangle_with(data, vertices)};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const MovingVertex& v = data.vertices[vertices[i]];
+        result.point = result.point + weights[i] * ((1 - time) * v.start + time * v.end);
+    }
+    return result;
+}
+
+/// Exact times are less than this before the contact.
+constexpr double kTimeError = 1e-9;
+
+Impact impact_of_features(const DeformableData& a, const DeformableData& b,
+                          const FeatureImpact& found) {
+    constexpr std::array kWhole{1.0};
+    const auto on_edge = [&](const DeformableData& data, std::uint32_t edge, double s) {
+        return on_feature(data, data.features.edges[edge], std::array{1 - s, s}, found.time);
+    };
+    FeaturePoint on_a, on_b;
+    if (found.kind == ElementaryKind::edge_edge) {
+        on_a = on_edge(a, found.a, found.barycentric[0]);
+        on_b = on_edge(b, found.b, found.barycentric[1]);
+    } else {
+        const DeformableData &vertex_of = found.face_first ? b : a,
+                             &face_of = found.face_first ? a : b;
+        on_a = on_feature(vertex_of, std::array{found.a}, kWhole, found.time);
+        on_b = on_feature(face_of, face_of.triangles[found.b], found.barycentric, found.time);
+        if (found.face_first)
+            std::swap(on_a, on_b);
+    }
+    Impact impact;
+    impact.hit = true, impact.time = found.time;
+    impact.point_a = on_a.point, impact.point_b = on_b.point;
+    impact.triangle_a = on_a.triangle, impact.triangle_b = on_b.triangle;
+    impact.gap = length(on_b.point - on_a.point);
+    impact.normal = found.face_first ? found.normal : -found.normal;
+    impact.status = found.status;
+    if (found.status == Status::exact)
+        impact.contact_time = std::min(1.0, found.time + kTimeError);
+    return impact;
+}
+
+/// The first impact of two surfaces that do not meet at the start.
+Impact surface_impact(const Deformable& a, const Deformable& b) {
+    if (a.data().options.scheme == b.data().options.scheme &&
+        a.data().options.culling == b.data().options.culling) {
+        const auto found = first_impact(a, b);
+        return found ? impact_of_features(a.data(), b.data(), *found) : Impact();
+    }
+    // Schemes that cannot be mixed: b's surface once more, with that of a.
+    Mesh start;
+    std::vector<Vec3> end;
+    for (const MovingVertex& vertex : b.data().vertices)
+        start.positions.push_back(vertex.start), end.push_back(vertex.end);
+    start.triangles = b.triangles();
+    Deformable alike(std::move(start), a.data().options);
+    alike.advance(end);
+    return surface_impact(a, alike);
+}
+
+Impact turned_round(Impact impact) {
+    std::swap(impact.point_a, impact.point_b);
+    std::swap(impact.triangle_a, impact.triangle_b);
+    impact.normal = -impact.normal;
+    return impact;
+}
+
+/// Of bodies that share a point where they start.
+std::optional<Impact> impact_at_start(const MovingBody& a, const MovingBody& b) {
+    const Transform world_from_a = a.motion.start, world_from_b = b.motion.start;
+    PairWorkspace workspace;
+    if (!touch({a.shape, world_from_a}, {b.shape, world_from_b}, workspace))
+        return std::nullopt;
+    const BodyGap gap =
+        gap_between({a.shape, world_from_a}, {b.shape, world_from_b}, 0, Depths::no, workspace);
+    Impact impact;
+    impact.hit = true;
+    impact.time = impact.contact_time = impact.gap = 0;
+    impact.point_a = gap.point_a, impact.point_b = gap.point_b;
+    impact.triangle_a = gap.triangle_a, impact.triangle_b = gap.triangle_b;
+    return impact;
+}
+
+} // namespace
+
+Impact deforming_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options) {
+    if (const auto impact = impact_at_start(a, b))
+        return *impact;
+    const Deformable *surface_a = deformable_of(a), *surface_b = deformable_of(b);
+    if (surface_a != nullptr && surface_b != nullptr)
+        return surface_impact(*surface_a, *surface_b);
+    const auto with_rigid = [&](const Deformable& surface, const MovingBody& body) {
+        return DeformingSearch(DeformingPair(surface.data(), body), options).run();
+    };
+    return surface_a != nullptr ? with_rigid(*surface_a, b)
+                                : turned_round(with_rigid(*surface_b, a));
+}
+
+} // namespace abut
