@@ -1,6 +1,7 @@
 #include "pieces/hull_tree.h"
 
 #include "convex/walkable_hull.h"
+#include "core/parallel.h"
 #include "math/vector.h"
 
 #include <algorithm>
@@ -76,42 +77,60 @@ public:
     HullTree run() && {
         std::vector<std::uint32_t> pieces(vertices_.size());
         std::iota(pieces.begin(), pieces.end(), 0);
-        tree_.nodes.emplace_back();
         tree_.leaf_of.resize(pieces.size());
         tree_.sources.resize(pieces.size());
-        find_leaves(build(0, pieces));
+        tree_.nodes.emplace_back();
+        levels_.push_back({0});
+        part_node(0, pieces, 0);
+        sources_.resize(tree_.nodes.size());
+        for (auto level = levels_.rbegin(); level != levels_.rend(); ++level)
+            parallel_for(level->size(), 16, [&](std::size_t i) { make_hull((*level)[i]); });
+        const std::vector<std::uint32_t> of_root = sources_[0];
+        for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+            tree_.sources[piece] = std::move(sources_[tree_.leaf_of[piece]]);
+        find_leaves(of_root);
         return std::move(tree_);
     }
 
 private:
-    /// Returns the numbers of the positions that are vertices of the node's hull.
-    std::vector<std::uint32_t> build(std::uint32_t node, std::span<std::uint32_t> pieces) {
-        SourcedHull hull;
-        std::uint32_t child = HullNode::kLeaf, children = 0;
+    void part_node(std::uint32_t node, std::span<std::uint32_t> pieces, std::size_t level) {
         if (pieces.size() == 1) {
-            hull = hull_of(positions_, vertices_[pieces[0]]);
             tree_.nodes[node].piece = pieces[0];
             tree_.leaf_of[pieces[0]] = node;
-            tree_.sources[pieces[0]] = hull.source;
+            return;
+        }
+        const std::vector<std::span<std::uint32_t>> groups = groups_of(pieces);
+        const auto child = static_cast<std::uint32_t>(tree_.nodes.size()),
+                   children = static_cast<std::uint32_t>(groups.size());
+        tree_.nodes[node].child = child, tree_.nodes[node].children = children;
+        tree_.nodes.resize(tree_.nodes.size() + groups.size());
+        levels_.resize(std::max(levels_.size(), level + 2));
+        for (std::uint32_t i = 0; i < children; ++i)
+            levels_[level + 1].push_back(child + i);
+        for (std::uint32_t i = 0; i < children; ++i)
+            part_node(child + i, groups[i], level + 1);
+    }
+
+    /// In: the hulls of its children are made.
+    void make_hull(std::uint32_t node) {
+        HullNode& n = tree_.nodes[node];
+        SourcedHull hull;
+        if (n.is_leaf()) {
+            hull = hull_of(positions_, vertices_[n.piece]);
         } else {
-            const std::vector<std::span<std::uint32_t>> groups = groups_of(pieces);
-            child = static_cast<std::uint32_t>(tree_.nodes.size());
-            children = static_cast<std::uint32_t>(groups.size());
-            tree_.nodes.resize(tree_.nodes.size() + groups.size());
             std::vector<std::uint32_t> all;
-            for (std::uint32_t i = 0; i < children; ++i) {
-                const std::vector<std::uint32_t> more = build(child + i, groups[i]);
-                all.insert(all.end(), more.begin(), more.end());
+            for (std::uint32_t i = n.child; i < n.child + n.children; ++i) {
+                all.insert(all.end(), sources_[i].begin(), sources_[i].end());
+                if (!tree_.nodes[i].is_leaf())
+                    sources_[i] = {};
             }
             std::sort(all.begin(), all.end());
             all.erase(std::unique(all.begin(), all.end()), all.end());
-            hull = hull_of(positions_, std::move(all));
+            hull = hull_of(positions_, all);
         }
-        HullNode& n = tree_.nodes[node];
-        n.child = child, n.children = children;
         n.hull = std::move(hull.polytope);
         set_sphere(n);
-        return std::move(hull.source);
+        sources_[node] = std::move(hull.source);
     }
 
     /// Parts the pieces, and then the groups that are largest, until there are as many as a node has
@@ -187,6 +206,8 @@ private:
     const std::vector<std::vector<std::uint32_t>>& vertices_;
     std::vector<Box3> boxes_;
     HullTree tree_;
+    std::vector<std::vector<std::uint32_t>> levels_;  ///< nodes of each, the root's first
+    std::vector<std::vector<std::uint32_t>> sources_; ///< by node: which positions its vertices are
 };
 
 } // namespace

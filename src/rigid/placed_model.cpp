@@ -61,6 +61,27 @@ bool PlacedModel::make_frame() {
             least_stretch_ > kLeastRatio * most_stretch_ && margin(0) < 1e18);
 }
 
+Aabb PlacedModel::tree_box(const Box3& box) const {
+    const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper, half = 0.5 * box.upper - 0.5 * box.lower;
+    const Vec3 p = apply(tree_from_world_, middle);
+    const auto& m = tree_from_world_.m;
+    const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[3]) * half.y + std::abs(m[6]) * half.z,
+                 std::abs(m[1]) * half.x + std::abs(m[4]) * half.y + std::abs(m[7]) * half.z,
+                 std::abs(m[2]) * half.x + std::abs(m[5]) * half.y + std::abs(m[8]) * half.z};
+    return Aabb({p - h, p + h}, margin(magnitude(middle) + magnitude(half)));
+}
+
+TreeHalfSpace PlacedModel::tree_half_space(const HalfSpace& space) const {
+    const Vec3 normal =
+        normalized_or_zero(pull_back(world_from_tree_, normalized_or_zero(space.normal)));
+    if (normal == Vec3{})
+        return {{}, std::numeric_limits<float>::infinity()};
+    // The margin of a point also covers the sums of products in a node's frame; twice, for axes that
+    // are at right angles to single precision only.
+    const double offset = dot(normal, apply(tree_from_world_, space.point));
+    return {to_float(normal), round_up(offset + 2 * margin(magnitude(space.point)))};
+}
+
 std::optional<ClippedSegment> PlacedModel::tree_segment(const Vec3& from, const Vec3& to,
                                                         double error) const {
     const double margin = this->margin(magnitude(from) + magnitude(to)) + error / least_stretch_;

@@ -66,6 +66,15 @@ public:
     template <typename Visit>
     void for_each_overlap(const Box3& box, const Visit& visit) const;
 
+    /// What is in front of a plane through a point. One without a normal holds nothing.
+    struct HalfSpace {
+        Vec3 point, normal;
+    };
+    /// Calls visit(slot) for triangles that may meet a box of the world. It returns a half-space: many
+    /// of the triangles there are left out from then on.
+    template <typename Visit>
+    void for_each_overlap_outside(const Box3& box, const Visit& visit) const;
+
     /// Calls visit(slot) for every triangle that may meet a segment.
     template <typename Visit>
     void for_each_on_segment(const Vec3& from, const Vec3& to, const Visit& visit) const;
@@ -85,6 +94,8 @@ public:
 private:
     /// Prepares the tree's frame; false if the transform leaves none to work in.
     bool make_frame();
+    [[nodiscard]] Aabb tree_box(const Box3& box) const;
+    [[nodiscard]] TreeHalfSpace tree_half_space(const HalfSpace& space) const;
     /// What a world point near the model may be off by in the tree's frame in single precision;
     /// `size`: of the world coordinates that it was computed from.
     [[nodiscard]] double margin(double size) const {
@@ -106,14 +117,22 @@ inline double magnitude(const Vec3& p) {
 
 template <typename Visit>
 void PlacedModel::for_each_overlap(const Box3& box, const Visit& visit) const {
-    const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper, half = 0.5 * box.upper - 0.5 * box.lower;
-    const Vec3 p = apply(tree_from_world_, middle);
-    const auto& m = tree_from_world_.m;
-    const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[3]) * half.y + std::abs(m[6]) * half.z,
-                 std::abs(m[1]) * half.x + std::abs(m[4]) * half.y + std::abs(m[7]) * half.z,
-                 std::abs(m[2]) * half.x + std::abs(m[5]) * half.y + std::abs(m[8]) * half.z};
-    abut::for_each_overlap(
-        model().tree(), Aabb({p - h, p + h}, margin(magnitude(middle) + magnitude(half))), visit);
+    abut::for_each_overlap(model().tree(), tree_box(box), visit);
+}
+
+template <typename Visit>
+void PlacedModel::for_each_overlap_outside(const Box3& box, const Visit& visit) const {
+    TreeHalfSpaces outside;
+    std::size_t latest = 0;
+    abut::for_each_overlap(model().tree(), tree_box(box), outside, [&](std::uint32_t slot) {
+        const HalfSpace space = visit(slot);
+        if (space.normal == Vec3{})
+            return;
+        // The latest ones replace the oldest.
+        if (outside.size() < outside.capacity())
+            outside.emplace_back();
+        outside[latest++ % outside.capacity()] = tree_half_space(space);
+    });
 }
 
 template <typename Visit>

@@ -18,6 +18,19 @@ namespace abut {
 template <typename Visit>
 void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit);
 
+/// What is in front of a plane: normal . x > offset. The offset has a margin for what both may be off
+/// by in the frame of any node.
+struct TreeHalfSpace {
+    std::array<float, 3> normal;
+    float offset;
+};
+using TreeHalfSpaces = boost::container::static_vector<TreeHalfSpace, 16>;
+
+/// The same, but for leaves whose box lies in one of some half-spaces; visit may add to these.
+template <typename Visit>
+void for_each_overlap(const Tree& tree, const Aabb& query, const TreeHalfSpaces& but_for,
+                      const Visit& visit);
+
 /// A segment in a tree's frame, as midpoint and half vector, with a margin for what both may be off
 /// by.
 struct TreeSegment {
@@ -163,15 +176,47 @@ inline Passage pass(const Node& node, const TreeSegment& in_tree) {
 
 } // namespace traverse_one
 
+namespace traverse_one {
+
+inline Hits overlaps(const Node& node, const Aabb& query) {
+    const Aabb q = in_frame(query, node.frame);
+    Hits hits;
+    for (std::size_t i = 0; i < Node::kWidth; ++i)
+        hits[i] = bool((node.lower[0][i] <= q.upper[0]) & (q.lower[0] <= node.upper[0][i]) &
+                       (node.lower[1][i] <= q.upper[1]) & (q.lower[1] <= node.upper[1][i]) &
+                       (node.lower[2][i] <= q.upper[2]) & (q.lower[2] <= node.upper[2][i]));
+    return hits;
+}
+
+/// Takes out the children that lie in a half-space.
+inline void take_out(const Node& node, const TreeHalfSpace& space, Hits& hits) {
+    const std::array<float, 3> n = node.frame.vector_from_tree(space.normal);
+    const auto& o = node.frame.origin;
+    const float offset =
+        space.offset - space.normal[0] * o[0] - space.normal[1] * o[1] - space.normal[2] * o[2];
+    for (std::size_t i = 0; i < Node::kWidth; ++i) {
+        float least = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            least += std::min(n[k] * node.lower[k][i], n[k] * node.upper[k][i]);
+        hits[i] = bool(hits[i] & !(least > offset));
+    }
+}
+
+} // namespace traverse_one
+
 template <typename Visit>
 void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit) {
+    traverse_one::descend(
+        tree, [&](const Node& node) { return traverse_one::overlaps(node, query); }, visit);
+}
+
+template <typename Visit>
+void for_each_overlap(const Tree& tree, const Aabb& query, const TreeHalfSpaces& but_for,
+                      const Visit& visit) {
     const auto test = [&](const Node& node) {
-        const Aabb q = traverse_one::in_frame(query, node.frame);
-        traverse_one::Hits hits;
-        for (std::size_t i = 0; i < Node::kWidth; ++i)
-            hits[i] = bool((node.lower[0][i] <= q.upper[0]) & (q.lower[0] <= node.upper[0][i]) &
-                           (node.lower[1][i] <= q.upper[1]) & (q.lower[1] <= node.upper[1][i]) &
-                           (node.lower[2][i] <= q.upper[2]) & (q.lower[2] <= node.upper[2][i]));
+        traverse_one::Hits hits = traverse_one::overlaps(node, query);
+        for (const TreeHalfSpace& space : but_for)
+            traverse_one::take_out(node, space, hits);
         return hits;
     };
     traverse_one::descend(tree, test, visit);
