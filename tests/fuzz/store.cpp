@@ -252,10 +252,12 @@ void read_all(const std::string& path) {
             });
         });
         answer_of([&] {
-            const StoredParts parts = gather_parts(file, true);
+            const ClashOptions options;
+            RuleTable rules(options);
+            const StoredParts parts = gather_parts(file, &rules);
             for (const StoredPart& part : parts.parts)
                 require(part.mesh < parts.meshes.size());
-            static_cast<void>(find_candidates(parts, ClashOptions()));
+            static_cast<void>(find_candidates(parts, rules, options));
         });
         file.with_connection([&](Database& database) {
             if (!has_job_tables(database))
