@@ -94,6 +94,32 @@ private:
     double height_;
 };
 
+/// Looks at all vertices.
+HWY_INLINE std::uint32_t scan(const Polytope& polytope, const Vec3& direction) {
+    const D d;
+    const std::size_t count = polytope.columns.size() / 3;
+    const double *const x = polytope.columns.data(), *const y = x + count, *const z = y + count;
+    const V along[3] = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
+    const V lanes = hn::Set(d, static_cast<double>(hn::Lanes(d)));
+    V place = hn::Iota(d, 0.0), place_of_most = place;
+    V most = dot(along, hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z));
+    for (std::size_t i = hn::Lanes(d); i < count; i += hn::Lanes(d)) {
+        const V height = dot(along, hn::LoadU(d, x + i), hn::LoadU(d, y + i), hn::LoadU(d, z + i));
+        place = hn::Add(place, lanes);
+        place_of_most = hn::IfThenElse(hn::Gt(height, most), place, place_of_most);
+        most = hn::Max(height, most);
+    }
+    const auto highest = hn::Eq(most, hn::MaxOfLanes(d, most));
+    const V last = hn::Set(d, static_cast<double>(polytope.vertices.size() - 1));
+    return static_cast<std::uint32_t>(hn::GetLane(
+        hn::MinOfLanes(d, hn::IfThenElse(highest, hn::Min(place_of_most, last), last))));
+}
+
+void scan_two(const Polytope& a, const Vec3& direction_a, const Polytope& b,
+              const Vec3& direction_b, VertexPair& at) {
+    at.a = scan(a, direction_a), at.b = scan(b, direction_b);
+}
+
 std::uint32_t climb_one(const Polytope& polytope, const Vec3& direction, std::uint32_t start) {
     Climber climber(polytope, direction, start);
     while (climber.step()) {
@@ -143,6 +169,7 @@ namespace abut {
 
 HWY_EXPORT(climb_one);
 HWY_EXPORT(climb_two);
+HWY_EXPORT(scan_two);
 HWY_EXPORT(highest_of_ring);
 
 std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32_t start) {
@@ -151,6 +178,11 @@ std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32
 
 VertexPair farthest(const PolytopePair& pair, const Vec3& direction) {
     const Vec3 from_a = pair.a.pulled_back(direction), from_b = pair.b.pulled_back(-direction);
+    if (!pair.a.polytope->columns.empty() && !pair.b.polytope->columns.empty()) {
+        VertexPair at;
+        HWY_DYNAMIC_DISPATCH(scan_two)(*pair.a.polytope, from_a, *pair.b.polytope, from_b, at);
+        return at;
+    }
     VertexPair at{pair.a.polytope->starts.vertex(from_a), pair.b.polytope->starts.vertex(from_b)};
     HWY_DYNAMIC_DISPATCH(climb_two)(*pair.a.polytope, from_a, *pair.b.polytope, from_b, at);
     return at;

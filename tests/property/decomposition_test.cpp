@@ -186,7 +186,7 @@ TEST(HullTree, WalksEndWhereverTheyBegin) {
                     std::min(expected, std::sqrt(point_triangle_distance(at, c).distance_sq));
             }
             inside += out ? 0 : 1;
-            const Polytope point{{{at, 0, 0}}, {}, {}};
+            const Polytope point = make_polytope({&at, 1}, {});
             const Transform unmoved;
             for (std::uint32_t v = 0; v < hull.vertices.size(); ++v, ++walks) {
                 ClosestPointSearch search;
