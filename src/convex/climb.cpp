@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, RingBlock::kEdges>;
 using V = hn::VFromD<D>;
 constexpr std::size_t kLanes = hn::MaxLanes(D());
-constexpr std::size_t kVectors = 2 * RingBlock::kEdges / kLanes; ///< of two blocks
+constexpr std::size_t kVectors = std::size_t{2} * RingBlock::kEdges / kLanes; ///< of two blocks
 
 /// In the order of `dot`, without fused operations: the same on all targets.
 HWY_INLINE V dot(const V* direction, V x, V y, V z) {
