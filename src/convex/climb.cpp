@@ -144,20 +144,29 @@ void highest_of_ring(const Polytope& polytope, const HullVertex& vertex, const V
     const V along[3] = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
     const V x = hn::Set(d, vertex.at.x), y = hn::Set(d, vertex.at.y), z = hn::Set(d, vertex.at.z);
     const RingBlock* const ring = polytope.rings.data() + vertex.first_edge / RingBlock::kEdges;
-    for (std::uint32_t first = 0; first < vertex.degree; first += RingBlock::kEdges) {
-        const RingBlock& block = ring[first / RingBlock::kEdges];
-        for (std::size_t lane = 0; lane < RingBlock::kEdges; lane += kLanes) {
-            const V heights = dot(along, hn::Sub(hn::Load(d, block.x.data() + lane), x),
-                                  hn::Sub(hn::Load(d, block.y.data() + lane), y),
-                                  hn::Sub(hn::Load(d, block.z.data() + lane), z));
-            const V most = hn::MaxOfLanes(d, heights);
-            if (const double excess = hn::GetLane(most); excess > highest.excess) {
-                highest.excess = excess;
-                const std::uint32_t k =
-                    first + static_cast<std::uint32_t>(lane) + first_of(&heights, 1, most);
-                highest.edge = vertex.first_edge + (k < vertex.degree ? k : 0);
-            }
+    constexpr std::uint32_t kTwo = 2 * RingBlock::kEdges;
+    for (std::uint32_t first = 0; first < vertex.degree; first += kTwo) {
+        // Two blocks at a time: the first again where there is no second.
+        const RingBlock* const one = ring + first / RingBlock::kEdges;
+        const RingBlock* const blocks[2] = {one, vertex.degree - first > RingBlock::kEdges ? one + 1
+                                                                                           : one};
+        V heights[kVectors];
+        for (std::size_t i = 0; i < kVectors; ++i) {
+            const RingBlock& block = *blocks[i * kLanes / RingBlock::kEdges];
+            const std::size_t lane = i * kLanes % RingBlock::kEdges;
+            heights[i] = dot(along, hn::Sub(hn::Load(d, block.x.data() + lane), x),
+                             hn::Sub(hn::Load(d, block.y.data() + lane), y),
+                             hn::Sub(hn::Load(d, block.z.data() + lane), z));
         }
+        V most = heights[0];
+        for (std::size_t i = 1; i < kVectors; ++i)
+            most = hn::Max(most, heights[i]);
+        most = hn::MaxOfLanes(d, most);
+        const std::uint32_t k = first + first_of(heights, kVectors, most);
+        const double excess = hn::GetLane(most);
+        const bool higher = excess > highest.excess;
+        highest.edge = higher ? vertex.first_edge + (k < vertex.degree ? k : 0) : highest.edge;
+        highest.excess = higher ? excess : highest.excess;
     }
 }
 
