@@ -3,8 +3,8 @@
 #include <abut/convex_pieces.h>
 #include <abut/shape_queries.h>
 
-#include "convex/closest_points.h"
 #include "convex/climb.h"
+#include "convex/closest_points.h"
 #include "convex/exact_hull.h"
 #include "geometry/point_triangle_distance.h"
 #include "math/predicates.h"
