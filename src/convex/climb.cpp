@@ -15,7 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<double, RingBlock::kEdges>;
 using V = hn::VFromD<D>;
 constexpr std::size_t kLanes = hn::MaxLanes(D());
-constexpr std::size_t kVectors = 2 * RingBlock::kEdges / kLanes; ///< of two blocks
+constexpr std::size_t kVectors = std::size_t{2} * RingBlock::kEdges / kLanes; ///< of two blocks
 
 /// In the order of `dot`, without fused operations: the same on all targets.
 HWY_INLINE V dot(const V* direction, V x, V y, V z) {
@@ -94,6 +94,32 @@ private:
     double height_;
 };
 
+/// Looks at all vertices.
+HWY_INLINE std::uint32_t scan(const Polytope& polytope, const Vec3& direction) {
+    const D d;
+    const std::size_t count = polytope.columns.size() / 3;
+    const double *const x = polytope.columns.data(), *const y = x + count, *const z = y + count;
+    const V along[3] = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
+    const V lanes = hn::Set(d, static_cast<double>(hn::Lanes(d)));
+    V place = hn::Iota(d, 0.0), place_of_most = place;
+    V most = dot(along, hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z));
+    for (std::size_t i = hn::Lanes(d); i < count; i += hn::Lanes(d)) {
+        const V height = dot(along, hn::LoadU(d, x + i), hn::LoadU(d, y + i), hn::LoadU(d, z + i));
+        place = hn::Add(place, lanes);
+        place_of_most = hn::IfThenElse(hn::Gt(height, most), place, place_of_most);
+        most = hn::Max(height, most);
+    }
+    const auto highest = hn::Eq(most, hn::MaxOfLanes(d, most));
+    const V last = hn::Set(d, static_cast<double>(polytope.vertices.size() - 1));
+    return static_cast<std::uint32_t>(hn::GetLane(
+        hn::MinOfLanes(d, hn::IfThenElse(highest, hn::Min(place_of_most, last), last))));
+}
+
+void scan_two(const Polytope& a, const Vec3& direction_a, const Polytope& b,
+              const Vec3& direction_b, VertexPair& at) {
+    at.a = scan(a, direction_a), at.b = scan(b, direction_b);
+}
+
 std::uint32_t climb_one(const Polytope& polytope, const Vec3& direction, std::uint32_t start) {
     Climber climber(polytope, direction, start);
     while (climber.step()) {
@@ -118,20 +144,29 @@ void highest_of_ring(const Polytope& polytope, const HullVertex& vertex, const V
     const V along[3] = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
     const V x = hn::Set(d, vertex.at.x), y = hn::Set(d, vertex.at.y), z = hn::Set(d, vertex.at.z);
     const RingBlock* const ring = polytope.rings.data() + vertex.first_edge / RingBlock::kEdges;
-    for (std::uint32_t first = 0; first < vertex.degree; first += RingBlock::kEdges) {
-        const RingBlock& block = ring[first / RingBlock::kEdges];
-        for (std::size_t lane = 0; lane < RingBlock::kEdges; lane += kLanes) {
-            const V heights = dot(along, hn::Sub(hn::Load(d, block.x.data() + lane), x),
-                                  hn::Sub(hn::Load(d, block.y.data() + lane), y),
-                                  hn::Sub(hn::Load(d, block.z.data() + lane), z));
-            const V most = hn::MaxOfLanes(d, heights);
-            if (const double excess = hn::GetLane(most); excess > highest.excess) {
-                highest.excess = excess;
-                const std::uint32_t k =
-                    first + static_cast<std::uint32_t>(lane) + first_of(&heights, 1, most);
-                highest.edge = vertex.first_edge + (k < vertex.degree ? k : 0);
-            }
+    constexpr std::uint32_t kTwo = 2 * RingBlock::kEdges;
+    for (std::uint32_t first = 0; first < vertex.degree; first += kTwo) {
+        // Two blocks at a time: the first again where there is no second.
+        const RingBlock* const one = ring + first / RingBlock::kEdges;
+        const RingBlock* const blocks[2] = {one, vertex.degree - first > RingBlock::kEdges ? one + 1
+                                                                                           : one};
+        V heights[kVectors];
+        for (std::size_t i = 0; i < kVectors; ++i) {
+            const RingBlock& block = *blocks[i * kLanes / RingBlock::kEdges];
+            const std::size_t lane = i * kLanes % RingBlock::kEdges;
+            heights[i] = dot(along, hn::Sub(hn::Load(d, block.x.data() + lane), x),
+                             hn::Sub(hn::Load(d, block.y.data() + lane), y),
+                             hn::Sub(hn::Load(d, block.z.data() + lane), z));
         }
+        V most = heights[0];
+        for (std::size_t i = 1; i < kVectors; ++i)
+            most = hn::Max(most, heights[i]);
+        most = hn::MaxOfLanes(d, most);
+        const std::uint32_t k = first + first_of(heights, kVectors, most);
+        const double excess = hn::GetLane(most);
+        const bool higher = excess > highest.excess;
+        highest.edge = higher ? vertex.first_edge + (k < vertex.degree ? k : 0) : highest.edge;
+        highest.excess = higher ? excess : highest.excess;
     }
 }
 
@@ -143,6 +178,7 @@ namespace abut {
 
 HWY_EXPORT(climb_one);
 HWY_EXPORT(climb_two);
+HWY_EXPORT(scan_two);
 HWY_EXPORT(highest_of_ring);
 
 std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32_t start) {
@@ -151,6 +187,11 @@ std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32
 
 VertexPair farthest(const PolytopePair& pair, const Vec3& direction) {
     const Vec3 from_a = pair.a.pulled_back(direction), from_b = pair.b.pulled_back(-direction);
+    if (!pair.a.polytope->columns.empty() && !pair.b.polytope->columns.empty()) {
+        VertexPair at;
+        HWY_DYNAMIC_DISPATCH(scan_two)(*pair.a.polytope, from_a, *pair.b.polytope, from_b, at);
+        return at;
+    }
     VertexPair at{pair.a.polytope->starts.vertex(from_a), pair.b.polytope->starts.vertex(from_b)};
     HWY_DYNAMIC_DISPATCH(climb_two)(*pair.a.polytope, from_a, *pair.b.polytope, from_b, at);
     return at;

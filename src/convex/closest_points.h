@@ -12,7 +12,7 @@ namespace abut {
 /// The closest points of two polytopes, or a common one.
 struct ClosestPointSearch {
     /// Not constant: a constant object is zeroed as a whole, which takes some 30 cycles.
-    ClosestPointSearch() {} // NOLINT(modernize-use-equals-default)
+    ClosestPointSearch() {}
 
     /// Where it begins, then the closest points. `end` is meeting or closest.
     WalkState at;

@@ -64,8 +64,8 @@ void search_along(const PolytopePair& pair, const Vec3& direction, double roundi
 /// Whether the bodies' inner balls meet: then the point between their middles lies in both.
 bool balls_meet(const PlacedBodies& bodies, const PolytopePair& pair, const Vec3& between,
                 double rounding, WalkState& at) {
-    const double radius_a = least_stretch_by_discs(bodies.world_from_a) * bodies.a.ball.radius,
-                 radius_b = least_stretch_by_discs(bodies.world_from_b) * bodies.b.ball.radius;
+    const double radius_a = stretch_of(bodies.world_from_a).least * bodies.a.ball.radius,
+                 radius_b = stretch_of(bodies.world_from_b).least * bodies.b.ball.radius;
     const double room = radius_a + radius_b - 4 * rounding;
     if (!(room > 0 && length_sq(between) < room * room))
         return false;

@@ -15,8 +15,8 @@ struct InnerBall {
 /// A ball inside of a hull, not much smaller than the largest.
 ///
 /// In          an exact hull of points that are all vertices: counter-clockwise triangles.
-/// Degenerate  radius 0 where the hull has no volume, or its triangles are so thin that rounding
-///             hides where their planes are; the middle of the box then.
+/// Degenerate  radius 0 where the hull has no volume, or it or its triangles are so thin that no ball is
+///             found or rounding hides where their planes are; the middle of the box then.
 /// Cost        some dozen looks at all planes.
 /// Source      subgradient steps towards the Chebyshev centre: away from the nearest plane, by ever
 ///             less.

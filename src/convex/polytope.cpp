@@ -55,6 +55,13 @@ void add_room(Polytope& polytope) {
         polytope.rings.push_back(last);
 }
 
+void add_columns(std::span<const Vec3> points, std::vector<double>& columns) {
+    const std::size_t blocks = (points.size() + RingBlock::kEdges - 1) / RingBlock::kEdges;
+    for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t i = 0; i < blocks * RingBlock::kEdges; ++i)
+            columns.push_back(component(points[std::min(i, points.size() - 1)], axis));
+}
+
 void set_twins(Polytope& polytope) {
     struct Ends {
         std::uint32_t low, high, edge;
@@ -99,12 +106,15 @@ Polytope make_polytope(std::span<const Vec3> points, std::span<const IndexTriang
     }
     add_room(polytope);
     set_twins(polytope);
+    if (points.size() <= Polytope::kSmall)
+        add_columns(points, polytope.columns);
     return polytope;
 }
 
 std::size_t Polytope::bytes() const {
     return vertices.capacity() * sizeof(HullVertex) + rings.capacity() * sizeof(RingBlock) +
-           starts.vertices().capacity() * sizeof(std::uint32_t);
+           starts.vertices().capacity() * sizeof(std::uint32_t) +
+           columns.capacity() * sizeof(double);
 }
 
 } // namespace abut

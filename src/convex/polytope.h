@@ -40,6 +40,8 @@ struct Polytope {
     std::vector<HullVertex> vertices;
     std::vector<RingBlock> rings; ///< by vertex, then around it; one more at the end
     NormalTable starts;
+    /// Of a small hull: all x, then all y, all z, padded to whole blocks by the last vertex.
+    std::vector<double> columns;
 
     /// One more than the largest number of an edge.
     [[nodiscard]] std::uint32_t edge_end() const {
@@ -66,6 +68,8 @@ struct Polytope {
         return edge == v.first_edge ? v.first_edge + v.degree - 1 : edge - 1;
     }
     [[nodiscard]] std::size_t bytes() const;
+
+    static constexpr std::size_t kSmall = 64; ///< vertices, of a hull that has columns
 };
 
 /// In          an exact hull (exact_hull.h) of points that are all vertices: counter-clockwise

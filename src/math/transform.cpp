@@ -12,8 +12,7 @@ namespace abut {
 Transform::Transform(const Pose& pose) {
     double w = pose.rotation[0], x = pose.rotation[1], y = pose.rotation[2], z = pose.rotation[3];
     // Scaled by the largest first: no square of a valid quaternion over- or underflows.
-    const double largest =
-        std::max(std::max(std::abs(w), std::abs(x)), std::max(std::abs(y), std::abs(z)));
+    const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
     // Zero times what is not finite is not a number.
     const Vec3& at = pose.translation;
     if (!(0 * w + 0 * x + 0 * y + 0 * z + 0 * at.x + 0 * at.y + 0 * at.z == 0))
@@ -50,49 +49,28 @@ Transform inverse(const Transform& t) {
     return r;
 }
 
-namespace {
-
-/// L^T L, and where Gershgorin's discs around its diagonal begin and end.
-struct Gram {
-    explicit Gram(const Transform& t) {
-        const auto& m = t.m;
-        const Vec3 x{m[0], m[1], m[2]}, y{m[3], m[4], m[5]}, z{m[6], m[7], m[8]};
-        xx = length_sq(x), yy = length_sq(y), zz = length_sq(z);
-        xy = dot(x, y), yz = dot(y, z), zx = dot(z, x);
-        const double rx = std::abs(xy) + std::abs(zx), ry = std::abs(xy) + std::abs(yz),
-                     rz = std::abs(yz) + std::abs(zx);
-        least = std::min({xx - rx, yy - ry, zz - rz});
-        most = std::max({xx + rx, yy + ry, zz + rz});
-    }
-    double xx, yy, zz, xy, yz, zx, least, most;
-};
-
-/// Of a square root of what was summed above.
-constexpr double kRounding = 1e-14;
-
-double root_of_least(double least) {
-    return least > 0 ? std::sqrt(least) * (1 - kRounding) : 0;
-}
-
-} // namespace
-
 Stretch stretch_of(const Transform& t) {
-    const Gram g(t);
-    double least = g.least, most = g.most;
+    const auto& m = t.m;
+    const std::array<Vec3, 3> c{Vec3{m[0], m[1], m[2]}, Vec3{m[3], m[4], m[5]},
+                                Vec3{m[6], m[7], m[8]}};
+    const double xx = length_sq(c[0]), yy = length_sq(c[1]), zz = length_sq(c[2]);
+    const double xy = dot(c[0], c[1]), yz = dot(c[1], c[2]), zx = dot(c[2], c[0]);
+    // Every eigenvalue of L^T L lies in a disc around a diagonal entry.
+    const double rx = std::abs(xy) + std::abs(zx), ry = std::abs(xy) + std::abs(yz),
+                 rz = std::abs(yz) + std::abs(zx);
+    double least = std::min({xx - rx, yy - ry, zz - rz}),
+           most = std::max({xx + rx, yy + ry, zz + rz});
     if (least < (1 - 1e-5) * most) {
         Eigen::Matrix3d gram;
-        gram << g.xx, g.xy, g.zx, g.xy, g.yy, g.yz, g.zx, g.yz, g.zz;
+        gram << xx, xy, zx, xy, yy, yz, zx, yz, zz;
         const Eigen::Vector3d values =
             Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly)
                 .eigenvalues();
         most = std::min(most, values[2]);
         least = values[0] - 1e-14 * most; // the solver is exact to a few roundings of the largest
     }
-    return {root_of_least(least), std::sqrt(most) * (1 + kRounding)};
-}
-
-double least_stretch_by_discs(const Transform& t) {
-    return root_of_least(Gram(t).least);
+    constexpr double kRounding = 1e-14;
+    return {least > 0 ? std::sqrt(least) * (1 - kRounding) : 0, std::sqrt(most) * (1 + kRounding)};
 }
 
 void require_finite(const Transform& t, const char* what) {

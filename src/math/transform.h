@@ -59,10 +59,6 @@ struct Stretch {
 ///             uneven scale).
 Stretch stretch_of(const Transform& t);
 
-/// A lower bound of |L v| over all unit vectors v: that of the discs alone, so at less cost, but 0 for
-/// much shear or uneven scale.
-double least_stretch_by_discs(const Transform& t);
-
 /// Errors      Error{bad_argument} if a value is not finite.
 void require_finite(const Transform& t, const char* what);
 

@@ -3,8 +3,8 @@
 #include <abut/convex_pieces.h>
 #include <abut/shape_queries.h>
 
-#include "convex/closest_points.h"
 #include "convex/climb.h"
+#include "convex/closest_points.h"
 #include "convex/exact_hull.h"
 #include "geometry/point_triangle_distance.h"
 #include "math/predicates.h"
@@ -186,7 +186,7 @@ TEST(HullTree, WalksEndWhereverTheyBegin) {
                     std::min(expected, std::sqrt(point_triangle_distance(at, c).distance_sq));
             }
             inside += out ? 0 : 1;
-            const Polytope point{{{at, 0, 0}}, {}, {}};
+            const Polytope point = make_polytope({&at, 1}, {});
             const Transform unmoved;
             for (std::uint32_t v = 0; v < hull.vertices.size(); ++v, ++walks) {
                 ClosestPointSearch search;
