@@ -19,8 +19,41 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-Vec3 extent_of(const Box3& box) {
-    return box.upper - box.lower;
+double diagonal(const Box3& box) {
+    return length(box.upper - box.lower);
+}
+Box3 united(Box3 a, const Box3& b) {
+    extend(a, b.lower), extend(a, b.upper);
+    return a;
+}
+
+/// Leaves of a range of shares, from 0 to 1, those where a quantity is not above 0 that goes from `start`
+/// to `end` in a straight line, and a little around them for rounding. False if none is left.
+bool keep_below_zero(double start, double end, TimeRange& shares) {
+    constexpr double kMore = 0x1p-40;
+    const double zero = start / (start - end);
+    if (start > 0)
+        shares.begin = end > 0 ? kNever : std::max(shares.begin, zero - kMore);
+    else if (end > 0)
+        shares.end = std::min(shares.end, zero + kMore);
+    return shares.begin <= shares.end;
+}
+
+/// When boxes overlap, of which one's bounds move from `start` to `end` in straight lines, within the
+/// range of time that they take.
+std::optional<TimeRange> overlap_time(const Box3& start, const Box3& end, const Box3& other,
+                                      const TimeRange& range) {
+    TimeRange shares;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double lower = component(other.lower, axis), upper = component(other.upper, axis);
+        if (!keep_below_zero(component(start.lower, axis) - upper,
+                             component(end.lower, axis) - upper, shares) ||
+            !keep_below_zero(lower - component(start.upper, axis),
+                             lower - component(end.upper, axis), shares))
+            return std::nullopt;
+    }
+    const double length = range.end - range.begin;
+    return TimeRange{range.begin + shares.begin * length, range.begin + shares.end * length};
 }
 
 /// The earliest contact of a deformable surface and a rigid body that do not meet at the start.
@@ -72,12 +105,17 @@ private:
         double speed = 0; ///< at which they seemed to approach each other
     };
 
+    /// For as long as the boxes overlap.
     void keep_if_near(const Waiting& pair) {
         ++counters_.volume_tests;
-        if (overlap(pair_.box_a(pair.a, pair.range), pair_.box_b(pair.b, pair.range))) {
-            queue_.push_back(pair);
-            std::push_heap(queue_.begin(), queue_.end(), Later{});
-        }
+        const TimeRange& range = pair.range;
+        const auto near =
+            overlap_time(pair_.box_a(pair.a, range.begin), pair_.box_a(pair.a, range.end),
+                         pair_.box_b(pair.b, range), range);
+        if (!near || near->begin > found_.time)
+            return;
+        queue_.push_back({*near, pair.a, pair.b});
+        std::push_heap(queue_.begin(), queue_.end(), Later{});
     }
 
     /// Replaces a pair of boxes by halves of its time, or by the pairs below it.
@@ -88,10 +126,12 @@ private:
             return;
         }
         const TimeRange& range = pair.range;
-        const double size_a = size_at(range.begin, pair, true),
-                     size_b = size_at(range.begin, pair, false);
+        const Box3 start_a = pair_.box_a(pair.a, range.begin),
+                   start_b = pair_.box_b(pair.b, {range.begin, range.begin});
+        const double size_a = diagonal(start_a), size_b = diagonal(start_b);
         const double moved =
-            std::max(size_in(range, pair, true) - size_a, size_in(range, pair, false) - size_b);
+            std::max(diagonal(united(start_a, pair_.box_a(pair.a, range.end))) - size_a,
+                     diagonal(pair_.box_b(pair.b, range)) - size_b);
         if (moved > std::max(size_a, size_b) && range.end - range.begin > kShortestRange) {
             const double middle = 0.5 * (range.begin + range.end);
             keep_if_near({{range.begin, middle}, pair.a, pair.b});
@@ -107,12 +147,6 @@ private:
                 keep_if_near({range, pair.a, child});
             });
         }
-    }
-    [[nodiscard]] double size_in(const TimeRange& range, const Waiting& pair, bool of_a) const {
-        return length(extent_of(of_a ? pair_.box_a(pair.a, range) : pair_.box_b(pair.b, range)));
-    }
-    [[nodiscard]] double size_at(double time, const Waiting& pair, bool of_a) const {
-        return size_in({time, time}, pair, of_a);
     }
     template <typename AnyNode, typename Visit>
     static void for_each_child(const AnyNode& node, std::uint32_t index, const Visit& visit) {
