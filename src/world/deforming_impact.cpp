@@ -5,9 +5,9 @@
 #include "math/transform.h"
 #include "world/deforming_pair.h"
 #include "world/narrow_phase.h"
+#include "world/surface_impact.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -19,8 +19,41 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-Vec3 extent_of(const Box3& box) {
-    return box.upper - box.lower;
+double diagonal(const Box3& box) {
+    return length(box.upper - box.lower);
+}
+Box3 united(Box3 a, const Box3& b) {
+    extend(a, b.lower), extend(a, b.upper);
+    return a;
+}
+
+/// Leaves of a range of shares, from 0 to 1, those where a quantity is not above 0 that goes from `start`
+/// to `end` in a straight line, and a little around them for rounding. False if none is left.
+bool keep_below_zero(double start, double end, TimeRange& shares) {
+    constexpr double kMore = 0x1p-40;
+    const double zero = start / (start - end);
+    if (start > 0)
+        shares.begin = end > 0 ? kNever : std::max(shares.begin, zero - kMore);
+    else if (end > 0)
+        shares.end = std::min(shares.end, zero + kMore);
+    return shares.begin <= shares.end;
+}
+
+/// When boxes overlap, of which one's bounds move from `start` to `end` in straight lines, within the
+/// range of time that they take.
+std::optional<TimeRange> overlap_time(const Box3& start, const Box3& end, const Box3& other,
+                                      const TimeRange& range) {
+    TimeRange shares;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double lower = component(other.lower, axis), upper = component(other.upper, axis);
+        if (!keep_below_zero(component(start.lower, axis) - upper,
+                             component(end.lower, axis) - upper, shares) ||
+            !keep_below_zero(lower - component(start.upper, axis),
+                             lower - component(end.upper, axis), shares))
+            return std::nullopt;
+    }
+    const double length = range.end - range.begin;
+    return TimeRange{range.begin + shares.begin * length, range.begin + shares.end * length};
 }
 
 /// The earliest contact of a deformable surface and a rigid body that do not meet at the start.
@@ -72,12 +105,17 @@ private:
         double speed = 0; ///< at which they seemed to approach each other
     };
 
+    /// For as long as the boxes overlap.
     void keep_if_near(const Waiting& pair) {
         ++counters_.volume_tests;
-        if (overlap(pair_.box_a(pair.a, pair.range), pair_.box_b(pair.b, pair.range))) {
-            queue_.push_back(pair);
-            std::push_heap(queue_.begin(), queue_.end(), Later{});
-        }
+        const TimeRange& range = pair.range;
+        const auto near =
+            overlap_time(pair_.box_a(pair.a, range.begin), pair_.box_a(pair.a, range.end),
+                         pair_.box_b(pair.b, range), range);
+        if (!near || near->begin > found_.time)
+            return;
+        queue_.push_back({*near, pair.a, pair.b});
+        std::push_heap(queue_.begin(), queue_.end(), Later{});
     }
 
     /// Replaces a pair of boxes by halves of its time, or by the pairs below it.
@@ -88,10 +126,12 @@ private:
             return;
         }
         const TimeRange& range = pair.range;
-        const double size_a = size_at(range.begin, pair, true),
-                     size_b = size_at(range.begin, pair, false);
+        const Box3 start_a = pair_.box_a(pair.a, range.begin),
+                   start_b = pair_.box_b(pair.b, {range.begin, range.begin});
+        const double size_a = diagonal(start_a), size_b = diagonal(start_b);
         const double moved =
-            std::max(size_in(range, pair, true) - size_a, size_in(range, pair, false) - size_b);
+            std::max(diagonal(united(start_a, pair_.box_a(pair.a, range.end))) - size_a,
+                     diagonal(pair_.box_b(pair.b, range)) - size_b);
         if (moved > std::max(size_a, size_b) && range.end - range.begin > kShortestRange) {
             const double middle = 0.5 * (range.begin + range.end);
             keep_if_near({{range.begin, middle}, pair.a, pair.b});
@@ -107,12 +147,6 @@ private:
                 keep_if_near({range, pair.a, child});
             });
         }
-    }
-    [[nodiscard]] double size_in(const TimeRange& range, const Waiting& pair, bool of_a) const {
-        return length(extent_of(of_a ? pair_.box_a(pair.a, range) : pair_.box_b(pair.b, range)));
-    }
-    [[nodiscard]] double size_at(double time, const Waiting& pair, bool of_a) const {
-        return size_in({time, time}, pair, of_a);
     }
     template <typename AnyNode, typename Visit>
     static void for_each_child(const AnyNode& node, std::uint32_t index, const Visit& visit) {
@@ -193,84 +227,6 @@ private:
 const Deformable* deformable_of(const MovingBody& body) {
     const auto* shape = std::get_if<DeformableShape>(&body.shape);
     return shape != nullptr ? shape->surface : nullptr;
-}
-
-/// Some triangle that has these vertices, the n first of the array.
-std::uint32_t triangle_with(const DeformableData& data, std::span<const std::uint32_t> vertices) {
-    const auto has_all = [&](const IndexTriangle& t) {
-        return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
-            return std::find(t.begin(), t.end(), v) != t.end();
-        });
-    };
-    return static_cast<std::uint32_t>(
-        std::find_if(data.triangles.begin(), data.triangles.end(), has_all) -
-        data.triangles.begin());
-}
-
-/// A point of a feature, and a triangle that the feature belongs to.
-struct FeaturePoint {
-    Vec3 point;
-    std::uint32_t triangle = 0;
-};
-FeaturePoint on_feature(const DeformableData& data, std::span<const std::uint32_t> vertices,
-                        std::span<const double> weights, double time) {
-    FeaturePoint result{{}, triangle_with(data, vertices)};
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const MovingVertex& v = data.vertices[vertices[i]];
-        result.point = result.point + weights[i] * ((1 - time) * v.start + time * v.end);
-    }
-    return result;
-}
-
-/// Exact times are less than this before the contact.
-constexpr double kTimeError = 1e-9;
-
-Impact impact_of_features(const DeformableData& a, const DeformableData& b,
-                          const FeatureImpact& found) {
-    constexpr std::array kWhole{1.0};
-    const auto on_edge = [&](const DeformableData& data, std::uint32_t edge, double s) {
-        return on_feature(data, data.features.edges[edge], std::array{1 - s, s}, found.time);
-    };
-    FeaturePoint on_a, on_b;
-    if (found.kind == ElementaryKind::edge_edge) {
-        on_a = on_edge(a, found.a, found.barycentric[0]);
-        on_b = on_edge(b, found.b, found.barycentric[1]);
-    } else {
-        const DeformableData &vertex_of = found.face_first ? b : a,
-                             &face_of = found.face_first ? a : b;
-        on_a = on_feature(vertex_of, std::array{found.a}, kWhole, found.time);
-        on_b = on_feature(face_of, face_of.triangles[found.b], found.barycentric, found.time);
-        if (found.face_first)
-            std::swap(on_a, on_b);
-    }
-    Impact impact;
-    impact.hit = true, impact.time = found.time;
-    impact.point_a = on_a.point, impact.point_b = on_b.point;
-    impact.triangle_a = on_a.triangle, impact.triangle_b = on_b.triangle;
-    impact.gap = length(on_b.point - on_a.point);
-    impact.normal = found.face_first ? found.normal : -found.normal;
-    impact.status = found.status;
-    if (found.status == Status::exact)
-        impact.contact_time = std::min(1.0, found.time + kTimeError);
-    return impact;
-}
-
-/// The first impact of two surfaces that do not meet at the start.
-Impact surface_impact(const Deformable& a, const Deformable& b) {
-    if (a.data().options.scheme == b.data().options.scheme &&
-        a.data().options.culling == b.data().options.culling) {
-        const auto found = first_impact(a, b);
-        return found ? impact_of_features(a.data(), b.data(), *found) : Impact();
-    }
-    // Schemes that cannot be mixed: b's surface once more, with that of a.
-    Mesh start;
-    std::vector<Vec3> end;
-    for (const MovingVertex& vertex : b.data().vertices)
-        start.positions.push_back(vertex.start), end.push_back(vertex.end);
-    start.triangles = b.triangles();
-    Deformable alike(std::move(start), a.data().options);
-    alike.advance(end);
-    return surface_impact(a, alike);
 }
 
 Impact turned_round(Impact impact) {

@@ -73,18 +73,14 @@ std::span<const std::uint32_t> DeformingPair::triangles_a(NodeRef leaf) const {
     return {a_.swept.leaves.faces.ids(number), a_.swept.leaves.faces.count(number)};
 }
 
-Box3 DeformingPair::box_a(std::uint32_t name, const TimeRange& range) const {
+Box3 DeformingPair::box_a(std::uint32_t name, double time) const {
     const MovingTree& tree = tree_a();
     const MovingBox moving = name == kRootName
                                  ? moving_tree::bounds_of(tree.nodes[0])
                                  : moving_tree::box_of(tree.nodes[node_of(name)], lane_of(name));
     const Box3 start = widened(moving.start, margin_), end = widened(moving.end, margin_);
-    Box3 box;
-    for (const double time : {range.begin, range.end}) {
-        extend(box, place({start.lower, end.lower}, time) - shift(time));
-        extend(box, place({start.upper, end.upper}, time) - shift(time));
-    }
-    return box;
+    return {place({start.lower, end.lower}, time) - shift(time),
+            place({start.upper, end.upper}, time) - shift(time)};
 }
 
 Box3 DeformingPair::box_b(std::uint32_t name, const TimeRange& range) const {

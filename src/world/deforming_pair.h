@@ -32,9 +32,10 @@ public:
     /// The triangles of a leaf of the deformable.
     [[nodiscard]] std::span<const std::uint32_t> triangles_a(NodeRef leaf) const;
 
-    /// Enclose what lies below a child of the trees while time passes through the range, whatever
-    /// rounds; b's within its radius.
-    [[nodiscard]] Box3 box_a(std::uint32_t name, const TimeRange& range) const;
+    /// Encloses what lies below a child of a's tree, whatever rounds; between two times the bounds move
+    /// in straight lines.
+    [[nodiscard]] Box3 box_a(std::uint32_t name, double time) const;
+    /// The same of b's tree, within b's radius, while time passes through the range.
     [[nodiscard]] Box3 box_b(std::uint32_t name, const TimeRange& range) const;
 
     [[nodiscard]] Triangle triangle_a(std::uint32_t triangle, double time) const;

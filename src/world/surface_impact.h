@@ -1,0 +1,13 @@
+#pragma once
+
+#include <abut/deformable.h>
+#include <abut/motion.h>
+
+namespace abut {
+
+/// The first impact of two deformable surfaces that do not meet at the start, as one of two bodies.
+///
+/// Accuracy    as `first_impact`. `contact_time` is less than 1e-9 behind the first contact.
+Impact surface_impact(const Deformable& a, const Deformable& b);
+
+} // namespace abut
