@@ -20,6 +20,7 @@ constexpr std::uint64_t kMostLines = 20'000;
 
 struct GraphArguments {
     std::string store, memory = "512M", rules, svg;
+    bool keep = false;
     ClashOptions options;
 };
 
@@ -39,6 +40,8 @@ nlohmann::ordered_json describe(const GraphReport& graph, const std::string& sto
             {"mean_valence", graph.mean_valence},
             {"highest_valence", graph.highest_valence},
             {"bytes", graph.bytes},
+            {"large_meshes", graph.large_meshes},
+            {"large_bytes", graph.large_bytes},
             {"cut_edges", graph.cut_edges},
             {"units", std::move(units)},
             {"seconds", graph.seconds}};
@@ -52,12 +55,15 @@ std::string table(const GraphReport& graph, const std::string& store) {
                     "  components  {:>14}  the largest of {} parts\n"
                     "  valence     {:>14.2f}  in the mean, {} at most\n"
                     "  models      {:>14}  bytes, of meshes and hierarchies that an edge needs\n"
+                    "  large       {:>14}  bytes of them, of {} meshes of which few blocks are in "
+                    "memory at a time\n"
                     "  units       {:>14}  pieces of work that fit into the memory\n"
                     "  cut         {:>14}  edges between them\n"
                     "seconds     {:.2f}\n",
                     store, grouped(graph.nodes), grouped(graph.isolated), grouped(graph.edges),
                     grouped(graph.components), grouped(graph.largest_component), graph.mean_valence,
                     grouped(graph.highest_valence), grouped(graph.bytes),
+                    grouped(graph.large_bytes), grouped(graph.large_meshes),
                     grouped(graph.units.size()), grouped(graph.cut_edges), graph.seconds);
     constexpr std::size_t kRows = 40;
     if (graph.units.size() > 1)
@@ -88,7 +94,7 @@ int run(const GraphArguments& arguments, const CommonOptions& common) {
     {
         const InterruptScope scope(OnInterrupt::ask);
         graph = overlap_graph(open_store(arguments.store), options, out_of_core,
-                              outputs ? kMostLines : 0);
+                              outputs ? kMostLines : 0, arguments.keep);
     }
     bar.finish();
     throw_if_interrupted();
@@ -123,6 +129,8 @@ Subcommand add_graph(CLI::App& root, CommonOptions& common) {
     app->add_option("--memory", arguments->memory,
                     "Bytes that a job may keep, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
+    app->add_flag("--keep", arguments->keep,
+                  "Keep edges and pieces in the store, for questions in SQL");
     app->add_option("--svg", arguments->svg, "Draw the graph, its pieces in colours")
         ->check(not_empty("FILE"));
     return {app, [arguments, &common] { return run(*arguments, common); }};

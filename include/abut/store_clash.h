@@ -100,11 +100,14 @@ struct GraphReport {
     std::uint64_t isolated = 0;   ///< parts without an edge
     std::uint64_t largest_component = 0, highest_valence = 0;
     double mean_valence = 0; ///< of parts that have an edge
-    std::uint64_t bytes = 0; ///< of the models that an edge needs, each once; no large meshes
+    std::uint64_t bytes = 0; ///< of the models that an edge needs, each once
+    /// Of these, those of large meshes: of all their blocks, of which few are in memory at a time.
+    std::uint64_t large_meshes = 0, large_bytes = 0;
     struct Unit {
-        std::uint64_t parts = 0, edges = 0, meshes = 0, bytes = 0;
-        Box3 bounds; ///< of its parts' middles
-        Vec3 middle; ///< their mean
+        std::uint64_t parts = 0, edges = 0;
+        std::uint64_t meshes = 0, bytes = 0; ///< that must be in memory together: no large ones
+        Box3 bounds;                         ///< of its parts' middles
+        Vec3 middle;                         ///< their mean
     };
     std::vector<Unit> units;     ///< in the order of work
     std::uint64_t cut_edges = 0; ///< between parts that a partition put apart
@@ -116,9 +119,12 @@ struct GraphReport {
     double seconds = 0;
 };
 
-/// In          lines: of about how many edges, evenly chosen, the ends are wanted.
-/// Errors      as find_clashes of a store.
+/// In          lines: of about how many edges, evenly chosen, the ends are wanted; keep: edges and
+///             pieces are kept in the store for SQL, in place of those that were kept before
+///             (docs/massive.md).
+/// Errors      as find_clashes of a store; Error{cannot_write} if it is to be kept and cannot be.
 GraphReport overlap_graph(const Store& store, const ClashOptions& options,
-                          const OutOfCoreOptions& out_of_core = {}, std::uint64_t lines = 0);
+                          const OutOfCoreOptions& out_of_core = {}, std::uint64_t lines = 0,
+                          bool keep = false);
 
 } // namespace abut

@@ -63,8 +63,9 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
         plan.record = JobRecord::open(store.path(), plan.stored, options, plan.candidates);
     if (plan.record != nullptr)
         pairs = plan.record->pairs_left(plan.stored, std::move(pairs));
-    // Those of the processes of a crew are not kept: its stores are read without locks.
-    if (plan.record != nullptr && out_of_core.keep_hierarchies && out_of_core.crew == nullptr)
+    // A crew keeps none: its processes read the store without locks. With or without a record, the
+    // pieces are the same.
+    if (out_of_core.keep_hierarchies && out_of_core.crew == nullptr)
         plan.hierarchies_room = out_of_core.memory / kHierarchiesShare;
     plan.budget =
         bytes_for_models(plan.stored, pairs, plan.hierarchies_room, out_of_core, store.path());
@@ -82,6 +83,8 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
     plan.units = split_long_units(std::move(plan.units), plan.stored, workers);
     if (plan.record != nullptr)
         plan.record->plan(plan.stored, plan.units);
+    else
+        plan.hierarchies_room = 0;
     // What the broad phase and the partition needed is free for models, and not in small pieces.
     malloc_trim(0);
     progress.advance();

@@ -1,6 +1,7 @@
 #include <abut/store_clash.h>
 
 #include "core/stop_watch.h"
+#include "massive/graph_rows.h"
 #include "massive/job_plan.h"
 #include "math/vector.h"
 
@@ -58,12 +59,12 @@ public:
         std::vector<std::uint32_t> parts;
         for (const IndexPair& pair : unit.pairs) {
             add_edge(pair);
+            for (const std::uint32_t part : {pair.a(), pair.b()})
+                needed_[plan_.stored.parts[part].mesh] = true;
             parts.insert(parts.end(), {pair.a(), pair.b()});
         }
         std::sort(parts.begin(), parts.end());
         parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-        for (const std::uint32_t mesh : unit.meshes)
-            needed_[mesh] = true;
         report_.cut_edges += unit.cut ? unit.pairs.size() : 0;
         GraphReport::Unit& figures = report_.units.emplace_back();
         figures.parts = parts.size();
@@ -79,8 +80,14 @@ public:
     }
 
     GraphReport finish() {
-        for (std::size_t i = 0; i < needed_.size(); ++i)
-            report_.bytes += needed_[i] ? plan_.stored.meshes[i].bytes : 0;
+        for (std::uint32_t i = 0; i < needed_.size(); ++i) {
+            if (!needed_[i])
+                continue;
+            const StoredLargeMesh* const large = plan_.stored.find_large(i);
+            report_.bytes += large != nullptr ? large->bytes : plan_.stored.meshes[i].bytes;
+            report_.large_meshes += large != nullptr ? 1 : 0;
+            report_.large_bytes += large != nullptr ? large->bytes : 0;
+        }
         for (std::uint32_t i = 0; i < report_.nodes; ++i) {
             report_.highest_valence = std::max<std::uint64_t>(report_.highest_valence, valence_[i]);
             report_.isolated += valence_[i] == 0 ? 1 : 0;
@@ -120,13 +127,20 @@ private:
 } // namespace
 
 GraphReport overlap_graph(const Store& store, const ClashOptions& options,
-                          const OutOfCoreOptions& out_of_core, std::uint64_t lines) {
+                          const OutOfCoreOptions& out_of_core, std::uint64_t lines, bool keep) {
     StopWatch watch;
     const JobPlan plan = make_plan(store.file(), options, out_of_core, false);
     GraphFigures figures(plan, lines);
     for (const WorkUnit& unit : plan.units)
         figures.add(unit);
     GraphReport report = figures.finish();
+    if (keep) {
+        Database database(store.file().path(), OpenMode::read_write);
+        database.run("PRAGMA busy_timeout = 10000; PRAGMA synchronous = FULL");
+        Transaction transaction(database);
+        keep_graph(database, options.clearance, plan.stored, plan.units);
+        transaction.commit();
+    }
     report.seconds = watch.lap();
     return report;
 }

@@ -33,8 +33,10 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
     });
     result.meshes.shrink_to_fit(); // it is kept
     for (std::size_t i = 0; i < large.size(); ++i)
-        for (const StoredBlock& block : stored_blocks(store, large[i]))
+        for (const StoredBlock& block : stored_blocks(store, large[i])) {
             result.large[i].largest_block = std::max(result.large[i].largest_block, block.bytes);
+            result.large[i].bytes += block.bytes;
+        }
     result.models = store.models();
     // A row takes more bytes of the file: a damaged number takes no memory.
     constexpr std::uint64_t kLeastRow = 64;

@@ -39,6 +39,7 @@ struct StoredLargeMesh {
     std::uint32_t mesh = 0; ///< index in StoredParts::meshes
     std::uint64_t blocks = 0;
     std::uint64_t largest_block = 0; ///< bytes of a ModelBlock of it, estimated
+    std::uint64_t bytes = 0;         ///< of all of them
 };
 
 /// Where along a large part another one lies: pairs of one cell need about the same blocks.

@@ -50,6 +50,8 @@ Model ModelReader::model_of(const BlockRow& row, Mesh mesh) {
 std::vector<HierarchyRow> ModelReader::take_built() {
     const std::scoped_lock lock(mutex_);
     built_bytes_ = 0;
+    if (!built_.empty())
+        are_kept_ = true;
     return std::exchange(built_, {});
 }
 

@@ -31,7 +31,7 @@ public:
     Model read_mesh(std::int64_t mesh);
     ModelBlock read_block(std::int64_t block);
 
-    /// What was built since the last call.
+    /// What was built since the last call. From now on it is looked for in the store.
     std::vector<HierarchyRow> take_built();
 
     /// How many hierarchies were in the store.
@@ -42,7 +42,7 @@ private:
 
     StoreFile& store_;
     std::uint64_t room_;
-    bool are_kept_; ///< some, in the store, when this was made
+    std::atomic<bool> are_kept_; ///< some, in the store
     std::atomic<std::uint64_t> found_{0};
     std::mutex mutex_; ///< of what follows
     std::vector<HierarchyRow> built_;

@@ -78,13 +78,15 @@ TEST_F(StoreClash, GraphPrintsAndDraws) {
     EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
     EXPECT_NE(svg.find("<path "), std::string::npos);
-    EXPECT_EQ(run_abut({"graph", store_, "--quiet"}).out, "");
+    EXPECT_EQ(run_abut({"graph", store_, "--quiet", "--keep"}).out, "");
+    EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
     EXPECT_NE(run_abut({"graph", store_}).out.find("components"), std::string::npos);
 }
 
 TEST_F(StoreClash, RefusesWhatItCannotDo) {
     make(crowd(4, 14));
     expect_refused(clash(model_, {"--memory", "64M"}), {"--memory", "store"});
+    expect_refused(clash(model_, {"--no-keep-hierarchies"}), {"--no-keep-hierarchies", "store"});
     expect_refused(clash(store_, {"--memory", "many"}), {"--memory"});
     expect_refused(clash(store_, {"--unit", "2"}), {"--unit", "store"});
     expect_refused(clash(store_, {"--memory", "1K"}), {store_, "memory"});

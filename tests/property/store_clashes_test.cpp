@@ -284,6 +284,88 @@ TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
     }
 }
 
+TEST(OverlapGraph, IsKeptForSqlAndCountsLargeMeshes) {
+    Random random(6107);
+    for (int round = 0; round < many(4); ++round) {
+        const Folder folder;
+        const std::string store = folder / "a.abut";
+        Scene scene = some_scene(random, random.integer(60, 120), 4);
+        if (round % 2 == 1) {
+            scene.meshes.push_back(torus_mesh(1, 0.3, 300, 150)); // large
+            scene.parts.back().mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+        }
+        write_glb(scene, folder / "a.glb");
+        (void)import_models({folder / "a.glb"}, store);
+        const Store opened = open_store(store);
+        const StoredParts stored = gather_parts(opened.file(), false);
+        for (const double clearance : {0.0, 0.05}) { // the second in place of the first
+            ClashOptions options;
+            options.clearance = clearance;
+            const OutOfCoreOptions limits{.memory =
+                                              round % 2 == 1 ? std::uint64_t{64} << 20 : 800'000};
+            const GraphReport graph = overlap_graph(opened, options, limits, 0, true);
+            std::uint64_t bytes = 0, large = 0;
+            std::set<std::uint32_t> needed;
+            std::set<std::pair<std::int64_t, std::int64_t>> pairs;
+            for (const IndexPair& pair : find_candidates(stored, options)) {
+                const StoredPart &a = stored.parts[pair.a()], &b = stored.parts[pair.b()];
+                pairs.insert({a.row, b.row});
+                needed.insert({a.mesh, b.mesh});
+            }
+            for (const std::uint32_t mesh : needed) {
+                const MeshRow row = opened.file().mesh(stored.meshes[mesh].mesh);
+                std::uint64_t of_blocks = 0;
+                for (const StoredBlock& block : stored_blocks(opened.file(), row))
+                    of_blocks += block.bytes;
+                large += row.blocks > 1 ? of_blocks : 0;
+                bytes += row.blocks > 1 ? of_blocks : stored.meshes[mesh].bytes;
+            }
+            EXPECT_EQ(graph.bytes, bytes);
+            EXPECT_EQ(graph.large_bytes, large);
+            EXPECT_EQ(graph.large_meshes, large > 0 ? 1U : 0U);
+            Database database(store, OpenMode::read_only);
+            Statement edges(database, "SELECT part_a, part_b FROM overlap_edge JOIN overlap_unit "
+                                      "USING (unit)");
+            std::size_t found = 0;
+            for (; edges.step(); ++found)
+                ASSERT_TRUE(pairs.contains({edges.integer(0), edges.integer(1)}));
+            EXPECT_EQ(found, pairs.size());
+            EXPECT_GT(found, 20U);
+            const auto number = [&](const char* sql) {
+                return static_cast<std::uint64_t>(database.number(sql));
+            };
+            EXPECT_EQ(number("SELECT count(*) FROM overlap_graph"), 1U);
+            EXPECT_EQ(number("SELECT edges FROM overlap_graph"), pairs.size());
+            EXPECT_EQ(number("SELECT count(*) FROM overlap_unit"), graph.units.size());
+            EXPECT_EQ(number("SELECT sum(edges) FROM overlap_unit"), pairs.size());
+            EXPECT_EQ(number("SELECT count(*) FROM overlap_graph WHERE generation = "
+                             "(SELECT max(generation) FROM model)"),
+                      1U);
+            if (round % 2 == 0) {
+                EXPECT_GT(graph.units.size(), 1U);
+            }
+        }
+        verify(opened);
+    }
+}
+
+TEST(OverlapGraph, TablesOfOthersAreNotTouched) {
+    Random random(6108);
+    const Folder folder;
+    write_glb(some_scene(random, 20, 4), folder / "a.glb");
+    (void)import_models({folder / "a.glb"}, folder / "a.abut");
+    Database(folder / "a.abut", OpenMode::read_write).run("CREATE TABLE overlap_edge(mine TEXT)");
+    const Store opened = open_store(folder / "a.abut");
+    EXPECT_GT(overlap_graph(opened, {}).nodes, 0U);
+    try {
+        (void)overlap_graph(opened, {}, {}, 0, true);
+        FAIL() << "kept";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_argument);
+        EXPECT_NE(std::string(error.what()).find("overlap_edge"), std::string::npos);
+    }
+}
+
 TEST(WorkUnits, HoldEveryPairOnceAndFit) {
     Random random(6103);
     std::size_t units = 0, alone = 0, refused = 0;
