@@ -118,6 +118,8 @@ int run(int argc, char** argv) {
         app.add_subcommand("pieces", "Solids of convex pieces, against the triangle trees and FCL");
     pieces_suite->add_option("files", pieces.files, "Closed models, two a pair");
     pieces_suite->add_option("--poses", pieces.poses, "In each regime");
+    pieces_suite->add_option("--curved", pieces.curved,
+                             "Instead: builds of curved bodies of so many triangles");
     pieces_suite->add_option("--part", pieces.part, "Machine parts whose name has this in it");
     add_only(pieces_suite, pieces.only);
     add_rounds(pieces_suite, pieces.rounds);
