@@ -33,7 +33,7 @@ public:
     ///             they are.
     /// Accuracy    exact: no hull leaves the solid by any amount. So a surface that is convex or
     ///             flat but for rounding falls into many pieces.
-    /// Cost        some 15 to 50 microseconds a triangle, most where patches are large, of up to 16,384
+    /// Cost        some 10 to 50 microseconds a triangle, most where patches are large, of up to 16,384
     ///             triangles; less where a closed surface is convex as a whole.
     /// Source      [Ehmann, Lin 2001]; docs/convex-pieces.md.
     explicit ConvexPieces(const Model& model);
