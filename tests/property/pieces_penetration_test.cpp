@@ -121,6 +121,7 @@ TEST(PiecesBatch, AnswersAreThoseOfTheSingleQueries) {
     Random random(8122);
     const ConvexPieces a{Model(make_solid(random, 2))}, b{Model(make_solid(random, 3))};
     std::vector<Placement> placements;
+    placements.reserve(static_cast<std::size_t>(many(60)));
     for (int i = 0; i < many(60); ++i)
         placements.push_back({random.pose(1), random.pose(1)});
     PiecesWorkspace workspace;
