@@ -3,8 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 namespace {
+
+void add_rounds(CLI::App* suite, int& rounds) {
+    suite->add_option("--rounds", rounds, "Passes; medians are taken")->check(CLI::Range(1, 1000));
+}
+
+void add_only(CLI::App* suite, std::string& only) {
+    suite->add_option("--only", only, "Cases whose name has this in it");
+}
 
 int run(int argc, char** argv) {
     using namespace abut::bench;
@@ -29,8 +38,7 @@ int run(int argc, char** argv) {
                             "Model file to use instead of the bent pipe");
     clash_suite->add_option("--clearance", clash.clearance, "In diagonals of the part")
         ->check(CLI::PositiveNumber);
-    clash_suite->add_option("--rounds", clash.rounds, "Passes; medians are printed")
-        ->check(CLI::Range(1, 1000));
+    add_rounds(clash_suite, clash.rounds);
     clash_suite->add_option("--threads", clash.threads, "Of the rows with several threads")
         ->check(CLI::Range(1, 1024));
     clash_suite->add_option("--job-limit", clash.job_limit, "Seconds; 0 leaves the whole job out")
@@ -41,8 +49,7 @@ int run(int argc, char** argv) {
     CLI::App* import_suite =
         app.add_subcommand("import", "Models read in isolation, against Assimp in process");
     import_suite->add_option("files", import.files, "Model files (GLB)")->required();
-    import_suite->add_option("--rounds", import.rounds, "Passes; medians are printed")
-        ->check(CLI::Range(1, 1000));
+    add_rounds(import_suite, import.rounds);
     import_suite->callback([&] { report = run_import_suite(import); });
 
     RigidSuiteOptions rigid;
@@ -52,9 +59,8 @@ int run(int argc, char** argv) {
     rigid_suite->add_option("--generated", rigid.generated,
                             "Pairs of generated models of so many triangles each");
     rigid_suite->add_option("--poses", rigid.poses, "In each regime");
-    rigid_suite->add_option("--rounds", rigid.rounds, "Passes; medians are printed")
-        ->check(CLI::Range(1, 1000));
-    rigid_suite->add_option("--only", rigid.only, "Cases whose name has this in it");
+    add_rounds(rigid_suite, rigid.rounds);
+    add_only(rigid_suite, rigid.only);
     rigid_suite->add_flag("--alone", rigid.alone, "Without peers");
     rigid_suite->add_flag("--volumes", rigid.volumes, "Also with every kind of bounding volume");
     rigid_suite->add_option("--seed", rigid.seed, "Of the poses");
@@ -66,8 +72,7 @@ int run(int argc, char** argv) {
     impact_suite->add_option("files", impact.files, "Pairs of model files")->required();
     impact_suite->add_option("--motions", impact.motions, "Random motions a row")
         ->check(CLI::Range(1, 1000000));
-    impact_suite->add_option("--rounds", impact.rounds, "Passes; medians are taken")
-        ->check(CLI::Range(1, 1000));
+    add_rounds(impact_suite, impact.rounds);
     impact_suite->add_option("--seed", impact.seed, "Of the motions");
     impact_suite->add_option("--peer-limit", impact.peer_limit, "Seconds a row; 0 leaves FCL out")
         ->check(CLI::NonNegativeNumber);
@@ -83,8 +88,7 @@ int run(int argc, char** argv) {
         ->check(CLI::Range(1, 10000));
     ccd_suite->add_option("--pairs", ccd.pairs, "Generated pairs of each case")
         ->check(CLI::Range(1, 1000000));
-    ccd_suite->add_option("--rounds", ccd.rounds, "Passes; medians are taken")
-        ->check(CLI::Range(1, 1000));
+    add_rounds(ccd_suite, ccd.rounds);
     ccd_suite->add_option("--seed", ccd.seed, "Of the generated pairs");
     ccd_suite->callback([&] { report = run_ccd_suite(ccd); });
 
@@ -94,8 +98,7 @@ int run(int argc, char** argv) {
     shapes_suite->add_option("--model", shapes.file, "Model file to use instead of a wavy torus");
     shapes_suite->add_option("--triangles", shapes.triangles, "Of the torus");
     shapes_suite->add_option("--queries", shapes.queries, "In each case");
-    shapes_suite->add_option("--rounds", shapes.rounds, "Passes; medians are printed")
-        ->check(CLI::Range(1, 1000));
+    add_rounds(shapes_suite, shapes.rounds);
     shapes_suite->add_option("--seed", shapes.seed, "Of the queries");
     shapes_suite->callback([&] { report = run_shapes_suite(shapes); });
 
@@ -105,9 +108,8 @@ int run(int argc, char** argv) {
     convex_suite->add_option("files", convex.files, "Model files whose hulls are taken too");
     convex_suite->add_option("--vertices", convex.vertices, "Of the ellipsoids");
     convex_suite->add_option("--poses", convex.poses, "In each case");
-    convex_suite->add_option("--only", convex.only, "Cases whose name has this in it");
-    convex_suite->add_option("--rounds", convex.rounds, "Passes; medians are printed")
-        ->check(CLI::Range(1, 1000));
+    add_only(convex_suite, convex.only);
+    add_rounds(convex_suite, convex.rounds);
     convex_suite->add_option("--seed", convex.seed, "Of bodies and poses");
     convex_suite->callback([&] { report = run_convex_suite(convex); });
 
@@ -116,10 +118,11 @@ int run(int argc, char** argv) {
         app.add_subcommand("pieces", "Solids of convex pieces, against the triangle trees and FCL");
     pieces_suite->add_option("files", pieces.files, "Closed models, two a pair");
     pieces_suite->add_option("--poses", pieces.poses, "In each regime");
+    pieces_suite->add_option("--curved", pieces.curved,
+                             "Instead: builds of curved bodies of so many triangles");
     pieces_suite->add_option("--part", pieces.part, "Machine parts whose name has this in it");
-    pieces_suite->add_option("--only", pieces.only, "Cases whose name has this in it");
-    pieces_suite->add_option("--rounds", pieces.rounds, "Passes; medians are printed")
-        ->check(CLI::Range(1, 1000));
+    add_only(pieces_suite, pieces.only);
+    add_rounds(pieces_suite, pieces.rounds);
     pieces_suite->add_option("--seed", pieces.seed, "Of the poses");
     pieces_suite->callback([&] { report = run_pieces_suite(pieces); });
 
@@ -129,7 +132,7 @@ int run(int argc, char** argv) {
     world_suite->add_option("--boxes", world.counts, "Numbers of boxes");
     world_suite->add_option("--steps", world.steps, "At least, of each case; means are taken")
         ->check(CLI::Range(1, 100000));
-    world_suite->add_option("--only", world.only, "Cases whose name has this in it");
+    add_only(world_suite, world.only);
     world_suite->add_flag("--alone", world.alone, "Without peers");
     world_suite->add_flag("--methods", world.methods, "Also each broad phase by itself");
     world_suite->add_option("--peer-limit", world.peer_limit, "Seconds a step, about")
@@ -148,8 +151,7 @@ int run(int argc, char** argv) {
     massive_suite->add_option("--memory", massive.memory, "Bytes that the import keeps to");
     massive_suite->add_option("--clash-memory", massive.clash_memory,
                               "Bytes that the clash job keeps to, each in turn");
-    massive_suite->add_option("--rounds", massive.rounds, "Passes; medians are printed")
-        ->check(CLI::Range(1, 1000));
+    add_rounds(massive_suite, massive.rounds);
     massive_suite->callback([&] { report = run_massive_suite(massive); });
 
     WalkSuiteOptions walk;
@@ -159,7 +161,7 @@ int run(int argc, char** argv) {
     walk_suite->add_option("--triangles", walk.triangles, "Of the plant");
     walk_suite->add_option("--memory", walk.memory, "Bytes of the walk, each in turn");
     walk_suite->add_option("--seconds", walk.seconds, "Of each walk")->check(CLI::PositiveNumber);
-    walk_suite->add_option("--only", walk.only, "Run the cases whose name has this in it");
+    add_only(walk_suite, walk.only);
     walk_suite->add_option("--seed", walk.seed, "Of the paths");
     walk_suite->callback([&] { report = run_walk_suite(walk); });
 

@@ -1,6 +1,7 @@
 #include <abut/convex_pieces.h>
 #include <abut/error.h>
 #include <abut/model.h>
+#include <abut/penetration.h>
 #include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>
@@ -9,6 +10,7 @@
 #include "measure.h"
 #include "peer_rigid.h"
 #include "placement.h"
+#include "scenes/bodies.h"
 #include "suites.h"
 
 #include <algorithm>
@@ -18,12 +20,13 @@
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 namespace abut::bench {
 
 namespace {
 
-enum class Ask : std::uint8_t { distance, within, first_contact };
+enum class Ask : std::uint8_t { distance, within, first_contact, penetration };
 
 struct Case {
     const char* name = "";
@@ -42,6 +45,8 @@ constexpr std::array kCases{
     Case{"within 0.1, separated", Ask::within, Regime::separated},
     Case{"first contact, graze in", Ask::first_contact, Regime::graze_in},
     Case{"first contact, graze out", Ask::first_contact, Regime::graze_out},
+    Case{"penetration, graze in", Ask::penetration, Regime::graze_in},
+    Case{"penetration, deep", Ask::penetration, Regime::deep},
 };
 constexpr double kTolerance = 0.1;
 
@@ -85,6 +90,44 @@ std::vector<PosedPair> small_steps(const RigidScene& scene, std::size_t count,
     return poses;
 }
 
+void add_build_row(const std::string& name, const Mesh& mesh, int rounds, Report& report) {
+    set_threads(1);
+    const Model model(mesh);
+    std::vector<double> ours, theirs;
+    std::size_t pieces = 0, bytes = 0;
+    for (int round = 0; round < rounds; ++round) {
+        double start = thread_seconds();
+        const ConvexPieces solid(model);
+        ours.push_back(1e3 * (thread_seconds() - start));
+        pieces = solid.size(), bytes = solid.bytes();
+        start = thread_seconds();
+        const Model tree(mesh);
+        theirs.push_back(1e3 * (thread_seconds() - start));
+    }
+    set_threads(0);
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    report.rows.push_back(
+        {name,
+         median(ours),
+         "triangle tree",
+         median(theirs),
+         "ms",
+         1,
+         {{"triangles", triangles},
+          {"pieces", static_cast<double>(pieces)},
+          {"bytes a triangle", static_cast<double>(bytes) / triangles},
+          {"the tree's bytes a triangle", static_cast<double>(model.bytes()) / triangles}}});
+}
+
+/// A sphere with one shallow dent: nearly all of it is one patch.
+Mesh dented_sphere(std::uint32_t triangles) {
+    Mesh mesh = scenes::sphere(triangles);
+    for (Vec3& p : mesh.positions)
+        if (const double off = std::hypot(p.x - 1, p.y, p.z); off < 0.2)
+            p.x -= 0.05 * (0.2 - off);
+    return mesh;
+}
+
 class PiecesSuite {
 public:
     PiecesSuite(const PiecesSuiteOptions& options, const RigidScene& scene, Report& report)
@@ -94,7 +137,7 @@ public:
           steps_(small_steps(scene, options.poses, random_)) {}
 
     void run() {
-        build();
+        add_build_row(scene_.name + ", build of the first", scene_.a, options_.rounds, report_);
         for (const Case& c : kCases)
             if (std::string_view(c.name).find(options_.only) != std::string_view::npos)
                 run(c);
@@ -102,32 +145,6 @@ public:
 
 private:
     using Query = std::function<double(const PosedPair&)>;
-
-    void build() {
-        set_threads(1);
-        std::vector<double> ours, theirs;
-        for (int round = 0; round < options_.rounds; ++round) {
-            double start = thread_seconds();
-            const ConvexPieces pieces(model_a_);
-            ours.push_back(1e3 * (thread_seconds() - start));
-            start = thread_seconds();
-            const Model model(scene_.a);
-            theirs.push_back(1e3 * (thread_seconds() - start));
-        }
-        set_threads(0);
-        const auto triangles = static_cast<double>(scene_.a.triangles.size());
-        report_.rows.push_back(
-            {scene_.name + ", build of the first",
-             median(ours),
-             "triangle tree",
-             median(theirs),
-             "ms",
-             1,
-             {{"triangles", triangles},
-              {"pieces", static_cast<double>(a_.size())},
-              {"bytes a triangle", static_cast<double>(a_.bytes()) / triangles},
-              {"the tree's bytes a triangle", static_cast<double>(model_a_.bytes()) / triangles}}});
-    }
 
     void run(const Case& c) {
         PiecesWorkspace workspace;
@@ -141,6 +158,8 @@ private:
                 return within(a_, p.a, b_, p.b, kTolerance, w) ? 1.0 : 0.0;
             if (c.ask == Ask::first_contact)
                 return collide(a_, p.a, b_, p.b, {.workspace = w}).meet ? 1.0 : 0.0;
+            if (c.ask == Ask::penetration)
+                return penetration(a_, p.a, b_, p.b, {.separation = false}).depth;
             const PiecesGap gap = distance(a_, p.a, b_, p.b, {.workspace = w});
             hull_pairs += static_cast<double>(gap.counters.hull_pairs);
             return gap.distance;
@@ -150,10 +169,12 @@ private:
                 return within(model_a_, p.a, model_b_, p.b, kTolerance, tw) ? 1.0 : 0.0;
             if (c.ask == Ask::first_contact)
                 return collide(model_a_, p.a, model_b_, p.b, {.workspace = tw}).any() ? 1.0 : 0.0;
+            if (c.ask == Ask::penetration)
+                return penetration(model_a_, p.a, model_b_, p.b, {.separation = false}).depth;
             return distance(model_a_, p.a, model_b_, p.b, {.workspace = tw}).distance;
         };
         compare(c, "triangle tree", start_path, ours, trees, hull_pairs);
-        if (RigidPeer* const fcl = best_fcl(c))
+        if (RigidPeer* const fcl = c.ask == Ask::penetration ? nullptr : best_fcl(c))
             compare(
                 c, fcl->name(), start_path, ours,
                 [&](const PosedPair& p) {
@@ -217,6 +238,13 @@ private:
                 {}};
         if (c.ask == Ask::distance)
             row.counters["hull pairs"] = hull_pairs / count / options_.rounds;
+        if (c.ask == Ask::penetration) { // both bound the way out from below, by other means
+            const double sum = std::accumulate(our_answers.begin(), our_answers.end(), 0.0);
+            row.counters["depth, of theirs"] =
+                sum / std::accumulate(their_answers.begin(), their_answers.end(), 0.0);
+            report_.rows.push_back(row);
+            return;
+        }
         double differ = 0;
         for (std::size_t i = 0; i < poses.size(); ++i)
             differ += std::abs(our_answers[i] - their_answers[i]) > 1e-9 ? 1 : 0;
@@ -249,6 +277,15 @@ Report run_pieces_suite(const PiecesSuiteOptions& options) {
     const auto stem = [](const std::string& file) {
         return std::filesystem::path(file).stem().string();
     };
+    if (options.curved > 0) {
+        const auto add = [&](const char* name, const Mesh& mesh) {
+            add_build_row(std::string(name) + ", build", mesh, options.rounds, report);
+        };
+        add("knot", scenes::knot(options.curved));
+        add("boulder", scenes::boulder(options.curved));
+        add("dented sphere", dented_sphere(options.curved));
+        return report;
+    }
     for (const NamedMesh& part : machine_parts())
         if (part.name.find(options.part) != std::string::npos)
             run(part.name, part.mesh, part.mesh);

@@ -134,6 +134,7 @@ struct PiecesSuiteOptions {
     std::size_t poses = 500;        ///< in each regime
     std::string part;               ///< run the machine parts whose name has this in it
     std::string only;               ///< run the cases whose name has this in it
+    std::uint32_t curved = 0; ///< triangles of generated bodies that are built, and nothing else
     int rounds = 5;
     std::uint64_t seed = 1;
 };

@@ -5,13 +5,13 @@
 #include <abut/frame.h>
 
 #include "container.h"
+#include "program.h"
 #include "simulator.h"
 #include "surfaces.h"
 
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <string>
 
 namespace {
@@ -49,10 +49,5 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "abut-drop: %s\n", error.what());
-        return 2;
-    }
+    return run_program("abut-drop", run, argc, argv);
 }

@@ -2,7 +2,7 @@
 
 #include <abut/world.h>
 
-#include "vector.h"
+#include "rotation.h"
 
 #include <algorithm>
 #include <map>

@@ -4,11 +4,11 @@
 
 #include <abut/walk.h>
 
+#include "program.h"
 #include "walker.h"
 
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <thread>
 #include <vector>
@@ -69,10 +69,5 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "abut-walk-through: %s\n", error.what());
-        return 2;
-    }
+    return run_program("abut-walk-through", run, argc, argv);
 }

@@ -7,7 +7,7 @@
 
 namespace walker {
 
-using namespace drop; // vectors
+using namespace vectors;
 
 Walker::Walker(abut::Walk& walk, const abut::Vec3& start, const Settings& settings)
     : walk_(walk), settings_(settings), body_(abut::Capsule{{{0, -0.6, 0}, {0, 0.6, 0}}, 0.3}),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <abut/convex_pieces.h>
 #include <abut/model.h>
 #include <abut/motion.h>
 #include <abut/rigid.h>
@@ -8,8 +9,8 @@
 #include <span>
 #include <vector>
 
-/// Many queries of one pair of models at once: the verbs of rigid.h and motion.h for a list of
-/// placements, in parallel (`set_threads`). Each answer equals that of the single query, counters
+/// Many queries of one pair of models, or solids of convex pieces, at once: the verbs of rigid.h,
+/// motion.h and convex_pieces.h for a list of placements, in parallel (`set_threads`). Each answer equals that of the single query, counters
 /// included, and stands at its placement's index. A workspace in the options is left alone: it is one
 /// thread's.
 ///
@@ -39,5 +40,20 @@ std::vector<bool> within(const Model& a, const Model& b, std::span<const Placeme
 std::vector<Impact> time_of_impact(const Model& a, const Model& b,
                                    std::span<const MotionPair> motions,
                                    const ImpactOptions& options = {});
+
+std::vector<PiecesContacts> collide(const ConvexPieces& a, const ConvexPieces& b,
+                                    std::span<const Placement> placements,
+                                    const PiecesCollideOptions& options = {});
+
+std::vector<PiecesGap> distance(const ConvexPieces& a, const ConvexPieces& b,
+                                std::span<const Placement> placements,
+                                const PiecesDistanceOptions& options = {});
+
+std::vector<bool> within(const ConvexPieces& a, const ConvexPieces& b,
+                         std::span<const Placement> placements, double tolerance);
+
+std::vector<PiecesDepth> penetration(const ConvexPieces& a, const ConvexPieces& b,
+                                     std::span<const Placement> placements,
+                                     const PiecesPenetrationOptions& options = {});
 
 } // namespace abut

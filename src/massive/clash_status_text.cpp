@@ -61,17 +61,27 @@ void append_json_listed(TextBuffer& out, const ListedClash& clash) {
     out.push_back('}');
 }
 
-void append_json_resolved(TextBuffer& out, const ClashReport& report) {
-    if (!report.statuses)
-        return;
-    append(out, "\"resolved\": [");
-    const char* separator = "\n  ";
-    for (const ListedClash& clash : report.resolved) {
+namespace {
+
+/// An array with a line for each.
+void append_json_list(TextBuffer& out, const std::vector<ListedClash>& clashes) {
+    const char* separator = "[\n  ";
+    for (const ListedClash& clash : clashes) {
         append(out, separator);
         append_json_listed(out, clash);
         separator = ",\n  ";
     }
-    append(out, "\n],\n");
+    append(out, clashes.empty() ? "[\n]" : "\n]");
+}
+
+} // namespace
+
+void append_json_resolved(TextBuffer& out, const ClashReport& report) {
+    if (!report.statuses)
+        return;
+    append(out, "\"resolved\": ");
+    append_json_list(out, report.resolved);
+    append(out, ",\n");
 }
 
 std::string to_json(const ClashReview& review) {
@@ -85,14 +95,9 @@ std::string to_json(const ClashReview& review) {
     append_json_string(out, review.finished == 0 ? "" : time_text(review.finished));
     append(out, ", \"statuses\": ");
     append_json_statuses(out, review.statuses);
-    append(out, ", \"clashes\": [");
-    const char* separator = "\n  ";
-    for (const ListedClash& clash : review.clashes) {
-        append(out, separator);
-        append_json_listed(out, clash);
-        separator = ",\n  ";
-    }
-    append(out, "\n]}");
+    append(out, ", \"clashes\": ");
+    append_json_list(out, review.clashes);
+    out.push_back('}');
     return fmt::to_string(out);
 }
 

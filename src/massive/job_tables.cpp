@@ -2,7 +2,9 @@
 
 #include <abut/error.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
 
 namespace abut {
@@ -11,13 +13,12 @@ namespace {
 
 struct Table {
     std::string_view name;
-    bool of_people; ///< holds what no job can find again
     const char* sql;
 };
 
-/// SQLite keeps these texts, so it knows which version made a table.
-constexpr std::array kTables{
-    Table{"question", true, R"(CREATE TABLE question(
+/// SQLite keeps these texts, so it knows which version made a table. What no job can find again:
+constexpr std::array kOfPeople{
+    Table{"question", R"(CREATE TABLE question(
   question INTEGER PRIMARY KEY AUTOINCREMENT,
   hash BLOB NOT NULL,
   clearance REAL NOT NULL,
@@ -25,7 +26,7 @@ constexpr std::array kTables{
   self INTEGER NOT NULL,
   rules INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    Table{"clash_history", true, R"(CREATE TABLE clash_history(
+    Table{"clash_history", R"(CREATE TABLE clash_history(
   question INTEGER NOT NULL REFERENCES question,
   id TEXT NOT NULL,
   kind TEXT NOT NULL,
@@ -39,18 +40,20 @@ constexpr std::array kTables{
   resolved INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
   PRIMARY KEY(question, id)) WITHOUT ROWID)"},
-    Table{"clash_mark", true, R"(CREATE TABLE clash_mark(
+    Table{"clash_mark", R"(CREATE TABLE clash_mark(
   serial INTEGER PRIMARY KEY AUTOINCREMENT,
   id TEXT NOT NULL UNIQUE,
   mark TEXT NOT NULL,
   note TEXT NOT NULL,
   marked INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    Table{"row_tally", true, R"(CREATE TABLE row_tally(
+    Table{"row_tally", R"(CREATE TABLE row_tally(
   list TEXT PRIMARY KEY,
   rows INTEGER NOT NULL,
   sum INTEGER NOT NULL) WITHOUT ROWID)"},
-    Table{"job", false, R"(CREATE TABLE job(
+};
+constexpr std::array kOfJobs{
+    Table{"job", R"(CREATE TABLE job(
   job INTEGER PRIMARY KEY AUTOINCREMENT,
   question INTEGER NOT NULL REFERENCES question,
   key BLOB NOT NULL,
@@ -62,13 +65,13 @@ constexpr std::array kTables{
   planned INTEGER NOT NULL,
   finished INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    Table{"job_unit", false, R"(CREATE TABLE job_unit(
+    Table{"job_unit", R"(CREATE TABLE job_unit(
   job INTEGER NOT NULL REFERENCES job,
   unit INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
   pairs BLOB NOT NULL,
   PRIMARY KEY(job, unit)))"},
-    Table{"clash", false, R"(CREATE TABLE clash(
+    Table{"clash", R"(CREATE TABLE clash(
   clash INTEGER PRIMARY KEY,
   job INTEGER NOT NULL REFERENCES job,
   id TEXT NOT NULL,
@@ -85,7 +88,7 @@ constexpr std::array kTables{
 };
 
 /// `new` are the clashes that came with the last job that ended.
-constexpr Table kStatusView{"clash_status", false, R"(CREATE VIEW clash_status AS
+constexpr Table kStatusView{"clash_status", R"(CREATE VIEW clash_status AS
 SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_file, distance,
   CASE WHEN resolved > 0 THEN 'resolved'
     WHEN serial > returned THEN mark
@@ -112,21 +115,21 @@ bool is_there(Database& database, const Table& table) {
     return true;
 }
 
-bool is_all_there(Database& database, bool of_people) {
-    if (!of_people && is_of_first_version(database))
-        return false;
-    for (const Table& table : kTables)
-        if (table.of_people == of_people && !is_there(database, table))
-            return false;
-    return of_people || is_there(database, kStatusView);
+bool are_there(Database& database, std::span<const Table> tables) {
+    return std::ranges::all_of(tables,
+                               [&](const Table& table) { return is_there(database, table); });
+}
+
+bool has_tables_of_jobs(Database& database) {
+    return !is_of_first_version(database) && are_there(database, kOfJobs) &&
+           is_there(database, kStatusView);
 }
 
 void make_anew(Database& database) {
     database.run("DROP VIEW IF EXISTS clash_status; DROP TABLE IF EXISTS job_unit; "
                  "DROP TABLE IF EXISTS clash; DROP TABLE IF EXISTS job");
-    for (const Table& table : kTables)
-        if (!table.of_people)
-            database.run(table.sql);
+    for (const Table& table : kOfJobs)
+        database.run(table.sql);
     database.run("CREATE INDEX clash_by_job ON clash(job)");
     database.run(kStatusView.sql);
     database.run("DELETE FROM row_tally WHERE list GLOB 'job*' OR list GLOB 'clash [0-9]*'");
@@ -138,15 +141,15 @@ void make_anew(Database& database) {
 } // namespace
 
 void prepare_job_tables(Database& database) {
-    for (const Table& table : kTables)
-        if (table.of_people && !is_there(database, table))
+    for (const Table& table : kOfPeople)
+        if (!is_there(database, table))
             database.run(table.sql);
-    if (!is_all_there(database, false))
+    if (!has_tables_of_jobs(database))
         make_anew(database);
 }
 
 bool has_job_tables(Database& database) {
-    return is_all_there(database, true) && is_all_there(database, false);
+    return are_there(database, kOfPeople) && has_tables_of_jobs(database);
 }
 
 RowTally read_tally(Database& database, const std::string& list) {

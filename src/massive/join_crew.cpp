@@ -69,6 +69,8 @@ std::unique_ptr<Crew> join_crew() {
                     std::string("cannot be loaded: ") + dlerror());
     using Join = Crew* (*)();
     const auto join = reinterpret_cast<Join>(dlsym(handle, "abut_join_mpi"));
+    if (join == nullptr)
+        throw Error(ErrorCode::unsupported, module.string(), "is not a module of Abut");
     std::unique_ptr<Crew> crew(join());
     if (started->size > 1 && crew->size() != started->size)
         throw Error(ErrorCode::unsupported,

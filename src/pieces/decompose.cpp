@@ -12,7 +12,7 @@ namespace abut {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
-/// Triangles of a patch, at most: its growth is quadratic.
+/// Triangles of a patch, at most: some of its steps look at all of its hull.
 constexpr std::size_t kLargestPatch = 1 << 14;
 
 class Decomposition {

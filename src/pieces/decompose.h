@@ -22,8 +22,9 @@ using Pieces = std::vector<std::vector<std::uint32_t>>;
 /// Accuracy    exact: signs decide what is convex, and that no triangle enters a hull. A triangle
 ///             alone is always a piece.
 /// Degenerate  a triangle without an area is a piece of its own where it joins no other.
-/// Cost        of a patch of k triangles O(k^2) signs, k limited; a search of the tree for each
-///             triangle. A component that is convex as a whole: O(n log n).
+/// Cost        for each triangle, the neighbours of a corner, the faces that its new vertex sees, and
+///             a search of the tree; sometimes all of the hull, whose size is limited. A component
+///             that is convex as a whole: O(n log n).
 /// Source      [Ehmann, Lin 2001]. Differs: exact signs; a hull that would leave the solid ends the
 ///             growth, where the paper lets hulls do so and has virtual faces in every query.
 Pieces decompose(const Model& solid, const SurfaceGraph& surface);

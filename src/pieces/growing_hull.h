@@ -21,8 +21,8 @@ public:
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
     struct Face {
-        IndexTriangle corners; ///< counter-clockwise as seen from outside
-        IndexTriangle across;  ///< across[k]: the face beyond the edge from corner k
+        IndexTriangle corners{}; ///< counter-clockwise as seen from outside
+        IndexTriangle across{};  ///< across[k]: the face beyond the edge from corner k
         ExactPlane plane;
         bool alive = true;
         bool is_closed = false; ///< nothing may be added in front: inherited by coplanar faces

@@ -46,6 +46,11 @@ public:
         const double gap = length(between(p)) - radii - rounding;
         return gap >= 0 || !(radii > 0) ? std::max(gap, -1.0) : std::max(gap / radii, -1.0);
     }
+    /// The hulls go no deeper into each other: by the same spheres.
+    [[nodiscard]] double most_depth(const HullPair& p) const {
+        return most_a_ * node_a(p.a).radius + most_b_ * node_b(p.b).radius - length(between(p)) +
+               rounding;
+    }
     [[nodiscard]] double smaller_radius(const HullPair& p) const {
         return std::min(most_a_ * node_a(p.a).radius, most_b_ * node_b(p.b).radius);
     }

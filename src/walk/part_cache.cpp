@@ -116,6 +116,10 @@ bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
     if (!make_room_for(piece, is_urgent ? Expendable::anything : Expendable::beyond_plan, garbage))
         return false;
     Resident& resident = bring(lock, entry, garbage);
+    if (removed_.contains(entry)) { // while it was read
+        evict(residents_.find(entry), garbage);
+        return true;
+    }
     is_urgent ? move_to_end(resident) : reach(resident);
     ++counters_.read_ahead;
     return true;

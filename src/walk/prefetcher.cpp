@@ -1,7 +1,6 @@
 #include "walk/prefetcher.h"
 
-#include <abut/error.h>
-
+#include <exception>
 #include <new>
 #include <tbb/task_arena.h>
 #include <utility>
@@ -33,7 +32,6 @@ void Prefetcher::follow(const PredictedPath& path, std::vector<std::uint32_t> mo
         are_missing_ = are_missing;
         follows_ = true;
         followed_ = true;
-        settled_ = settled_ && !has_news();
     }
     news_.notify_one();
 }
@@ -43,14 +41,13 @@ void Prefetcher::request(std::uint32_t entry) {
         const std::scoped_lock lock(mutex_);
         requests_.push_back(entry);
         requested_ = true;
-        settled_ = false;
     }
     news_.notify_one();
 }
 
 void Prefetcher::wait() {
     std::unique_lock lock(mutex_);
-    idle_.wait(lock, [&] { return settled_; });
+    idle_.wait(lock, [&] { return !is_busy_ && !has_news(); });
 }
 
 bool Prefetcher::has_news() const {
@@ -67,17 +64,16 @@ void Prefetcher::run() {
         const bool replan = follows_ && (are_missing_ || path_.difference(planned_) > tolerance_);
         planned_ = replan ? path_ : planned_;
         are_missing_ = false;
+        is_busy_ = true;
         const std::vector<std::uint32_t> moved = moved_;
         lock.unlock();
         serve_requests();
         const bool done = !replan || carry_out(moved);
         lock.lock();
         if (!done)
-            tolerance_ = 0; // there is more to do even if nothing moves
-        if (done && !has_news()) {
-            settled_ = true;
-            idle_.notify_all();
-        }
+            tolerance_ = -1; // there is more to do even if the path is what it was again
+        is_busy_ = false;
+        idle_.notify_all();
     }
 }
 
@@ -95,10 +91,10 @@ void Prefetcher::serve_requests() {
 bool Prefetcher::bring(std::uint32_t entry, PartCache::Urgency urgency) {
     try {
         return cache_.prefetch(entry, urgency);
-    } catch (const Error&) {
-        return true; // a query that needs it will say what is wrong
     } catch (const std::bad_alloc&) {
         return false;
+    } catch (const std::exception&) {
+        return true; // a query that needs it will say what is wrong
     }
 }
 

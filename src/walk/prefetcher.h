@@ -47,7 +47,7 @@ private:
     std::condition_variable news_, idle_;
     PredictedPath path_;
     std::vector<std::uint32_t> moved_, requests_;
-    bool follows_ = false, are_missing_ = false, settled_ = true;
+    bool follows_ = false, are_missing_ = false, is_busy_ = false;
     std::atomic<bool> stop_{false}, requested_{false};
     std::atomic<bool> followed_{false}; ///< the path is another than a moment ago
     // Of the thread alone, or with the lock:

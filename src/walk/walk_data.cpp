@@ -115,11 +115,14 @@ WalkPart WalkData::add(const Model& model, const Transform& world_from_part) {
 }
 
 std::uint32_t WalkData::added_entry(WalkPart part) const {
-    const std::int64_t entry = std::int64_t{table_.size()} - 1 - part.number;
-    if (entry >= next_entry_ || !added_.contains(static_cast<std::uint32_t>(entry)))
-        throw Error(ErrorCode::bad_argument,
-                    "part " + std::to_string(part.number) + ": there is no such part");
-    return static_cast<std::uint32_t>(entry);
+    const std::int64_t serial = -1 - part.number;
+    if (serial < std::int64_t{next_entry_} - table_.size()) {
+        const auto entry = static_cast<std::uint32_t>(table_.size() + serial);
+        if (added_.contains(entry))
+            return entry;
+    }
+    throw Error(ErrorCode::bad_argument,
+                "part " + std::to_string(part.number) + ": there is no such part");
 }
 
 std::span<const std::uint32_t> WalkData::stored_entries(WalkPart part) const {
@@ -145,29 +148,34 @@ void WalkData::move(WalkPart part, const Transform& world_from_part) {
         loose_.put(entry, table_.narrow(placed_bounds(added.own_box, world_from_part)));
 }
 
+std::vector<Box3> WalkData::own_boxes(WalkPart part, std::span<const std::uint32_t> entries) const {
+    StoreFile& store = store_.file();
+    const MeshRow mesh = store.mesh(store.part(part.number).mesh);
+    std::vector<BlockRow> blocks;
+    if (mesh.blocks > 1)
+        blocks = store.blocks(mesh);
+    std::vector<Box3> boxes;
+    for (const std::uint32_t entry : entries) {
+        const StoredPiece& piece = table_.piece(table_.piece_of(entry));
+        boxes.push_back(mesh.box);
+        for (const BlockRow& block : blocks)
+            if (block.block == piece.number)
+                boxes.back() = block.box;
+    }
+    return boxes;
+}
+
 void WalkData::move_stored(WalkPart part, const Transform& world_from_part) {
     const std::span<const std::uint32_t> entries = stored_entries(part);
     if (!moved_.contains(part.number))
         require_room_for_a_part(entries.size());
-    const auto [moved, is_new] = moved_.try_emplace(part.number);
-    if (is_new) {
-        StoreFile& store = store_.file();
-        const MeshRow mesh = store.mesh(store.part(part.number).mesh);
-        std::vector<BlockRow> blocks;
-        if (mesh.blocks > 1)
-            blocks = store.blocks(mesh);
-        for (const std::uint32_t entry : entries) {
-            const StoredPiece& piece = table_.piece(table_.piece_of(entry));
-            Box3 box = mesh.box;
-            for (const BlockRow& block : blocks)
-                if (block.block == piece.number)
-                    box = block.box;
-            moved->second.own_boxes.push_back(box);
-        }
-    }
-    moved->second.world_from_part = world_from_part;
+    const bool is_new = !moved_.contains(part.number);
+    if (is_new)
+        moved_.emplace(part.number, MovedPart{{}, own_boxes(part, entries)});
+    MovedPart& moved = moved_.at(part.number);
+    moved.world_from_part = world_from_part;
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        const Aabb box = table_.narrow(placed_bounds(moved->second.own_boxes[i], world_from_part));
+        const Aabb box = table_.narrow(placed_bounds(moved.own_boxes[i], world_from_part));
         away_[entries[i]] = true;
         loose_.put(entries[i], box);
         cache_.place(entries[i], world_from_part);

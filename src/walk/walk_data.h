@@ -73,6 +73,9 @@ private:
     /// Errors      Error{bad_argument} if the part is not there.
     [[nodiscard]] std::uint32_t added_entry(WalkPart part) const;
     [[nodiscard]] std::span<const std::uint32_t> stored_entries(WalkPart part) const;
+    /// Of the entries of a part of the store, in the part's frame.
+    [[nodiscard]] std::vector<Box3> own_boxes(WalkPart part,
+                                              std::span<const std::uint32_t> entries) const;
     void move_stored(WalkPart part, const Transform& world_from_part);
     Vec3 velocity_at(const Vec3& position);
     /// Some entries of the store that were moved and are near to the path, and whether one is missing.

@@ -6,6 +6,7 @@
 #include "store/sqlite.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
+#include "tests/support/page_queries.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 
@@ -16,9 +17,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <map>
-#include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -241,24 +240,8 @@ TEST_F(Review, OfAReadOnlyStoreIsReadAndNotWritten) {
 
 TEST_F(Review, AnswersTheQuestionsOfItsPage) {
     ASSERT_EQ(review({"--approve", id_of("h1")}).status, 0);
-    std::ifstream page(std::string(ABUT_SOURCE_DIR) + "/docs/clash-status.md");
-    const std::string text{std::istreambuf_iterator<char>(page), {}};
-    const std::size_t mark = text.find("<!-- sql -->");
-    ASSERT_NE(mark, std::string::npos);
-    const std::size_t start = text.find("```sql\n", mark) + 7;
-    std::istringstream sql(text.substr(start, text.find("```", start) - start));
-    Database database(store_, OpenMode::read_only);
-    std::vector<int> rows;
-    for (std::string statement; std::getline(sql, statement, ';');) {
-        if (statement.find("SELECT") == std::string::npos)
-            continue;
-        Statement question(database, statement);
-        rows.push_back(0);
-        while (question.step())
-            ++rows.back();
-    }
     // Two statuses, four new ones, none resolved, one mark.
-    EXPECT_EQ(rows, (std::vector<int>{2, 4, 0, 1}));
+    EXPECT_EQ(rows_of_page_queries("clash-status.md", store_), (std::vector<int>{2, 4, 0, 1}));
 }
 
 /// Balls in a row; some of them a little aside.

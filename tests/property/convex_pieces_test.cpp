@@ -4,9 +4,9 @@
 #include <abut/shape_queries.h>
 
 #include "pieces/pieces_data.h"
-#include "rigid/solid.h"
 #include "tests/support/rounds.h"
 #include "tests/support/solids.h"
+#include "tests/support/two_solids.h"
 
 #include <algorithm>
 #include <array>
@@ -14,29 +14,6 @@
 
 namespace abut::test {
 namespace {
-
-/// Two solids and where they stand.
-struct Scene {
-    Model a, b;
-    Transform world_a, world_b;
-};
-
-bool share_a_point(const Scene& s) {
-    if (collide(s.a, s.world_a, s.b, s.world_b).any())
-        return true;
-    // Where a surface goes through itself it may wind around a point twice: parity does not do.
-    const auto contains_any = [](const Model& outer, const Transform& world_outer,
-                                 const Model& inner, const Transform& world_inner) {
-        const Transform outer_from_inner = compose(inverse(world_outer), world_inner);
-        const auto& triangles = inner.mesh().triangles;
-        return std::any_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-            const Vec3 p = apply(outer_from_inner, inner.mesh().positions[t[0]]);
-            return std::abs(winding_number(outer.mesh(), p)) > 0.5;
-        });
-    };
-    return contains_any(s.a, s.world_a, s.b, s.world_b) ||
-           contains_any(s.b, s.world_b, s.a, s.world_a);
-}
 
 /// Of world coordinates, as the queries of triangles take them.
 double rounding_at(const Transform& a, const Transform& b) {
@@ -47,7 +24,7 @@ double rounding_at(const Transform& a, const Transform& b) {
 }
 
 /// Checks one answer against the triangles. Whether the solids are apart.
-bool check(const Scene& s, const PiecesGap& gap) {
+bool check(const TwoSolids& s, const PiecesGap& gap) {
     if (gap.distance == 0) {
         // Nearer than rounding is at distance 0.
         const bool meet = share_a_point(s);
@@ -82,7 +59,7 @@ TEST(ConvexPiecesDistance, IsThatOfTheTriangles) {
         const ConvexPieces pieces_a(a), pieces_b(b);
         for (int k = 0; k < 8; ++k) {
             const bool rigid = k < 6;
-            Scene s{a, b, random.linear_map(!rigid), random.linear_map(!rigid)};
+            TwoSolids s{a, b, random.linear_map(!rigid), random.linear_map(!rigid)};
             const Vec3 at = k == 5 ? random.in_cube(1e4) : random.in_cube(2);
             const Vec3 off = random.uniform(0, k == 0 ? 0.3 : 5) * random.direction();
             s.world_a = compose(translation(at.x, at.y, at.z), s.world_a);
@@ -125,7 +102,7 @@ TEST(ConvexPiecesDistance, OfOneDeepInsideOfTheOther) {
         for (int k = 0; k < 20; ++k) {
             const Transform turn = random.pose(0);
             const Vec3 at = Vec3{3.5, 3.5, 3.5} + random.in_cube(k % 2 == 0 ? 1.5 : 4.5);
-            const Scene s{a, b, {}, compose(translation(at.x, at.y, at.z), turn)};
+            const TwoSolids s{a, b, {}, compose(translation(at.x, at.y, at.z), turn)};
             const PiecesGap gap =
                 distance(pieces_a, s.world_a, pieces_b, s.world_b, {.workspace = &workspace});
             apart += check(s, gap) ? 1 : 0;
@@ -148,7 +125,7 @@ TEST(ConvexPiecesDistance, OfSolidsThatAlmostTouch) {
         const Model a(make_solid(random, i)),
             b(make_solid(random, random.integer(0, kSolidKinds - 1)));
         const ConvexPieces pieces_a(a), pieces_b(b);
-        Scene s{a, b, random.pose(0), random.pose(0)};
+        TwoSolids s{a, b, random.pose(0), random.pose(0)};
         const Vec3 direction = random.direction();
         const Transform turn = s.world_b;
         double offset = 8;
@@ -197,8 +174,8 @@ TEST_P(ConvexPiecesPath, AWorkspaceChangesNoAnswer) {
                 return Transform(Pose{at, {std::cos(by), v.x, v.y, v.z}});
             };
             const Vec3 at = (from + step * k) * across + Vec3{0, 0, 0.5};
-            Scene s{a, b, both_move ? turned(-angle, {3 * std::sin(angle), 0, 0}) : Transform(),
-                    compose(turned(angle, at), shape)};
+            TwoSolids s{a, b, both_move ? turned(-angle, {3 * std::sin(angle), 0, 0}) : Transform(),
+                        compose(turned(angle, at), shape)};
             if (k % 40 == 39)
                 s.world_b = random.pose(3);
             const PiecesGap warm =

@@ -5,10 +5,9 @@
 #include <abut/store.h>
 #include <abut/store_clash.h>
 
-#include "tests/support/clash_scenes.h"
-#include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "tests/support/stored_job.h"
 #include "tests/support/thread_crew.h"
 
 #include <atomic>
@@ -49,39 +48,11 @@ StoreClashReport find_together(const std::string& store, const ClashOptions& opt
     return find_clashes(open_store(store), options, out_of_core);
 }
 
-/// A store of some models, and its clashes in core.
-struct Job {
-    explicit Job(Random& random, int parts = 0) {
-        const int models = random.integer(1, 2);
-        for (int m = 0; m < models; ++m) {
-            files.push_back(folder / ("model" + std::to_string(m) + ".glb"));
-            write_glb(some_scene(random, parts > 0 ? parts : random.integer(60, 200), 4),
-                      files.back());
-        }
-        (void)import_models(files, store);
-        scenes = read_scenes(files);
-        options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.1);
-        options.self = parts > 0 || random.chance(0.5);
-        options.rules = some_rules(random);
-        truth = find_clashes(scenes, options);
-    }
-    void expect(const StoreClashReport& found) const {
-        expect_equal(found.report, found.models, truth, scenes);
-    }
-
-    Folder folder;
-    std::vector<std::string> files;
-    std::string store = folder / "models.abut";
-    std::vector<Scene> scenes;
-    ClashOptions options;
-    ClashReport truth;
-};
-
 TEST(CrewClashes, AreThoseOfOneProcess) {
     Random random(6201);
     std::size_t clashes = 0, runs = 0, shared = 0;
     for (int round = 0; round < many(6); ++round) {
-        const Job job(random);
+        const StoredJob job(random);
         clashes += job.truth.clashes.size();
         for (int run = 0; run < 3; ++run) {
             const auto size = static_cast<std::size_t>(random.integer(1, 5));
@@ -118,7 +89,7 @@ TEST(CrewClashes, GoOnWhereTheyWereStopped) {
     Random random(6202);
     std::size_t stops = 0, recalled = 0;
     for (int round = 0; round < many(4); ++round) {
-        const Job job(random, 150);
+        const StoredJob job(random, 150);
         for (bool done = false; !done;) {
             std::atomic<bool> stop = false;
             ClashOptions options = job.options;
@@ -160,7 +131,7 @@ TEST(CrewClashes, GoOnWhereTheyWereStopped) {
 
 TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
     Random random(6203);
-    const Job job(random, 100);
+    const StoredJob job(random, 100);
     const std::string other = job.folder / "other.abut", missing = job.folder / "missing.abut";
     write_glb(some_scene(random, 20, 4), job.folder / "other.glb");
     (void)import_models({job.folder / "other.glb"}, other);
@@ -190,7 +161,7 @@ TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
 
 TEST(CrewClashes, EndWithWhatWentWrongInTheLeader) {
     Random random(6204);
-    const Job job(random, 100);
+    const StoredJob job(random, 100);
     EXPECT_THROW((void)find_together(job.store, job.options, {.memory = 1000}, 3), Error);
     ClashOptions negative = job.options;
     negative.clearance = -1;
@@ -201,7 +172,7 @@ TEST(CrewClashes, EndWithWhatWentWrongInTheLeader) {
 TEST(CrewClashes, AreRefusedIfAnImportCameInBetween) {
     Random random(6205);
     for (const std::size_t size : {std::size_t{1}, std::size_t{3}}) {
-        const Job job(random, 150);
+        const StoredJob job(random, 150);
         ClashOptions options = job.options;
         bool begun = false;
         options.progress.report = [&](std::string_view stage, double at) {

@@ -15,6 +15,7 @@
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
+#include "tests/support/stored_job.h"
 
 #include <algorithm>
 #include <atomic>
@@ -30,32 +31,17 @@ TEST(OutOfCore, FindsWhatIsFoundInCore) {
     Random random(6101);
     std::size_t clashes = 0, cut_up = 0, loaded_again = 0, runs = 0;
     for (int round = 0; round < many(3); ++round) {
-        const Folder folder;
-        const std::string store = folder / "models.abut";
-        std::vector<std::string> files;
-        const int models = random.integer(1, 2);
-        for (int m = 0; m < models; ++m) {
-            files.push_back(folder / ("model" + std::to_string(m) + ".glb"));
-            write_glb(some_scene(random, random.integer(60, 200), 4), files.back());
-        }
-        (void)import_models(files, store);
-        const std::vector<Scene> scenes = read_scenes(files);
-        ClashOptions options;
-        options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.1);
-        options.touch = random.chance(0.5) ? 0 : 1e-3;
-        options.self = random.chance(0.3);
-        options.rules = some_rules(random);
-        const ClashReport truth = find_clashes(scenes, options);
-        clashes += truth.clashes.size();
-        const Store opened = open_store(store);
+        const StoredJob job(random);
+        clashes += job.truth.clashes.size();
+        const Store opened = open_store(job.store);
         std::uint64_t memory = std::uint64_t{4} << 20;
         // Down to where two models that are to be compared do not fit any more.
         for (bool fits = true; fits; memory = memory / 2 < memory - 100'000 ? memory / 2 : 0) {
             for (const WorkOrder order : {WorkOrder::partition, WorkOrder::random}) {
                 try {
                     const StoreClashReport found = find_clashes(
-                        opened, options, {.memory = memory, .order = order, .keep = false});
-                    expect_equal(found.report, found.models, truth, scenes);
+                        opened, job.options, {.memory = memory, .order = order, .keep = false});
+                    job.expect(found);
                     ASSERT_LE(found.counters.peak_bytes, memory);
                     ASSERT_GE(found.counters.mesh_loads, found.counters.meshes);
                     ASSERT_GE(found.counters.bytes_read, found.counters.bytes_needed);
@@ -99,8 +85,6 @@ TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
     Random random(6106);
     std::size_t clashes = 0, of_large = 0, runs = 0, again = 0;
     for (int round = 0; round < many(2); ++round) {
-        const Folder folder;
-        const std::string store = folder / "models.abut", model = folder / "model.glb";
         Scene scene = some_scene(random, 40, 3);
         const std::size_t small = scene.parts.size();
         for (int i = 0; i < 4; ++i) {
@@ -116,24 +100,22 @@ TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
         if (random.chance(0.5)) // a duplicate
             scene.parts.back().world_from_mesh =
                 scene.parts[scene.parts.size() - 2].world_from_mesh;
-        write_glb(scene, model);
-        (void)import_models({model}, store);
-        const std::vector<Scene> scenes = read_scenes({model});
         ClashOptions options;
         options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.3);
         options.touch = random.chance(0.5) ? 0 : 1e-2;
-        const ClashReport truth = find_clashes(scenes, options);
-        clashes += truth.clashes.size();
+        const StoredJob job({scene}, options);
+        const std::vector<Clash>& truth = job.truth.clashes;
+        clashes += truth.size();
         of_large += static_cast<std::size_t>(
-            std::count_if(truth.clashes.begin(), truth.clashes.end(),
+            std::count_if(truth.begin(), truth.end(),
                           [&](const Clash& clash) { return clash.part[1] >= small; }));
-        const Store opened = open_store(store);
+        const Store opened = open_store(job.store);
         const std::uint64_t least = 2 * least_for_blocks(gather_parts(opened.file()));
         for (const std::uint64_t memory :
              {std::uint64_t{512} << 20, 2 * least, least + (1 << 20)}) {
             const StoreClashReport found =
                 find_clashes(opened, options, {.memory = memory, .keep = false});
-            expect_equal(found.report, found.models, truth, scenes);
+            job.expect(found);
             ASSERT_LE(found.counters.peak_bytes, memory);
             ASSERT_GT(found.counters.blocks, 0U);
             ++runs;
@@ -157,16 +139,11 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
     Random random(6104);
     std::size_t stops = 0, recalled = 0;
     for (int round = 0; round < many(4); ++round) {
-        const Folder folder;
-        const std::string model = folder / "a.glb", store = folder / "a.abut";
         Scene scene = some_scene(random, 150, 4);
-        write_glb(scene, model);
-        (void)import_models({model}, store);
-        std::vector<Scene> scenes = read_scenes({model});
         ClashOptions options;
         options.clearance = 0.02;
         options.rules = some_rules(random);
-        const ClashReport truth = find_clashes(scenes, options);
+        const StoredJob job({scene}, options);
         const OutOfCoreOptions little{.memory = 800'000};
         bool first = true;
         for (bool done = false; !done;) {
@@ -180,8 +157,8 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
                     stop = true;
             };
             try {
-                const StoreClashReport found = find_clashes(open_store(store), stopped, little);
-                expect_equal(found.report, found.models, truth, scenes);
+                const StoreClashReport found = find_clashes(open_store(job.store), stopped, little);
+                job.expect(found);
                 EXPECT_TRUE(found.counters.kept);
                 recalled += found.counters.recalled_pairs > 0 ? 1 : 0;
                 done = true;
@@ -191,18 +168,18 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
             }
         }
         // Asked once more, it is known; of other parts it is not.
-        const StoreClashReport again = find_clashes(open_store(store), options, little);
-        expect_equal(again.report, again.models, truth, scenes);
-        EXPECT_EQ(again.counters.recalled_pairs, truth.candidates);
+        const StoreClashReport again = find_clashes(open_store(job.store), options, little);
+        job.expect(again);
+        EXPECT_EQ(again.counters.recalled_pairs, job.truth.candidates);
         EXPECT_EQ(again.counters.mesh_loads, 0U);
         scene.parts.pop_back();
-        write_glb(scene, model);
-        (void)import_models({model}, store);
-        scenes = read_scenes({model});
-        const StoreClashReport fewer = find_clashes(open_store(store), options, little);
+        write_glb(scene, job.files[0]);
+        (void)import_models(job.files, job.store);
+        const std::vector<Scene> scenes = read_scenes(job.files);
+        const StoreClashReport fewer = find_clashes(open_store(job.store), options, little);
         expect_equal(fewer.report, fewer.models, find_clashes(scenes, options), scenes);
         EXPECT_EQ(fewer.counters.recalled_pairs, fewer.report.candidates); // no part has changed
-        verify(open_store(store));
+        verify(open_store(job.store));
     }
     std::cout << stops << " stops, " << recalled << " jobs went on\n";
     EXPECT_GE(stops, static_cast<std::size_t>(many(4)) / 2);
@@ -215,14 +192,9 @@ TEST(OutOfCore, ASecondJobTakesOver) {
     Random random(6105);
     std::size_t recalled = 0;
     for (int round = 0; round < many(3); ++round) {
-        const Folder folder;
-        const std::string model = folder / "a.glb", store = folder / "a.abut";
-        write_glb(some_scene(random, 150, 4), model);
-        (void)import_models({model}, store);
-        const std::vector<Scene> scenes = read_scenes({model});
         ClashOptions options;
         options.clearance = 0.02;
-        const ClashReport truth = find_clashes(scenes, options);
+        const StoredJob job({some_scene(random, 150, 4)}, options);
         const OutOfCoreOptions little{.memory = 800'000};
         StoreClashReport second;
         ClashOptions first = options;
@@ -231,20 +203,22 @@ TEST(OutOfCore, ASecondJobTakesOver) {
         first.progress.report = [&](std::string_view stage, double at) {
             if (stage != "narrow phase" || at < share || std::exchange(begun, true))
                 return;
-            std::thread([&] { second = find_clashes(open_store(store), options, little); }).join();
+            std::thread([&] {
+                second = find_clashes(open_store(job.store), options, little);
+            }).join();
         };
         try {
-            (void)find_clashes(open_store(store), first, little);
+            (void)find_clashes(open_store(job.store), first, little);
             FAIL() << "both were let through";
         } catch (const Error& error) {
             ASSERT_EQ(error.code(), ErrorCode::unreadable) << error.what();
         }
         ASSERT_TRUE(begun);
-        expect_equal(second.report, second.models, truth, scenes);
+        job.expect(second);
         recalled += second.counters.recalled_pairs > 0 ? 1 : 0;
-        const StoreClashReport again = find_clashes(open_store(store), options, little);
-        expect_equal(again.report, again.models, truth, scenes);
-        EXPECT_EQ(again.counters.recalled_pairs, truth.candidates);
+        const StoreClashReport again = find_clashes(open_store(job.store), options, little);
+        job.expect(again);
+        EXPECT_EQ(again.counters.recalled_pairs, job.truth.candidates);
     }
     std::cout << recalled << " went on with what the first had done\n";
 }

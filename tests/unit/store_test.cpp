@@ -9,11 +9,10 @@
 #include "store/mesh_draft.h"
 #include "store/store_file.h"
 #include "tests/support/folder.h"
+#include "tests/support/page_queries.h"
 
 #include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
-#include <sstream>
 
 namespace abut::test {
 namespace {
@@ -71,24 +70,8 @@ TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
 
 TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
     import();
-    std::ifstream page(std::string(ABUT_SOURCE_DIR) + "/docs/store.md");
-    const std::string text{std::istreambuf_iterator<char>(page), {}};
-    const std::size_t mark = text.find("<!-- sql -->");
-    ASSERT_NE(mark, std::string::npos);
-    const std::size_t start = text.find("```sql\n", mark) + 7;
-    std::istringstream sql(text.substr(start, text.find("```", start) - start));
-    Database database(store_, OpenMode::read_only);
-    std::vector<int> rows;
-    for (std::string statement; std::getline(sql, statement, ';');) {
-        if (statement.find("SELECT") == std::string::npos)
-            continue;
-        Statement question(database, statement);
-        rows.push_back(0);
-        while (question.step())
-            ++rows.back();
-    }
     // In the box: none. Two types, two meshes, three parts of the last import, one open shell.
-    EXPECT_EQ(rows, (std::vector<int>{0, 2, 2, 3, 1, 0}));
+    EXPECT_EQ(rows_of_page_queries("store.md", store_), (std::vector<int>{0, 2, 2, 3, 1, 0}));
 }
 
 TEST_F(StoreOf, NothingIsRefused) {

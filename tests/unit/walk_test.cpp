@@ -214,6 +214,38 @@ TEST_F(WalkBy, DamageIsToldWhereItMatters) {
     EXPECT_EQ(code_of([&] { (void)walk.distance(ball_, Pose{{4, 0, 0}}); }), ErrorCode::malformed);
 }
 
+TEST_F(WalkBy, APartThatCouldNotBeMovedCanBeMovedLater) {
+    Walk walk(two_cubes());
+    Database database(store_, OpenMode::read_write);
+    database.run("UPDATE mesh SET mesh = mesh + 100");
+    EXPECT_THROW(walk.move({1}, Pose{{0, 50, 0}}), Error);
+    database.run("UPDATE mesh SET mesh = mesh - 100");
+    walk.move({1}, Pose{{0, 50, 0}});
+    EXPECT_EQ(walk.distance(ball_, Pose{{0, 50, 3}}).gap.distance, 1.5);
+}
+
+TEST_F(WalkBy, NoNumberThatIsNoPartIsOne) {
+    Walk walk(two_cubes());
+    const Model cube(box_mesh({-1, -1, -1}, {1, 1, 1}));
+    EXPECT_EQ(walk.add(cube, Pose{}).number, -1);
+    for (const std::int64_t number :
+         {std::numeric_limits<std::int64_t>::min(), std::int64_t{-2},
+          std::int64_t{-2} - (std::int64_t{1} << 32), std::int64_t{-1} - (std::int64_t{1} << 32),
+          std::int64_t{0}, std::int64_t{3}, std::numeric_limits<std::int64_t>::max()})
+        EXPECT_EQ(code_of([&] { walk.move({number}, Pose{}); }), ErrorCode::bad_argument) << number;
+}
+
+TEST_F(WalkBy, ThereAndBackAgainComesToRest) {
+    Walk walk(two_cubes());
+    for (int i = 0; i < 300; ++i) {
+        walk.move_to({0, 0, 0}, {});
+        walk.move_to({100, 0, 0}, {});
+        walk.move_to({0, 0, 0}, {});
+        walk.wait();
+    }
+    EXPECT_EQ(walk.statistics().parts_in_memory, 2U);
+}
+
 TEST_F(WalkBy, WithoutPartsNothingIsNear) {
     Walk walk(two_cubes());
     walk.remove({1});

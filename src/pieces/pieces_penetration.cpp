@@ -1,0 +1,140 @@
+#include <abut/convex_pieces.h>
+#include <abut/penetration.h>
+#include <abut/rigid.h>
+
+#include "convex/expanding_polytope.h"
+#include "pieces/pair_search.h"
+#include "pieces/pieces_containment.h"
+#include "rigid/model_data.h"
+#include "rigid/separation.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+/// The pieces that go deepest into each other. A translation that separates the solids takes each pair
+/// of pieces apart: none is shorter than the depth of any pair.
+class DeepestPieces {
+public:
+    DeepestPieces(const PlacedPieces& placed, PiecesDepth& result)
+        : placed_(placed), result_(result) {}
+
+    /// By the spheres around hulls the pairs come that may go deepest; those that may not be the
+    /// deepest any more are never looked at.
+    void find() {
+        push({0, 0});
+        while (!pending_.empty() && pending_.front().first > result_.depth) {
+            std::pop_heap(pending_.begin(), pending_.end(), less);
+            const HullPair pair = pending_.back().second;
+            pending_.pop_back();
+            if (placed_.are_pieces(pair))
+                measure(pair);
+            else if (PiecePairSearch(placed_, result_.counters).may_meet(pair))
+                placed_.for_each_child(pair, [&](const HullPair& child) { push(child); });
+        }
+    }
+
+    /// Of the pairs that were the deepest for a while, the deepest first.
+    [[nodiscard]] std::vector<Vec3> directions() const {
+        return {directions_.rbegin(), directions_.rend()};
+    }
+
+private:
+    using Bounded = std::pair<double, HullPair>; ///< goes no deeper than that
+    static bool less(const Bounded& p, const Bounded& q) { return p.first < q.first; }
+
+    void push(const HullPair& pair) {
+        ++result_.counters.sphere_pairs;
+        const double most = placed_.most_depth(pair);
+        if (most < 0)
+            return;
+        pending_.emplace_back(most, pair);
+        std::push_heap(pending_.begin(), pending_.end(), less);
+    }
+
+    void measure(const HullPair& hulls) {
+        ++result_.counters.hull_pairs;
+        const PolytopePair pair = placed_.hulls(hulls);
+        DifferenceSimplex first;
+        first.count = 1; // of the first vertices
+        const SimplexState found = search_simplex(pair, first, placed_.rounding);
+        result_.counters.simplices += found.steps;
+        if (!found.meeting)
+            return;
+        ExpandingPolytope polytope(pair, placed_.rounding);
+        std::optional<NearestBoundary> nearest = polytope.begin(found.simplex);
+        if (!nearest)
+            nearest = polytope.expand();
+        if (nearest && (!result_.meet || nearest->at_least > result_.depth))
+            keep(hulls, pair, *nearest);
+        result_.meet = true;
+    }
+
+    void keep(const HullPair& hulls, const PolytopePair& pair, const NearestBoundary& nearest) {
+        result_.depth = nearest.at_least;
+        result_.direction = -nearest.normal; // b - a reaches that far along the normal
+        result_.piece_a = placed_.node_a(hulls.a).piece;
+        result_.piece_b = placed_.node_b(hulls.b).piece;
+        result_.point_a = result_.point_b = placed_.origin();
+        for (std::size_t i = 0; i < 3; ++i) {
+            const VertexPair& corner = nearest.corners[i];
+            result_.point_a = result_.point_a + nearest.weights[i] * pair.a.vertex(corner.a);
+            result_.point_b = result_.point_b + nearest.weights[i] * pair.b.vertex(corner.b);
+        }
+        directions_.push_back(result_.direction);
+    }
+
+    const PlacedPieces& placed_;
+    PiecesDepth& result_;
+    std::vector<Bounded> pending_; ///< a heap
+    std::vector<Vec3> directions_;
+};
+
+/// A translation of b after which the solids share no point.
+Vec3 way_out(const PlacedPieces& placed, std::vector<Vec3> directions, double at_least) {
+    const Vec3 middles = placed.between({0, 0});
+    directions.push_back(normalized_or_zero(middles));
+    const Model &a = placed.a.model, &b = placed.b.model;
+    const PlacedSolid solid_a(a, a.data().solid(), placed.world_from_a),
+        solid_b(b, b.data().solid(), placed.world_from_b);
+    const bool is_flattened =
+        solid_a.world() != placed.world_from_a || solid_b.world() != placed.world_from_b;
+    Counters counters;
+    const Vec3 way = is_flattened
+                         ? penetration(a, placed.world_from_a, b, placed.world_from_b).separation
+                         : find_separation(solid_a, solid_b, directions, at_least, counters);
+    const Transform moved = translated(placed.world_from_b, way);
+    if (!contained_point(PlacedPieces(placed.a, placed.world_from_a, placed.b, moved)))
+        return way;
+    // In a solid that goes through itself, where parity says outside: until the balls are apart.
+    const double far = length(middles) + placed.size();
+    return (far * (1 + 0x1p-20) / length(way)) * way;
+}
+
+} // namespace
+
+PiecesDepth penetration(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
+                        const Transform& world_from_b, const PiecesPenetrationOptions& options) {
+    PiecesDepth result;
+    const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
+    DeepestPieces deepest(placed, result);
+    deepest.find();
+    if (!result.meet) {
+        if (!contained_point(placed))
+            return result;
+        // Before b is out, the surfaces meet.
+        result.meet = true;
+        result.depth = distance(a.model(), world_from_a, b.model(), world_from_b).distance;
+    }
+    if (a.size() > 1 || b.size() > 1)
+        result.status = Status::bound_only;
+    if (options.separation)
+        result.separation = way_out(placed, deepest.directions(), result.depth);
+    return result;
+}
+
+} // namespace abut

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <abut/error.h>
+
+#include "core/parallel.h"
+
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What batches of queries have in common.
+namespace abut {
+
+/// The error of the smallest index, whatever the order in which they come.
+class FirstError {
+public:
+    /// Whether this index need not be looked at any more.
+    [[nodiscard]] bool is_behind(std::size_t index) const {
+        return index > first_.load(std::memory_order_relaxed);
+    }
+    void add(std::size_t index, const Error& error) {
+        const std::scoped_lock lock(mutex_);
+        if (index < first_)
+            first_ = index, error_ = error;
+    }
+    void rethrow() const {
+        if (error_)
+            throw Error(error_->code(),
+                        "placement " + std::to_string(first_) + ": " + error_->what());
+    }
+
+private:
+    std::atomic<std::size_t> first_{std::numeric_limits<std::size_t>::max()};
+    std::mutex mutex_;
+    std::optional<Error> error_;
+};
+
+/// query(i) for each of `count`; a query is far more work than handing it out.
+template <typename Result, typename Query>
+std::vector<Result> in_parallel(std::size_t count, const Query& query) {
+    std::vector<Result> results(count);
+    FirstError failure;
+    parallel_for(count, 1, [&](std::size_t i) {
+        if (failure.is_behind(i))
+            return;
+        try {
+            results[i] = query(i);
+        } catch (const Error& error) {
+            failure.add(i, error);
+        }
+    });
+    failure.rethrow();
+    return results;
+}
+
+/// A workspace is one thread's.
+template <typename Options>
+Options without_workspace(Options options) {
+    options.workspace = nullptr;
+    return options;
+}
+
+} // namespace abut
