@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "convex_queries.h"
 #include "pair_query.h"
+#include "pieces_queries.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -26,6 +27,7 @@ nlohmann::ordered_json describe_region(const ContactRegion& region) {
 struct PenetrationQuery : PairQuery {
     PenetrationOptions options;
     bool convex = false; ///< of the models' hulls
+    bool pieces = false; ///< as solids of convex pieces
 
     [[nodiscard]] Depth ask(const TwoModels& m) const {
         return penetration(m.a, m.world_from_a, m.b, m.world_from_b, options);
@@ -83,7 +85,13 @@ Subcommand add_penetration(CLI::App& root, CommonOptions& common) {
     CLI::Option* convex = app->add_flag("--convex", query->convex, "Of the convex hulls");
     for (const char* other : {"--accuracy", "--no-separation"})
         convex->excludes(app->get_option(other));
+    CLI::Option* pieces =
+        app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
+    for (const char* other : {"--accuracy", "--convex"})
+        pieces->excludes(app->get_option(other));
     return {app, [query, &common] {
+                if (query->pieces)
+                    return run(PiecesPenetrationQuery{*query, {query->options.separation}}, common);
                 return query->convex ? run(ConvexPenetrationQuery{*query}, common)
                                      : run(*query, common);
             }};

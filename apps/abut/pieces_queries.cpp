@@ -197,4 +197,35 @@ std::string PiecesCollideQuery::in_a_line(const PiecesContacts& contacts) {
                : "no contact\n";
 }
 
+PiecesDepth PiecesPenetrationQuery::ask(const TwoModels& m) const {
+    const TwoSolids solids(*this, m);
+    return penetration(solids.a, m.world_from_a, solids.b, m.world_from_b, options);
+}
+
+void PiecesPenetrationQuery::add_answer(const PiecesDepth& depth,
+                                        nlohmann::ordered_json& json) const {
+    json["meet"] = depth.meet;
+    json["depth"] = depth.depth;
+    json["direction"] = to_json(depth.direction);
+    json["point_a"] = to_json(depth.point_a);
+    json["point_b"] = to_json(depth.point_b);
+    json["piece_a"] = depth.piece_a;
+    json["piece_b"] = depth.piece_b;
+    if (options.separation)
+        json["separation"] = to_json(depth.separation);
+    json["status"] = to_string(depth.status);
+    json["counters"] = describe(depth.counters);
+}
+
+std::string PiecesPenetrationQuery::in_words(const PiecesDepth& depth) const {
+    if (!depth.meet)
+        return "apart\n";
+    std::string text =
+        fmt::format("depth {}{}\n", depth.status == Status::exact ? "" : "at least ", depth.depth);
+    if (options.separation)
+        text += fmt::format("separated when B moves by ({}, {}, {})\n", depth.separation.x,
+                            depth.separation.y, depth.separation.z);
+    return text;
+}
+
 } // namespace abut::command

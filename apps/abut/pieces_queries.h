@@ -58,4 +58,13 @@ struct PiecesCollideQuery : PairQuery {
     static bool is_problem(const PiecesContacts& contacts) { return contacts.meet; }
 };
 
+struct PiecesPenetrationQuery : PairQuery {
+    PiecesPenetrationOptions options;
+
+    [[nodiscard]] PiecesDepth ask(const TwoModels& m) const;
+    void add_answer(const PiecesDepth& depth, nlohmann::ordered_json& json) const;
+    [[nodiscard]] std::string in_words(const PiecesDepth& depth) const;
+    static bool is_problem(const PiecesDepth& depth) { return depth.depth > 0; }
+};
+
 } // namespace abut::command

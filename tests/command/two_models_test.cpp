@@ -244,6 +244,30 @@ TEST_F(TwoModelsTest, PiecesAreSolids) {
     EXPECT_EQ(ask("distance", {"--pieces", "--convex"}).status, 2);
 }
 
+TEST_F(TwoModelsTest, PenetrationOfPieces) {
+    const auto ask_at = [&](const char* pose, std::vector<std::string> more) {
+        more.insert(more.end(), {"--pieces", "--pose-b", pose});
+        return ask("penetration", more);
+    };
+    const Outcome deep = ask_at("0.75,0.1,0.1,1,0,0,0", {"--json"});
+    ASSERT_EQ(deep.status, 0) << deep.err;
+    const auto answer = deep.json();
+    EXPECT_EQ(answer["meet"], true);
+    EXPECT_EQ(answer["depth"], 0.25);
+    EXPECT_EQ(answer["direction"], nlohmann::json({1, 0, 0}));
+    EXPECT_GE(answer["separation"][0], 0.25);
+    EXPECT_EQ(answer["status"], "exact");
+    for (const char* key : {"point_a", "point_b", "piece_a", "piece_b", "counters"})
+        EXPECT_TRUE(answer.contains(key)) << key;
+    EXPECT_FALSE(
+        ask_at("0.75,0,0,1,0,0,0", {"--json", "--no-separation"}).json().contains("separation"));
+    EXPECT_EQ(ask_at("9,0,0,1,0,0,0", {}).out, "apart\n");
+    EXPECT_EQ(ask_at("0.75,0.1,0.1,1,0,0,0", {"--no-separation"}).out, "depth 0.25\n");
+    EXPECT_EQ(ask_at("0.75,0,0,1,0,0,0", {"--fail-on", "penetration", "--quiet"}).status, 1);
+    EXPECT_EQ(ask_at("9,0,0,1,0,0,0", {"--fail-on", "penetration", "--quiet"}).status, 0);
+    EXPECT_EQ(ask("penetration", {"--pieces", "--convex"}).status, 2);
+}
+
 TEST_F(TwoModelsTest, WithinIncludesItsBound) {
     for (const auto& [tolerance, near] : {std::pair{"0.499", false}, {"0.5", true}, {"2", true}}) {
         const Outcome outcome =

@@ -271,7 +271,7 @@ TEST(OverlapGraph, IsKeptForSqlAndCountsLargeMeshes) {
         write_glb(scene, folder / "a.glb");
         (void)import_models({folder / "a.glb"}, store);
         const Store opened = open_store(store);
-        const StoredParts stored = gather_parts(opened.file(), false);
+        const StoredParts stored = gather_parts(opened.file());
         for (const double clearance : {0.0, 0.05}) { // the second in place of the first
             ClashOptions options;
             options.clearance = clearance;
@@ -281,7 +281,7 @@ TEST(OverlapGraph, IsKeptForSqlAndCountsLargeMeshes) {
             std::uint64_t bytes = 0, large = 0;
             std::set<std::uint32_t> needed;
             std::set<std::pair<std::int64_t, std::int64_t>> pairs;
-            for (const IndexPair& pair : find_candidates(stored, options)) {
+            for (const IndexPair& pair : find_candidates(stored, RuleTable(options), options)) {
                 const StoredPart &a = stored.parts[pair.a()], &b = stored.parts[pair.b()];
                 pairs.insert({a.row, b.row});
                 needed.insert({a.mesh, b.mesh});
