@@ -105,7 +105,7 @@ public:
 
 private:
     [[nodiscard]] Vec3 middle(std::uint32_t part) const {
-        return middle_of(plan_.stored.parts[part].box);
+        return middle_of(plan_.stored.boxes[part]);
     }
 
     void add_edge(const IndexPair& pair) {

@@ -49,6 +49,7 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
         parts += std::min(model.parts, most_parts);
     }
     result.parts.reserve(std::min(parts, most_parts));
+    result.boxes.reserve(result.parts.capacity());
     for (std::uint32_t m = 0; m < result.models.size(); ++m) {
         store.for_each_part(result.models[m], [&](const PartRow& part) {
             // Meshes come in the order of their numbers.
@@ -57,8 +58,9 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
             if (mesh == result.meshes.end() || mesh->mesh != part.mesh)
                 throw Error(ErrorCode::malformed, store.path(),
                             "is damaged: part " + part.id + " shows a mesh that is missing");
+            result.boxes.push_back(part.box);
             result.parts.push_back(
-                {part.box, part.part, static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
+                {part.part, static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
                  static_cast<std::uint32_t>(
                      std::min<std::uint64_t>(part.generation, kLastGeneration))});
             if (rules != nullptr)
@@ -97,7 +99,7 @@ std::optional<std::uint32_t> PartsByRow::find(std::int64_t row) const {
 }
 
 std::uint64_t StoredParts::bytes() const {
-    std::uint64_t sum = parts.capacity() * sizeof(StoredPart) +
+    std::uint64_t sum = parts.capacity() * sizeof(StoredPart) + boxes.capacity() * sizeof(Box3) +
                         meshes.capacity() * sizeof(StoredMesh) +
                         large.capacity() * sizeof(StoredLargeMesh);
     for (const StoredLargeMesh& mesh : large)
@@ -117,31 +119,26 @@ PairCell StoredParts::cell_of(const IndexPair& pair) const {
     const bool a_counts = of_b == nullptr || (of_a != nullptr && of_a->blocks >= of_b->blocks);
     const std::uint32_t part = a_counts ? pair.a() : pair.b(),
                         other = a_counts ? pair.b() : pair.a();
-    const Box3& box = parts[other].box;
+    const Box3& box = boxes[other];
     const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
     // Blocks lie on a surface, cells in space: of three bits of the key about one tells nothing.
     const auto bits = static_cast<unsigned>(std::bit_width((a_counts ? of_a : of_b)->blocks));
-    return {part, middle,
-            spatial_key(parts[part].box, middle, middle, middle) >> (63 - 3 * bits / 2)};
+    return {part, middle, spatial_key(boxes[part], middle, middle, middle) >> (63 - 3 * bits / 2)};
 }
 
 std::vector<IndexPair> find_candidates(const StoredParts& stored, const RuleTable& rules,
                                        const ClashOptions& options) {
-    std::vector<Box3> boxes;
-    boxes.reserve(stored.parts.size());
-    for (const StoredPart& part : stored.parts)
-        boxes.push_back(part.box);
     const bool across = stored.models.size() > 1 && !options.self;
     const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
         return !across || stored.parts[i].model != stored.parts[j].model;
     };
-    std::vector<IndexPair> pairs = overlapping_boxes(boxes, largest_clearance(options), wanted);
+    std::vector<IndexPair> pairs =
+        overlapping_boxes(stored.boxes, largest_clearance(options), wanted);
     if (options.rules.empty())
         return pairs;
     const auto out_of_reach = [&](const IndexPair& pair) {
         const auto terms = rules.terms(pair.a(), pair.b());
-        return !terms ||
-               !overlap(stored.parts[pair.a()].box, stored.parts[pair.b()].box, terms->clearance);
+        return !terms || !overlap(stored.boxes[pair.a()], stored.boxes[pair.b()], terms->clearance);
     };
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_reach), pairs.end());
     return pairs;

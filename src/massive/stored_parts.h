@@ -18,7 +18,6 @@ namespace abut {
 
 /// What a job out of core keeps of a part.
 struct StoredPart {
-    Box3 box;               ///< world
     std::int64_t row = 0;   ///< of the store
     std::uint32_t mesh = 0; ///< index in StoredParts::meshes
     std::uint32_t model = 0;
@@ -52,6 +51,7 @@ struct PairCell {
 struct StoredParts {
     std::vector<ModelRow> models;
     std::vector<StoredPart> parts; ///< by model, then as in its file
+    std::vector<Box3> boxes;       ///< of the parts, world
     std::vector<StoredMesh> meshes;
     std::vector<StoredLargeMesh> large; ///< by mesh
 

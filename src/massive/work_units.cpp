@@ -127,7 +127,7 @@ private:
             if (cell.part == part)
                 return {part, cell.cell, cell.middle};
         }
-        const Box3& box = stored_.parts[part].box;
+        const Box3& box = stored_.boxes[part];
         return {part, 0, 0.5 * box.lower + 0.5 * box.upper};
     }
 

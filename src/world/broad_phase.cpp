@@ -1,8 +1,7 @@
 #include <abut/broad_phase.h>
 #include <abut/error.h>
 
-#include "math/vector.h"
-#include "world/box_block.h"
+#include "world/box_strips.h"
 #include "world/pair_list.h"
 #include "world/pair_search.h"
 
@@ -40,14 +39,6 @@ std::unique_ptr<PairSearch> make_search(BroadPhaseOptions options) {
         break;
     }
     return make_automatic_search(options.wanted);
-}
-
-/// The box with half of the gap around it, and what rounding takes from it.
-Box3 widened(const Box3& box, double gap) {
-    const auto outward = [&](double x) { return 0.5 * gap + 0x1p-50 * (std::abs(x) + gap); };
-    const auto &l = box.lower, &u = box.upper;
-    return {{l.x - outward(l.x), l.y - outward(l.y), l.z - outward(l.z)},
-            {u.x + outward(u.x), u.y + outward(u.y), u.z + outward(u.z)}};
 }
 
 } // namespace
@@ -101,19 +92,7 @@ overlapping_boxes(std::span<const Box3> boxes, double gap,
         throw Error(ErrorCode::bad_argument, "gap of boxes must be a length, not negative");
     for (std::size_t i = 0; i < boxes.size(); ++i)
         require_numbers(boxes[i], i);
-    PairList list;
-    if (gap == 0) {
-        make_tree_search(wanted)->restart(boxes, list);
-        return list.pairs();
-    }
-    std::vector<Box3> wide;
-    wide.reserve(boxes.size());
-    for (const Box3& box : boxes)
-        wide.push_back(takes_part(box) ? widened(box, gap) : Box3());
-    make_tree_search([&](std::uint32_t i, std::uint32_t k) {
-        return overlap(boxes[i], boxes[k], gap) && (!wanted || wanted(i, k));
-    })->restart(wide, list);
-    return list.pairs();
+    return overlaps_by_strips(boxes, gap, wanted);
 }
 
 } // namespace abut

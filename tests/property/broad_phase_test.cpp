@@ -8,6 +8,7 @@
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/simd_targets.h"
+#include "world/box_strips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -202,6 +203,7 @@ TEST_P(BroadPhases, FindTheSameWithEverySimdTarget) {
         for_each_simd_target([&](const std::string& target) {
             SCOPED_TRACE(target);
             EXPECT_EQ(overlapping_boxes(script.boxes()), truth);
+            EXPECT_EQ(overlaps_by_strips(script.boxes(), 0, {}, 5), truth);
         });
         found += truth.size();
     }
@@ -285,6 +287,8 @@ TEST(BroadPhase, FindsPairsWithinAGap) {
                 if (overlap(script.boxes()[i], script.boxes()[k], gap))
                     truth.emplace_back(i, k);
         EXPECT_EQ(overlapping_boxes(script.boxes(), gap, odd), truth);
+        for (const std::size_t strip : {1, 7, 16, 40})
+            EXPECT_EQ(overlaps_by_strips(script.boxes(), gap, odd, strip), truth) << strip;
         found += truth.size(), apart += 900 - truth.size();
     }
     EXPECT_GT(found, 1000U);

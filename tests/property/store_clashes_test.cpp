@@ -358,7 +358,7 @@ TEST(WorkUnits, HoldEveryPairOnceAndFit) {
             StoredPart part;
             part.mesh = static_cast<std::uint32_t>(random.integer(0, meshes - 1));
             const Vec3 at = random.in_cube(5);
-            part.box = {at, at};
+            stored.boxes.push_back({at, at});
             stored.parts.push_back(part);
         }
         std::set<IndexPair> pairs;

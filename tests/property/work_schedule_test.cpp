@@ -29,7 +29,7 @@ struct SomeWork {
             part.row = 10 + i;
             part.mesh = static_cast<std::uint32_t>(random.integer(0, meshes - 1));
             const Vec3 at = random.in_cube(5);
-            part.box = {at, at};
+            stored.boxes.push_back({at, at});
             stored.parts.push_back(part);
         }
         std::set<IndexPair> all;
