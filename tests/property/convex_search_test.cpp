@@ -160,6 +160,7 @@ TEST(ConvexSearch, InnerBallsLieInsideAndAreNotMuchTooSmall) {
 
 TEST(ConvexSearch, TheBallOfACubeIsTheLargest) {
     std::vector<Vec3> corners;
+    corners.reserve(8);
     for (int i = 0; i < 8; ++i)
         corners.push_back({i & 1 ? 5.0 : 3.0, i & 2 ? 1.0 : -1.0, i & 4 ? 7.0 : 5.0});
     const ConvexData cube(corners);

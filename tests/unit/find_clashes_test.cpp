@@ -422,7 +422,7 @@ protected:
     void SetUp() override { std::filesystem::create_directories(folder_); }
     void TearDown() override { std::filesystem::remove_all(folder_); }
     std::string file(const std::string& text) {
-        const std::string path = folder_ + "/rules.json";
+        std::string path = folder_ + "/rules.json";
         std::ofstream(path) << text;
         return path;
     }
