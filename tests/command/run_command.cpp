@@ -5,6 +5,7 @@
 #include <chrono>
 #include <fcntl.h>
 #include <fstream>
+#include <grp.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
@@ -25,6 +26,17 @@ struct Running {
     std::array<pollfd, 2> outputs{};
 };
 
+/// Of what is started: true while a ReadOnly lives.
+bool as_nobody = false;
+
+/// In a child of root.
+void become_nobody() {
+    constexpr uid_t kNobody = 65534;
+    if (setgroups(0, nullptr) != 0 || setgid(kNobody) != 0 || setuid(kNobody) != 0 ||
+        setenv("HOME", "/", 1) != 0)
+        _exit(126);
+}
+
 Running start_program(const std::vector<std::string>& command) {
     std::array<std::array<int, 2>, 2> pipes{};
     for (auto& ends : pipes)
@@ -39,6 +51,8 @@ Running start_program(const std::vector<std::string>& command) {
     if (running.process == 0) {
         dup2(pipes[0][1], STDOUT_FILENO);
         dup2(pipes[1][1], STDERR_FILENO);
+        if (as_nobody && geteuid() == 0)
+            become_nobody();
         execvp(argv.front(), argv.data());
         _exit(127);
     }
@@ -164,6 +178,30 @@ std::vector<std::string> TemporaryFolder::list() const {
         names.push_back(std::filesystem::relative(entry.path(), path_).string());
     std::sort(names.begin(), names.end());
     return names;
+}
+
+ReadOnly::ReadOnly(const TemporaryFolder& folder) : folder_(folder / "") {
+    using std::filesystem::perms;
+    constexpr perms kRead = perms::owner_read | perms::group_read | perms::others_read;
+    set_modes(kRead | perms::owner_exec | perms::group_exec | perms::others_exec, kRead);
+    as_nobody = true;
+}
+
+ReadOnly::~ReadOnly() {
+    using std::filesystem::perms;
+    set_modes(perms::owner_all, perms::owner_read | perms::owner_write);
+    as_nobody = false;
+}
+
+bool ReadOnly::can_run_abut() {
+    return run_program({"test", "-x", ABUT_COMMAND}).status == 0;
+}
+
+void ReadOnly::set_modes(std::filesystem::perms folder, std::filesystem::perms file) const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+        if (entry.is_regular_file())
+            std::filesystem::permissions(entry, file);
+    std::filesystem::permissions(folder_, folder);
 }
 
 std::string read_file(const std::string& path) {

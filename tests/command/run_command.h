@@ -56,6 +56,24 @@ private:
     std::filesystem::path path_;
 };
 
+/// While it lives, a folder and its files are read-only, and programs are run by someone whom that binds:
+/// by nobody, where the tests run as root.
+class ReadOnly {
+public:
+    explicit ReadOnly(const TemporaryFolder& folder);
+    ~ReadOnly();
+    ReadOnly(const ReadOnly&) = delete;
+    ReadOnly& operator=(const ReadOnly&) = delete;
+
+    /// False where nobody may not run this build: it lies in somebody's own folder.
+    [[nodiscard]] static bool can_run_abut();
+
+private:
+    void set_modes(std::filesystem::perms folder, std::filesystem::perms file) const;
+
+    std::filesystem::path folder_;
+};
+
 std::string read_file(const std::string& path);
 
 /// The clashes of a JSON report, without what a store alone knows of them.
