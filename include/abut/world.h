@@ -175,7 +175,7 @@ public:
     /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; if an id is not valid, comes
     ///             twice, or is that of a deformable.
     /// Cost        of a deformable and another body, that of its triangles near the other's way; of two
-    ///             deformables, that of `first_impact`.
+    ///             deformables, that of `first_impact`, and of making one anew if their schemes differ.
     std::vector<BodyImpact> impacts(const std::vector<BodyMotion>& motions,
                                     const ImpactOptions& options = {});
 

@@ -9,6 +9,9 @@
 /// infinite where they never meet.
 namespace abut {
 
+/// ImpactOptions::tolerance where none is given, of the larger body's size.
+inline constexpr double kImpactTolerance = 1e-6;
+
 /// How sets approach along a fixed unit vector n: their gap along it is at least
 ///
 ///     gap - s closing - s^2 / 2 bend      and at least      gap - s fastest.

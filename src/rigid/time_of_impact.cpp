@@ -23,8 +23,6 @@ namespace {
 
 constexpr double kEnd = 1; ///< of the time that is looked at
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Default tolerance, of the larger model's diagonal.
-constexpr double kTolerance = 1e-6;
 /// How often pairs of triangles within the tolerance are followed, in all, before contact is
 /// reported as possible.
 constexpr int kMostFollowed = 4096;
@@ -271,7 +269,7 @@ private:
 };
 
 double default_tolerance(const MovingPair& pair, const Tree& a, const Tree& b) {
-    return kTolerance * 2 *
+    return kImpactTolerance * 2 *
            std::max(pair.a.scale * radius_of(a, kRootName), pair.b.scale * radius_of(b, kRootName));
 }
 

@@ -1,6 +1,7 @@
 #include "world/body_impact.h"
 
 #include "math/transform.h"
+#include "rigid/motion_bounds.h"
 #include "world/deforming_impact.h"
 #include "world/narrow_phase.h"
 
@@ -28,7 +29,8 @@ public:
         const double size = std::max(reach_a_, reach_b_);
         scale_ = size + max_abs(a.motion.centre) + max_abs(b.motion.centre) +
                  max_abs(a.motion.velocity) + max_abs(b.motion.velocity);
-        tolerance_ = std::max(options.tolerance.value_or(1e-6 * size), 4 * kRounding * scale_);
+        tolerance_ =
+            std::max(options.tolerance.value_or(kImpactTolerance * size), 4 * kRounding * scale_);
     }
 
     Impact run() const {

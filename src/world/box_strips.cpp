@@ -12,12 +12,14 @@ namespace abut {
 
 namespace {
 
-/// The box with half of the gap around it, and what rounding takes from it.
+/// A bound moved outwards by half of the gap, and by what rounding takes from it.
+double lowered(double x, double gap) {
+    return x - (0.5 * gap + 0x1p-50 * (std::abs(x) + gap));
+}
 Box3 widened(const Box3& box, double gap) {
-    const auto outward = [&](double x) { return 0.5 * gap + 0x1p-50 * (std::abs(x) + gap); };
     const auto &l = box.lower, &u = box.upper;
-    return {{l.x - outward(l.x), l.y - outward(l.y), l.z - outward(l.z)},
-            {u.x + outward(u.x), u.y + outward(u.y), u.z + outward(u.z)}};
+    return {{lowered(l.x, gap), lowered(l.y, gap), lowered(l.z, gap)},
+            {-lowered(-u.x, gap), -lowered(-u.y, gap), -lowered(-u.z, gap)}};
 }
 
 /// Searches strip after strip.
@@ -47,7 +49,10 @@ private:
     [[nodiscard]] Box3 box(std::uint32_t i) const {
         return gap_ == 0 ? boxes_[i] : widened(boxes_[i], gap_);
     }
-    [[nodiscard]] double lower(std::uint32_t i) const { return component(box(i).lower, axis_); }
+    [[nodiscard]] double lower(std::uint32_t i) const {
+        const double bound = component(boxes_[i].lower, axis_);
+        return gap_ == 0 ? bound : lowered(bound, gap_);
+    }
 
     /// The one along which boxes are short compared with the room that they are in.
     [[nodiscard]] int least_crowded_axis() const {

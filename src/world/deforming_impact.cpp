@@ -3,6 +3,7 @@
 #include <abut/deformable.h>
 
 #include "math/transform.h"
+#include "rigid/motion_bounds.h"
 #include "world/deforming_pair.h"
 #include "world/narrow_phase.h"
 #include "world/surface_impact.h"
@@ -61,8 +62,8 @@ class DeformingSearch {
 public:
     DeformingSearch(const DeformingPair& pair, const ImpactOptions& options)
         : pair_(pair), tree_a_(pair.tree_a()), tree_b_(pair.tree_b()),
-          tolerance_(
-              std::max(options.tolerance.value_or(kTolerance * pair.size()), 4 * pair.margin())) {}
+          tolerance_(std::max(options.tolerance.value_or(kImpactTolerance * pair.size()),
+                              4 * pair.margin())) {}
 
     Impact run() {
         if (!tree_a_.empty() && !tree_b_.empty())
@@ -77,8 +78,6 @@ public:
     }
 
 private:
-    /// Default tolerance, of the larger body's size.
-    static constexpr double kTolerance = 1e-6;
     /// Of two triangles. What is left then is reported as a hit, to be safe.
     static constexpr int kMostSteps = 1000;
     /// Shorter ranges of time are not halved.
