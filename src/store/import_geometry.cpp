@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "core/parallel.h"
+#include "core/parallel_pipeline.h"
 #include "core/progress.h"
 #include "io/fault.h"
 #include "io/part_checks.h"
@@ -17,7 +18,6 @@
 #include <optional>
 #include <span>
 #include <tbb/global_control.h>
-#include <tbb/parallel_pipeline.h>
 
 namespace abut {
 
@@ -138,25 +138,20 @@ private:
     /// Read and check in parallel, look up in order, pack in parallel, write in order: so that the
     /// numbers in the store do not depend on the threads.
     void import_others() {
-        tbb::parallel_pipeline(
-            tokens_, tbb::make_filter<void, BatchPointer>(
-                         tbb::filter_mode::serial_in_order,
-                         [&](tbb::flow_control& control) { return next_batch(control); }) &
-                         tbb::make_filter<BatchPointer, BatchPointer>(
-                             tbb::filter_mode::parallel,
-                             [&](const BatchPointer& batch) {
-                                 for (Batch::Item& item : batch->items)
-                                     naming_part(item.mesh, [&] { prepare(item); });
-                                 return batch;
-                             }) &
-                         tbb::make_filter<BatchPointer, void>(
-                             tbb::filter_mode::serial_in_order, [&](const BatchPointer& batch) {
-                                 for (Batch::Item& item : batch->items)
-                                     store(item);
-                             }));
+        parallel_pipeline<BatchPointer>(
+            tokens_, [&] { return next_batch(); },
+            [&](const BatchPointer& batch) {
+                for (Batch::Item& item : batch->items)
+                    naming_part(item.mesh, [&] { prepare(item); });
+            },
+            [&](const BatchPointer& batch) {
+                for (Batch::Item& item : batch->items)
+                    store(item);
+            });
     }
 
-    BatchPointer next_batch(tbb::flow_control& control) {
+    /// Null after the last.
+    BatchPointer next_batch() {
         auto batch = std::make_shared<Batch>();
         const std::uint64_t most = std::min<std::uint64_t>(memory_ / tokens_, kBatchBytes);
         std::uint64_t bytes = 0;
@@ -168,9 +163,7 @@ private:
                 break;
             batch->items.emplace_back().mesh = next_;
         }
-        if (batch->items.empty())
-            control.stop();
-        return batch;
+        return batch->items.empty() ? BatchPointer{} : batch;
     }
 
     void prepare(Batch::Item& item) {
