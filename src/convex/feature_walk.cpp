@@ -6,7 +6,6 @@
 #include "convex/climb-inl.h"
 #include "convex/placed_xyz-inl.h"
 #include "geometry/nearest-inl.h"
-#include "geometry/point_triangle_distance.h"
 
 #include <algorithm>
 #include <array>
@@ -60,22 +59,26 @@ HWY_INLINE Measured measure_edge_edge(const Xyz& p0, const Xyz& p1, const Xyz& q
     return {p0 + from, r + c.t * v - from, c.distance_sq, corners_at(c.s), corners_at(c.t)};
 }
 
-/// Of the point with weights for the corners from `first` on.
-HWY_INLINE Corners corners_from(std::size_t first, double w0, double w1, double w2) {
-    const Corners corners = (w0 > 0 ? 1U : 0U) | (w1 > 0 ? 2U : 0U) | (w2 > 0 ? 4U : 0U);
-    return (corners << first | corners >> (3 - first)) & 7U;
-}
+/// Corners of a triangle's foot that have weight.
 HWY_INLINE Corners corners_of(const Foot<Xyz>& foot) {
-    return corners_from(foot.first, 1 - foot.g - foot.h, foot.g, foot.h);
+    const Corners corners =
+        (1 - foot.g - foot.h > 0 ? 1U : 0U) | (foot.g > 0 ? 2U : 0U) | (foot.h > 0 ? 4U : 0U);
+    return (corners << foot.first | corners >> (3 - foot.first)) & 7U;
 }
 
-/// Of a triangle's border, where no foot lies within it.
+/// For each edge of a triangle, what of the triangle corners of that edge are.
+constexpr Corners kEdgeCorners[3][4] = {{0, 1, 2, 3}, {0, 2, 4, 6}, {0, 4, 1, 5}};
+
+/// A triangle of a and a point of b that has no foot in it.
 HWY_NOINLINE void measure_border_vertex(const XyzTriangle& t, const Xyz& q, Measured& nearest) {
-    const NearestOnTriangle n =
-        nearest_on_triangle(to_vec3(q), {to_vec3(t[0]), to_vec3(t[1]), to_vec3(t[2])});
-    const Xyz point = to_xyz(n.point);
-    nearest =
-        measured(point, q - point, corners_from(0, n.weights[0], n.weights[1], n.weights[2]), 1);
+    nearest.distance_sq = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Measured m = measure_edge_vertex(t[k], t[(k + 1) % 3], q);
+        if (!(m.distance_sq < nearest.distance_sq))
+            continue;
+        nearest = m;
+        nearest.a = kEdgeCorners[k][m.a];
+    }
 }
 
 /// A triangle of a and a point of b.
@@ -117,7 +120,6 @@ HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, const X
     if (pierces_plane)
         if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q1 : q0, t); foot.within)
             take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 2 : 1));
-    constexpr Corners kEdgeCorners[3][4] = {{0, 1, 2, 3}, {0, 2, 4, 6}, {0, 4, 1, 5}};
     for (std::size_t k = 0; k < 3; ++k) {
         Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
         m.a = kEdgeCorners[k][m.a];
