@@ -76,7 +76,8 @@ HWY_INLINE Corners corners_of(const Foot<Xyz>& foot) {
 constexpr Corners kEdgeCorners[3][4] = {{0, 1, 2, 3}, {0, 2, 4, 6}, {0, 4, 1, 5}};
 
 /// A triangle of a and a point of b that has no foot in it.
-HWY_NOINLINE void measure_border_vertex(const XyzTriangle& t, const Xyz& q, Measured& nearest) {
+inline HWY_NOINLINE void measure_border_vertex(const XyzTriangle& t, const Xyz& q,
+                                               Measured& nearest) {
     nearest.distance_sq = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
         const Measured m = measure_edge_vertex(t[k], t[(k + 1) % 3], q);
@@ -98,15 +99,15 @@ HWY_INLINE Measured measure_face_vertex(const XyzTriangle& t, const Xyz& q) {
 }
 
 /// A triangle of a and the segment from q0 to q1, that of b.
-HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, const Xyz& q1,
-                                    Measured& nearest) {
+inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, const Xyz& q1,
+                                           Measured& nearest) {
     const Xyz normal = cross(t[1] - t[0], t[2] - t[0]);
     const double h0 = dot(normal, q0 - t[0]), h1 = dot(normal, q1 - t[0]);
     const bool pierces_plane = (h0 > 0) != (h1 > 0);
     if (pierces_plane) {
         const Xyz crossing = q0 + (h0 / (h0 - h1)) * (q1 - q0);
         if (foot_on(crossing, t).within) {
-            nearest = {crossing, to_xyz({}), 0, 7, 3};
+            nearest = {crossing, {}, 0, 7, 3};
             return;
         }
     }

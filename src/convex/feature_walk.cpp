@@ -80,7 +80,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     HullFeature a = state.a, b = state.b; ///< the pair that was accepted last
     HullFeature next_a = a, next_b = b;   ///< the pair to measure
     Growth grown_a{}, grown_b{};
-    Xyz point_a = to_xyz({}), gap = point_a;
+    Xyz point_a, gap;
     double distance_sq = std::numeric_limits<double>::infinity(), excess = 0;
     std::uint32_t count = 0;
     WalkEnd end = WalkEnd::closest;

@@ -22,7 +22,7 @@ namespace abut::HWY_NAMESPACE {
 struct alignas(32) Xyz {
     using Lanes = double __attribute__((vector_size(32)));
 
-    Lanes lanes;
+    Lanes lanes{};
 
     [[nodiscard]] HWY_INLINE double x() const { return lanes[0]; }
     [[nodiscard]] HWY_INLINE double y() const { return lanes[1]; }
