@@ -18,16 +18,6 @@ inline std::uint32_t farthest(const Polytope& polytope, const Vec3& direction) {
 }
 
 /// The vertices of a and b that are farthest along a direction and against it, found so.
-/// (Both climbs go on at once: what one waits for, the other need not.)
 VertexPair farthest(const PolytopePair& pair, const Vec3& direction);
-
-/// The neighbour that is highest along a direction, and how much higher than the vertex.
-struct HighestNeighbour {
-    double excess = 0;      ///< 0 if none is higher
-    std::uint32_t edge = 0; ///< to it; the first if none is higher
-};
-
-HighestNeighbour highest_neighbour(const Polytope& polytope, const HullVertex& vertex,
-                                   const Vec3& direction);
 
 } // namespace abut

@@ -139,8 +139,8 @@ constexpr std::uint32_t kSmallStep = 4;
 bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& last,
            ClosestPointSearch& search) {
     const PolytopePair pair = bodies.at(bodies.level_a, bodies.level_b);
-    if (last.kind == ConvexWorkspace::Kind::simplex) {
-        search.simplex = first_simplex(bodies.a, bodies.b, pair, &last);
+    if (has_simplex(last)) {
+        search.simplex = recalled_simplex(pair, last);
         find_closest_points_from_simplex(pair, rounding, search);
         return true;
     }

@@ -1,47 +1,45 @@
 #include <abut/convex.h>
 
+#include "convex/climb.h"
 #include "convex/convex_data.h"
 #include "convex/convex_query.h"
 #include "convex/expanding_polytope.h"
+#include "math/vector.h"
 
+#include <cmath>
 #include <optional>
 
 namespace abut {
 
 namespace {
 
-/// From what proved the last depth; none if it does not hold the origin any more, or there is none.
-std::optional<NearestBoundary> go_on(const PolytopePair& pair, double rounding,
-                                     ConvexWorkspace* workspace) {
-    if (workspace == nullptr || workspace->deepest.faces.empty())
-        return std::nullopt;
-    ExpandingPolytope polytope(pair, rounding);
-    if (!polytope.recall(workspace->deepest))
-        return std::nullopt;
-    std::optional<NearestBoundary> nearest = polytope.expand();
-    if (nearest)
-        polytope.remember(workspace->deepest);
-    return nearest;
+/// Four corners all around: one where the boundary is nearest by what the middles say, and three
+/// across from that. Most often they hold the origin; if not, a search of simplices goes on from them.
+DifferenceSimplex simplex_around(const PolytopePair& pair, const Vec3& between) {
+    const Vec3 u = length_sq(between) > 0 ? normalized_or_zero(-between) : Vec3{1, 0, 0};
+    const Vec3 v = perpendicular(u), w = cross(u, v);
+    const double cosine = -0.5, sine = std::sqrt(0.75); // a third of a turn
+    DifferenceSimplex simplex;
+    for (const Vec3& outward : {u, v, cosine * v + sine * w, cosine * v - sine * w})
+        add_if_new(farthest(pair, -outward), simplex);
+    return simplex;
 }
 
 /// From a simplex that holds the origin; none if there is none.
 std::optional<NearestBoundary> begin(const ConvexData& a, const ConvexData& b,
                                      const PolytopePair& pair, double rounding,
                                      ConvexWorkspace* workspace, ConvexCounters& counters) {
-    const DifferenceSimplex first = first_simplex(a, b, pair, workspace);
+    const DifferenceSimplex first = workspace != nullptr && has_simplex(*workspace)
+                                        ? recalled_simplex(pair, *workspace)
+                                        : simplex_around(pair, between_middles(a, b, pair));
     const SimplexState found = search_simplex(pair, first, rounding);
     counters.simplices = found.steps;
     if (!found.meeting)
         return std::nullopt;
-    ExpandingPolytope polytope(pair, rounding);
-    std::optional<NearestBoundary> nearest = polytope.begin(found.simplex);
-    if (!nearest)
-        nearest = polytope.expand();
-    if (workspace != nullptr) {
+    if (workspace != nullptr)
         remember(found.simplex, *workspace);
-        polytope.remember(workspace->deepest);
-    }
-    return nearest;
+    return expand_simplex(pair, rounding, found.simplex,
+                          workspace != nullptr ? &workspace->deepest : nullptr);
 }
 
 } // namespace
@@ -52,7 +50,10 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     const PolytopePair pair(a.data().levels[0].polytope, world_from_a, b.data().levels[0].polytope,
                             world_from_b);
     ConvexDepth result;
-    std::optional<NearestBoundary> nearest = go_on(pair, rounding, workspace);
+    // From what proved the last depth, if it still holds the origin.
+    std::optional<NearestBoundary> nearest;
+    if (workspace != nullptr && !workspace->deepest.faces.empty())
+        nearest = expand_again(pair, rounding, workspace->deepest);
     if (!nearest)
         nearest = begin(a.data(), b.data(), pair, rounding, workspace, result.counters);
     if (!nearest)

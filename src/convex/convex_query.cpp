@@ -35,20 +35,10 @@ VertexPair facing_vertices(const PolytopePair& pair, const Vec3& direction) {
             pair.b.polytope->starts.vertex(pair.b.pulled_back(-direction))};
 }
 
-DifferenceSimplex first_simplex(const ConvexData& a, const ConvexData& b, const PolytopePair& pair,
-                                const ConvexWorkspace* workspace) {
+DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWorkspace& workspace) {
     DifferenceSimplex simplex;
-    if (workspace == nullptr || workspace->kind != ConvexWorkspace::Kind::simplex) {
-        simplex.corners[0] = facing_vertices(pair, between_middles(a, b, pair));
-        simplex.count = 1;
-        return simplex;
-    }
-    for (const VertexPair& last : workspace->pairs) {
-        const VertexPair corner = recalled(pair, last);
-        auto* const end = simplex.corners.begin() + simplex.count;
-        if (std::find(simplex.corners.begin(), end, corner) == end)
-            simplex.corners[simplex.count++] = corner;
-    }
+    for (const VertexPair& last : workspace.pairs)
+        add_if_new(recalled(pair, last), simplex);
     return simplex;
 }
 

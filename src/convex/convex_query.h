@@ -27,10 +27,12 @@ inline VertexPair recalled(const PolytopePair& pair, const VertexPair& last) {
             last.b < pair.b.polytope->vertices.size() ? last.b : 0};
 }
 
-/// Where a search for a common point begins: at the simplex that is remembered, else at the
-/// vertices that face each other.
-DifferenceSimplex first_simplex(const ConvexData& a, const ConvexData& b, const PolytopePair& pair,
-                                const ConvexWorkspace* workspace);
+inline bool has_simplex(const ConvexWorkspace& workspace) {
+    return workspace.kind == ConvexWorkspace::Kind::simplex;
+}
+
+/// The simplex that is remembered, as far as the polytopes have it.
+DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWorkspace& workspace);
 
 /// A simplex that holds the origin.
 void remember(const DifferenceSimplex& simplex, ConvexWorkspace& workspace);

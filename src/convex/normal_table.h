@@ -2,12 +2,21 @@
 
 #include "math/vector.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 namespace abut {
 
 struct Polytope;
+
+/// Moves a point of the square away from its middle, along both axes: by the depth below the
+/// octahedron's equator, that folds its lower half out; by minus that, back.
+inline void fold_octahedron(double& u, double& v, double by) {
+    u += by * std::copysign(1.0, u);
+    v += by * std::copysign(1.0, v);
+}
 
 /// For each cell of a grid over all directions the vertex that is farthest along the cell's middle:
 /// where to begin to climb.
@@ -32,5 +41,19 @@ private:
     double half_ = 0.5; ///< of the resolution
     std::vector<std::uint32_t> vertices_;
 };
+
+inline std::uint32_t NormalTable::vertex(const Vec3& d) const {
+    const double size = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    if (!(size > 0) || vertices_.empty())
+        return 0;
+    const double share = 1 / size;
+    double u = share * d.x, v = share * d.y;
+    // The larger of -z and 0: a branch on which half it is would be a coin's.
+    fold_octahedron(u, v, 0.5 * share * (std::abs(d.z) - d.z));
+    const auto cell = [&](double w) {
+        return std::min(static_cast<std::uint32_t>(w * half_ + half_), resolution_ - 1);
+    };
+    return vertices_[cell(u) * resolution_ + cell(v)];
+}
 
 } // namespace abut

@@ -141,6 +141,12 @@ private:
 
 } // namespace
 
+void add_if_new(const VertexPair& corner, DifferenceSimplex& simplex) {
+    const auto end = simplex.corners.begin() + simplex.count;
+    if (std::find(simplex.corners.begin(), end, corner) == end)
+        simplex.corners[simplex.count++] = corner;
+}
+
 SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& start,
                             double rounding) {
     PlacedSimplex simplex(pair, start, rounding);

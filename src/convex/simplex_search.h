@@ -17,6 +17,9 @@ struct DifferenceSimplex {
     std::uint32_t count = 0;
 };
 
+/// In          fewer than four corners.
+void add_if_new(const VertexPair& corner, DifferenceSimplex& simplex);
+
 struct SimplexState {
     DifferenceSimplex simplex;
     bool meeting = false; ///< the origin lies in the simplex: so the polytopes share a point

@@ -1,30 +1,19 @@
 #include "geometry/point_triangle_distance.h"
 
+#include "geometry/nearest-inl.h"
+
 #include <algorithm>
 
 namespace abut {
 
 TriangleFoot foot_within(const Vec3& p, const Triangle& t) {
-    // Along the longest edge u, where a needle's foot is well determined whatever its width.
-    std::size_t k = 0;
-    for (std::size_t i = 1; i < 3; ++i)
-        if (length_sq(t[(i + 1) % 3] - t[i]) > length_sq(t[(k + 1) % 3] - t[k]))
-            k = i;
-    const Vec3& origin = t[k];
-    const Vec3 u = t[(k + 1) % 3] - origin, v = t[(k + 2) % 3] - origin, w = p - origin;
-    const Vec3 n = cross(u, v);
-    const double nn = length_sq(n), along = dot(cross(u, w), n);
-    if (!(nn > 0 && along >= 0 && along <= nn))
+    const auto foot = HWY_NAMESPACE::foot_on(p, t);
+    if (!foot.within)
         return {};
-    // h = (u x w) . n / n.n, and the best g for that h: what h is off by, g makes up for.
-    const double h = along / nn, g = dot(w - h * v, u) / length_sq(u);
-    if (!(g >= 0 && g + h <= 1))
-        return {};
-    const Vec3 foot = g * u + h * v;
-    TriangleFoot result{true, origin + foot, w - foot, {}};
-    result.weights[k] = std::max(0.0, 1 - g - h);
-    result.weights[(k + 1) % 3] = g;
-    result.weights[(k + 2) % 3] = h;
+    TriangleFoot result{true, foot.point, foot.gap, {}};
+    result.weights[foot.first] = std::max(0.0, 1 - foot.g - foot.h);
+    result.weights[(foot.first + 1) % 3] = foot.g;
+    result.weights[(foot.first + 2) % 3] = foot.h;
     return result;
 }
 

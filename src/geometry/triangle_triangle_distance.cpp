@@ -1,10 +1,15 @@
 #include "geometry/triangle_triangle_distance.h"
 
+#include "geometry/nearest-inl.h"
 #include "geometry/triangle_triangle_intersect.h"
 
 #include <algorithm>
 
 namespace abut {
+
+SegmentPoints nearest_on_segments(const Vec3& u, const Vec3& v, const Vec3& r) {
+    return HWY_NAMESPACE::nearest_on_segments(u, v, r);
+}
 
 namespace {
 

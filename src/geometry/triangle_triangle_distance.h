@@ -3,8 +3,6 @@
 #include "geometry/point_triangle_distance.h"
 #include "math/vector.h"
 
-#include <algorithm>
-
 namespace abut {
 
 /// Closest points of two segments by their parameters.
@@ -17,17 +15,7 @@ struct SegmentPoints {
 /// Degenerate  zero-length segments act as points; parallel segments return one minimiser.
 /// Source      [Ericson 2005, 5.1.9]. Differs: the lines' parameters come from cross products,
 ///             which keeps almost parallel segments exact to rounding.
-inline SegmentPoints nearest_on_segments(const Vec3& u, const Vec3& v, const Vec3& r) {
-    const auto clamp01 = [](double x) { return std::min(std::max(x, 0.0), 1.0); };
-    const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
-    const Vec3 n = cross(u, v);
-    const double nn = length_sq(n);
-    // Lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s for that t.
-    double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
-    const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
-    s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;
-    return {s, t, length_sq(r - s * u + t * v)};
-}
+SegmentPoints nearest_on_segments(const Vec3& u, const Vec3& v, const Vec3& r);
 
 /// The same of the segments from p0 to p1 and from q0 to q1, as points.
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,

@@ -56,6 +56,15 @@ inline double component(const Vec3& a, int axis) {
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
+/// Some unit vector across another; zero if that is.
+inline Vec3 perpendicular(const Vec3& v) {
+    const Vec3 size{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+    const Vec3 axis = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0}
+                      : size.y <= size.z                   ? Vec3{0, 1, 0}
+                                                           : Vec3{0, 0, 1};
+    return normalized_or_zero(cross(v, axis));
+}
+
 inline Vec3 min(const Vec3& a, const Vec3& b) {
     return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
 }

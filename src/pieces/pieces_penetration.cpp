@@ -65,12 +65,10 @@ private:
         result_.counters.simplices += found.steps;
         if (!found.meeting)
             return;
-        ExpandingPolytope polytope(pair, placed_.rounding);
-        std::optional<NearestBoundary> nearest = polytope.begin(found.simplex);
-        if (!nearest)
-            nearest = polytope.expand();
-        if (nearest && (!result_.meet || nearest->at_least > result_.depth))
-            keep(hulls, pair, *nearest);
+        const NearestBoundary nearest =
+            expand_simplex(pair, placed_.rounding, found.simplex, nullptr);
+        if (!result_.meet || nearest.at_least > result_.depth)
+            keep(hulls, pair, nearest);
         result_.meet = true;
     }
 

@@ -45,6 +45,12 @@ double highest(const ConvexData& body, const Vec3& direction) {
     return most;
 }
 
+bool same(const ConvexGap& g, const ConvexGap& h) {
+    return g.distance == h.distance && g.point_a == h.point_a && g.point_b == h.point_b &&
+           g.feature_a == h.feature_a && g.id_a == h.id_a && g.id_b == h.id_b &&
+           g.counters.feature_pairs == h.counters.feature_pairs;
+}
+
 /// Both ways: all vertices of small hulls are looked at, larger ones are climbed.
 TEST(ConvexSearch, FindsTheFarthestVerticesOnEverySimdTarget) {
     Random random(7301);
@@ -81,32 +87,42 @@ TEST(ConvexSearch, FindsTheFarthestVerticesOnEverySimdTarget) {
     EXPECT_GT(mixed, rounds / 10);
 }
 
-TEST(ConvexSearch, HighestNeighboursAreThoseOfTheRing) {
+/// Neighbours, feet and expanding polytopes are computed on each target: all of them round alike.
+TEST(ConvexSearch, AnswersAreTheSameOnEverySimdTarget) {
     Random random(7302);
-    int higher = 0, rounds = 0;
-    for (int i = 0; i < many(60); ++i) {
-        const ConvexData body = i % 5 == 0 ? cone(random.integer(3, 40))
-                                           : random_hull(random, random.integer(4, 300), i);
-        const Polytope& p = body.levels[0].polytope;
-        const Vec3 direction = random.direction();
-        for (const HullVertex& v : p.vertices) {
-            double most = 0;
-            for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
-                most = std::max(most, dot(direction, p.to(e) - v.at));
-            ++rounds;
-            higher += most > 0 ? 1 : 0;
-            for_each_simd_target([&](const std::string& target) {
-                const HighestNeighbour found = highest_neighbour(p, v, direction);
-                ASSERT_EQ(found.excess, most) << target;
-                ASSERT_LT(found.edge - v.first_edge, std::max(v.degree, 1U)) << target;
-                if (most > 0) {
-                    ASSERT_EQ(dot(direction, p.to(found.edge) - v.at), most) << target;
-                }
-            });
-        }
+    const auto points = [&](int k) {
+        return (k % 5 == 0 ? cone(random.integer(3, 40))
+                           : random_hull(random, random.integer(1, k % 2 == 0 ? 60 : 300), k))
+            .vertices;
+    };
+    int apart = 0, deep = 0, targets = 0;
+    const int rounds = many(200);
+    for (int i = 0; i < rounds; ++i) {
+        const Convex a(points(i)), b(points(random.integer(0, 29)));
+        const Transform world_a = random.pose(0.3), world_b = random.pose(1);
+        ConvexWorkspace last;
+        (void)distance(a, random.pose(0.3), b, world_b, {.workspace = &last});
+        ConvexGap first_gap, first_step;
+        ConvexDepth first_depth;
+        targets = 0;
+        for_each_simd_target([&](const std::string& target) {
+            ConvexWorkspace workspace = last;
+            const ConvexGap gap = distance(a, world_a, b, world_b);
+            const ConvexGap step = distance(a, world_a, b, world_b, {.workspace = &workspace});
+            const ConvexDepth depth = penetration(a, world_a, b, world_b);
+            if (targets++ == 0)
+                first_gap = gap, first_step = step, first_depth = depth;
+            EXPECT_TRUE(same(gap, first_gap) && same(step, first_step)) << target;
+            EXPECT_EQ(depth.depth, first_depth.depth) << target;
+            EXPECT_EQ(depth.point_b, first_depth.point_b) << target;
+            EXPECT_EQ(depth.counters.simplices, first_depth.counters.simplices) << target;
+        });
+        apart += first_gap.distance > 0 ? 1 : 0;
+        deep += first_depth.depth > 0 ? 1 : 0;
     }
-    EXPECT_GT(higher, rounds / 2);
-    EXPECT_LT(higher, rounds);
+    EXPECT_GT(targets, 1);
+    EXPECT_GT(apart, rounds / 10);
+    EXPECT_GT(deep, rounds / 5);
 }
 
 /// Of a point below a plane, to the digits of long double.
