@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "convex/feature_walk.cpp"
 #include "simd/foreach_target.h"
 #include "convex/climb-inl.h"
-#include "convex/feature_distance-inl.h"
+#include "convex/feature_pair-inl.h"
 #include "convex/placed_xyz-inl.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // Closest points of two features of convex polytopes.
 
 // Included once for each target.
-#if defined(ABUT_CONVEX_FEATURE_DISTANCE_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef ABUT_CONVEX_FEATURE_DISTANCE_INL_H
-#undef ABUT_CONVEX_FEATURE_DISTANCE_INL_H
+#if defined(ABUT_CONVEX_FEATURE_PAIR_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ABUT_CONVEX_FEATURE_PAIR_INL_H
+#undef ABUT_CONVEX_FEATURE_PAIR_INL_H
 #else
-#define ABUT_CONVEX_FEATURE_DISTANCE_INL_H
+#define ABUT_CONVEX_FEATURE_PAIR_INL_H
 #endif
 
 #include "convex/feature_walk.h"
