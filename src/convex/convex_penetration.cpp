@@ -1,6 +1,5 @@
 #include <abut/convex.h>
 
-#include "convex/climb.h"
 #include "convex/convex_data.h"
 #include "convex/convex_query.h"
 #include "convex/expanding_polytope.h"
@@ -21,7 +20,7 @@ DifferenceSimplex simplex_around(const PolytopePair& pair, const Vec3& between) 
     const double cosine = -0.5, sine = std::sqrt(0.75); // a third of a turn
     DifferenceSimplex simplex;
     for (const Vec3& outward : {u, v, cosine * v + sine * w, cosine * v - sine * w})
-        add_if_new(farthest(pair, -outward), simplex);
+        add_if_new(facing_vertices(pair, -outward), simplex);
     return simplex;
 }
 
