@@ -220,7 +220,7 @@ void BlockTree::add_wear() {
 
 bool BlockTree::is_worn() const {
     // To order a block's boxes takes about as long as to test it against so many others.
-    constexpr double kBlockPairsOfBuild = 64;
+    constexpr double kBlockPairsOfBuild = 12;
     return wear_ > kBlockPairsOfBuild * static_cast<double>(built_size_.size());
 }
 
