@@ -72,7 +72,7 @@ private:
 } // namespace
 
 std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& wanted) {
-    return std::make_unique<AutomaticSearch>(wanted);
+    return make_hub_search(std::make_unique<AutomaticSearch>(wanted), wanted);
 }
 
 } // namespace abut

@@ -1,7 +1,6 @@
 #include "world/block_tree.h"
 
 #include "core/parallel.h"
-#include "math/vector.h"
 #include "simd/simd.h"
 #include "world/median_order.h"
 
@@ -14,24 +13,6 @@ namespace abut {
 namespace {
 
 constexpr std::size_t kBlocksOfTask = 256;
-
-/// A coordinate near which most boxes lie: the median of a sample, so that a few far away do not
-/// cost the others their precision.
-double middle_of(std::span<const Box3> boxes, int axis) {
-    std::vector<double> sample;
-    const std::size_t stride = std::max<std::size_t>(boxes.size() / 64, 1);
-    for (std::size_t i = 0; i < boxes.size(); i += stride) {
-        const double middle =
-            0.5 * component(boxes[i].lower, axis) + 0.5 * component(boxes[i].upper, axis);
-        if (takes_part(boxes[i]) && std::isfinite(middle))
-            sample.push_back(middle);
-    }
-    if (sample.empty())
-        return 0;
-    const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-    std::nth_element(sample.begin(), median, sample.end());
-    return *median;
-}
 
 Middle middle_of(const Aabb& box, std::uint32_t index) {
     Middle middle{{}, index};
@@ -57,7 +38,7 @@ float size_of(const Aabb& box) {
 } // namespace
 
 void BlockTree::build(std::span<const Box3> boxes) {
-    frame_ = NarrowFrame({middle_of(boxes, 0), middle_of(boxes, 1), middle_of(boxes, 2)});
+    frame_ = NarrowFrame::about(boxes);
     order_.resize(boxes.size()), lane_.resize(boxes.size());
     std::vector<Middle> middles;
     middles.reserve(boxes.size());
