@@ -13,8 +13,9 @@ namespace {
 /// become such.
 std::vector<std::uint32_t> choose_hubs(std::span<const IndexPair> pairs, std::size_t boxes,
                                        const std::vector<std::uint32_t>& hubs) {
-    // A row of bits takes as long as the pairs with one in 25 boxes; two lists, as some pairs a box.
-    constexpr std::size_t kShare = 8, kShareOfHub = 32, kPairs = 4, kPairsOfHubs = 2;
+    // Measured where all boxes go elsewhere, which is the least favourable. A row of bits then takes as
+    // long as the pairs with a quarter of all boxes; two lists, as three pairs a box.
+    constexpr std::size_t kShare = 4, kShareOfHub = 8, kPairs = 3, kPairsOfHubs = 2;
     const std::size_t least_pairs = boxes * (hubs.empty() ? kPairs : kPairsOfHubs);
     if (pairs.size() < least_pairs)
         return {};
@@ -39,7 +40,7 @@ public:
         : search_(std::move(others)), wanted_(std::move(wanted)) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
-        rows_.assign({}, boxes.size(), {});
+        rows_.assign({}, {});
         search_->restart(boxes, list);
         is_current_ = true;
         chosen_ = choose_hubs(list.pairs(), boxes.size(), {});
@@ -47,14 +48,14 @@ public:
     }
 
     void update(const BoxStep& step, PairList& list) override {
-        if (chosen_ != rows_.hubs() || (!chosen_.empty() && rows_.size() != step.boxes.size()))
+        if (chosen_ != hubs() || (!chosen_.empty() && rows_.hubs().boxes() != step.boxes.size()))
             take_apart(step.boxes.size(), list);
-        if (!rows_.hubs().empty())
-            update_both(step, list);
-        else
+        if (hubs().empty())
             search(step, list);
+        else
+            update_both(step, list);
         if (!(list.begun().empty() && list.ended().empty()) && --left_ == 0) {
-            chosen_ = choose_hubs(list.pairs(), step.boxes.size(), rows_.hubs());
+            chosen_ = choose_hubs(list.pairs(), step.boxes.size(), hubs());
             left_ = kStepsOfChoice;
         }
     }
@@ -63,15 +64,17 @@ private:
     /// Counting costs little, compared with so many steps.
     static constexpr std::size_t kStepsOfChoice = 16;
 
+    [[nodiscard]] const std::vector<std::uint32_t>& hubs() const { return rows_.hubs().hubs(); }
+
     /// The last step's pairs, as if these had been the hubs then.
     void take_apart(std::size_t boxes, const PairList& list) {
-        const bool are_others_same = chosen_ == rows_.hubs();
-        rows_.assign(chosen_, boxes, list.pairs());
+        const bool are_others_same = chosen_ == hubs();
+        rows_.assign({chosen_, boxes}, list.pairs());
         if (are_others_same)
             return;
         std::vector<IndexPair> others;
         std::copy_if(list.pairs().begin(), list.pairs().end(), std::back_inserter(others),
-                     [&](IndexPair pair) { return !rows_.has(pair); });
+                     [&](IndexPair pair) { return !rows_.hubs().has(pair); });
         others_.assign(std::move(others));
         is_current_ = false;
     }
@@ -87,14 +90,15 @@ private:
     void update_both(const BoxStep& step, PairList& list) {
         hide_hubs(step);
         search({boxes_, step.changed}, others_);
-        rows_.update(step, wanted_, found_begun_, found_ended_);
-        std::vector<IndexPair> begun = sorted(found_begun_, others_.begun()),
-                               ended = sorted(found_ended_, others_.ended());
+        rows_.update(step, wanted_);
+        std::vector<IndexPair> begun, ended;
+        rows_.begun().write(rows_.hubs(), others_.begun(), begun);
+        rows_.ended().write(rows_.hubs(), others_.ended(), ended);
         if (begun.empty() && ended.empty()) {
             list.change({}, {});
             return;
         }
-        rows_.write(others_.pairs(), pairs_);
+        rows_.pairs().write(rows_.hubs(), others_.pairs(), pairs_);
         list.replace(pairs_, std::move(begun), std::move(ended));
     }
 
@@ -106,19 +110,8 @@ private:
             for (const std::uint32_t box : step.changed)
                 boxes_[box] = step.boxes[box];
         }
-        for (const std::uint32_t hub : rows_.hubs())
+        for (const std::uint32_t hub : hubs())
             boxes_[hub] = Box3();
-    }
-
-    /// Those found, and the others.
-    [[nodiscard]] std::vector<IndexPair> sorted(const std::vector<std::vector<IndexPair>>& found,
-                                                const std::vector<IndexPair>& others) const {
-        std::vector<IndexPair> pairs, all;
-        sort_pairs(found, boxes_.size(), pairs);
-        all.reserve(pairs.size() + others.size());
-        std::merge(pairs.begin(), pairs.end(), others.begin(), others.end(),
-                   std::back_inserter(all));
-        return all;
     }
 
     std::unique_ptr<PairSearch> search_; ///< of all but hubs
@@ -130,7 +123,6 @@ private:
     PairList others_;         ///< pairs without hubs, where there are any
     std::vector<Box3> boxes_; ///< hubs empty
     std::vector<IndexPair> pairs_;
-    std::vector<std::vector<IndexPair>> found_begun_, found_ended_;
 };
 
 } // namespace

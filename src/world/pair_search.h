@@ -46,7 +46,8 @@ std::unique_ptr<PairSearch> make_sweep_search(PairFilter wanted);
 /// Sorted along three axes.
 std::unique_ptr<PairSearch> make_sweep_and_prune(PairFilter wanted);
 
-/// Boxes with pairs by the hundred apart, in rows of bits (`hub_rows.h`); another search for all others.
+/// Hubs, boxes that meet a large share of all others, by rows of bits (`hub_rows.h`); all others by
+/// another search.
 std::unique_ptr<PairSearch> make_hub_search(std::unique_ptr<PairSearch> others, PairFilter wanted);
 
 /// The one of these that suits the step.
