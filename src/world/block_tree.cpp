@@ -65,6 +65,10 @@ void BlockTree::build(std::span<const Box3> boxes) {
 void BlockTree::refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
     if (boxes.size() > order_.size())
         append(boxes.size());
+    if (changed.size() == order_.size() && sampled_wear(boxes) > most_wear()) {
+        wear_ = 2 * most_wear();
+        return;
+    }
     // Beyond some share it is cheaper to go through all blocks in their order.
     constexpr std::size_t kFew = 16;
     if (changed.size() * kFew > order_.size()) {
@@ -181,28 +185,44 @@ void BlockTree::mark(std::span<const std::uint32_t> changed) {
                 levels_[level].marks[child / kWidth] |= 1U << child % kWidth;
 }
 
+double BlockTree::excess(std::size_t block, const Aabb& bounds) const {
+    const float size = size_of(bounds);
+    if (!(size > built_size_[block]))
+        return 0;
+    // About as many more blocks are met as there is more volume.
+    const auto most = static_cast<float>(built_size_.size());
+    const float growth = built_size_[block] > 0 ? size / built_size_[block] : most;
+    return double{std::min(growth * growth * growth, most)} - 1;
+}
+
 void BlockTree::add_wear() {
     if (levels_.size() < 2)
         return;
-    const auto most = static_cast<float>(built_size_.size());
-    double excess = 0;
-    for (std::size_t block = 0; block < built_size_.size(); ++block) {
-        if (levels_[0].marks[block] == 0)
-            continue;
-        const float size = size_of(levels_[1].blocks[block / kWidth].box(block % kWidth));
-        if (!(size > built_size_[block]))
-            continue;
-        // About as many more blocks are met as there is more volume.
-        const float growth = built_size_[block] > 0 ? size / built_size_[block] : most;
-        excess += double{std::min(growth * growth * growth, most)} - 1;
+    for (std::size_t block = 0; block < built_size_.size(); ++block)
+        if (levels_[0].marks[block] != 0)
+            wear_ += excess(block, levels_[1].blocks[block / kWidth].box(block % kWidth));
+}
+
+double BlockTree::sampled_wear(std::span<const Box3> boxes) {
+    constexpr std::size_t kStride = 16;
+    if (levels_.size() < 2)
+        return 0;
+    double sum = 0;
+    for (std::size_t block = 0; block < built_size_.size(); block += kStride) {
+        fit_block(boxes, block);
+        sum += excess(block, levels_[0].blocks[block].bounds());
     }
-    wear_ += excess;
+    return sum * kStride;
+}
+
+double BlockTree::most_wear() const {
+    // To order a block's boxes takes about as long as to test it against so many others.
+    constexpr double kBlockPairsOfBuild = 12;
+    return kBlockPairsOfBuild * static_cast<double>(built_size_.size());
 }
 
 bool BlockTree::is_worn() const {
-    // To order a block's boxes takes about as long as to test it against so many others.
-    constexpr double kBlockPairsOfBuild = 12;
-    return wear_ > kBlockPairsOfBuild * static_cast<double>(built_size_.size());
+    return wear_ > most_wear();
 }
 
 } // namespace abut
