@@ -29,7 +29,7 @@ std::vector<BroadPhaseOptions> options_of(BroadPhaseMethod method) {
             {method, [](std::uint32_t i, std::uint32_t k) { return (i + k) % 3 != 0; }}};
 }
 
-class BroadPhases : public testing::TestWithParam<SceneKind> {};
+class BroadPhases : public testing::TestWithParam<BoxSceneKind> {};
 
 TEST_P(BroadPhases, FindAllPairsAndChanges) {
     Random random(5001);
@@ -41,7 +41,7 @@ TEST_P(BroadPhases, FindAllPairsAndChanges) {
                 set_threads(random.integer(1, 4));
                 const int count =
                     random.chance(0.1) ? random.integer(0, 3) : random.integer(20, 700);
-                Script script(random, GetParam(), std::size_t(count));
+                BoxScript script(random, GetParam(), std::size_t(count));
                 BroadPhase phase(options);
                 phase.update(script.boxes());
                 Pairs last = all_pairs(script.boxes(), options);
@@ -74,7 +74,7 @@ TEST_P(BroadPhases, FindTheSameWithEverySimdTarget) {
     Random random(5002);
     std::size_t found = 0;
     for (int round = 0; round < 4; ++round) {
-        const Script script(random, GetParam(), 300);
+        const BoxScript script(random, GetParam(), 300);
         const Pairs truth = all_pairs(script.boxes(), {});
         for_each_simd_target([&](const std::string& target) {
             SCOPED_TRACE(target);
@@ -86,7 +86,7 @@ TEST_P(BroadPhases, FindTheSameWithEverySimdTarget) {
     EXPECT_GT(found, 100U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, BroadPhases, testing::ValuesIn(kKinds),
+INSTANTIATE_TEST_SUITE_P(Kinds, BroadPhases, testing::ValuesIn(kBoxSceneKinds),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST(BroadPhase, DriftsLongEnoughToWearTheTreeAndToTryTheAxes) {
@@ -120,10 +120,10 @@ TEST(BroadPhase, DriftsLongEnoughToWearTheTreeAndToTryTheAxes) {
 
 TEST(BroadPhase, ManyBoxesHaveTheSamePairsForEveryMethodAndAnyThreads) {
     Random random(5006);
-    for (SceneKind kind : kKinds) {
+    for (BoxSceneKind kind : kBoxSceneKinds) {
         SCOPED_TRACE(kind.name);
         kind.hubs *= 0.05; // of many boxes, few
-        Script script(random, kind, 20000);
+        BoxScript script(random, kind, 20000);
         BroadPhase tree({BroadPhaseMethod::tree, {}}), sweep({BroadPhaseMethod::sweep, {}}),
             automatic;
         std::size_t pairs = 0;
@@ -153,8 +153,8 @@ TEST(BroadPhase, FindsPairsWithinAGap) {
     Random random(5004);
     std::size_t found = 0, apart = 0;
     for (int round = 0; round < many(40); ++round) {
-        const SceneKind& kind = kKinds[std::size_t(round) % kKinds.size()];
-        const Script script(random, kind, 60);
+        const BoxSceneKind& kind = kBoxSceneKinds[std::size_t(round) % kBoxSceneKinds.size()];
+        const BoxScript script(random, kind, 60);
         const double gap =
             kind.lattice > 0 ? kind.lattice * random.integer(0, 3) : random.uniform(0, 0.2);
         const auto odd = [](std::uint32_t i, std::uint32_t k) { return (i + k) % 2 == 1; };

@@ -54,10 +54,11 @@ struct Counts {
 };
 
 /// A search of its own for each script, which begins with a restart, as after `forget`.
-void run_script(Random& random, const SceneKind& kind, const PairFilter& wanted, Counts& counts) {
+void run_script(Random& random, const BoxSceneKind& kind, const PairFilter& wanted,
+                Counts& counts) {
     Seen seen;
     const auto search = make_hub_search(std::make_unique<Witness>(wanted, seen), wanted);
-    Script script(random, kind, std::size_t(random.integer(30, 400)));
+    BoxScript script(random, kind, std::size_t(random.integer(30, 400)));
     PairList list;
     search->restart(script.boxes(), list);
     Pairs last = all_pairs(script.boxes(), {{}, wanted});
@@ -90,7 +91,7 @@ TEST(HubSearch, FindsAllPairsAndChangesWhileHubsComeAndGo) {
     const PairFilter some = [](std::uint32_t i, std::uint32_t k) { return (i + k) % 4 != 0; };
     const int rounds = many(12);
     for (int round = 0; round < rounds; ++round)
-        for (const SceneKind& kind : kKinds)
+        for (const BoxSceneKind& kind : kBoxSceneKinds)
             for (const PairFilter& wanted : {PairFilter(), some}) {
                 SCOPED_TRACE(kind.name);
                 set_threads(random.integer(1, 4));
@@ -102,15 +103,15 @@ TEST(HubSearch, FindsAllPairsAndChangesWhileHubsComeAndGo) {
     EXPECT_GT(counts.with_hubs, counts.steps / 8);
     EXPECT_LT(counts.with_hubs, counts.steps * 7 / 8);
     // Each script begins with one; sets of hubs change in some.
-    EXPECT_GT(counts.restarts, std::size_t(rounds) * kKinds.size() * 2 * 3 / 2);
+    EXPECT_GT(counts.restarts, std::size_t(rounds) * kBoxSceneKinds.size() * 2 * 3 / 2);
     EXPECT_GT(counts.changes, counts.steps * 50);
 }
 
 TEST(HubSearch, FindsTheSameWithEverySimdTargetAndNumberOfThreads) {
     Random random(5012);
     // Enough that several tasks share the rows.
-    const SceneKind kind{"with_hubs", 0, 0, 4, false, 0.02};
-    Script first(random, kind, 3000);
+    const BoxSceneKind kind{"with_hubs", 0, 0, 4, false, 0.02};
+    BoxScript first(random, kind, 3000);
     const std::vector<Box3> before = first.boxes();
     while (first.step().size() < before.size()) {
     }

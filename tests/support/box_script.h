@@ -43,7 +43,7 @@ inline Pairs without(const Pairs& a, const Pairs& b) {
 }
 
 /// What a script's boxes are like.
-struct SceneKind {
+struct BoxSceneKind {
     const char* name;
     double lattice;  ///< coordinates are multiples of this; 0: any
     double offset;   ///< where the world lies
@@ -52,19 +52,19 @@ struct SceneKind {
     double hubs = 0; ///< this share of the boxes is about as large as the world
 };
 
-inline constexpr std::array kKinds{
-    SceneKind{"scattered", 0, 0, 4, false},
-    SceneKind{"clustered", 0, 0, 8, true},
-    SceneKind{"equal_coordinates", 0.125, 0, 6, false},
-    SceneKind{"far_away", 0, 1e7, 6, false},
-    SceneKind{"far_lattice", 0x1p-20, 0x1p23, 6, false},
-    SceneKind{"with_hubs", 0, 0, 4, false, 0.05},
-    SceneKind{"with_hubs_far_away", 0, 1e7, 4, false, 0.1},
-    SceneKind{"with_hubs_at_equal_coordinates", 0.125, 0, 4, false, 0.05}};
+inline constexpr std::array kBoxSceneKinds{
+    BoxSceneKind{"scattered", 0, 0, 4, false},
+    BoxSceneKind{"clustered", 0, 0, 8, true},
+    BoxSceneKind{"equal_coordinates", 0.125, 0, 6, false},
+    BoxSceneKind{"far_away", 0, 1e7, 6, false},
+    BoxSceneKind{"far_lattice", 0x1p-20, 0x1p23, 6, false},
+    BoxSceneKind{"with_hubs", 0, 0, 4, false, 0.05},
+    BoxSceneKind{"with_hubs_far_away", 0, 1e7, 4, false, 0.1},
+    BoxSceneKind{"with_hubs_at_equal_coordinates", 0.125, 0, 4, false, 0.05}};
 
-class Script {
+class BoxScript {
 public:
-    Script(Random& random, const SceneKind& kind, std::size_t count)
+    BoxScript(Random& random, const BoxSceneKind& kind, std::size_t count)
         : random_(random), kind_(kind), side_(std::cbrt(kind.overlaps / double(count)) / 2) {
         for (std::size_t i = 0; i < count; ++i)
             boxes_.push_back(anywhere());
@@ -145,7 +145,7 @@ private:
     }
 
     Random& random_;
-    const SceneKind& kind_;
+    const BoxSceneKind& kind_;
     double side_;
     std::vector<Box3> boxes_;
 };
