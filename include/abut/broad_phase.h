@@ -21,6 +21,13 @@ public:
     IndexPair(std::uint32_t i, std::uint32_t k)
         : key_(i < k ? std::uint64_t{i} << 32 | k : std::uint64_t{k} << 32 | i) {}
 
+    /// The pair with this key.
+    static IndexPair of_key(std::uint64_t key) {
+        IndexPair pair;
+        pair.key_ = key;
+        return pair;
+    }
+
     [[nodiscard]] std::uint32_t a() const noexcept {
         return static_cast<std::uint32_t>(key_ >> 32);
     }

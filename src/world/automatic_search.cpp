@@ -7,15 +7,15 @@ namespace abut {
 
 namespace {
 
-/// The tree, which is good at everything; for small worlds in slow motion, and for slow ones with many
-/// pairs, three sorted axes, for which next to nothing changes.
+/// The tree, with hubs apart, which is good at everything; for small worlds in slow motion three sorted
+/// axes, for which next to nothing changes.
 ///
 /// How much changes places is known once the axes are sorted. So they are tried, with a limit at
 /// which the try is given up; each time it fails, more steps pass before the next one.
 class AutomaticSearch final : public PairSearch {
 public:
     explicit AutomaticSearch(const PairFilter& wanted)
-        : tree_(make_tree_search(wanted)), axes_(wanted) {}
+        : tree_(make_hub_search(make_tree_search(wanted), wanted)), axes_(wanted) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
         stay_with_tree();
@@ -37,7 +37,7 @@ public:
         if (on_axes_)
             stay_with_tree();
         tree_->update(step, list);
-        if ((boxes <= kMostBoxes || pairs > kManyPairs * boxes) && --left_ == 0) {
+        if (boxes <= kMostBoxes && --left_ == 0) {
             axes_.sort_axes(step.boxes);
             on_axes_ = true;
         }

@@ -1,7 +1,6 @@
 #include "world/block_tree.h"
 
 #include "core/parallel.h"
-#include "math/vector.h"
 #include "simd/simd.h"
 #include "world/median_order.h"
 
@@ -14,24 +13,6 @@ namespace abut {
 namespace {
 
 constexpr std::size_t kBlocksOfTask = 256;
-
-/// A coordinate near which most boxes lie: the median of a sample, so that a few far away do not
-/// cost the others their precision.
-double middle_of(std::span<const Box3> boxes, int axis) {
-    std::vector<double> sample;
-    const std::size_t stride = std::max<std::size_t>(boxes.size() / 64, 1);
-    for (std::size_t i = 0; i < boxes.size(); i += stride) {
-        const double middle =
-            0.5 * component(boxes[i].lower, axis) + 0.5 * component(boxes[i].upper, axis);
-        if (takes_part(boxes[i]) && std::isfinite(middle))
-            sample.push_back(middle);
-    }
-    if (sample.empty())
-        return 0;
-    const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
-    std::nth_element(sample.begin(), median, sample.end());
-    return *median;
-}
 
 Middle middle_of(const Aabb& box, std::uint32_t index) {
     Middle middle{{}, index};
@@ -57,7 +38,7 @@ float size_of(const Aabb& box) {
 } // namespace
 
 void BlockTree::build(std::span<const Box3> boxes) {
-    frame_ = NarrowFrame({middle_of(boxes, 0), middle_of(boxes, 1), middle_of(boxes, 2)});
+    frame_ = NarrowFrame::about(boxes);
     order_.resize(boxes.size()), lane_.resize(boxes.size());
     std::vector<Middle> middles;
     middles.reserve(boxes.size());
@@ -84,6 +65,10 @@ void BlockTree::build(std::span<const Box3> boxes) {
 void BlockTree::refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
     if (boxes.size() > order_.size())
         append(boxes.size());
+    if (changed.size() == order_.size() && sampled_wear(boxes) > most_wear()) {
+        wear_ = 2 * most_wear();
+        return;
+    }
     // Beyond some share it is cheaper to go through all blocks in their order.
     constexpr std::size_t kFew = 16;
     if (changed.size() * kFew > order_.size()) {
@@ -200,28 +185,44 @@ void BlockTree::mark(std::span<const std::uint32_t> changed) {
                 levels_[level].marks[child / kWidth] |= 1U << child % kWidth;
 }
 
+double BlockTree::excess(std::size_t block, const Aabb& bounds) const {
+    const float size = size_of(bounds);
+    if (!(size > built_size_[block]))
+        return 0;
+    // About as many more blocks are met as there is more volume.
+    const auto most = static_cast<float>(built_size_.size());
+    const float growth = built_size_[block] > 0 ? size / built_size_[block] : most;
+    return double{std::min(growth * growth * growth, most)} - 1;
+}
+
 void BlockTree::add_wear() {
     if (levels_.size() < 2)
         return;
-    const auto most = static_cast<float>(built_size_.size());
-    double excess = 0;
-    for (std::size_t block = 0; block < built_size_.size(); ++block) {
-        if (levels_[0].marks[block] == 0)
-            continue;
-        const float size = size_of(levels_[1].blocks[block / kWidth].box(block % kWidth));
-        if (!(size > built_size_[block]))
-            continue;
-        // About as many more blocks are met as there is more volume.
-        const float growth = built_size_[block] > 0 ? size / built_size_[block] : most;
-        excess += double{std::min(growth * growth * growth, most)} - 1;
+    for (std::size_t block = 0; block < built_size_.size(); ++block)
+        if (levels_[0].marks[block] != 0)
+            wear_ += excess(block, levels_[1].blocks[block / kWidth].box(block % kWidth));
+}
+
+double BlockTree::sampled_wear(std::span<const Box3> boxes) {
+    constexpr std::size_t kStride = 16;
+    if (levels_.size() < 2)
+        return 0;
+    double sum = 0;
+    for (std::size_t block = 0; block < built_size_.size(); block += kStride) {
+        fit_block(boxes, block);
+        sum += excess(block, levels_[0].blocks[block].bounds());
     }
-    wear_ += excess;
+    return sum * kStride;
+}
+
+double BlockTree::most_wear() const {
+    // To order a block's boxes takes about as long as to test it against so many others.
+    constexpr double kBlockPairsOfBuild = 12;
+    return kBlockPairsOfBuild * static_cast<double>(built_size_.size());
 }
 
 bool BlockTree::is_worn() const {
-    // To order a block's boxes takes about as long as to test it against so many others.
-    constexpr double kBlockPairsOfBuild = 64;
-    return wear_ > kBlockPairsOfBuild * static_cast<double>(built_size_.size());
+    return wear_ > most_wear();
 }
 
 } // namespace abut

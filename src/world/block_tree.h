@@ -27,7 +27,8 @@ public:
 
     /// Orders the boxes and fits all blocks. All are marked.
     void build(std::span<const Box3> boxes);
-    /// Fits the blocks of boxes that have changed or are new, and marks them.
+    /// Fits the blocks of boxes that have changed or are new, and marks them; but where all have changed
+    /// so much that the tree is worn by this step alone, it only becomes worn.
     void refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
 
     /// Whether it pays to build anew before the next pairs are found: blocks have grown so much
@@ -50,7 +51,12 @@ private:
     void fit_parents(std::size_t level);
     void forget_marks();
     void mark(std::span<const std::uint32_t> changed);
+    /// Pairs of a block too many, with these bounds.
+    [[nodiscard]] double excess(std::size_t block, const Aabb& bounds) const;
     void add_wear();
+    /// About what `add_wear` will add if all boxes have changed; fits some blocks.
+    double sampled_wear(std::span<const Box3> boxes);
+    [[nodiscard]] double most_wear() const;
 
     NarrowFrame frame_;
     std::vector<std::uint32_t> order_; ///< lane of level 0 -> box

@@ -1,6 +1,11 @@
 #include "world/box_block.h"
 
+#include "math/vector.h"
+
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <vector>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "world/box_block.cpp"
@@ -70,6 +75,31 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(find_meetings_simd);
+
+namespace {
+
+/// The median of a sample.
+double middle_of(std::span<const Box3> boxes, int axis) {
+    std::vector<double> sample;
+    const std::size_t stride = std::max<std::size_t>(boxes.size() / 64, 1);
+    for (std::size_t i = 0; i < boxes.size(); i += stride) {
+        const double middle =
+            0.5 * component(boxes[i].lower, axis) + 0.5 * component(boxes[i].upper, axis);
+        if (takes_part(boxes[i]) && std::isfinite(middle))
+            sample.push_back(middle);
+    }
+    if (sample.empty())
+        return 0;
+    const auto median = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
+    std::nth_element(sample.begin(), median, sample.end());
+    return *median;
+}
+
+} // namespace
+
+NarrowFrame NarrowFrame::about(std::span<const Box3> boxes) {
+    return NarrowFrame({middle_of(boxes, 0), middle_of(boxes, 1), middle_of(boxes, 2)});
+}
 
 void find_meetings(const BoxBlock& a, std::uint32_t rows, const BoxBlock& b, const Aabb& bounds_b,
                    BlockMeetings& meetings) {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace abut {
 
@@ -36,6 +37,8 @@ class NarrowFrame {
 public:
     NarrowFrame() = default;
     explicit NarrowFrame(const Vec3& centre) : centre_(centre) {}
+    /// About where most of the boxes lie: so that a few far away do not cost the others their precision.
+    static NarrowFrame about(std::span<const Box3> boxes);
 
     [[nodiscard]] Aabb narrow(const Box3& box) const {
         Aabb result;

@@ -12,12 +12,15 @@ namespace {
 
 using Run = std::span<Middle>;
 
+/// About: by a sample spread over the run.
 std::size_t widest_axis(Run run) {
+    constexpr std::size_t kSample = 64;
+    const std::size_t stride = std::max<std::size_t>(run.size() / kSample, 1);
     std::array<float, 3> lower = run.front().point, upper = lower;
-    for (const Middle& middle : run)
+    for (std::size_t i = 0; i < run.size(); i += stride)
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            lower[axis] = std::min(lower[axis], middle.point[axis]);
-            upper[axis] = std::max(upper[axis], middle.point[axis]);
+            lower[axis] = std::min(lower[axis], run[i].point[axis]);
+            upper[axis] = std::max(upper[axis], run[i].point[axis]);
         }
     std::size_t widest = 0;
     for (std::size_t axis = 1; axis < 3; ++axis)
@@ -62,6 +65,8 @@ void select(Run run, std::size_t axis, std::size_t rank) {
             continue;
         }
         run = run.subspan(below), rank -= below;
+        if (below > 0)
+            continue;
         const std::size_t equal =
             partition(run, [&](const Middle& m) { return m.point[axis] == value; });
         if (rank <= equal)

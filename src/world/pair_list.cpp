@@ -73,6 +73,16 @@ void PairList::find_changes() {
     join(changes, &Differences::only_b, begun_);
 }
 
+void PairList::assign(std::vector<IndexPair> pairs) {
+    pairs_ = std::move(pairs);
+}
+
+void PairList::replace(std::vector<IndexPair>& pairs, std::vector<IndexPair> begun,
+                       std::vector<IndexPair> ended) {
+    std::swap(pairs_, pairs);
+    begun_ = std::move(begun), ended_ = std::move(ended);
+}
+
 void PairList::replace_all(std::vector<std::vector<IndexPair>>& found, std::size_t boxes) {
     std::swap(pairs_, last_);
     sort_pairs(found, boxes, pairs_);

@@ -20,11 +20,16 @@ public:
     [[nodiscard]] const std::vector<IndexPair>& begun() const { return begun_; }
     [[nodiscard]] const std::vector<IndexPair>& ended() const { return ended_; }
 
+    /// The pairs of the last step, sorted.
+    void assign(std::vector<IndexPair> pairs);
     /// All pairs are those in `found`, in any order, each once; `found` is used up.
     /// `boxes`: all indices are less.
     void replace_all(std::vector<std::vector<IndexPair>>& found, std::size_t boxes);
     /// The pairs with a marked box are those in `found`; the others stay.
     void replace_marked(std::vector<std::vector<IndexPair>>& found, const BoxMarks& marks);
+    /// The pairs, sorted, and in what they differ; in exchange for the storage of others.
+    void replace(std::vector<IndexPair>& pairs, std::vector<IndexPair> begun,
+                 std::vector<IndexPair> ended);
     /// These pairs begin and end; both sorted, each once.
     void change(std::vector<IndexPair> begun, std::vector<IndexPair> ended);
 

@@ -46,6 +46,10 @@ std::unique_ptr<PairSearch> make_sweep_search(PairFilter wanted);
 /// Sorted along three axes.
 std::unique_ptr<PairSearch> make_sweep_and_prune(PairFilter wanted);
 
+/// Hubs, boxes that meet a large share of all others, by rows of bits (`hub_rows.h`); all others by
+/// another search.
+std::unique_ptr<PairSearch> make_hub_search(std::unique_ptr<PairSearch> others, PairFilter wanted);
+
 /// The one of these that suits the step.
 std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& wanted);
 

@@ -22,6 +22,9 @@ public:
     }
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] std::size_t of(IndexPair pair) const { return pair.a() >> shift_; }
+    /// How many boxes a pair of one run may have first, and which of them it has.
+    [[nodiscard]] std::size_t rows() const { return std::size_t{1} << shift_; }
+    [[nodiscard]] std::size_t row(IndexPair pair) const { return pair.a() & (rows() - 1); }
     /// How many bits, and which, distinguish the pairs of one run.
     [[nodiscard]] int rest_bits() const { return shift_ + index_bits_; }
     [[nodiscard]] std::uint64_t rest(IndexPair pair) const {
@@ -36,19 +39,65 @@ private:
     std::size_t count_;
 };
 
+struct SortScratch {
+    std::vector<IndexPair> pairs;
+    std::vector<std::uint32_t> first;
+};
+
+/// Pairs of one box, each to the place that as many as are less leave for it. Without a branch on the
+/// data.
+void sort_row(std::span<const IndexPair> row, IndexPair* to) {
+    for (const IndexPair pair : row) {
+        std::size_t rank = 0;
+        for (const IndexPair other : row)
+            rank += other.b() < pair.b() ? 1 : 0;
+        to[rank] = pair;
+    }
+}
+
+/// Of few pairs a box: dealt out to the boxes.
+void sort_rows(std::span<IndexPair> run, const Runs& runs, SortScratch& scratch) {
+    constexpr std::size_t kLongRow = 24;
+    scratch.first.assign(runs.rows() + 1, 0);
+    for (const IndexPair pair : run)
+        ++scratch.first[runs.row(pair) + 1];
+    for (std::size_t row = 1; row < scratch.first.size(); ++row)
+        scratch.first[row] += scratch.first[row - 1];
+    for (const IndexPair pair : run)
+        scratch.pairs[scratch.first[runs.row(pair)]++] = pair;
+    // Now each has come to where the next one begins.
+    std::uint32_t begin = 0;
+    for (std::size_t row = 0; row < runs.rows(); ++row) {
+        const std::uint32_t end = scratch.first[row];
+        const auto pairs = std::span(scratch.pairs).subspan(begin, end - begin);
+        if (pairs.size() > kLongRow)
+            std::sort(pairs.begin(), pairs.end());
+        if (pairs.size() > kLongRow)
+            std::copy(pairs.begin(), pairs.end(), run.begin() + begin);
+        else
+            sort_row(pairs, run.data() + begin);
+        begin = end;
+    }
+}
+
 /// Least significant digit first.
-void sort_run(std::span<IndexPair> run, const Runs& runs, std::vector<IndexPair>& scratch) {
+void sort_run(std::span<IndexPair> run, const Runs& runs, SortScratch& scratch) {
     constexpr int kMostBits = 10;
     constexpr std::size_t kSmall = 128;
     if (run.size() < kSmall) {
         std::sort(run.begin(), run.end());
         return;
     }
-    scratch.resize(run.size());
+    scratch.pairs.resize(run.size());
     const int passes = std::max((runs.rest_bits() + kMostBits - 1) / kMostBits, 1);
+    constexpr std::size_t kPairsOfRow = 12;
+    if (passes > 2 && run.size() < kPairsOfRow * runs.rows()) {
+        sort_rows(run, runs, scratch);
+        return;
+    }
     const int bits = (runs.rest_bits() + passes - 1) / passes;
     const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    std::span<IndexPair> from = run, to(scratch);
+    std::span<IndexPair> from = run, to(scratch.pairs);
     for (int pass = 0; pass < passes; ++pass) {
         std::array<std::uint32_t, (1 << kMostBits) + 1> first{};
         const auto digit = [&](IndexPair pair) { return runs.rest(pair) >> pass * bits & mask; };
@@ -107,7 +156,7 @@ void sort_pairs(const Lists& lists, std::size_t boxes, std::vector<IndexPair>& s
     const std::vector<std::size_t> first = deal(lists, runs, sorted);
     constexpr std::size_t kRunsOfTask = 8;
     parallel_for((runs.count() + kRunsOfTask - 1) / kRunsOfTask, 1, [&](std::size_t task) {
-        std::vector<IndexPair> scratch;
+        SortScratch scratch;
         const std::size_t end = std::min((task + 1) * kRunsOfTask, runs.count());
         for (std::size_t run = task * kRunsOfTask; run < end; ++run)
             sort_run(std::span(sorted).subspan(first[run], first[run + 1] - first[run]), runs,

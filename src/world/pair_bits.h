@@ -1,0 +1,82 @@
+#pragma once
+
+#include <abut/broad_phase.h>
+
+#include "world/box_block.h"
+#include "world/pair_list.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// Which boxes of a step are hubs: boxes that meet a large share of all others.
+class HubSet {
+public:
+    HubSet() = default;
+    /// In          hubs: sorted; boxes: the number of all.
+    HubSet(std::vector<std::uint32_t> hubs, std::size_t boxes);
+
+    [[nodiscard]] const std::vector<std::uint32_t>& hubs() const { return hubs_; }
+    /// The number of all boxes.
+    [[nodiscard]] std::size_t boxes() const { return is_hub_.size(); }
+    [[nodiscard]] bool contains(std::size_t box) const { return is_hub_[box] != 0; }
+    /// Whether either is one.
+    [[nodiscard]] bool has(IndexPair pair) const {
+        return contains(pair.a()) || contains(pair.b());
+    }
+    /// How many hubs come before a box.
+    [[nodiscard]] std::size_t rank_of(std::uint32_t box) const;
+
+private:
+    std::vector<std::uint32_t> hubs_;
+    BoxMarks is_hub_;
+};
+
+/// Rows of bits; sixteen, as many as a block has boxes, to a column.
+struct BitTable {
+    static constexpr std::size_t kWidth = BoxBlock::kWidth;
+    std::size_t columns = 0;
+    std::vector<std::uint16_t> bits{};
+
+    /// All zero.
+    void assign(std::size_t rows, std::size_t lanes);
+    void set(std::size_t row, std::size_t lane) {
+        bits[row * columns + lane / kWidth] |= static_cast<std::uint16_t>(1U << lane % kWidth);
+    }
+    [[nodiscard]] std::span<const std::uint16_t> row(std::size_t row) const {
+        return std::span(bits).subspan(row * columns, columns);
+    }
+    [[nodiscard]] std::size_t count(std::size_t row) const;
+};
+
+/// Pairs with a hub, a bit each. The row of a hub says which boxes of a higher index it is paired with;
+/// the row of any other box, which hubs of a higher index: so rows in the order of the boxes are the
+/// sorted pairs.
+struct PairBits {
+    BitTable of_hubs;                       ///< rows: hubs; lanes: boxes
+    BitTable of_boxes;                      ///< rows: boxes, those of hubs empty; lanes: hubs
+    std::vector<std::size_t> pairs_of_part; ///< of each so many boxes
+    static constexpr std::size_t kBoxesOfPart = 64;
+
+    /// None.
+    void assign(const HubSet& hubs);
+    void insert(const HubSet& hubs, IndexPair pair);
+    /// Counts the pairs of each part, after bits have changed.
+    void count(const HubSet& hubs);
+    /// All pairs, these and others, sorted. In: others: sorted, without a hub; counted.
+    ///
+    /// Cost        some 1 ns a pair; in parallel.
+    void write(const HubSet& hubs, std::span<const IndexPair> others,
+               std::vector<IndexPair>& pairs) const;
+
+private:
+    static constexpr std::size_t kPartsOfTask = 8;
+    IndexPair* write_row(const HubSet& hubs, std::uint32_t box, IndexPair* to) const;
+    void write_part(const HubSet& hubs, std::size_t part, std::span<const IndexPair> others,
+                    IndexPair* to) const;
+};
+
+} // namespace abut
