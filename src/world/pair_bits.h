@@ -68,7 +68,7 @@ struct PairBits {
     void count(const HubSet& hubs);
     /// All pairs, these and others, sorted. In: others: sorted, without a hub; counted.
     ///
-    /// Cost        some 1 ns a pair; in parallel.
+    /// Cost        linear in the pairs and in the words of bits, in parallel.
     void write(const HubSet& hubs, std::span<const IndexPair> others,
                std::vector<IndexPair>& pairs) const;
 
