@@ -124,8 +124,12 @@ private:
             for (std::size_t i = begin; i < end; ++i)
                 our_answers[i] = ours(poses[i], i);
         };
-        for (const auto& make : {make_fcl_convex, make_bullet_convex}) {
-            const std::unique_ptr<ConvexPeer> peer = make(a, b);
+        using MakePeer = std::unique_ptr<ConvexPeer> (*)(const Convex&, const Convex&);
+        const std::vector<MakePeer> peers =
+            options_.alone ? std::vector<MakePeer>{nullptr}
+                           : std::vector<MakePeer>{make_fcl_convex, make_bullet_convex};
+        for (const MakePeer make : peers) {
+            const std::unique_ptr<ConvexPeer> peer = make != nullptr ? make(a, b) : nullptr;
             Work peer_work;
             if (peer) {
                 peer->set_poses(poses);

@@ -108,6 +108,7 @@ int run(int argc, char** argv) {
     convex_suite->add_option("files", convex.files, "Model files whose hulls are taken too");
     convex_suite->add_option("--vertices", convex.vertices, "Of the ellipsoids");
     convex_suite->add_option("--poses", convex.poses, "In each case");
+    convex_suite->add_flag("--alone", convex.alone, "Without peers");
     add_only(convex_suite, convex.only);
     add_rounds(convex_suite, convex.rounds);
     convex_suite->add_option("--seed", convex.seed, "Of bodies and poses");

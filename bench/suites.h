@@ -120,6 +120,7 @@ struct ConvexSuiteOptions {
     std::vector<std::string> files;                    ///< models whose hulls are taken too
     std::vector<std::size_t> vertices{100, 500, 2000}; ///< of the ellipsoids
     std::size_t poses = 2000;                          ///< in each case
+    bool alone = false;                                ///< without peers
     std::string only;                                  ///< run the cases whose name has this in it
     int rounds = 5;
     std::uint64_t seed = 1;
