@@ -18,7 +18,7 @@
 #include <cstdint>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::HWY_NAMESPACE::rings {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -181,7 +181,7 @@ HWY_INLINE HighestNeighbour highest_neighbour(const Polytope& polytope, const Hu
     return highest;
 }
 
-} // namespace abut::HWY_NAMESPACE
+} // namespace abut::HWY_NAMESPACE::rings
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -9,7 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
 std::uint32_t climb_one(const Polytope& polytope, const Vec3& direction, std::uint32_t start) {
-    Climber climber(polytope, direction, start);
+    rings::Climber climber(polytope, direction, start);
     while (climber.step()) {
     }
     return climber.vertex();
@@ -17,7 +17,7 @@ std::uint32_t climb_one(const Polytope& polytope, const Vec3& direction, std::ui
 
 VertexPair farthest_of_two(const Polytope& a, const Vec3& direction_a, const Polytope& b,
                            const Vec3& direction_b) {
-    return farthest_two(a, direction_a, b, direction_b);
+    return rings::farthest_two(a, direction_a, b, direction_b);
 }
 
 } // namespace abut::HWY_NAMESPACE

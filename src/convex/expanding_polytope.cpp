@@ -123,8 +123,8 @@ private:
         return b_.vertex(vertices.b) - a_.vertex(vertices.a);
     }
     [[nodiscard]] HWY_INLINE VertexPair farthest_vertices(const Xyz& direction) const {
-        return farthest_two(a_.polytope(), to_vec3(a_.pulled_back(-direction)), b_.polytope(),
-                            to_vec3(b_.pulled_back(direction)));
+        return rings::farthest_two(a_.polytope(), to_vec3(a_.pulled_back(-direction)),
+                                   b_.polytope(), to_vec3(b_.pulled_back(direction)));
     }
     [[nodiscard]] bool is_corner_of(const GrowingBoundary::Face& face,
                                     const VertexPair& vertices) const {
@@ -255,9 +255,8 @@ private:
 void expand_from(const PolytopePair& pair, double rounding, const DifferenceSimplex& start,
                  DifferencePolytope* grown, NearestBoundary& nearest) {
     ExpandingPolytope polytope(pair, rounding);
-    if (!polytope.begin(start, nearest))
-        return;
-    polytope.expand(nearest);
+    if (polytope.begin(start, nearest))
+        polytope.expand(nearest);
     if (grown != nullptr)
         polytope.remember(*grown);
 }

@@ -31,8 +31,8 @@ struct NearestBoundary {
 ///
 /// In          `pair` and `rounding` as for `walk`; `start`: a simplex that holds the origin, to
 ///             rounding.
-/// Out         `grown`, if not null: what it has grown to; empty if that is a large one, or not
-///             closed. Not set if the difference is flat.
+/// Out         `grown`, if not null: what it has grown to; empty if that is a large one, not
+///             closed, or the difference is flat.
 /// Source      [van den Bergen 2001]. Differs: it ends by both bounds, and the faces lie in one
 ///             list; no heap: the upper bound leaves few to look at.
 NearestBoundary expand_simplex(const PolytopePair& pair, double rounding,

@@ -69,7 +69,7 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
             return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0};
         // Between coplanar triangles: a part of a face, whose side only the others tell.
     }
-    const HighestNeighbour h = highest_neighbour(p, v, n);
+    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n);
     return {h.excess, {f.vertex, h.edge, Feature::edge}, h.excess > 0 && f.kind == Feature::vertex};
 }
 

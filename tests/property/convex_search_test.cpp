@@ -1,5 +1,23 @@
 // What queries of convex bodies begin with: farthest vertices on every SIMD target, and balls inside.
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "tests/property/convex_search_test.cpp"
+#include "simd/foreach_target.h"
+#include "convex/climb-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+void look_at_ring(const Polytope& polytope, const HullVertex& vertex, const Vec3& direction,
+                  double& excess, std::uint32_t& edge) {
+    const rings::HighestNeighbour highest = rings::highest_neighbour(polytope, vertex, direction);
+    excess = highest.excess, edge = highest.edge;
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "convex/climb.h"
 #include "convex/convex_data.h"
 #include "math/transform.h"
@@ -9,7 +27,11 @@
 
 #include <gtest/gtest.h>
 
-namespace abut::test {
+namespace abut {
+
+HWY_EXPORT(look_at_ring);
+
+namespace test {
 namespace {
 
 /// On an ellipsoid; or, every third time, on a coarse grid, so that many are equally far.
@@ -85,6 +107,36 @@ TEST(ConvexSearch, FindsTheFarthestVerticesOnEverySimdTarget) {
     EXPECT_GT(small, rounds / 10);
     EXPECT_GT(large, rounds / 20);
     EXPECT_GT(mixed, rounds / 10);
+}
+
+TEST(ConvexSearch, HighestNeighboursAreThoseOfTheRing) {
+    Random random(7302);
+    int higher = 0, rounds = 0;
+    for (int i = 0; i < many(60); ++i) {
+        const ConvexData body = i % 5 == 0 ? cone(random.integer(3, 40))
+                                           : random_hull(random, random.integer(4, 300), i);
+        const Polytope& p = body.levels[0].polytope;
+        const Vec3 direction = random.direction();
+        for (const HullVertex& v : p.vertices) {
+            double most = 0;
+            for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
+                most = std::max(most, dot(direction, p.to(e) - v.at));
+            ++rounds;
+            higher += most > 0 ? 1 : 0;
+            for_each_simd_target([&](const std::string& target) {
+                double excess = 0;
+                std::uint32_t edge = 0;
+                HWY_DYNAMIC_DISPATCH(look_at_ring)(p, v, direction, excess, edge);
+                ASSERT_EQ(excess, most) << target;
+                ASSERT_LT(edge - v.first_edge, std::max(v.degree, 1U)) << target;
+                if (most > 0) {
+                    ASSERT_EQ(dot(direction, p.to(edge) - v.at), most) << target;
+                }
+            });
+        }
+    }
+    EXPECT_GT(higher, rounds / 2);
+    EXPECT_LT(higher, rounds);
 }
 
 /// Neighbours, feet and expanding polytopes are computed on each target: all of them round alike.
@@ -187,4 +239,6 @@ TEST(ConvexSearch, TheBallOfACubeIsTheLargest) {
 }
 
 } // namespace
-} // namespace abut::test
+} // namespace test
+} // namespace abut
+#endif
