@@ -2,7 +2,9 @@
 
 #include <abut/error.h>
 
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
@@ -21,8 +23,15 @@ namespace {
 } // namespace
 
 void write_file_atomically(const std::string& path, std::string_view content) {
-    const std::string temporary = path + ".part" + std::to_string(getpid());
-    const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    // The file is new, so that no other writer's is overwritten or removed: not another thread's, nor that of
+    // a process of the same number on another machine.
+    static std::atomic<std::uint64_t> writers{0};
+    std::string temporary;
+    int file = -1;
+    do {
+        temporary = path + ".part" + std::to_string(getpid()) + "-" + std::to_string(writers++);
+        file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (file < 0 && errno == EEXIST);
     if (file < 0)
         throw Error(ErrorCode::cannot_write, path,
                     std::string("cannot be written: ") + std::strerror(errno));

@@ -1,8 +1,28 @@
 #include "core/program_folder.h"
 
+#include <abut/helper_programs.h>
+
 #include <system_error>
 
 namespace abut {
+
+namespace {
+
+/// Is set before main, from any source's initialisation: hence no object of this source's.
+std::filesystem::path& folder_of_helpers() {
+    static std::filesystem::path folder;
+    return folder;
+}
+
+} // namespace
+
+void set_helper_folder(const std::string& folder) {
+    folder_of_helpers() = folder;
+}
+
+const std::filesystem::path& helper_folder() {
+    return folder_of_helpers();
+}
 
 std::filesystem::path program_folder() {
     std::error_code ignored;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 namespace abut {
@@ -14,6 +15,8 @@ namespace abut {
 namespace {
 
 int open_without_name(const std::string& folder) {
+    if (folder == kInMemory)
+        return memfd_create("abut-temporary", MFD_CLOEXEC);
     const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
         return file;

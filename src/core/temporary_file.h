@@ -8,13 +8,16 @@
 
 namespace abut {
 
+/// In place of a folder: the file is kept in memory.
+inline constexpr const char* kInMemory = ":memory:";
+
 /// A file without a name: it is gone with the process that made it, however that ends.
 ///
 /// Reads and writes at any place, from any thread; what is written by one thread and read by
 /// another must be ordered by the caller.
 class TemporaryFile {
 public:
-    /// In          folder: where the disk space is taken from.
+    /// In          folder: where the disk space is taken from, or kInMemory.
     /// Errors      Error{cannot_write}, naming the folder.
     explicit TemporaryFile(const std::string& folder);
     ~TemporaryFile();
@@ -32,6 +35,8 @@ public:
     std::size_t read_some(std::uint64_t at, std::span<std::byte> bytes) const;
 
     [[nodiscard]] const std::string& folder() const noexcept { return folder_; }
+    /// To hand the file to another process.
+    [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
 private:
     std::string folder_;

@@ -18,6 +18,11 @@ namespace abut {
 template <typename Position>
 std::vector<std::uint32_t> first_equal_positions(std::span<Position> positions);
 
+/// Keeps the first of equal positions, in their order. Returns for each former position its new number.
+/// In and cost as first_equal_positions.
+template <typename Position>
+std::vector<std::uint32_t> join_equal_positions(std::vector<Position>& positions);
+
 namespace detail {
 
 /// The bits of a coordinate, the same for -0 and 0.
@@ -69,6 +74,23 @@ std::vector<std::uint32_t> first_equal_positions(std::span<Position> positions) 
         first[i] = table[place];
     }
     return first;
+}
+
+template <typename Position>
+std::vector<std::uint32_t> join_equal_positions(std::vector<Position>& positions) {
+    std::vector<std::uint32_t> number_of = first_equal_positions(std::span(positions));
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < number_of.size(); ++i) {
+        const std::uint32_t first = number_of[i];
+        if (first < i) {
+            number_of[i] = number_of[first];
+            continue;
+        }
+        positions[count] = positions[i];
+        number_of[i] = count++;
+    }
+    positions.resize(count);
+    return number_of;
 }
 
 } // namespace abut
