@@ -2,6 +2,7 @@
 #include <abut/motion.h>
 #include <abut/scene.h>
 
+#include "long_motion_rows.h"
 #include "measure.h"
 #include "peer_impact.h"
 #include "suites.h"
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace abut::bench {
 
@@ -145,8 +147,8 @@ Row measure(const Pair& pair, const std::string& kind, double turn,
 } // namespace
 
 Report run_impact_suite(const ImpactSuiteOptions& options) {
-    if (options.files.size() % 2 != 0)
-        throw Error(ErrorCode::bad_argument, "impact: takes pairs of files");
+    if (options.files.size() % 2 != 0 || (options.files.empty() && !options.is_long))
+        throw Error(ErrorCode::bad_argument, "impact: takes pairs of files, or --long");
     Report report;
     report.suite = "impact";
     report.notes.emplace_back("unit diagonals, each moved by one in opposite directions; thread "
@@ -160,6 +162,9 @@ Report run_impact_suite(const ImpactSuiteOptions& options) {
         report.rows.push_back(measure(pair, "straight", 0, options));
         report.rows.push_back(measure(pair, "turning", 0.5 * std::numbers::pi, options));
     }
+    if (options.is_long)
+        for (Row& row : long_motion_rows(options.rounds))
+            report.rows.push_back(std::move(row));
     return report;
 }
 

@@ -69,7 +69,9 @@ int run(int argc, char** argv) {
     ImpactSuiteOptions impact;
     CLI::App* impact_suite =
         app.add_subcommand("impact", "Time of impact of models that cross each other, against FCL");
-    impact_suite->add_option("files", impact.files, "Pairs of model files")->required();
+    impact_suite->add_option("files", impact.files, "Pairs of model files");
+    impact_suite->add_flag("--long", impact.is_long,
+                           "Also large bodies that turn against small ones, slide and nest");
     impact_suite->add_option("--motions", impact.motions, "Random motions a row")
         ->check(CLI::Range(1, 1000000));
     add_rounds(impact_suite, impact.rounds);

@@ -77,6 +77,7 @@ Report run_rigid_suite(const RigidSuiteOptions& options);
 
 struct ImpactSuiteOptions {
     std::vector<std::string> files; ///< first and second model of each pair
+    bool is_long = false;           ///< also large bodies against small ones
     int motions = 200;
     int rounds = 3;
     std::uint64_t seed = 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/model.h>
+#include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/types.h>
 
@@ -53,10 +54,16 @@ Transform at(const Motion& motion, double t);
 
 struct ImpactOptions {
     /// Length. At the time returned, the models are at most this far apart. None given: a
-    /// millionth of the larger model's diagonal. Less than rounding leaves of the coordinates is
-    /// taken as that. It decides how close below the first contact the time is, not whether there
-    /// is one.
+    /// millionth of the diagonal of the larger model's bounding box. It decides how close below the
+    /// first contact the time is, not whether there is one. Where rounding of the coordinates
+    /// leaves more, the status is `converged`.
     std::optional<double> tolerance{};
+    /// At most so many steps: in each, a pair of boxes is opened or a pair of triangles is
+    /// measured. A search that needs more answers what it has proven, see Impact::out_of_steps.
+    /// None given: no limit.
+    std::optional<std::uint64_t> max_steps{};
+    /// Reports the share of the time that is proven free.
+    Progress progress{};
 };
 
 struct Impact {
@@ -72,11 +79,17 @@ struct Impact {
     Vec3 point_a, point_b; ///< closest points of these triangles at `time`, world frame
     Vec3 normal;           ///< unit vector from a to b there; zero if they meet at the start
     std::uint32_t triangle_a = 0, triangle_b = 0;
-    /// exact: the hit is proven (`contact_time`), or that there is none. bound_only: the models
-    /// come as near as `gap` at `time`, and whether they touch was not decided: they graze each
-    /// other within rounding, or slide along each other nearer than the tolerance for longer than
-    /// the search's limit. A hit is reported, to be safe.
+    /// exact: the hit is proven (`contact_time`), or that there is none. converged: the hit is
+    /// proven, and `gap` exceeds the tolerance, which is less than rounding leaves of the
+    /// coordinates. bound_only: whether the models touch was not decided: they come as near as
+    /// `gap` at `time`, and graze each other within rounding or slide along each other nearer than
+    /// the tolerance for a long time; or the search ran out of steps. A hit is reported, to be
+    /// safe.
     Status status = Status::exact;
+    /// The search ended because of ImpactOptions::max_steps. The motion is free up to `time`, and
+    /// nothing is known of what comes after: `gap` is infinite, points and triangles are zero.
+    bool out_of_steps = false;
+    std::uint64_t steps = 0; ///< see ImpactOptions::max_steps
     Counters counters;
 };
 
@@ -88,13 +101,17 @@ struct Impact {
 ///             speed; an empty model meets nothing.
 /// Accuracy    never later than the first contact and never missing one, for the motion in real
 ///             arithmetic as well as for the positions of `at`; the gap left is at most the
-///             tolerance.
+///             tolerance, unless the status tells otherwise.
 /// Errors      Error{bad_argument} if a value is not finite, a quaternion has zero length, the
 ///             tolerance is negative or NaN, or coordinates or speeds exceed 1e100.
-/// Cost        one traversal of both trees in the order of time, as a `distance`.
+///             Error{interrupted} if the stop flag is set.
+/// Cost        one traversal of both trees in the order of time, as a `distance`, for each quarter
+///             of a radian that both turn. The steps that a pair of triangles takes grow with the
+///             logarithm of its size over the tolerance, unless it slides along a gap for long.
 /// Source      conservative advancement [Mirtich 1996; Zhang, Redon, Lee, Kim 2006; Tang, Kim,
 ///             Manocha 2009]. Differs: every pair of nodes advances on its own, the pair of
-///             earliest possible contact first; bounds are of second order in time.
+///             earliest possible contact first; bounds are of second order in time, along planes
+///             that turn with a body or stay parallel to two edges.
 Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
                       const Motion& motion_b, const ImpactOptions& options = {});
 

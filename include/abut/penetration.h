@@ -36,9 +36,9 @@ struct Depth {
     /// other. False if they only touch.
     bool interpenetrate = false;
     std::vector<ContactRegion> regions; ///< by first pair; those without pairs come last
-    /// Of the deepest region. With a solid it is a lower bound of every separating translation's
-    /// length. Between open shells, the largest separating translation of two crossing triangles: a
-    /// lower bound too, but one that a finer mesh makes smaller.
+    /// Of the deepest region: a lower bound of every separating translation's length; between open
+    /// shells, the largest of two crossing triangles. Where neither surface reaches inside the other
+    /// (solids that coincide), the shortest translation found that parts them. docs/penetration.md
     double depth = 0;
     double depth_at_most = 0;
     Vec3 direction, point_a, point_b; ///< of the deepest region
@@ -60,9 +60,9 @@ struct PenetrationOptions {
 /// Penetration of two models.
 ///
 /// Frame       all results in the world frame.
-/// Degenerate  an empty model meets nothing. Solids that coincide, or overlap in faces only, have
-///             no point of one surface inside the other: they interpenetrate with depth 0, and
-///             `separation` says how far they must go. Flattened models contain nothing.
+/// Degenerate  an empty model meets nothing. Solids that coincide have no point of one surface
+///             inside the other: see Depth::depth; their regions have depth 0. Flattened models
+///             contain nothing.
 /// Accuracy    whether surfaces meet and cross, and what is connected: exact. Depths are reached at
 ///             the witness points, to rounding.
 /// Errors      Error{bad_argument} if a transform is not finite or the accuracy is negative or NaN.

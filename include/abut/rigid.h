@@ -75,21 +75,21 @@ Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
 /// A pair of closest points.
 struct Gap {
     double distance = std::numeric_limits<double>::infinity(); ///< 0 if the surfaces meet
-    double at_least = 0; ///< no two points are closer: proven; the distance itself if that is exact
+    double at_least = 0;   ///< no two points are closer: proven, rounded down
     Vec3 point_a, point_b; ///< on the surfaces, world frame
     std::uint32_t triangle_a = 0, triangle_b = 0;
     /// What the points lie on: a triangle's vertex i, its edge from vertex i to the next, its face.
     Feature feature_a = Feature::face, feature_b = Feature::face;
     std::uint8_t index_a = 0, index_b = 0; ///< that i
-    /// converged: within the errors allowed; bound_only: `distance` is the `upper_bound` given, and
-    /// no pair is closer.
+    /// exact: to rounding, up or down by no more than distance - at_least; converged: within the errors
+    /// allowed; bound_only: `distance` is the `upper_bound` given, and no pair is closer to rounding.
     Status status = Status::exact;
     Counters counters;
 };
 
 struct DistanceOptions {
-    /// Stop caring beyond this: if no two points are closer, the result is `bound_only` with this
-    /// distance. A known bound makes the query faster.
+    /// Stop caring beyond this: if no two points are closer (to rounding), the result is `bound_only`
+    /// with this distance; any other result is less. A known bound makes the query faster.
     double upper_bound = std::numeric_limits<double>::infinity();
     /// What the distance may exceed the true one by: this length, or this share of the result.
     double absolute_error = 0, relative_error = 0;

@@ -6,6 +6,7 @@
 #include "geometry/feature_distance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace abut {
@@ -33,11 +34,12 @@ public:
 
 private:
     void keep(ElementaryKind kind, bool face_first, FeatureIds ids, const PairVertices& vertices) {
-        const FeatureDistance found = feature_distance(
-            kind, {vertices[0]->start, vertices[1]->start, vertices[2]->start, vertices[3]->start});
-        if (found.lower <= distance_)
-            list_.push_back(
-                {kind, face_first, ids.a, ids.b, std::sqrt(found.distance_sq), found.barycentric});
+        const std::array points{vertices[0]->start, vertices[1]->start, vertices[2]->start,
+                                vertices[3]->start};
+        const FeatureDistance found = feature_distance(kind, points);
+        if (are_within(kind, points, found, distance_))
+            list_.push_back({kind, face_first, ids.a, ids.b, std::min(found.distance, distance_),
+                             found.barycentric});
     }
 
     PairGeometry<ElementaryKind::edge_edge> edges_;

@@ -1,6 +1,7 @@
 #include "geometry/elementary_advancement.h"
 
 #include "geometry/scaled_patch.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,7 +10,6 @@ namespace abut {
 
 namespace {
 
-constexpr double kEpsilon = 0x1p-53;
 /// What a hit may be farther apart than the thickness: in parts of it, or in the scaled patch's
 /// units, far above rounding there.
 constexpr double kTolerance = 1e-6, kLeastTolerance = 0x1p-40;
@@ -37,12 +37,12 @@ public:
         : pair_(pair), moving_(pair), end_corners_(moving_.end.corners()),
           thickness_(moving_.scaled(thickness)) {
         const double tolerance = kTolerance * thickness_;
-        converged_ = (1 - 4 * kEpsilon) * (thickness_ + tolerance);
-        near_ = (1 - 4 * kEpsilon) *
+        converged_ = (1 - 4 * kUnitRoundoff) * (thickness_ + tolerance);
+        near_ = (1 - 4 * kUnitRoundoff) *
                 (thickness_ + std::max({tolerance, moving_.scaled(delta), kLeastTolerance}));
         // A direction is longer than 1 by at most 6 eps, and the thickness may have lost digits to
         // underflow.
-        clear_ = (1 + 10 * kEpsilon) * thickness_ + 1.25 * kAlongOff;
+        clear_ = (1 + 10 * kUnitRoundoff) * thickness_ + 1.25 * kAlongOff;
         aim_ = 0.5 * (clear_ + near_);
     }
 

@@ -5,14 +5,13 @@
 #include "simd/foreach_target.h"
 // Once for each target:
 #include "geometry/elementary_lanes-inl.h"
+#include "math/rounding.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace elementary; // NOLINT: within this target's namespace
-
-constexpr double kEpsilon = 0x1p-53;
 
 template <class D>
 HWY_INLINE hn::Vec<D> blend(hn::Vec<D> one_minus_t, hn::Vec<D> t, hn::Vec<D> a, hn::Vec<D> b) {
@@ -48,8 +47,8 @@ struct Cubic {
         const auto size_xy = hn::Mul(p.size_x, p.size_y), product = hn::Mul(size_xy, p.size_c);
         const auto tiny = hn::Set(d, 0x1p-1000), huge = hn::Set(d, 0x1p1000);
         const auto error = hn::MulAdd(
-            hn::Set(d, 80 * kEpsilon), product,
-            hn::MulAdd(hn::Set(d, 32 * kEpsilon), size, hn::MulAdd(tiny, p.size_c, tiny)));
+            hn::Set(d, 80 * kUnitRoundoff), product,
+            hn::MulAdd(hn::Set(d, 32 * kUnitRoundoff), size, hn::MulAdd(tiny, p.size_c, tiny)));
         const auto in_range = hn::And(hn::Lt(product, huge), hn::Lt(size_xy, huge));
         c.error = hn::IfThenElse(in_range, error, hn::Inf(d));
         return c;
@@ -146,7 +145,7 @@ struct Area {
 template <class D>
 HWY_INLINE Area<D> sub(D d, const Area<D>& a, const Area<D>& b) {
     const auto value = hn::Sub(a.value, b.value);
-    const auto rounding = hn::Mul(hn::Set(d, 2 * kEpsilon), hn::Abs(value));
+    const auto rounding = hn::Mul(hn::Set(d, 2 * kUnitRoundoff), hn::Abs(value));
     return {value, hn::Add(hn::Add(a.error, b.error), rounding)};
 }
 
@@ -161,7 +160,7 @@ struct Middle {
 /// by, and by 8 roundings.
 template <class D>
 HWY_INLINE Area<D> seen(D d, const Middle<D>& u, const Middle<D>& v, const Lanes3<D>& m) {
-    const auto sizes = hn::Mul(hn::Set(d, 8 * kEpsilon), hn::Mul(u.size, v.size));
+    const auto sizes = hn::Mul(hn::Set(d, 8 * kUnitRoundoff), hn::Mul(u.size, v.size));
     const auto off = hn::MulAdd(u.off, hn::Add(v.size, v.off), hn::MulAdd(u.size, v.off, sizes));
     return {dot<D>(m, cross<D>(u.v, v.v)), hn::MulAdd(hn::Set(d, 6.2), off, hn::Set(d, 0x1p-900))};
 }
@@ -183,12 +182,12 @@ HWY_INLINE Crossing<D> decide_root(D d, const Patches<D>& p, const Cubic<D>& cub
     // An interval around the root, outside which there is no other.
     const auto [root, slope] = cubic.root(d);
     const auto width = hn::Add(hn::Div(hn::Add(cubic.error, cubic.error), hn::Abs(slope)),
-                               hn::Set(d, 4 * kEpsilon));
+                               hn::Set(d, 4 * kUnitRoundoff));
     const auto part_start = hn::Max(hn::Sub(root, width), zero),
                part_end = hn::Min(hn::Add(root, width), one);
     const auto alone = hn::And(cubic.split(d, part_start).before.is_below(),
                                cubic.split(d, part_end).after.is_above());
-    const auto extent = hn::Sub(high, low), slack = hn::Set(d, 4 * kEpsilon);
+    const auto extent = hn::Sub(high, low), slack = hn::Set(d, 4 * kUnitRoundoff);
     const auto start = hn::Max(hn::Sub(hn::MulAdd(extent, part_start, low), slack), zero),
                end = hn::Min(hn::Add(hn::MulAdd(extent, part_end, low), slack), one);
     const auto length = hn::Sub(end, start);
@@ -198,7 +197,7 @@ HWY_INLINE Crossing<D> decide_root(D d, const Patches<D>& p, const Cubic<D>& cub
     // Whether the patch holds the origin during it, or never: see OriginTest in
     // elementary_interval.cpp.
     const auto t = hn::Mul(half, hn::Add(start, end)), s = hn::Sub(one, t);
-    const auto part = hn::MulAdd(hn::Set(d, 2.01), length, hn::Set(d, 8 * kEpsilon));
+    const auto part = hn::MulAdd(hn::Set(d, 2.01), length, hn::Set(d, 8 * kUnitRoundoff));
     const auto middle = [&](const Lanes3<D>(&v)[2], hn::Vec<D> size) HWY_ATTR {
         const Lanes3<D> at = blend<D>(s, t, v);
         return Middle<D>{at, max_abs<D>(at), hn::Mul(part, size)};

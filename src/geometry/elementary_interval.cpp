@@ -3,6 +3,7 @@
 #include "geometry/difference_patch.h"
 #include "geometry/rounded_patch.h"
 #include "math/predicates.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,6 @@ namespace abut {
 
 namespace {
 
-constexpr double kEpsilon = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Halvings of [0, 1] after which a cell counts as one possible root, and cells looked at in all.
 constexpr int kMostLevel = 12, kMostCells = 64;
@@ -50,7 +50,7 @@ struct Coplanarity {
         // last term covers underflow; products near overflow leave nothing certain.
         const double product = p.side_x.size * p.side_y.size * p.corner.size;
         error = product < 0x1p1000 && p.side_x.size * p.side_y.size < 0x1p1000
-                    ? 80 * kEpsilon * product + 0x1p-1000 * (1 + p.corner.size)
+                    ? 80 * kUnitRoundoff * product + 0x1p-1000 * (1 + p.corner.size)
                     : kInfinity;
     }
 
@@ -58,10 +58,10 @@ struct Coplanarity {
     /// by: each halving is three means of means, an evaluation the like with rounded weights, and a
     /// coefficient is raised by three slacks at most.
     [[nodiscard]] double error_at(int level) const {
-        return error + (8 * level + 16) * kEpsilon * size + 3 * slack();
+        return error + (8 * level + 16) * kUnitRoundoff * size + 3 * slack();
     }
     /// A coefficient that falls by less counts as one that does not.
-    [[nodiscard]] double slack() const { return 8 * kEpsilon * size; }
+    [[nodiscard]] double slack() const { return 8 * kUnitRoundoff * size; }
 };
 
 /// Value at u in [0, 1] of the cell.
@@ -119,7 +119,7 @@ RootInterval enclose_increasing(const CubicCell& cell, double error) {
         // Where a zero may lie at an end, its neighbourhood ends where the sign becomes certain.
         const double level = below && above ? 0 : below ? -2 * error : 2 * error;
         const PointOfLevel point(b, level, error);
-        const double step = 2 * error / std::abs(point.slope) + 4 * kEpsilon;
+        const double step = 2 * error / std::abs(point.slope) + 4 * kUnitRoundoff;
         for (double width = step; below && start == 0 && width < point.u; width *= 8)
             if (value(b, point.u - width) < -error)
                 start = point.u - width;
@@ -129,8 +129,9 @@ RootInterval enclose_increasing(const CubicCell& cell, double error) {
     }
     const auto time = [&](double u) { return cell.start + u * cell.length; };
     const double least = 2 * error;
-    return {std::max(0.0, time(start) - 3 * kEpsilon), std::min(1.0, time(end) + 3 * kEpsilon),
-            below ? std::optional(-1) : std::nullopt, above ? std::optional(1) : std::nullopt,
+    return {std::max(0.0, time(start) - 3 * kUnitRoundoff),
+            std::min(1.0, time(end) + 3 * kUnitRoundoff), below ? std::optional(-1) : std::nullopt,
+            above ? std::optional(1) : std::nullopt,
             b[1] - b[0] > least && b[2] - b[1] > least && b[3] - b[2] > least};
 }
 
@@ -194,7 +195,7 @@ public:
         : kind_(kind) {
         const double middle = 0.5 * (interval.start + interval.end);
         // Rounding of ends and interpolation, and the way moved within the interval.
-        const double part = 8 * kEpsilon + 2.01 * (interval.end - interval.start);
+        const double part = 8 * kUnitRoundoff + 2.01 * (interval.end - interval.start);
         corner_ = patch.corner.at(middle);
         x_ = patch.side_x.at(middle);
         y_ = patch.side_y.at(middle);
@@ -237,13 +238,13 @@ private:
         const double size_u = max_abs(u), size_v = max_abs(v);
         // Six products: each off by what its factors are off by, and by 8 roundings.
         const double off =
-            off_u * size_v + size_u * off_v + off_u * off_v + 8 * kEpsilon * size_u * size_v;
+            off_u * size_v + size_u * off_v + off_u * off_v + 8 * kUnitRoundoff * size_u * size_v;
         return {dot(m, cross(u, v)), 6.1 * off + 0x1p-900};
     }
     static Area rest(const Area& whole, const Area& a, const Area& b) {
         const double sizes = std::abs(whole.value) + std::abs(a.value) + std::abs(b.value);
         return {whole.value - (a.value + b.value),
-                whole.error + a.error + b.error + 4 * kEpsilon * sizes};
+                whole.error + a.error + b.error + 4 * kUnitRoundoff * sizes};
     }
     template <std::size_t n>
     static Meeting compare(const std::array<Area, n>& areas) {

@@ -8,7 +8,8 @@ namespace abut {
 
 /// How far apart two features are.
 struct FeatureDistance {
-    double distance_sq = 0;              ///< of the closest points
+    double distance = 0;                 ///< of the closest points, between `lower` and `upper`
+    double distance_sq = 0;              ///< its square; 0 where that underflows
     double lower = 0, upper = 0;         ///< the distance lies certainly between; lengths
     std::array<double, 3> barycentric{}; ///< of the closest points, as in ElementaryImpact
 };
@@ -24,5 +25,13 @@ struct FeatureDistance {
 ///             nearly parallel edges included.
 /// Cost        some 110 to 170 ns.
 FeatureDistance feature_distance(ElementaryKind kind, const std::array<Vec3, 4>& points);
+
+/// Whether two features are at most `distance` apart.
+///
+/// In          the points and what feature_distance says of them; a distance of at least 0, finite.
+/// Accuracy    exact: the certified bounds decide, or else exact arithmetic.
+/// Cost        some microseconds where the bounds leave it open.
+bool are_within(ElementaryKind kind, const std::array<Vec3, 4>& points,
+                const FeatureDistance& known, double distance);
 
 } // namespace abut

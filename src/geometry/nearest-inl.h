@@ -29,7 +29,11 @@ struct Foot {
     bool within = false;
     std::size_t first = 0;
     double g = 0, h = 0;
-    V point, gap; ///< gap: from the foot to the point
+    V point, gap;          ///< gap: from the foot to the point
+    double nn = 0, uu = 1; ///< squares of twice the triangle's area, and of its longest edge
+
+    /// The square of the triangle's least height.
+    [[nodiscard]] HWY_INLINE double height_sq() const { return nn / uu; }
 };
 
 /// See foot_within in geometry/point_triangle_distance.h.
@@ -57,7 +61,7 @@ HWY_INLINE Foot<V> foot_on(const V& p, const std::array<V, 3>& t) {
     const V from_origin = g * u + h * v;
     foot.within = true;
     foot.first = is_2 ? 2 : is_1 ? 1 : 0;
-    foot.g = g, foot.h = h;
+    foot.g = g, foot.h = h, foot.nn = nn, foot.uu = uu;
     foot.point = origin + from_origin, foot.gap = w - from_origin;
     return foot;
 }

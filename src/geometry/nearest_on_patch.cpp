@@ -2,6 +2,7 @@
 
 #include "geometry/point_triangle_distance.h"
 #include "geometry/triangle_triangle_distance.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 namespace abut {
 
 namespace {
-
-constexpr double kEpsilon = 0x1p-53;
 
 /// The place of the nearest point, and the part of the patch within which it lies.
 struct Foot {
@@ -73,7 +72,7 @@ public:
         for (std::size_t i = 1; i < corners_.size(); ++i)
             least = std::min(least, dot(n, corners_[i]));
         // n is longer than 1 by at most 6 eps.
-        if (const double lower = (1 - 8 * kEpsilon) * (least - kAlongOff); lower > best_.lower)
+        if (const double lower = (1 - 8 * kUnitRoundoff) * (least - kAlongOff); lower > best_.lower)
             best_ = {lower, n};
     }
     /// All directions in which the nearest point of a convex patch may lie: that of a corner, across
@@ -122,7 +121,7 @@ NearestOnPatch nearest_on_patch(const FlatPatch& patch) {
     nearest.distance = length(gap);
     // A coordinate of the gap is off by 4 eps for its vectors, 4 for products and sums, and 1 where
     // rounded weights sum to more than 1: in all by 9 sqrt(3) eps.
-    nearest.upper = (1 + 4 * kEpsilon) * nearest.distance + 18 * kEpsilon;
+    nearest.upper = (1 + 4 * kUnitRoundoff) * nearest.distance + 18 * kUnitRoundoff;
 
     const Vec3 area = cross(patch.side_x, patch.side_y);
     Bounds bounds(patch);

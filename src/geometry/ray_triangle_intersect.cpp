@@ -16,7 +16,7 @@ namespace {
 constexpr double kPrecision = 0x1p-40;
 /// Sums of three products of three factors, each a rounded difference, sum or product, are off by
 /// less than this times the sum of their magnitudes.
-constexpr double kRounding = 16 * 0x1p-53;
+constexpr double kRayRounding = 16 * 0x1p-53;
 constexpr double kUnderflow = 64 * std::numeric_limits<double>::denorm_min();
 
 Vec3 magnitudes(const Vec3& v) {
@@ -43,7 +43,7 @@ struct Normal {
     }
     /// n . w, w rounded from magnitudes of sum `w_terms`.
     [[nodiscard]] Rounded dot(const Vec3& w, const Vec3& w_terms) const {
-        return {abut::dot(value, w), kRounding * abut::dot(terms, w_terms) +
+        return {abut::dot(value, w), kRayRounding * abut::dot(terms, w_terms) +
                                          kUnderflow * (1 + w_terms.x + w_terms.y + w_terms.z)};
     }
 };

@@ -33,6 +33,14 @@ private:
     }
 };
 
+/// What a pair's distance, the root of what distance_sq computes, exceeds the true one by: at most
+///
+///     kTrianglePairError (r + u + v) + kTrianglePairUnderflow
+///
+/// where r, u, v are the largest differences of a vertex of a and one of b, and the longest edges.
+/// docs/distance.md has the argument; the largest that was found in trials is 2 % of it.
+constexpr double kTrianglePairError = 32 * 0x1p-53, kTrianglePairUnderflow = 0x1p-240;
+
 /// Squared distance of the pair in each lane; 0 may come out as a rounding residue where they
 /// cross.
 ///

@@ -1,5 +1,6 @@
 #include <abut/batch.h>
 
+#include "core/progress.h"
 #include "rigid/in_parallel.h"
 
 #include <cstdint>
@@ -35,8 +36,13 @@ std::vector<bool> within(const Model& a, const Model& b, std::span<const Placeme
 std::vector<Impact> time_of_impact(const Model& a, const Model& b,
                                    std::span<const MotionPair> motions,
                                    const ImpactOptions& options) {
+    ProgressMeter meter(options.progress, "times of impact", motions.size());
+    ImpactOptions each = options;
+    each.progress.report = nullptr; // one stage for all
     return in_parallel<Impact>(motions.size(), [&](std::size_t i) {
-        return time_of_impact(a, motions[i].a, b, motions[i].b, options);
+        const Impact impact = time_of_impact(a, motions[i].a, b, motions[i].b, each);
+        meter.advance();
+        return impact;
     });
 }
 

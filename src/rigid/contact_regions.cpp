@@ -33,12 +33,12 @@ private:
 };
 
 /// An edge or (v = w) a vertex of a triangle in contact.
-struct Feature {
+struct ContactFeature {
     std::uint32_t v, w; ///< merged vertices, v <= w
     std::uint32_t contact;
-    [[nodiscard]] bool same(const Feature& f) const { return v == f.v && w == f.w; }
+    [[nodiscard]] bool same(const ContactFeature& f) const { return v == f.v && w == f.w; }
     /// Edges first: they settle nearly all vertices.
-    bool operator<(const Feature& f) const {
+    bool operator<(const ContactFeature& f) const {
         const bool point = v == w, f_point = f.v == f.w;
         return point != f_point ? f_point : std::tie(v, w, contact) < std::tie(f.v, f.w, f.contact);
     }
@@ -48,7 +48,7 @@ struct Feature {
 void connect_around(const Triangle& triangle, const PlacedSolid& other,
                     const std::vector<Contact>& contacts, std::span<const std::uint32_t> group,
                     std::uint32_t TrianglePair::*side, ContactSets& sets) {
-    std::vector<Feature> features;
+    std::vector<ContactFeature> features;
     const auto& vertex_of = other.solid().topology.vertex_of;
     for (const std::uint32_t c : group) {
         const auto& t = other.model().mesh().triangles[contacts[c].pair.*side];
@@ -60,7 +60,7 @@ void connect_around(const Triangle& triangle, const PlacedSolid& other,
     }
     std::sort(features.begin(), features.end());
     for (std::size_t i = 1; i < features.size(); ++i) {
-        const Feature &f = features[i - 1], &g = features[i];
+        const ContactFeature &f = features[i - 1], &g = features[i];
         if (!f.same(g) || sets.root(f.contact) == sets.root(g.contact))
             continue;
         const Vec3 p = other.world_vertex(f.v), q = other.world_vertex(f.w);
@@ -212,7 +212,9 @@ bool RegionCells::may_hold(std::uint32_t region, const Vec3& point, double radiu
         if (chunk.region == region)
             own_sq = nearest_sq(chunk, point, own_sq);
     // A point belongs to the region unless another is nearer; distances change by `radius` at most.
-    const double enough = std::sqrt(own_sq) - 2 * radius;
+    // One as far from another to rounding belongs to both: so rounding does not decide.
+    const double own = std::sqrt(own_sq),
+                 enough = own - 2 * radius - 0x1p-40 * (own + max_abs(point));
     if (!(enough > 0))
         return true;
     const double enough_sq = enough * enough;

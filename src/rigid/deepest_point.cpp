@@ -105,7 +105,9 @@ private:
             return true;
         const bool undecided = options_.threshold > 0 && best_.depth <= options_.threshold &&
                                at_most > options_.threshold;
-        return evaluations_ > (undecided ? options_.threshold_budget : options_.accuracy_budget);
+        if (undecided)
+            return evaluations_ > options_.threshold_budget;
+        return evaluations_ > (best_.depth > 0 ? options_.accuracy_budget : options_.reach_budget);
     }
 
     // ---- pieces

@@ -15,8 +15,8 @@ struct DepthSearch {
     double threshold = 0;
     /// Relative width that [depth, at_most] should have.
     double relative_accuracy = 0.01;
-    /// Evaluated points, at most: for the accuracy, and for the comparison.
-    int accuracy_budget = 1000, threshold_budget = 20000;
+    /// Evaluated points, at most: for the accuracy; to reach a depth at all; for the comparison.
+    int accuracy_budget = 1000, reach_budget = 1000, threshold_budget = 20000;
 };
 
 /// The part of a surface that a search looks at; by default all of it.
@@ -25,12 +25,13 @@ struct SurfacePart {
     std::uint32_t region = 0;
     const std::vector<bool>* contained = nullptr; ///< by triangle; if given, `in_contained` counts
     bool in_contained = false; ///< only triangles that are contained, or only those that are not
+    Vec3 origin;               ///< of the points asked for; cells are in the world
 
     [[nodiscard]] bool takes(std::uint32_t triangle) const {
         return contained == nullptr || (*contained)[triangle] == in_contained;
     }
     [[nodiscard]] bool may_hold(const Vec3& point, double radius) const {
-        return cells == nullptr || cells->may_hold(region, point, radius);
+        return cells == nullptr || cells->may_hold(region, point + origin, radius);
     }
 };
 
@@ -47,7 +48,7 @@ struct DeepestPoint {
 /// In          `starts`: triangles of the surface near which deep points are likely; nothing that
 ///             is not deeper than `deeper_than` is looked for.
 /// Accuracy    depth: reached to rounding; [depth, at_most] encloses the true value (if that is
-///             above `deeper_than`), as narrow as asked for unless the budget ends.
+///             above `deeper_than`) but for rounding, as narrow as asked for unless the budget ends.
 /// Source      branch and bound over the boxes of the surface's tree, then over halved triangles.
 ///             No point of a piece of radius r is deeper than d + r, d being the distance from its
 ///             middle to any triangle of the solid, nor deeper than its corners' largest distance

@@ -29,6 +29,18 @@ struct Slack {
     }
 };
 
+/// A bound below a distance that was computed of a pair of models, or that a search with it as its
+/// bound left nothing nearer than.
+///
+/// Accuracy    certified: TrianglePairBlock says what a measured distance exceeds the true one by, and
+///             `reach` bounds its sizes: no two points of the models are farther apart, so that no
+///             vertex of one is farther from one of the other, and no edge longer than twice that.
+double rounded_down(double distance, double reach) {
+    const double error = kTrianglePairError * 5 * reach + kTrianglePairUnderflow;
+    const double bound = (distance - error) * (1 - 0x1p-50);
+    return bound > 0 ? bound : 0; // also where the reach, squared, is no number
+}
+
 /// Keeps the nearest pair of triangles below the bound; a contact ends the search with distance 0.
 ///
 /// Pairs that cheap bounds do not rule out are collected, and measured eight at a time.
@@ -153,14 +165,17 @@ private:
     std::size_t collected_ = 0;
 };
 
-void require_bound(double bound, const char* what) {
+void require_not_negative(double bound, const char* what) {
     if (!(bound >= 0))
         throw Error(ErrorCode::bad_argument, std::string(what) + " must not be negative");
 }
 
-void report_beyond(double bound, Gap& gap) {
-    gap.distance = gap.at_least = bound;
+Gap gap_beyond(double bound, double at_least) {
+    Gap gap;
+    gap.distance = bound;
+    gap.at_least = at_least;
     gap.status = Status::bound_only;
+    return gap;
 }
 
 } // namespace
@@ -170,25 +185,30 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     const Slack slack{options.absolute_error, options.relative_error};
     NearestPairFinder finder(pair, options.upper_bound * options.upper_bound, false, slack);
     Workspace* const workspace = options.workspace;
-    Gap gap;
+    Counters counters;
     if (workspace == nullptr || !workspace->used || !finder.begin_with(workspace->last)) {
         PairTraversal traversal = pair.traversal(finder.bound_sq());
         pair.visit_nearest(traversal, finder);
         finder.finish();
-        gap.counters.volume_tests = traversal.volume_tests;
-        gap.counters.primitive_tests = traversal.primitive_tests;
+        counters.volume_tests = traversal.volume_tests;
+        counters.primitive_tests = traversal.primitive_tests;
     }
+    const double reach = pair.reach();
+    Gap gap;
     finder.report(gap);
-    gap.at_least = gap.distance;
-    if (!finder.found()) {
-        report_beyond(options.upper_bound, gap);
-    } else if (slack.any() && gap.distance > 0) {
-        gap.at_least = slack.least_of_interest(gap.distance);
-        gap.status = Status::converged;
+    // What the search compared and what is reported differ by rounding.
+    if (!finder.found() || (gap.distance > 0 && gap.distance >= options.upper_bound)) {
+        gap = gap_beyond(options.upper_bound, rounded_down(options.upper_bound, reach));
+    } else {
+        const double least = std::min(gap.distance, std::sqrt(finder.measured_sq()));
+        gap.at_least = rounded_down(slack.least_of_interest(least), reach);
+        if (slack.any() && gap.distance > 0)
+            gap.status = Status::converged;
+        if (workspace != nullptr)
+            *workspace = {true, {gap.triangle_a, gap.triangle_b}};
     }
-    if (workspace != nullptr && finder.found())
-        *workspace = {true, {gap.triangle_a, gap.triangle_b}};
-    gap.counters.exact_tests = exact_signs() - exact_before;
+    counters.exact_tests = exact_signs() - exact_before;
+    gap.counters = counters;
     return gap;
 }
 
@@ -207,23 +227,20 @@ MeasuredGap nearest_gap(const PlacedPair& pair, double bound_sq) {
 
 Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
              const Transform& world_from_b, const DistanceOptions& options) {
-    require_bound(options.upper_bound, "distance bound");
-    require_bound(options.absolute_error, "absolute error");
-    require_bound(options.relative_error, "relative error");
+    require_not_negative(options.upper_bound, "distance bound");
+    require_not_negative(options.absolute_error, "absolute error");
+    require_not_negative(options.relative_error, "relative error");
     if (options.signed_distance)
         return signed_gap(a, world_from_a, b, world_from_b, options);
     if (std::isfinite(options.upper_bound) &&
-        far_apart(a.data(), world_from_a, b.data(), world_from_b, options.upper_bound)) {
-        Gap gap;
-        report_beyond(options.upper_bound, gap);
-        return gap;
-    }
+        far_apart(a.data(), world_from_a, b.data(), world_from_b, options.upper_bound))
+        return gap_beyond(options.upper_bound, options.upper_bound);
     return distance(PlacedPair(a, world_from_a, b, world_from_b), options);
 }
 
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
             const Transform& world_from_b, double tolerance, Workspace* workspace) {
-    require_bound(tolerance, "tolerance");
+    require_not_negative(tolerance, "tolerance");
     if (tolerance == 0) // whether they meet is exact, a distance is not
         return collide(a, world_from_a, b, world_from_b, {.workspace = workspace}).any();
     if (far_apart(a.data(), world_from_a, b.data(), world_from_b, tolerance))

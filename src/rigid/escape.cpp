@@ -10,6 +10,7 @@ namespace abut {
 namespace {
 
 constexpr double kNudge = 0x1p-30; // far above the rounding of positions, far below anything built
+constexpr double kTight = 0x1p-24; // a sixteenth of a millionth
 
 std::vector<Vec3> directions(const WorldSolid& a, const WorldSolid& b,
                              std::span<const Contact> contacts) {
@@ -85,7 +86,7 @@ Escape find_escape(const WorldSolid& a, const WorldSolid& b, std::span<const Con
         }
         if (enough > size)
             continue;
-        while (enough - short_of > enough / 256) {
+        while (enough - short_of > kTight * enough) {
             const double middle = 0.5 * (short_of + enough);
             (parted(a, b, middle * d) ? enough : short_of) = middle;
         }

@@ -20,8 +20,7 @@ struct Escape {
 ///             contacts, the commonest first, their mean, and 26 evenly spread.
 Vec3 nudge_that_parts(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
 
-/// The shortest translation along the same directions that parts the surfaces, within one part in
-/// 256.
+/// The shortest translation along the same directions that parts the surfaces, to 2^-24 of it.
 Escape find_escape(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
 
 } // namespace abut

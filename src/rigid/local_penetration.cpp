@@ -5,6 +5,7 @@
 #include "rigid/escape.h"
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace abut {
@@ -21,7 +22,7 @@ LocalPenetration deepest_crossing(const WorldSolid& a, const WorldSolid& b,
         const TriangleSeparation s = triangle_triangle_penetration(ta, tb);
         if (s.depth > best.depth) {
             const ClosestPoints common = triangle_triangle_distance(ta, tb);
-            best = {s.depth, s.depth, common.a, common.b, s.direction, c.pair};
+            best = {s.depth, s.depth, 0, common.a, common.b, s.direction, c.pair};
         }
     }
     return best;
@@ -81,16 +82,16 @@ LocalPenetration deepest_inside(const WorldSolid& a, const WorldSolid& b,
     if (b.bounds_solid()) {
         const DeepestPoint p =
             deepest_of(a, b, some_triangles(contacts, &TrianglePair::a), part_a, options, 0);
-        best = {p.depth, p.at_most, p.on_surface, p.on_solid,
-                normalized_or_zero(p.on_surface - p.on_solid)};
+        best = {p.depth,      p.at_most,  0,
+                p.on_surface, p.on_solid, normalized_or_zero(p.on_surface - p.on_solid)};
         best.triangles = {p.surface_triangle, p.solid_triangle};
     }
     if (a.bounds_solid()) {
         const DeepestPoint p = deepest_of(b, a, some_triangles(contacts, &TrianglePair::b), part_b,
                                           options, best.depth);
         if (p.depth > best.depth) {
-            best = {p.depth, best.at_most, p.on_solid, p.on_surface,
-                    normalized_or_zero(p.on_solid - p.on_surface)};
+            best = {p.depth,    best.at_most, 0,
+                    p.on_solid, p.on_surface, normalized_or_zero(p.on_solid - p.on_surface)};
             best.triangles = {p.solid_triangle, p.surface_triangle};
         }
         best.at_most = std::max(best.at_most, p.at_most);
@@ -98,26 +99,61 @@ LocalPenetration deepest_inside(const WorldSolid& a, const WorldSolid& b,
     return best;
 }
 
+/// A vertex of the models; of a, near their contacts if there are any.
+Vec3 origin_of(const WorldSolid& a, std::span<const Contact> contacts) {
+    if (!contacts.empty())
+        return a.world_triangle(contacts[0].pair.a)[0];
+    const std::vector<Vec3> points = a.component_points();
+    return points.empty() ? Vec3{} : points[0];
+}
+
+/// What a distance of two points within both models' sizes may be off by, generously, and by what
+/// they were rounded to be seen from an origin there.
+double depth_rounding(const WorldSolid& a, const WorldSolid& b) {
+    return 0x1p-47 * (a.world_size() + b.world_size());
+}
+
 } // namespace
 
 LocalPenetration local_penetration(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options,
                                    const SurfacePart& part_a, const SurfacePart& part_b) {
-    return a.bounds_solid() || b.bounds_solid()
-               ? deepest_inside(a, b, contacts, options, part_a, part_b)
-               : deepest_crossing(a, b, contacts);
+    const Vec3 origin = origin_of(a, contacts);
+    const std::unique_ptr<const WorldSolid> seen_a = a.seen_from(origin),
+                                            seen_b = b.seen_from(origin);
+    LocalPenetration result;
+    if (!a.bounds_solid() && !b.bounds_solid()) {
+        result = deepest_crossing(*seen_a, *seen_b, contacts);
+    } else {
+        const auto seen = [&](SurfacePart part) {
+            part.origin = origin;
+            return part;
+        };
+        result = deepest_inside(*seen_a, *seen_b, contacts, options, seen(part_a), seen(part_b));
+        result.rounding = depth_rounding(a, b);
+    }
+    result.point_a = result.point_a + origin, result.point_b = result.point_b + origin;
+    return result;
+}
+
+LocalPenetration locked_depth(const WorldSolid& a, const WorldSolid& b,
+                              std::span<const Contact> contacts) {
+    const Escape escape = find_escape(a, b, contacts);
+    const TrianglePair& first = contacts[0].pair;
+    const ClosestPoints common =
+        triangle_triangle_distance(a.world_triangle(first.a), b.world_triangle(first.b));
+    LocalPenetration result;
+    result.depth = result.at_most = escape.length;
+    result.point_a = common.a, result.point_b = common.b;
+    result.direction = escape.direction;
+    result.triangles = first;
+    return result;
 }
 
 LocalPenetration penetration_depth(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options) {
-    LocalPenetration best = local_penetration(a, b, contacts, options);
-    if (best.depth == 0) {
-        const Escape escape = find_escape(a, b, contacts);
-        const ClosestPoints common = triangle_triangle_distance(
-            a.world_triangle(contacts[0].pair.a), b.world_triangle(contacts[0].pair.b));
-        best = {escape.length, escape.length, common.a, common.b, escape.direction};
-    }
-    return best;
+    const LocalPenetration found = local_penetration(a, b, contacts, options);
+    return found.depth > 0 ? found : locked_depth(a, b, contacts);
 }
 
 } // namespace abut

@@ -20,14 +20,14 @@ double scale_of(const Box3& box) {
     return size > 0 ? std::ldexp(1, std::clamp(std::ilogb(size) + 1, -30, 62)) : 1;
 }
 
-/// In: a rotation times the scale, and an origin.
-std::vector<Vec3> tree_positions(const Mesh& mesh, const Transform& model_from_tree, double scale) {
+/// In: a rotation times the scale.
+std::vector<Vec3> tree_positions(const Mesh& mesh, const Box3& bounds,
+                                 const Transform& model_from_tree, double scale) {
     const auto& f = model_from_tree.m;
-    const Vec3 origin{f[9], f[10], f[11]};
     const double factor = 1 / (scale * scale); // the inverse of s R is R^T / s = (s R)^T / s^2
     std::vector<Vec3> result(mesh.positions.size());
     parallel_for(mesh.positions.size(), 8192, [&](std::size_t i) {
-        const Vec3 d = factor * (mesh.positions[i] - origin);
+        const Vec3 d = factor * from_middle(bounds, mesh.positions[i]);
         result[i] = {f[0] * d.x + f[1] * d.y + f[2] * d.z, f[3] * d.x + f[4] * d.y + f[5] * d.z,
                      f[6] * d.x + f[7] * d.y + f[8] * d.z};
     });
@@ -52,6 +52,7 @@ void ModelData::build(const ModelOutline* outline) {
     for (const auto& t : mesh_.triangles)
         for (const std::uint32_t v : t)
             extend(bounds, mesh_.positions[v]);
+    diagonal_ = is_empty(bounds) ? 0 : length(bounds.upper - bounds.lower);
     const double scale = scale_of(bounds);
     const TreeFrame frame = outline == nullptr ? choose_tree_frame(mesh_, bounds)
                                                : tree_frame(mesh_, bounds, outline->axes);
@@ -59,12 +60,14 @@ void ModelData::build(const ModelOutline* outline) {
     model_from_tree_ = frame.model_from_tree;
     for (std::size_t i = 0; i < 9; ++i)
         model_from_tree_.m[i] *= scale;
-    const std::vector<Vec3> positions = tree_positions(mesh_, model_from_tree_, scale);
+    const std::vector<Vec3> positions = tree_positions(mesh_, bounds, model_from_tree_, scale);
     const TreeMesh tree_mesh{positions, mesh_.triangles};
     tree_ = outline == nullptr ? build_tree(tree_mesh, options_.volume != Volume::aabb)
                                : build_tree(tree_mesh, outline->tree);
     volumes_ = build_volume_tree(options_.volume, tree_, tree_mesh);
     sort_vertices();
+    if (!tree_.empty())
+        first_in_tree_ = positions[mesh_.triangles[tree_.order[0]][0]];
     support_ = SupportBound(vertices_);
 }
 

@@ -49,6 +49,11 @@ public:
     [[nodiscard]] const SupportBound& support() const { return support_; }
     /// Rigid to rounding, and a power of two in scale: the tree is about as large as 1.
     [[nodiscard]] const Transform& model_from_tree() const { return model_from_tree_; }
+    /// Where the first vertex of slot 0 lies in the tree's frame. From there, what is elsewhere follows
+    /// without the rounding that a mesh far from its origin brings. In: the tree is not empty.
+    [[nodiscard]] const Vec3& first_in_tree() const { return first_in_tree_; }
+    /// Of the bounding box of the vertices that a triangle uses, in the mesh's frame; 0 without any.
+    [[nodiscard]] double diagonal() const { return diagonal_; }
     /// Mesh index of the triangle in a slot of the tree.
     [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const { return tree_.order[slot]; }
     /// World position of the triangle in a slot, by the formula of abut/types.h.
@@ -76,6 +81,8 @@ private:
     TreeAxes axes_{}; ///< of the tree
     SupportBound support_{{}};
     Transform model_from_tree_;
+    Vec3 first_in_tree_;
+    double diagonal_ = 0;
     Tree tree_;
     std::unique_ptr<const VolumeTree> volumes_;
     /// Copies of positions and triangles in the order of the leaves: what is near in space is near

@@ -9,8 +9,13 @@
 /// infinite where they never meet.
 namespace abut {
 
-/// ImpactOptions::tolerance where none is given, of the larger body's size.
+/// ImpactOptions::tolerance where none is given, of the larger model's diagonal.
 inline constexpr double kImpactTolerance = 1e-6;
+
+/// Bounds that hold up to a horizon are used for at most so many radians of turn within it. Speeds
+/// relative to a body that turns grow by no more than the factor then, e^0.26, beside what other
+/// motion adds.
+inline constexpr double kHorizonTurn = 0.26, kHorizonGrowth = 1.3;
 
 /// How sets approach along a fixed unit vector n: their gap along it is at least
 ///

@@ -14,6 +14,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
+/// The size of a child and of a triangle of a leaf, relative to the node, more or less.
+constexpr double kChild = 0.5, kTriangle = 0.1;
+
 /// When two sets may meet, lane by lane: from one share of the span to another, by their gaps along
 /// directions. What is not a number tells nothing.
 template <class D>
@@ -117,6 +120,8 @@ HWY_INLINE std::uint32_t meet_row(const MovingSiblings& x, std::size_t i, const 
         Meeting<Lanes8> meeting(d, begin);
         compare_along(d, x.boxes.own, x.own_speeds, i, y.boxes.seen, y.seen_speeds, lane,
                       x.boxes.margin, meeting);
+        if (hn::AllFalse(d, meeting.possible(d)))
+            continue;
         compare_along(d, x.boxes.seen, x.seen_speeds, i, y.boxes.own, y.own_speeds, lane,
                       y.boxes.margin, meeting);
         hn::StoreU(meeting.share(d), d, share + lane);
@@ -130,8 +135,8 @@ void find_meeting_children(const TimeSpan& span, const NodeChildren& a, const No
     const Moment& now = span.moment;
     NodePair nodes(now.frame, a.node, b.node);
     const double duration = span.end - now.time;
-    const NodeMotion in_p = motion_of(now.in_a, duration, a.node, b.node, nodes.p_from_q),
-                     in_q = motion_of(now.in_b, duration, b.node, a.node, nodes.q_from_p);
+    const NodeMotion in_p = motion_of(now.in_a, duration, a.node, b.node, nodes.p_from_q, kChild),
+                     in_q = motion_of(now.in_b, duration, b.node, a.node, nodes.q_from_p, kChild);
     nodes.p_from_q.margin += static_cast<float>(now.in_a.margin);
     nodes.q_from_p.margin += static_cast<float>(now.in_b.margin);
     const MovingSiblings p(a.node, nodes.p_from_q, nodes.q_from_p, in_p, in_q),
@@ -202,7 +207,7 @@ void find_meeting_triangles(const TimeSpan& span, const Node& node_a, const Tria
     FrameMap a_from_b;
     between_nodes(span.moment.frame.a_from_b, node_a, node_b, a_from_b);
     const NodeMotion motion =
-        motion_of(frame, span.end - span.moment.time, node_a, node_b, a_from_b);
+        motion_of(frame, span.end - span.moment.time, node_a, node_b, a_from_b, kTriangle);
     TriangleLeaf turned{};
     turn_leaf(leaf_b, a_from_b, turned);
     const float begin = first_share(span);
@@ -225,6 +230,8 @@ void find_meeting_triangles(const TimeSpan& span, const Node& node_a, const Tria
         t.take(d, {one, zero, zero}, margin, hn::Set(d, motion.spread[0]), meeting);
         t.take(d, {zero, one, zero}, margin, hn::Set(d, motion.spread[1]), meeting);
         t.take(d, {zero, zero, one}, margin, hn::Set(d, motion.spread[2]), meeting);
+        if (hn::AllFalse(d, meeting.possible(d)))
+            continue;
         for (const auto& v : {t.a, t.b}) {
             const Lanes3<D> n = cross(sub(v[1], v[0]), sub(v[2], v[0]));
             const auto sum = hn::Add(hn::Abs(n.x), hn::Add(hn::Abs(n.y), hn::Abs(n.z)));

@@ -81,6 +81,8 @@ FrameMotion motion_in(const MovingPair::Body& own, const Transform& world_from_o
     motion.spin_other = turned(other.trajectory.angular_velocity());
     motion.rate_own = own.trajectory.speed_of_rotation();
     motion.rate_other = other.trajectory.speed_of_rotation();
+    motion.rate_between = length(motion.spin_other - motion.spin_own);
+    motion.centres = length(motion.velocity);
     motion.own_from_other = unit * other.scale;
     motion.margin = unit * margin;
     return motion;

@@ -38,6 +38,8 @@ struct FrameMotion {
     Vec3 velocity;                 ///< of the other's centre minus that of the own
     Vec3 spin_own, spin_other;     ///< angular velocities
     double rate_own = 0, rate_other = 0;
+    double rate_between = 0;   ///< of the difference of the spins
+    double centres = 0;        ///< speed of the centres relative to each other
     double own_from_other = 1; ///< units of the own tree in one of the other's
     double margin = 0;         ///< as the pair's
 };

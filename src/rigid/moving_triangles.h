@@ -11,6 +11,6 @@ namespace abut {
 /// Degenerate  needles and points are as good as any: directions that rounding spoils are replaced
 ///             by those of their edges and faces.
 double free_time(const MovingPair& pair, double time, const Triangle& a, const Triangle& b,
-                 const ClosestPoints& closest);
+                 const ClosestPoints& closest, double horizon);
 
 } // namespace abut

@@ -49,7 +49,9 @@ public:
             result.depth = r.depth;
             result.direction = r.direction, result.point_a = r.point_a, result.point_b = r.point_b;
         }
-        if (result.depth_at_most > result.depth)
+        if (meeting_.interpenetrate && result.depth == 0)
+            set_locked(result);
+        else if (result.depth_at_most > result.depth + 2 * rounding_)
             result.status = Status::bound_only;
         return result;
     }
@@ -74,12 +76,25 @@ public:
         return ways;
     }
 
+    /// Whether the depth is a translation's length, since no surface reaches inside the other.
+    [[nodiscard]] bool is_locked() const { return locked_; }
+
 private:
-    void add_regions(Depth& result) const {
+    void set_locked(Depth& result) {
+        locked_ = true;
+        const LocalPenetration p = locked_depth(a_, b_, contacts_);
+        result.depth = p.depth;
+        result.depth_at_most = std::max(result.depth_at_most, p.depth);
+        result.direction = p.direction, result.point_a = p.point_a, result.point_b = p.point_b;
+    }
+
+    void add_regions(Depth& result) {
         const std::vector<RegionContacts> regions = find_regions(a_, b_, contacts_);
         const RegionCells cells(regions);
         for (std::uint32_t i = 0; i < regions.size(); ++i) {
-            SurfacePart part{regions.size() > 1 ? &cells : nullptr, i};
+            SurfacePart part;
+            part.cells = regions.size() > 1 ? &cells : nullptr;
+            part.region = i;
             result.regions.push_back(region(regions[i], part));
         }
     }
@@ -89,8 +104,7 @@ private:
         return part;
     }
 
-    [[nodiscard]] ContactRegion region(const RegionContacts& region,
-                                       const SurfacePart& part) const {
+    [[nodiscard]] ContactRegion region(const RegionContacts& region, const SurfacePart& part) {
         ContactRegion result;
         for (const Contact& c : region.contacts)
             result.pairs.push_back(c.pair);
@@ -120,7 +134,7 @@ private:
         return result;
     }
 
-    [[nodiscard]] ContactRegion contained_region() const {
+    [[nodiscard]] ContactRegion contained_region() {
         ContactRegion result;
         // A surface without contained components has no part in it.
         const std::vector<bool> none_of_a(a_.model().mesh().triangles.size()),
@@ -136,8 +150,9 @@ private:
         return result;
     }
 
-    static void set_depth(ContactRegion& region, const LocalPenetration& p) {
-        region.depth = p.depth, region.depth_at_most = p.at_most;
+    void set_depth(ContactRegion& region, const LocalPenetration& p) {
+        region.depth = p.depth, region.depth_at_most = p.at_most + p.rounding;
+        rounding_ = std::max(rounding_, p.rounding);
         region.point_a = p.point_a, region.point_b = p.point_b;
         region.direction = p.direction;
     }
@@ -148,6 +163,8 @@ private:
     const DepthSearch& options_;
     std::vector<bool> inside_b_, inside_a_; ///< triangles of a, of b; empty: none
     Meeting meeting_;
+    double rounding_ = 0; ///< by which the bounds of depths are proven
+    bool locked_ = false;
 };
 
 } // namespace
@@ -170,8 +187,8 @@ Depth penetration(const Model& a, const Transform& world_from_a, const Model& b,
     Overlap overlap(placed_a, placed_b, std::move(contacts), search);
     Depth result = overlap.describe();
     if (options.separation && (meet || result.interpenetrate))
-        result.separation =
-            find_separation(placed_a, placed_b, overlap.ways_out(result), result.depth, counters);
+        result.separation = find_separation(placed_a, placed_b, overlap.ways_out(result),
+                                            overlap.is_locked() ? 0 : result.depth, counters);
     result.counters = counters;
     return result;
 }

@@ -17,20 +17,22 @@ std::size_t block_of(std::uint32_t name) {
     return name >> ModelBlocks::kTriangleBits;
 }
 
-/// A box that holds all world positions of the points of a box.
-Box3 world_box_of(const Box3& box, const Transform& world) {
+/// A box that holds all world positions of the points of a box, as seen from the origin.
+Box3 world_box_of(const Box3& box, const Transform& world, const Vec3& origin) {
     Box3 result;
     if (is_empty(box))
         return result;
     for (unsigned i = 0; i < 8; ++i)
         extend(result,
                apply(world, {i & 1U ? box.upper.x : box.lower.x, i & 2U ? box.upper.y : box.lower.y,
-                             i & 4U ? box.upper.z : box.lower.z}));
-    // Far above the rounding of three products and sums.
+                             i & 4U ? box.upper.z : box.lower.z}) -
+                   origin);
+    // Far above the rounding of three products and sums; and as large wherever the box is, unless
+    // that is far away for its size.
     const double margin =
         0x1p-48 * (sum_of_sizes(world) * std::max(max_abs(box.lower), max_abs(box.upper)) +
-                   max_abs({world.m[9], world.m[10], world.m[11]}));
-    return grown(result, margin);
+                   max_abs({world.m[9], world.m[10], world.m[11]}) + max_abs(origin));
+    return grown(result, std::max(margin, 0x1p-24 * length(result.upper - result.lower)));
 }
 
 /// Whether a segment may meet a box: false is certain.
@@ -64,12 +66,13 @@ bool holds(const Box3& box, const Vec3& p) {
 
 } // namespace
 
-PlacedBlocks::PlacedBlocks(const ModelBlocks& blocks, const Transform& world_from_mesh)
-    : blocks_(blocks), world_(world_from_mesh) {
+PlacedBlocks::PlacedBlocks(const ModelBlocks& blocks, const Transform& world_from_mesh,
+                           const std::optional<Vec3>& origin)
+    : blocks_(blocks), world_(world_from_mesh), origin_(origin) {
     require_finite(world_, "transform");
     boxes_.reserve(blocks.size());
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-        boxes_.push_back(world_box_of(blocks.box(i), world_));
+        boxes_.push_back(world_box_of(blocks.box(i), world_, origin_.value_or(Vec3{})));
         box_.lower = min(box_.lower, boxes_.back().lower);
         box_.upper = max(box_.upper, boxes_.back().upper);
     }
@@ -81,10 +84,16 @@ PlacedBlocks::PlacedBlocks(const ModelBlocks& blocks, const Transform& world_fro
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
 }
 
+std::unique_ptr<WorldSolid> PlacedBlocks::seen_from(const Vec3& origin) const {
+    auto seen = std::make_unique<PlacedBlocks>(blocks_, world_, origin);
+    seen->known_ = known_;
+    return seen;
+}
+
 std::shared_ptr<const PlacedBlocks::PlacedBlock> PlacedBlocks::placed(std::size_t i) const {
     if (last_ == nullptr || last_index_ != i) {
         last_.reset(); // it may make room for the other
-        last_ = std::make_shared<const PlacedBlock>(blocks_.block(i), world_);
+        last_ = std::make_shared<const PlacedBlock>(blocks_.block(i), world_, origin_);
         last_index_ = i;
     }
     return last_;
@@ -97,7 +106,7 @@ std::uint32_t PlacedBlocks::name_of(std::uint32_t triangle) const {
 std::vector<Vec3> PlacedBlocks::component_points() const {
     std::vector<Vec3> points = blocks_.solid().component_points;
     for (Vec3& p : points)
-        p = apply(world_, p);
+        p = to_world(p);
     return points;
 }
 
@@ -111,7 +120,7 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
     const Mesh& own = placed(block_of(name))->block->model.mesh();
     const auto& corners = own.triangles[name & kLocalMask];
     const Vec3 p = own.positions[corners[edge]], q = own.positions[corners[(edge + 1) % 3]];
-    const Vec3 at = apply(world_, p);
+    const Vec3 at = to_world(p);
     std::vector<EdgeFace> faces;
     for (std::size_t i = 0; i < size(); ++i) {
         if (!holds(blocks_.box(i), p) || !holds(blocks_.box(i), q))
@@ -126,8 +135,7 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
             for (std::size_t k = 0; k < 3; ++k) {
                 const Vec3 &from = v[k], &to = v[(k + 1) % 3];
                 if ((from == p && to == q) || (from == q && to == p))
-                    faces.push_back(
-                        {apply(world_, from), apply(world_, to), apply(world_, v[(k + 2) % 3])});
+                    faces.push_back({to_world(from), to_world(to), to_world(v[(k + 2) % 3])});
             }
         });
     }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "math/transform.h"
 #include "rigid/model_blocks.h"
 #include "rigid/world_solid.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -17,7 +19,8 @@ class PlacedBlocks final : public WorldSolid {
 public:
     /// Errors      Error{bad_argument} if the transform is not finite; of all members: those of the
     ///             blocks.
-    PlacedBlocks(const ModelBlocks& blocks, const Transform& world_from_mesh);
+    PlacedBlocks(const ModelBlocks& blocks, const Transform& world_from_mesh,
+                 const std::optional<Vec3>& origin = {});
 
     [[nodiscard]] const Transform& world() const { return world_; }
     [[nodiscard]] std::size_t size() const { return boxes_.size(); }
@@ -35,6 +38,7 @@ public:
         return static_cast<std::uint32_t>(block) << ModelBlocks::kTriangleBits | local;
     }
 
+    [[nodiscard]] std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const override;
     [[nodiscard]] bool closed() const override { return blocks_.solid().closed; }
     [[nodiscard]] bool bounds_solid() const override { return blocks_.solid().solid; }
     [[nodiscard]] int outward() const override {
@@ -63,17 +67,22 @@ protected:
 
 private:
     struct PlacedBlock {
-        PlacedBlock(std::shared_ptr<const ModelBlock> held, const Transform& world)
-            : block(std::move(held)), placed(block->model, world) {}
+        PlacedBlock(std::shared_ptr<const ModelBlock> held, const Transform& world,
+                    const std::optional<Vec3>& origin)
+            : block(std::move(held)), placed(block->model, world, origin) {}
         std::shared_ptr<const ModelBlock> block;
         PlacedModel placed;
     };
     /// The block that was asked for last is kept.
     [[nodiscard]] std::shared_ptr<const PlacedBlock> placed(std::size_t i) const;
+    [[nodiscard]] Vec3 to_world(const Vec3& p) const {
+        return apply(world_, p) - origin_.value_or(Vec3{});
+    }
     [[nodiscard]] std::uint32_t name_of(std::uint32_t triangle) const;
 
     const ModelBlocks& blocks_;
     Transform world_;
+    std::optional<Vec3> origin_;
     std::vector<Box3> boxes_; ///< of each block, in the world
     Box3 box_;
     Vec3 middle_;

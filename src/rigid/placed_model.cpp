@@ -30,18 +30,19 @@ std::pair<double, double> clip_to_cube(const Vec3& p, const Vec3& d, double half
 
 } // namespace
 
-PlacedModel::PlacedModel(const Model& model, const Transform& world_from_model)
-    : model_(model), world_(world_from_model) {
+PlacedModel::PlacedModel(const Model& model, const Transform& world_from_model,
+                         const std::optional<Vec3>& origin)
+    : model_(model), world_(world_from_model), origin_(origin.value_or(Vec3{})) {
     require_finite(world_from_model, "transform");
-    if (make_frame())
+    if (make_frame(origin.has_value()))
         return;
     // The same positions by the same formula; identity then leaves them as they are.
     model_ = baked(model, world_);
     world_ = {};
-    make_frame();
+    make_frame(origin.has_value());
 }
 
-bool PlacedModel::make_frame() {
+bool PlacedModel::make_frame(bool has_origin) {
     // Beyond, cubes of what the inverse is made of leave the range of doubles; or one direction is
     // so much shorter than another that rounding swamps it.
     constexpr double kLeastStretch = 0x1p-300, kMostStretch = 0x1p300, kLeastRatio = 0x1p-30;
@@ -56,9 +57,30 @@ bool PlacedModel::make_frame() {
                               std::abs(double{model().tree().bounds.upper[k]})});
     reach_ = most_stretch_ * 2 * half_;
     world_extent_ = magnitude(middle()) + reach_;
+    if (has_origin)
+        move_to_origin();
     return model().tree().empty() ||
            (least_stretch_ > kLeastStretch && most_stretch_ < kMostStretch &&
             least_stretch_ > kLeastRatio * most_stretch_ && margin(0) < 1e18);
+}
+
+/// The tree's frame as seen from the origin: by a vertex, of which both places are known without the
+/// rounding of places far away.
+void PlacedModel::move_to_origin() {
+    // Far below the margin that single precision needs, far above what world positions are rounded
+    // by unless they are 2^27 times as far away as the model is large. So the margin is the same
+    // wherever the model is.
+    const double least = 0x1p-18 * half_,
+                 needed = 128 * 0x1p-53 * (world_extent_ + magnitude(origin_)) / least_stretch_;
+    origin_margin_ = std::max(least, needed);
+    if (model().tree().empty())
+        return;
+    const Vec3 to_first = apply_linear(world_from_tree_, model().first_in_tree());
+    const Vec3 middle = world_slot(0)[0] - to_first;
+    world_from_tree_.m[9] = middle.x, world_from_tree_.m[10] = middle.y;
+    world_from_tree_.m[11] = middle.z;
+    tree_from_world_ = inverse(world_from_tree_);
+    world_extent_ = magnitude(middle) + reach_;
 }
 
 Aabb PlacedModel::tree_box(const Box3& box) const {

@@ -23,29 +23,35 @@ struct ClippedSegment {
 
 /// One model under its transform, ready for questions with points, segments and boxes of the world.
 /// Immutable: any number of threads may ask.
+///
+/// It may be seen from an `origin`, which is taken off all of its world positions: in what follows
+/// "the world" then has its zero there. If models, origin and all are moved together, and no position
+/// is rounded by that, every answer is the same to the last bit.
 class PlacedModel {
 public:
     /// A transform without an inverse (a flattened part) is applied to a copy of the mesh first.
     ///
     /// Errors      Error{bad_argument} if the transform is not finite; Error{bad_mesh} if such a
     ///             copy has positions out of range.
-    PlacedModel(const Model& model, const Transform& world_from_model);
+    PlacedModel(const Model& model, const Transform& world_from_model,
+                const std::optional<Vec3>& origin = {});
 
     /// The model that the tree is of, under world(): the one given, or its transformed copy. Both
     /// have the same triangles.
     [[nodiscard]] const Model& public_model() const { return model_; }
     [[nodiscard]] const ModelData& model() const { return model_.data(); }
     [[nodiscard]] const Transform& world() const { return world_; }
+    [[nodiscard]] const Vec3& origin() const { return origin_; }
     /// No two points of the model are farther apart.
     [[nodiscard]] double world_size() const { return 2 * reach_; }
     [[nodiscard]] Vec3 world_vertex(std::uint32_t vertex) const {
-        return apply(world_, model().mesh().positions[vertex]);
+        return apply(world_, model().mesh().positions[vertex]) - origin_;
     }
     [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const {
-        return model().world_triangle(triangle, world_);
+        return seen(model().world_triangle(triangle, world_));
     }
     [[nodiscard]] Triangle world_slot(std::uint32_t slot) const {
-        return model().world_slot(slot, world_);
+        return seen(model().world_slot(slot, world_));
     }
     [[nodiscard]] const Transform& world_from_tree() const { return world_from_tree_; }
     [[nodiscard]] const Transform& tree_from_world() const { return tree_from_world_; }
@@ -93,22 +99,30 @@ public:
 
 private:
     /// Prepares the tree's frame; false if the transform leaves none to work in.
-    bool make_frame();
+    bool make_frame(bool has_origin);
+    void move_to_origin();
     [[nodiscard]] Aabb tree_box(const Box3& box) const;
     [[nodiscard]] TreeHalfSpace tree_half_space(const HalfSpace& space) const;
     /// What a world point near the model may be off by in the tree's frame in single precision;
     /// `size`: of the world coordinates that it was computed from.
     [[nodiscard]] double margin(double size) const {
-        return 64 * 0x1p-24 * 4 * half_ + 128 * 0x1p-53 * (world_extent_ + size) / least_stretch_;
+        return 64 * 0x1p-24 * 4 * half_ + 128 * 0x1p-53 * (world_extent_ + size) / least_stretch_ +
+               origin_margin_;
+    }
+    [[nodiscard]] Triangle seen(const Triangle& t) const {
+        return {t[0] - origin_, t[1] - origin_, t[2] - origin_};
     }
 
     Model model_;
     Transform world_;
+    Vec3 origin_;
     Transform world_from_tree_, tree_from_world_;
     double least_stretch_ = 0, most_stretch_ = 0;
-    double half_ = 0;         ///< largest coordinate of the tree's box
-    double reach_ = 0;        ///< no point of the model is farther from the tree's origin
-    double world_extent_ = 0; ///< bounds the model's world coordinates
+    double half_ = 0;          ///< largest coordinate of the tree's box
+    double reach_ = 0;         ///< no point of the model is farther from the tree's origin
+    double world_extent_ = 0;  ///< bounds the model's world coordinates
+    double origin_margin_ = 0; ///< the part of the margin for the rounding of positions that the
+                               ///< origin was taken off; in the tree's frame
 };
 
 inline double magnitude(const Vec3& p) {

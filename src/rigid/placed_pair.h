@@ -9,6 +9,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -36,6 +37,8 @@ public:
     [[nodiscard]] Triangle triangle_b(std::uint32_t i) const {
         return b().world_triangle(i, world_from_b_);
     }
+    /// No point of a is farther than this from one of b.
+    [[nodiscard]] double reach() const { return std::sqrt(double{frame_.reach_sq}); }
     /// Whether both models have such triangles.
     [[nodiscard]] bool has(const TrianglePair& pair) const {
         return pair.a < a().mesh().triangles.size() && pair.b < b().mesh().triangles.size();

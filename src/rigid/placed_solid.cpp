@@ -4,8 +4,9 @@
 
 namespace abut {
 
-PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model)
-    : PlacedModel(model, world_from_model), solid_(solid) {
+PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model,
+                         const std::optional<Vec3>& origin)
+    : PlacedModel(model, world_from_model, origin), solid_(solid) {
     const auto& m = world().m;
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
 }
@@ -48,7 +49,7 @@ void PlacedSolid::for_each_block(const Box3& /*region*/,
 
 double PlacedSolid::winding(const Vec3& point) const {
     // The winding number does not change under an affine map that moves the mesh and the point.
-    return winding_number(model().mesh(), apply(inverse(world()), point));
+    return winding_number(model().mesh(), apply(inverse(world()), point + origin()));
 }
 
 } // namespace abut

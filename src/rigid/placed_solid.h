@@ -5,6 +5,8 @@
 #include "rigid/world_solid.h"
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace abut {
@@ -14,7 +16,8 @@ namespace abut {
 class PlacedSolid final : public PlacedModel, public WorldSolid {
 public:
     /// Errors      as PlacedModel.
-    PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model);
+    PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model,
+                const std::optional<Vec3>& origin = {});
 
     /// The transform with a translation added.
     [[nodiscard]] Transform world_moved(const Vec3& shift) const {
@@ -25,6 +28,9 @@ public:
     /// Whether world() turns left hands into right ones.
     [[nodiscard]] bool mirrored() const { return mirrored_; }
 
+    [[nodiscard]] std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const override {
+        return std::make_unique<PlacedSolid>(public_model(), solid_, world(), origin);
+    }
     [[nodiscard]] bool closed() const override { return solid_.closed; }
     [[nodiscard]] bool bounds_solid() const override { return solid_.solid; }
     /// solid().outward as seen in the world: a mirroring transform turns it round.

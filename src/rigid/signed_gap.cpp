@@ -26,7 +26,7 @@ Gap common_point(const PlacedSolid& a, const PlacedSolid& b, const TrianglePair&
 Gap minus_depth(const LocalPenetration& p) {
     Gap gap;
     gap.distance = -p.depth;
-    gap.at_least = -p.at_most;
+    gap.at_least = -(p.at_most + p.rounding);
     gap.point_a = p.point_a, gap.point_b = p.point_b;
     gap.triangle_a = p.triangles.a, gap.triangle_b = p.triangles.b;
     gap.status = p.at_most > p.depth ? Status::bound_only : Status::exact;
@@ -39,10 +39,11 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
                const Transform& world_from_b, const DistanceOptions& apart,
                double relative_accuracy) {
     const PlacedPair pair(a, world_from_a, b, world_from_b);
-    const bool flattened =
-        pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b;
-    if (flattened)
-        return distance(pair, apart);
+    if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
+        // Flattened: the pair made copies in world coordinates. What is flat contains nothing, but
+        // the other may be a solid.
+        return signed_gap(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, apart,
+                          relative_accuracy);
 
     Counters counters;
     std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
@@ -60,7 +61,8 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
     if (contained || examine_meeting(placed_a, placed_b, contacts).interpenetrate) {
         DepthSearch search;
         search.relative_accuracy = relative_accuracy;
-        p = local_penetration(placed_a, placed_b, contacts, search);
+        p = contained ? local_penetration(placed_a, placed_b, contacts, search)
+                      : penetration_depth(placed_a, placed_b, contacts, search);
     }
     gap = p.depth > 0 ? minus_depth(p) : common_point(placed_a, placed_b, contacts.front().pair);
     gap.counters = counters;

@@ -13,8 +13,8 @@ namespace abut {
 ///
 /// In/out      `apart`: for models that are; returns the gap, `distance` negative inside.
 /// Degenerate  open shells contain nothing: where they cross, minus the depth of triangles as
-///             Depth::depth defines it, the points being one common point. Solids that coincide or
-///             overlap in faces only: 0, like touching. Flattened models contain nothing either.
+///             Depth::depth defines it, the points being one common point; so also where solids
+///             coincide. Flattened models contain nothing either.
 /// Accuracy    apart: to double rounding. Inside: |distance| is reached at the points, hence a
 ///             lower bound of the depth (status bound_only), to the accuracy asked for unless the
 ///             search's budget ends.

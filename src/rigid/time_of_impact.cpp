@@ -9,6 +9,7 @@
 #include "rigid/moving_nodes.h"
 #include "rigid/moving_pair.h"
 #include "rigid/moving_triangles.h"
+#include "rigid/search_steps.h"
 
 #include <algorithm>
 #include <array>
@@ -22,10 +23,10 @@ namespace abut {
 namespace {
 
 constexpr double kEnd = 1; ///< of the time that is looked at
-constexpr double kNever = std::numeric_limits<double>::infinity();
-/// How often pairs of triangles within the tolerance are followed, in all, before contact is
-/// reported as possible.
-constexpr int kMostFollowed = 4096;
+constexpr double kNoTime = std::numeric_limits<double>::infinity();
+/// How often pairs of triangles within the tolerance are followed, in all and for each pair that
+/// was found, before contact is reported as possible.
+constexpr std::uint64_t kMostFollowed = 4096, kMostFollowedOfPair = 64;
 /// Below this many times the margin for rounding, nothing is told from contact: twice, so that what
 /// is left of larger gaps always moves the time on.
 constexpr double kUndecided = 2;
@@ -54,7 +55,7 @@ class WaitingQueue {
 public:
     void clear() { heap_.clear(); }
     /// Infinite if none waits.
-    [[nodiscard]] double first_time() const { return heap_.empty() ? kNever : heap_.front().time; }
+    [[nodiscard]] double first_time() const { return heap_.empty() ? kNoTime : heap_.front().time; }
 
     void push(const Waiting& pair) {
         heap_.push_back(pair);
@@ -76,20 +77,31 @@ private:
     std::vector<Waiting> heap_;
 };
 
-/// Half the diagonal of a box, in units of its tree.
+/// Half the diagonal of a box, in units of its tree; in single precision, as it only decides what is
+/// opened and when a moment is too old.
 double radius_of(const Tree& tree, std::uint32_t name) {
-    const Aabb box = name == kRootName ? tree.bounds : tree.nodes[node_of(name)].box(lane_of(name));
-    return 0.5 *
-           length(Vec3{double{box.upper[0]} - box.lower[0], double{box.upper[1]} - box.lower[1],
-                       double{box.upper[2]} - box.lower[2]});
+    const auto half_of = [](float x, float y, float z) {
+        return 0.5F * std::sqrt(x * x + y * y + z * z);
+    };
+    if (name == kRootName) {
+        const auto &low = tree.bounds.lower, &high = tree.bounds.upper;
+        return half_of(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    }
+    const Node& node = tree.nodes[node_of(name)];
+    const std::size_t i = lane_of(name);
+    return half_of(node.upper[0][i] - node.lower[0][i], node.upper[1][i] - node.lower[1][i],
+                   node.upper[2][i] - node.lower[2][i]);
 }
 
 /// Advances all pairs in the order of the times before which they cannot meet.
 class ImpactSearch {
 public:
-    ImpactSearch(const Model& a, const Model& b, const MovingPair& pair, double tolerance)
+    ImpactSearch(const Model& a, const Model& b, const MovingPair& pair,
+                 const ImpactOptions& options)
         : a_(a), b_(b), pair_(pair), tree_a_(pair.a.tree), tree_b_(pair.b.tree),
-          tolerance_(std::max(tolerance, kUndecided * pair.margin)),
+          asked_tolerance_(options.tolerance.value_or(
+              kImpactTolerance * std::max(a.data().diagonal(), b.data().diagonal()))),
+          tolerance_(std::max(asked_tolerance_, kUndecided * pair.margin)), steps_(options),
           window_(std::max(kLeastWindow, kMostTurn / (pair.a.trajectory.speed_of_rotation() +
                                                       pair.b.trajectory.speed_of_rotation()))),
           blur_(std::min(kEnd, window_) * pair.bend + 0x1p-18 * pair.speed) {}
@@ -98,6 +110,7 @@ public:
         for (double begin = 0; begin <= kEnd && !answered_; begin = next_begin_)
             search_from(begin);
         impact_.counters = counters_;
+        impact_.steps = steps_.count();
         return impact_;
     }
 
@@ -107,19 +120,24 @@ private:
     void search_from(double begin) {
         begin += pair_.free_time_of_balls(begin, kEnd - begin);
         window_end_ = std::min(kEnd, begin + window_);
-        next_begin_ = window_end_ < kEnd ? window_end_ : kNever;
+        next_begin_ = window_end_ < kEnd ? window_end_ : kNoTime;
         boxes_.clear();
         triangles_.clear();
         if (begin <= window_end_)
             boxes_.push({begin, kRootName, kRootName});
         while (!answered_) {
-            const double box_time = boxes_.first_time(), triangle_time = triangles_.first_time();
-            if (triangle_time <= box_time && triangle_time <= window_end_)
-                advance(triangles_.pop());
-            else if (box_time <= window_end_)
-                open(boxes_.pop());
-            else
+            const double box_time = boxes_.first_time(), triangle_time = triangles_.first_time(),
+                         time = std::min(box_time, triangle_time);
+            if (!(time <= window_end_))
                 break;
+            if (!steps_.take(time)) {
+                impact_ = out_of_steps(time);
+                answered_ = true;
+            } else if (triangle_time <= box_time) {
+                advance(triangles_.pop());
+            } else {
+                open(boxes_.pop());
+            }
         }
     }
 
@@ -170,9 +188,11 @@ private:
         for (std::uint32_t i = 0; i < leaf_a.count(); ++i)
             for (std::uint32_t j = 0; j < leaf_b.count(); ++j) {
                 ++counters_.primitive_tests;
-                if ((found.pairs >> (TriangleLeaf::kLanes * i + j) & 1U) != 0)
-                    triangles_.push(
-                        {span.at(found.share[i][j]), leaf_a.first() + i, leaf_b.first() + j});
+                if ((found.pairs >> (TriangleLeaf::kLanes * i + j) & 1U) == 0)
+                    continue;
+                most_followed_ += kMostFollowedOfPair;
+                triangles_.push(
+                    {span.at(found.share[i][j]), leaf_a.first() + i, leaf_b.first() + j});
             }
     }
 
@@ -191,7 +211,8 @@ private:
         const double gap = std::sqrt(closest.distance_sq);
         if (gap <= tolerance_ && decide(pair, closest, gap))
             return;
-        const double next = pair.time + free_time(pair_, pair.time, a, b, closest);
+        const double next =
+            pair.time + free_time(pair_, pair.time, a, b, closest, window_end_ - pair.time);
         if (next <= window_end_)
             triangles_.push({next, pair.a, pair.b});
     }
@@ -202,7 +223,7 @@ private:
         const double closing =
             dot(normal, pair_.a.trajectory.velocity_at(closest.a, pair.time) -
                             pair_.b.trajectory.velocity_at(closest.b, pair.time));
-        const bool undecided = gap <= kUndecided * pair_.margin || ++followed_ > kMostFollowed;
+        const bool undecided = gap <= kUndecided * pair_.margin || ++followed_ > most_followed_;
         double contact_time = contact_of_triangles(pair, closing > 0 ? gap / closing : 0);
         if (contact_time > kEnd && undecided)
             contact_time = contact_of_models(
@@ -218,7 +239,9 @@ private:
         impact_.normal = normal;
         impact_.triangle_a = a_.data().triangle_at(pair.a);
         impact_.triangle_b = b_.data().triangle_at(pair.b);
-        impact_.status = contact_time <= kEnd ? Status::exact : Status::bound_only;
+        impact_.status = contact_time > kEnd       ? Status::bound_only
+                         : gap <= asked_tolerance_ ? Status::exact
+                                                   : Status::converged;
         return true;
     }
 
@@ -234,7 +257,7 @@ private:
             if (expected == 0)
                 break;
         }
-        return kNever;
+        return kNoTime;
     }
 
     /// The same for the whole models: near two triangles that only touch, others may cross.
@@ -246,14 +269,15 @@ private:
             if (!find_contacts(placed, ContactMode::first, counters_).empty())
                 return then;
         }
-        return kNever;
+        return kNoTime;
     }
 
     const Model& a_;
     const Model& b_;
     const MovingPair& pair_;
     const Tree &tree_a_, &tree_b_;
-    double tolerance_;
+    double asked_tolerance_, tolerance_;
+    SearchSteps steps_;
     double window_; ///< length of a window
     /// Speed at which the bounds of a moment become worse: rotation within a window, and roundings
     /// of single precision.
@@ -263,15 +287,10 @@ private:
     bool answered_ = false;
     WaitingQueue boxes_, triangles_;
     Moment moment_;
-    int followed_ = 0;
+    std::uint64_t followed_ = 0, most_followed_ = kMostFollowed;
     Counters counters_;
     Impact impact_;
 };
-
-double default_tolerance(const MovingPair& pair, const Tree& a, const Tree& b) {
-    return kImpactTolerance * 2 *
-           std::max(pair.a.scale * radius_of(a, kRootName), pair.b.scale * radius_of(b, kRootName));
-}
 
 /// The models share a point at the start.
 Impact impact_at_start(const PlacedPair& placed, const Contact& contact) {
@@ -300,10 +319,7 @@ Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
     Counters at_start;
     const PlacedPair placed(a, pair.a.trajectory.at(0), b, pair.b.trajectory.at(0));
     const std::vector<Contact> contact = find_contacts(placed, ContactMode::first, at_start);
-    Impact impact = contact.empty() ? ImpactSearch(a, b, pair,
-                                                   options.tolerance.value_or(default_tolerance(
-                                                       pair, data_a.tree(), data_b.tree())))
-                                          .run()
+    Impact impact = contact.empty() ? ImpactSearch(a, b, pair, options).run()
                                     : impact_at_start(placed, contact.front());
     impact.counters.volume_tests += at_start.volume_tests;
     impact.counters.primitive_tests += at_start.primitive_tests;

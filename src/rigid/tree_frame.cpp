@@ -57,15 +57,16 @@ double summed_box_area(const std::vector<Triangle>& triangles, const Axes& axes)
     return sum;
 }
 
-/// Some triangles, evenly chosen, as seen from the origin.
-std::vector<Triangle> some_triangles(const Mesh& mesh, const Vec3& origin) {
+/// Some triangles, evenly chosen, as seen from the middle of the bounds.
+std::vector<Triangle> some_triangles(const Mesh& mesh, const Box3& bounds) {
     std::vector<Triangle> sample;
     const std::size_t count = std::min(kSamples, mesh.triangles.size());
     sample.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         const auto& t = mesh.triangles[i * mesh.triangles.size() / count];
-        sample.push_back({mesh.positions[t[0]] - origin, mesh.positions[t[1]] - origin,
-                          mesh.positions[t[2]] - origin});
+        sample.push_back({from_middle(bounds, mesh.positions[t[0]]),
+                          from_middle(bounds, mesh.positions[t[1]]),
+                          from_middle(bounds, mesh.positions[t[2]])});
     }
     return sample;
 }
@@ -95,8 +96,7 @@ Transform transform_of(const Axes& axes, const Vec3& origin) {
 TreeFrame choose_tree_frame(const Mesh& mesh, const Box3& bounds) {
     if (is_empty(bounds))
         return {};
-    const Vec3 origin = middle_of(bounds);
-    const std::vector<Triangle> sample = some_triangles(mesh, origin);
+    const std::vector<Triangle> sample = some_triangles(mesh, bounds);
     TreeAxes chosen = TreeAxes::of_model;
     Axes best = kModelAxes;
     double least = summed_box_area(sample, best);
@@ -106,7 +106,7 @@ TreeFrame choose_tree_frame(const Mesh& mesh, const Box3& bounds) {
         if (sum < least)
             chosen = candidate, best = axes, least = sum;
     }
-    return {chosen, transform_of(best, origin)};
+    return {chosen, transform_of(best, middle_of(bounds))};
 }
 
 TreeFrame tree_frame(const Mesh& mesh, const Box3& bounds, TreeAxes axes) {
@@ -115,7 +115,7 @@ TreeFrame tree_frame(const Mesh& mesh, const Box3& bounds, TreeAxes axes) {
     const Vec3 origin = middle_of(bounds);
     if (axes == TreeAxes::of_model)
         return {axes, transform_of(kModelAxes, origin)};
-    return {axes, transform_of(axes_of(some_triangles(mesh, origin), axes), origin)};
+    return {axes, transform_of(axes_of(some_triangles(mesh, bounds), axes), origin)};
 }
 
 } // namespace abut

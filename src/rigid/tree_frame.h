@@ -3,6 +3,8 @@
 #include <abut/mesh.h>
 #include <abut/types.h>
 
+#include "math/vector.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -16,6 +18,12 @@ struct TreeFrame {
     TreeAxes axes{};
     Transform model_from_tree; ///< rigid to rounding; the origin is the centre of the mesh's box
 };
+
+/// A point as seen from the middle of a box. A box and a point that are moved together, without
+/// rounding, give the same bits: so a mesh's tree does not depend on where the mesh lies.
+inline Vec3 from_middle(const Box3& box, const Vec3& point) {
+    return (point - box.lower) - 0.5 * (box.upper - box.lower);
+}
 
 /// A rotation and origin for a mesh's tree in which boxes of its triangles are small.
 ///

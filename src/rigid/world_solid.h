@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,13 +21,16 @@ struct EdgeFace {
 /// A surface in the world that may bound a solid: what is asked of either of two that meet. It is
 /// one model (placed_solid.h), or a large one in blocks (placed_blocks.h).
 ///
-/// Frame       the world.
+/// Frame       the world, or as seen from a point of it (PlacedModel::origin).
 class WorldSolid {
 public:
     WorldSolid() = default;
     WorldSolid(const WorldSolid&) = default;
     WorldSolid& operator=(const WorldSolid&) = delete;
     virtual ~WorldSolid() = default;
+
+    /// The same surface in a frame with another origin. In: `this` has the origin of the world.
+    [[nodiscard]] virtual std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const = 0;
 
     /// Every edge is used by exactly two triangles.
     [[nodiscard]] virtual bool closed() const = 0;

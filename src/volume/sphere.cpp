@@ -69,11 +69,11 @@ Support smallest_ball(std::span<const Vec3> points, const Support& support) {
 
 /// The vertices that lie farthest both ways along the axes and diagonals of the cube.
 std::vector<Vec3> extreme_vertices(std::span<const Triangle> triangles) {
-    constexpr std::array<Vec3, 13> kDirections{
+    constexpr std::array<Vec3, 13> kWays{
         Vec3{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0},  {1, -1, 0}, {1, 0, 1}, {1, 0, -1},
         {0, 1, 1},     {0, 1, -1}, {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
     std::vector<Vec3> extremes;
-    for (const Vec3& direction : kDirections) {
+    for (const Vec3& direction : kWays) {
         const Vec3 *low = &triangles[0][0], *high = low;
         double least = dot(direction, *low), most = least;
         for (const Triangle& t : triangles)

@@ -7,7 +7,10 @@
 
 #include "geometry/triangle_triangle_distance.h"
 #include "scenes/bodies.h"
+#include "tests/support/brute_force.h"
+#include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
+#include "tests/support/thickness_oracle.h"
 
 #include <algorithm>
 #include <array>
@@ -100,7 +103,7 @@ TEST(DistanceOptions, WithinTheErrorsAllowed) {
             ASSERT_LE(gap.at_least, exact.distance + kRounding);
             ASSERT_GE(gap.at_least, 0);
             ASSERT_GE(gap.at_least,
-                      gap.distance - std::max(absolute, relative * gap.distance) - kRounding);
+                      gap.distance - std::max(absolute, relative * gap.distance) - 64 * kRounding);
             ASSERT_NEAR(length(gap.point_a - gap.point_b), gap.distance, 1e-14);
             inexact += gap.distance > exact.distance + kRounding ? 1 : 0;
             tests[i] += exact.distance > 0 ? gap.counters.volume_tests : 0;
@@ -111,7 +114,8 @@ TEST(DistanceOptions, WithinTheErrorsAllowed) {
                                    .relative_error = relative});
             ASSERT_EQ(cut.status, Status::bound_only);
             ASSERT_EQ(cut.distance, exact.distance / 2);
-            ASSERT_EQ(cut.at_least, exact.distance / 2);
+            ASSERT_LE(cut.at_least, exact.distance / 2);
+            ASSERT_GE(cut.at_least, exact.distance / 2 - 64 * kRounding);
         }
     }
     std::cout << meet << " of " << rounds << " meet, " << inexact << " inexact; tests "
@@ -129,8 +133,97 @@ TEST(DistanceOptions, NoErrorAllowedIsExact) {
     for (int round = 0; round < 20; ++round) {
         const Gap gap = any_scene(random, round, 2.2).gap();
         EXPECT_EQ(gap.status, Status::exact);
-        EXPECT_EQ(gap.at_least, gap.distance);
+        EXPECT_LE(gap.at_least, gap.distance);
+        EXPECT_GE(gap.at_least, gap.distance - 64 * kRounding);
     }
+}
+
+/// Whether some two points of the surfaces are at most `distance` apart, in exact arithmetic: every
+/// pair of features of triangles that are not much farther apart.
+bool exactly_within(const Scene& s, double distance) {
+    const auto a = placed_triangles(s.a.mesh(), s.world_a),
+               b = placed_triangles(s.b.mesh(), s.world_b);
+    const auto near = [&](ElementaryKind kind, const std::array<Vec3, 4>& points) {
+        return ThicknessOracle({kind, points, points}).within(distance, 0);
+    };
+    for (const PlacedTriangle& t : a)
+        for (const PlacedTriangle& u : b) {
+            const Triangle &p = t.corners, &q = u.corners;
+            const auto is_farther = [&](double sq) {
+                return std::sqrt(sq) * (1 - 1e-9) > distance;
+            };
+            if (is_farther(box_distance_sq(t.box, u.box)) ||
+                is_farther(triangle_triangle_distance(p, q).distance_sq))
+                continue;
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (near(ElementaryKind::vertex_face, {p[i], q[0], q[1], q[2]}) ||
+                    near(ElementaryKind::vertex_face, {q[i], p[0], p[1], p[2]}))
+                    return true;
+                for (std::size_t k = 0; k < 3; ++k)
+                    if (near(ElementaryKind::edge_edge,
+                             {p[i], p[(i + 1) % 3], q[k], q[(k + 1) % 3]}))
+                        return true;
+            }
+        }
+    return false;
+}
+
+TEST(DistanceOptions, AtLeastIsNeverAboveTheTrueDistance) {
+    Random random(4207);
+    int apart = 0, above = 0;
+    for (int round = 0; round < many(250); ++round) {
+        Scene s = any_scene(random, round, 2.2);
+        if (round % 3 == 0) // sizes apart by so much that rounding matters
+            s.a = Model(transformed(s.a.mesh(), scaling(1, 1, random.chance(0.5) ? 1e-9 : 1e6)));
+        const Gap gap = s.gap();
+        if (gap.distance == 0)
+            continue;
+        ++apart;
+        above += exactly_within(s, std::nextafter(gap.distance, 0)) ? 1 : 0;
+        ASSERT_LE(gap.at_least, gap.distance);
+        // What the distance exceeds the true one by, it may be below it by.
+        ASSERT_TRUE(exactly_within(s, 2 * gap.distance - gap.at_least)) << round;
+        for (const DistanceOptions& options :
+             {DistanceOptions{}, DistanceOptions{.relative_error = 0.1},
+              DistanceOptions{.upper_bound = gap.distance},
+              DistanceOptions{.signed_distance = true}}) {
+            const Gap bounded = s.gap(options);
+            if (bounded.distance > 0) {
+                ASSERT_FALSE(exactly_within(s, std::nextafter(bounded.at_least, 0))) << round;
+            }
+        }
+    }
+    std::cout << apart << " apart, " << above << " distances above the true one\n";
+    EXPECT_GT(apart, many(250) / 4);
+    EXPECT_GT(above, many(250) / 125); // so rounding counts
+}
+
+TEST(DistanceOptions, NothingIsReturnedAboveTheBound) {
+    Random random(4208);
+    int apart = 0, beyond = 0;
+    for (int round = 0; round < many(300); ++round) {
+        const Scene s = any_scene(random, round, 2.2);
+        const Gap exact = s.gap();
+        if (exact.distance == 0)
+            continue;
+        ++apart;
+        double bound = exact.distance;
+        for (int ulps = -3; ulps <= 3; ++ulps) {
+            bound = exact.distance * (1 + ulps * 0x1p-52);
+            const Gap gap = s.gap({.upper_bound = bound});
+            ASSERT_EQ(gap.status == Status::bound_only, !(gap.distance < bound));
+            ASSERT_LE(gap.distance, bound);
+            ASSERT_LE(gap.at_least, gap.distance);
+            if (gap.status == Status::exact) {
+                ASSERT_EQ(gap.distance, exact.distance);
+            }
+            beyond += gap.status == Status::bound_only ? 1 : 0;
+        }
+    }
+    std::cout << apart << " apart, " << beyond << " beyond their bounds\n";
+    EXPECT_GT(apart, many(300) / 4);
+    EXPECT_GT(beyond, 3 * apart);
+    EXPECT_LT(beyond, 6 * apart);
 }
 
 /// The second model on its way around the first, in and out of it; `jump`: from anywhere to
@@ -376,7 +469,8 @@ TEST(DistanceOptions, SignedOfModelsWithoutAnInside) {
     EXPECT_EQ(distance(none, {}, box, {}, options).status, Status::bound_only);
     EXPECT_EQ(distance(box, {}, none, {}, {.upper_bound = 2, .signed_distance = true}).distance, 2);
     EXPECT_EQ(distance(sheet, {}, sheet, translation(0, 0, 1), options).distance, 1);
-    EXPECT_EQ(distance(box, {}, box, {}, options).distance, 0); // no point is inside
+    // No point is inside, and yet they are locked into each other.
+    EXPECT_NEAR(distance(box, {}, box, {}, options).distance, -1, 1e-6);
     EXPECT_EQ(distance(box, {}, box, translation(1, 0, 0), options).distance, 0);
     EXPECT_EQ(distance(box, scaling(1, 1, 0), box, translation(0, 0, 2), options).distance, 2);
 }

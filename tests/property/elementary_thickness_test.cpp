@@ -400,5 +400,37 @@ TEST(FeatureDistance, BoundsHoldAndAreTight) {
     EXPECT_GT(apart, cases / 2);
 }
 
+TEST(FeatureDistance, WhetherAreWithinIsExact) {
+    Random random(810);
+    int within = 0, beyond = 0, open = 0;
+    for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {
+        ElementaryPair pair = i % 4 == 0 ? lattice_pair(random, 4) : any_pair(random);
+        if (i % 3 == 0)
+            pair = mutated(random, pair);
+        if (i % 5 == 0) { // sizes at which squares underflow
+            const double scale = std::ldexp(1, random.integer(-1010, -500));
+            for (Vec3& p : pair.start)
+                p = scale * p;
+        }
+        pair.end = pair.start;
+        const FeatureDistance d = feature_distance(pair.kind, pair.start);
+        const ThicknessOracle oracle(pair);
+        for (const double limit : {d.distance, std::nextafter(d.distance, HUGE_VAL),
+                                   std::max(0.0, std::nextafter(d.distance, 0)), d.lower, d.upper,
+                                   0.5 * d.distance, 2 * d.distance}) {
+            if (!(limit < HUGE_VAL))
+                continue;
+            const bool expected = oracle.within(limit, 0);
+            ASSERT_EQ(are_within(pair.kind, pair.start, d, limit), expected) << pair;
+            (expected ? within : beyond) += 1;
+            open += d.lower <= limit && limit < d.upper ? 1 : 0;
+        }
+    }
+    std::cout << within << " within, " << beyond << " beyond, " << open << " by exact arithmetic\n";
+    EXPECT_GT(within, many(8000));
+    EXPECT_GT(beyond, many(8000));
+    EXPECT_GT(open, many(8000));
+}
+
 } // namespace
 } // namespace abut::test

@@ -148,10 +148,17 @@ private:
     Transform tree_from_world_;
 };
 
+/// The vector turned by an angle about an axis of any length.
+Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
+    const Vec3 n = normalized_or_zero(axis);
+    return v + std::sin(angle) * cross(n, v) + (1 - std::cos(angle)) * cross(n, cross(n, v));
+}
+
 TEST(MotionBounds, WaysOfPointsInNodes) {
     Random random(2204);
     constexpr int kCases = 40000;
     int close = 0;
+    std::array<int, 3> of_axes{};
     const Model round(sphere_mesh(0.7, 20, 12)),
         bar(box_mesh({-1.5, -0.02, 0.3}, {1.5, 0.02, 0.4})), small(torus_mesh(1e-4, 3e-5, 24, 9)),
         large(soup_mesh(random, 300, 300, 200));
@@ -176,19 +183,24 @@ TEST(MotionBounds, WaysOfPointsInNodes) {
         FrameMap a_from_b;
         a_from_b.translation = {static_cast<float>(origin.x), static_cast<float>(origin.y),
                                 static_cast<float>(origin.z)};
-        const NodeMotion m = motion_of(moment.in_a, duration, *of_a.node, *of_b.node, a_from_b);
+        const NodeMotion m = motion_of(moment.in_a, duration, *of_a.node, *of_b.node, a_from_b,
+                                       random.uniform(0, 1));
         const double s = random.chance(0.5) ? 1 : random.uniform(0, 1);
         const double then = span.moment + s * duration;
         const auto to_vec = [](const std::array<float, 3>& v) { return Vec3{v[0], v[1], v[2]}; };
-        const auto rest = [&](const Motion& motion, const Vec3& vertex, const Vec3& velocity,
-                              const Vec3& spin) {
-            const Vec3 before = in_a(apply(at(motion, span.moment), vertex)),
-                       after = in_a(apply(at(motion, then), vertex));
-            return after - before - s * (velocity + cross(spin, before));
-        };
-        const Vec3 rest_a = rest(motion_a, of_a.vertex, {}, to_vec(m.spin_own)),
-                   rest_b = rest(motion_b, of_b.vertex, to_vec(m.velocity), to_vec(m.spin_other));
-        const Vec3 rest_of_both = rest_b - rest_a;
+        const Vec3 before_a = in_a(apply(at(motion_a, span.moment), of_a.vertex)),
+                   before_b = in_a(apply(at(motion_b, span.moment), of_b.vertex));
+        // The way as axes see it that may turn with a body.
+        const Vec3 after_a = apply(at(motion_a, then), of_a.vertex),
+                   after_b = apply(at(motion_b, then), of_b.vertex);
+        const Vec3 turn = m.axes == AxesTurn::none       ? Vec3{}
+                          : m.axes == AxesTurn::with_own ? motion_a.angular_velocity
+                                                         : motion_b.angular_velocity;
+        ++of_axes.at(static_cast<std::size_t>(m.axes));
+        const Vec3 between = turned(after_b - after_a, turn, -(then - span.moment) * length(turn));
+        const Vec3 rest_of_both = in_a(after_a + between) - in_a(after_a) - (before_b - before_a) -
+                                  s * (to_vec(m.velocity) + cross(to_vec(m.spin_other), before_b) -
+                                       cross(to_vec(m.spin_own), before_a));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double off = std::abs(component(rest_of_both, static_cast<int>(axis))),
                          bound = s * m.spread[axis];
@@ -203,8 +215,12 @@ TEST(MotionBounds, WaysOfPointsInNodes) {
         }
         ASSERT_GE(m.own_from_other, pair.b.scale / pair.a.scale);
     }
-    std::cout << close << " close to the bound\n";
+    std::cout << close
+              << " close to the bound; axes stand still, turn with the own, with the other: "
+              << of_axes[0] << ", " << of_axes[1] << ", " << of_axes[2] << '\n';
     EXPECT_GT(close, kCases / 100);
+    for (const int count : of_axes)
+        EXPECT_GT(count, kCases / 20);
 }
 
 /// A child of the root, a leaf.
@@ -330,7 +346,7 @@ TEST(MotionBounds, Triangles) {
         if (closest.distance_sq == 0)
             continue;
         check(a, motion_a, b, motion_b, begin,
-              begin + free_time(pair, begin, world_a, world_b, closest), tally);
+              begin + free_time(pair, begin, world_a, world_b, closest, 1 - begin), tally);
         ASSERT_FALSE(HasFailure()) << "case " << i;
     }
     tally.expect_some(kCases);

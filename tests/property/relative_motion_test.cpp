@@ -54,10 +54,12 @@ TEST(RelativeMotion, RotationsToRoundingStretch) {
     for (int i = 0; i < many(1000); ++i) {
         const BodyBall ball{{}, 1};
         const Transform turn = random.pose(0);
-        PosePair from{{}, turn}, to = from;
+        Transform stretched = turn;
         const int column = random.integer(0, 2);
         for (int k = 0; k < 3; ++k)
-            to.b.m[static_cast<std::size_t>(3 * column + k)] *= 1 + 0x1p-46;
+            stretched.m[3 * static_cast<std::size_t>(column) + static_cast<std::size_t>(k)] *=
+                1 + 0x1p-46;
+        const PosePair from{{}, turn}, to{{}, stretched};
         // The point at the end of the axis that is stretched.
         const double way = 0x1p-46;
         ASSERT_GE(most_approach(from, to, ball, ball), way);

@@ -1,11 +1,13 @@
 // Models with hierarchies of every kind of volume: the answers are those of the boxes, and of all
 // pairs of triangles.
 
+#include <abut/penetration.h>
 #include <abut/rigid.h>
 
 #include "rigid/model_data.h"
 #include "scenes/bodies.h"
 #include "tests/support/brute_force.h"
+#include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
@@ -203,6 +205,69 @@ TEST(RigidVolumes, FlattenedModelsKeepTheirKind) {
     }
     EXPECT_GE(meet, int(kVolumes.size()));
     EXPECT_LE(meet, 3 * int(kVolumes.size()));
+}
+
+/// Of rank 2, 1 or 0, along an axis or not.
+Transform singular_transform(Random& random, double reach) {
+    Transform flat = scaling(1, 1, 0);
+    const double kind = random.uniform(0, 1);
+    if (kind < 0.15)
+        flat = scaling(0, 1, 0);
+    else if (kind < 0.2)
+        flat = scaling(0, 0, 0);
+    Transform t =
+        compose(random.pose(0), random.chance(0.5) ? compose(flat, random.pose(0)) : flat);
+    const Vec3 at = random.in_cube(reach);
+    t.m[9] = at.x, t.m[10] = at.y, t.m[11] = at.z;
+    return t;
+}
+
+TEST(RigidVolumes, FlattenedModelsAnswerAsThoseOfBoxes) {
+    Random random(5309);
+    int deep = 0, apart = 0;
+    for (int round = 0; round < many(20); ++round) {
+        const Mesh mesh_a = round % 2 == 0 ? scenes::boulder(200, 7) : scenes::knot(200),
+                   mesh_b = round % 3 == 0 ? scenes::boulder(100, 5)
+                                           : box_mesh({-0.5, -0.4, -0.3}, {0.5, 0.4, 0.3});
+        const bool both = random.chance(0.2);
+        const double reach = round % 3 == 1 ? 1.5 : 0.3;
+        Transform world_a = random.pose(0.3), world_b = singular_transform(random, reach);
+        if (both)
+            world_a = singular_transform(random, reach);
+        else if (random.chance(0.5))
+            std::swap(world_a, world_b);
+        const Model boxes_a(mesh_a), boxes_b(mesh_b);
+        const Depth depth = penetration(boxes_a, world_a, boxes_b, world_b, {.separation = false});
+        const Gap plain = distance(boxes_a, world_a, boxes_b, world_b);
+        const Contacts contacts =
+            collide(boxes_a, world_a, boxes_b, world_b, {.mode = ContactMode::all});
+        (depth.depth > 0 ? deep : apart) += 1;
+        for (const Volume volume : kVolumes) {
+            SCOPED_TRACE(testing::Message() << "round " << round << " volume " << int(volume));
+            const Model a(mesh_a, {volume}), b(mesh_b, {volume});
+            const auto signed_distance =
+                distance(a, world_a, b, world_b, {.signed_distance = true});
+            ASSERT_EQ(collide(a, world_a, b, world_b, {.mode = ContactMode::all}).pairs,
+                      contacts.pairs);
+            ASSERT_NEAR(distance(a, world_a, b, world_b).distance, plain.distance, 1e-14);
+            const Depth found = penetration(a, world_a, b, world_b, {.separation = false});
+            ASSERT_EQ(found.interpenetrate, depth.interpenetrate);
+            ASSERT_LE(found.depth, depth.depth_at_most * (1 + 1e-12));
+            ASSERT_LE(depth.depth, found.depth_at_most * (1 + 1e-12));
+            if (depth.depth > 0) { // the same depth, as near as each search comes
+                ASSERT_LE(-signed_distance.distance, depth.depth_at_most * (1 + 1e-12));
+                ASSERT_LE(depth.depth, -signed_distance.at_least * (1 + 1e-12));
+                ASSERT_NEAR(-signed_distance.distance, depth.depth, 0.1 * depth.depth);
+            } else if (plain.distance > 0) {
+                ASSERT_NEAR(signed_distance.distance, plain.distance, 1e-14);
+            }
+            ASSERT_EQ(within(a, world_a, b, world_b, plain.distance * 0.99), plain.distance == 0);
+            ASSERT_TRUE(within(a, world_a, b, world_b, plain.distance * 1.01));
+        }
+    }
+    std::cout << deep << " deep, " << apart << " not\n";
+    EXPECT_GT(deep, many(20) / 8);
+    EXPECT_GT(apart, many(20) / 8);
 }
 
 TEST(RigidVolumes, EmptyModelsMeetNothing) {

@@ -18,7 +18,7 @@ TEST(SignedGap, ByHand) {
         sheet(Mesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}}, {{0, 1, 2}}});
     EXPECT_EQ(gap(box, box, translation(3, 0, 0)).distance, 2);
     EXPECT_EQ(gap(box, box, translation(1, 0, 0)).distance, 0);
-    EXPECT_EQ(gap(box, box, {}).distance, 0); // coincide: no point lies inside the other
+    EXPECT_NEAR(gap(box, box, {}).distance, -1, 1e-6); // coincide: no point lies inside the other
     EXPECT_NEAR(gap(box, small, translation(0.65, 0, 0)).distance, -0.1, 1e-3);
     EXPECT_NEAR(gap(box, small, {}).distance, -0.5, 6e-3); // its corner is half a unit deep
     EXPECT_NEAR(gap(small, box, {}).distance, -0.5, 6e-3);

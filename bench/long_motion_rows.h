@@ -1,0 +1,13 @@
+#pragma once
+
+#include "report.h"
+
+#include <vector>
+
+namespace abut::bench {
+
+/// Times of impact of large bodies that turn against small ones, slide along each other, or turn
+/// within each other: how the time grows with the size of the bodies over what lies between them.
+std::vector<Row> long_motion_rows(int rounds);
+
+} // namespace abut::bench
