@@ -28,9 +28,9 @@ class Convex {
 public:
     /// Errors      Error{bad_mesh} if there is no point, or a coordinate is not finite or beyond
     ///             1e18.
-    /// Accuracy    its vertices are those of the points that the hull of the others does not hold,
-    ///             less those that it holds to 2^-46 of the largest coordinate; what is coplanar
-    ///             exactly is one face.
+    /// Accuracy    queries answer for the hull of all points. `vertices()` are those that the hull of
+    ///             the others does not hold, less those that it holds to 2^-46 of the largest
+    ///             coordinate; what is coplanar exactly is one face.
     /// Cost        O(n log n).
     explicit Convex(std::span<const Vec3> points);
 
@@ -81,7 +81,8 @@ struct DifferencePolytope {
 };
 
 /// What queries remember of two convex bodies from one pose to the next. A query that is given it
-/// walks on from there: the answer is the same, but for which of several closest pairs is found.
+/// walks on from there: the answer is the same to its accuracy, and proven as without it, but for
+/// which of several closest pairs is found.
 ///
 /// One a pair of bodies and a thread. Starts empty; what belongs to other bodies does no harm.
 struct ConvexWorkspace {
@@ -100,16 +101,16 @@ struct ConvexCounters {
 
 /// A pair of closest points of two convex bodies, or a common point.
 struct ConvexGap {
-    double distance = std::numeric_limits<double>::infinity(); ///< 0 if they share a point
-    double at_least = 0; ///< no two points are closer: proven, to rounding
+    /// 0 if, and only if, they share a point.
+    double distance = std::numeric_limits<double>::infinity();
+    double at_least = 0; ///< no two points are closer: proven, rounded down
     /// World frame. Where they share a point: one of them, in both, to rounding.
     Vec3 point_a, point_b;
     /// What the points lie on: numbers of a vertex, an edge, a face. Within an error that was
     /// allowed: a vertex close by. Of no meaning at distance 0.
     Feature feature_a = Feature::vertex, feature_b = Feature::vertex;
     std::uint32_t id_a = 0, id_b = 0;
-    /// converged: between at_least and distance, within the error allowed; or at distance 0, nearer
-    /// than rounding can tell from touching.
+    /// converged: between at_least and distance, within the error allowed.
     Status status = Status::exact;
     ConvexCounters counters;
 };
@@ -123,14 +124,14 @@ struct ConvexDistanceOptions {
 
 /// How deep two convex bodies go into each other.
 struct ConvexDepth {
-    /// They share a point. False: all else is zero.
+    /// They share a point: exact. False: all else is zero.
     bool meet = false;
     double depth = 0;    ///< length of the shortest translation that leaves them touching
-    double at_least = 0; ///< no shorter translation than that does: proven, to rounding
+    double at_least = 0; ///< no shorter translation than that does: proven, rounded down
     Vec3 direction;      ///< unit vector in which b moves by `depth`
     /// On the surfaces, world frame: point_b meets point_a when b has moved.
     Vec3 point_a, point_b;
-    Status status = Status::exact; ///< converged: the depth lies between at_least and depth
+    Status status = Status::exact; ///< always: the bounds are equal to a few roundings
     ConvexCounters counters;
 };
 
@@ -138,10 +139,11 @@ struct ConvexDepth {
 ///
 /// Degenerate  points, segments and polygons as any other; transforms may be any affine map,
 ///             singular ones included.
-/// Accuracy    1e-12 of the distance, or a few roundings of the coordinates in a frame with the
-///             world's axes and the origin of `a`. What is nearer than that is at distance 0.
-/// Errors      Error{bad_argument} if a transform is not finite, or the error allowed is negative or
-///             NaN.
+/// Accuracy    0 if, and only if, the bodies meet where abut/types.h places their vertices. Else 1e-12
+///             of the distance, or a few roundings of the coordinates in a frame with the world's axes
+///             and the origin of `a`.
+/// Errors      Error{bad_argument} if a transform is not finite or places a vertex beyond the range
+///             of numbers, or the error allowed is negative or NaN.
 /// Cost        with a workspace and small steps, constant; else a few steps a level of detail.
 /// Source      [Lin, Canny 1991], [Mirtich 1998], [Ehmann, Lin 2000]; docs/convex.md.
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
@@ -150,9 +152,10 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
 /// The shortest translation that ends the overlap of two convex bodies.
 ///
 /// Degenerate  as `distance`. Where they only touch, or one of them is flat, the depth may be 0.
-/// Accuracy    to a few roundings of the coordinates, as `distance`: of all translations, not of
-///             those in some directions.
-/// Errors      Error{bad_argument} if a transform is not finite.
+/// Accuracy    whether they meet is exact, as for `distance`; the depth to a few roundings of the
+///             coordinates: of all translations, not of those in some directions.
+/// Errors      Error{bad_argument} if a transform is not finite or places a vertex beyond the range
+///             of numbers.
 /// Source      [van den Bergen 2001], ended by certified bounds; docs/convex.md.
 ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
                         const Transform& world_from_b, ConvexWorkspace* workspace = nullptr);

@@ -13,9 +13,11 @@
 #include "convex/polytope.h"
 #include "simd/simd.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::rings {
@@ -145,6 +147,8 @@ HWY_INLINE VertexPair farthest_two(const Polytope& a, const Vec3& direction_a, c
 struct HighestNeighbour {
     double excess = 0;      ///< 0 if none is higher
     std::uint32_t edge = 0; ///< to it; the first if none is higher
+    /// How much higher than the vertex any neighbour is: below 0 if lower.
+    double least = std::numeric_limits<double>::infinity(), most = -least;
 };
 
 HWY_INLINE HighestNeighbour highest_neighbour(const Polytope& polytope, const HullVertex& vertex,
@@ -168,15 +172,17 @@ HWY_INLINE HighestNeighbour highest_neighbour(const Polytope& polytope, const Hu
                              hn::Sub(hn::Load(d, block.y.data() + lane), y),
                              hn::Sub(hn::Load(d, block.z.data() + lane), z));
         }
-        V most = heights[0];
+        V least = heights[0], most = heights[0];
         for (std::size_t i = 1; i < kVectors; ++i)
-            most = hn::Max(most, heights[i]);
+            least = hn::Min(least, heights[i]), most = hn::Max(most, heights[i]);
         most = hn::MaxOfLanes(d, most);
+        highest.least = std::min(highest.least, hn::GetLane(hn::MinOfLanes(d, least)));
         const std::uint32_t k = first + first_of(heights, kVectors, most);
         const double excess = hn::GetLane(most);
         const bool higher = excess > highest.excess;
         highest.edge = higher ? vertex.first_edge + (k < vertex.degree ? k : 0) : highest.edge;
         highest.excess = higher ? excess : highest.excess;
+        highest.most = std::max(highest.most, excess);
     }
     return highest;
 }

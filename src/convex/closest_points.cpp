@@ -7,10 +7,6 @@
 
 namespace abut {
 
-namespace {
-
-/// The feature whose corners, or some of them, the vertices are. In a face of many corners these
-/// need not be neighbours: then the triangle next to the first that is flattest as seen along n.
 HullFeature spanned_feature(const Polytope& polytope, const Vec3& n,
                             std::span<const std::uint32_t> vertices) {
     HullFeature feature = vertex_feature(vertices[0]);
@@ -29,7 +25,6 @@ HullFeature spanned_feature(const Polytope& polytope, const Vec3& n,
     return feature;
 }
 
-/// The distinct vertices of one side of a simplex.
 std::vector<std::uint32_t> vertices_of(const DifferenceSimplex& simplex,
                                        std::uint32_t VertexPair::*side) {
     std::vector<std::uint32_t> vertices;
@@ -39,6 +34,8 @@ std::vector<std::uint32_t> vertices_of(const DifferenceSimplex& simplex,
             vertices.push_back(v);
     return vertices;
 }
+
+namespace {
 
 /// After so many pairs of features a search by the tables of normals may be shorter.
 constexpr std::uint32_t kLeap = 8;
@@ -83,6 +80,7 @@ void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
     at.point_a = found.point_a, at.gap = found.gap;
     at.distance_sq = found.distance_sq, at.excess = found.excess;
     at.end = found.meeting ? WalkEnd::meeting : WalkEnd::closest;
+    at.proven = found.meeting && found.proven;
 }
 
 void find_closest_points(const PolytopePair& pair, double rounding, ClosestPointSearch& search) {

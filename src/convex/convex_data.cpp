@@ -79,7 +79,8 @@ std::size_t bytes_of(const std::vector<T>& values) {
 } // namespace
 
 ConvexData::ConvexData(std::span<const Vec3> points) {
-    HullSurface hull = walkable_hull(points);
+    LeftOutVertices without;
+    HullSurface hull = walkable_hull(points, &without);
     dimension = hull.dimension;
     source = hull.vertices;
     std::vector<std::uint32_t> number(points.size());
@@ -91,7 +92,10 @@ ConvexData::ConvexData(std::span<const Vec3> points) {
     for (IndexTriangle& t : triangles)
         for (std::uint32_t& v : t)
             v = number[v];
-    reach = reach_of(vertices);
+    for (const std::uint32_t v : without.vertices)
+        left_out.push_back(points[v]);
+    outside = without.outside;
+    reach = std::max(reach_of(vertices), reach_of(left_out));
     ball = inner_ball(vertices, triangles);
     levels.push_back(make_level(vertices, triangles));
     levels[0].number.resize(vertices.size());
@@ -166,9 +170,9 @@ void ConvexData::simplify() {
 }
 
 std::size_t ConvexData::bytes() const {
-    std::size_t sum = sizeof(*this) + bytes_of(vertices) + bytes_of(source) + bytes_of(edges) +
-                      bytes_of(face_begin) + bytes_of(face_vertices) + bytes_of(triangles) +
-                      bytes_of(edge_number) + bytes_of(face_number);
+    std::size_t sum = sizeof(*this) + bytes_of(vertices) + bytes_of(source) + bytes_of(left_out) +
+                      bytes_of(edges) + bytes_of(face_begin) + bytes_of(face_vertices) +
+                      bytes_of(triangles) + bytes_of(edge_number) + bytes_of(face_number);
     for (const HullLevel& level : levels)
         sum += sizeof(level) + level.polytope.bytes() + bytes_of(level.number);
     return sum;

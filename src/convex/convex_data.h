@@ -28,6 +28,8 @@ public:
     int dimension = 0;
     std::vector<Vec3> vertices;
     std::vector<std::uint32_t> source;
+    std::vector<Vec3> left_out; ///< vertices of the exact hull that `vertices` does without
+    double outside = 0;         ///< none of these lies farther from the hull of `vertices`
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> face_begin, face_vertices;
     std::vector<IndexTriangle> triangles; ///< of the surface
@@ -37,7 +39,7 @@ public:
     std::vector<std::uint32_t> edge_number, face_number;
     std::vector<HullLevel> levels; ///< the body's own polytope first, then ever coarser ones
     std::size_t entry = 0;         ///< the level where an incoherent search begins
-    double reach = 0;              ///< largest |x| + |y| + |z| of a vertex
+    double reach = 0;              ///< largest |x| + |y| + |z| of a vertex, of those left out too
     InnerBall ball;                ///< radius 0 if the body is flat
 
 private:

@@ -1,6 +1,7 @@
 #include <abut/convex.h>
 #include <abut/error.h>
 
+#include "convex/certain_gap.h"
 #include "convex/closest_points.h"
 #include "convex/convex_data.h"
 #include "convex/convex_query.h"
@@ -66,12 +67,13 @@ bool balls_meet(const PlacedBodies& bodies, const PolytopePair& pair, const Vec3
                 double rounding, WalkState& at) {
     const double radius_a = stretch_of(bodies.world_from_a).least * bodies.a.ball.radius,
                  radius_b = stretch_of(bodies.world_from_b).least * bodies.b.ball.radius;
-    const double room = radius_a + radius_b - 4 * rounding;
+    const double room = radius_a + radius_b - 4 * (rounding + world_rounding(pair));
     if (!(room > 0 && length_sq(between) < room * room))
         return false;
     at.point_a = pair.a.place(bodies.a.ball.middle) + radius_a / (radius_a + radius_b) * between;
     at.distance_sq = 0;
     at.end = WalkEnd::meeting;
+    at.proven = true;
     return true;
 }
 
@@ -152,12 +154,46 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& l
     return ended || descend(bodies, rounding, search);
 }
 
+/// Proves what the search has found, by a look at all vertices, or replaces it by what integers say.
+/// Those decide for the bodies themselves, whatever error is allowed.
+///
+/// In          `bodies`: by value, so that nothing of them need be in memory before.
+///             `is_at_level`: as returned by `descend`.
+/// Out         `is_decided`: the search is one of the bodies' own polytopes now.
+[[gnu::noinline, gnu::cold]] CertainDistance settle(PlacedBodies bodies, double rounding,
+                                                    ClosestPointSearch& search, bool is_at_level,
+                                                    bool& is_decided) {
+    const PolytopePair pair = is_at_level ? bodies.at(bodies.level_a, bodies.level_b)
+                                          : bodies.at(std::max(bodies.a.entry, bodies.level_a),
+                                                      std::max(bodies.b.entry, bodies.level_b));
+    is_decided = false;
+    if (!search.simplex && surely_meet(pair, rounding, search.at))
+        return {};
+    const bool is_simplified = bodies.level_a + bodies.level_b > 0;
+    if (search.at.end == WalkEnd::closest && is_simplified) {
+        const double bound = certain_distance(pair, {}, {}, rounding, search.at),
+                     distance = std::sqrt(search.at.distance_sq);
+        if (is_tight(bound, distance, rounding + world_rounding(pair)))
+            return {distance, std::min(bound, distance)};
+    }
+    if (!is_at_level || is_simplified) {
+        // From anywhere: what the search has found are numbers of other polytopes.
+        search.at.a = search.at.b = {};
+        search.at.end = WalkEnd::stuck;
+        search.simplex.reset();
+    }
+    is_decided = true;
+    return settle_gap({bodies.a, bodies.b, bodies.world_from_a, bodies.world_from_b}, rounding,
+                      search);
+}
+
 } // namespace
 
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
                    const Transform& world_from_b, const ConvexDistanceOptions& options) {
     PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b};
-    const double rounding = rounding_of(bodies.a, world_from_a, bodies.b, world_from_b);
+    const auto [rounding, all_rounding] =
+        roundings_of(bodies.a, world_from_a, bodies.b, world_from_b);
     if (!(options.max_error >= 0))
         throw Error(ErrorCode::bad_argument, "the error allowed must not be negative");
     if (options.max_error > 0) {
@@ -171,6 +207,20 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
         worth_keeping = go_on(bodies, rounding, *workspace, search);
     else
         worth_keeping = descend(bodies, rounding, search);
+    // What rounding of the search and of coordinates, and points that the polytopes do without, may
+    // take from the distance.
+    double doubt = 8 * rounding + all_rounding;
+    if (bodies.a.outside + bodies.b.outside > 0)
+        doubt += PlacedConvexPair{bodies.a, bodies.b, world_from_a, world_from_b}.outside();
+    const bool is_proven = search.at.proven && (search.at.end == WalkEnd::meeting ||
+                                                is_measurable(search.at.distance_sq, doubt));
+    CertainDistance settled;
+    if (!is_proven) {
+        bool is_decided = false;
+        settled = settle(bodies, rounding, search, worth_keeping, is_decided);
+        if (is_decided)
+            bodies.level_a = bodies.level_b = 0, worth_keeping = true;
+    }
     if (workspace != nullptr && worth_keeping)
         remember(search, *workspace);
     else if (workspace != nullptr)
@@ -184,15 +234,11 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
     if (at.end == WalkEnd::meeting) {
         gap.distance = 0;
         gap.point_b = gap.point_a;
-        gap.status = at.distance_sq == 0 ? Status::exact : Status::converged;
         return gap;
     }
     gap.point_b = origin + (at.point_a + at.gap);
-    gap.distance = gap.at_least = std::sqrt(at.distance_sq);
-    if (at.excess * at.excess > rounding * rounding * at.distance_sq) {
-        gap.at_least = std::max(0.0, gap.distance - at.excess / gap.distance);
-        gap.status = Status::converged;
-    }
+    gap.distance = is_proven ? std::sqrt(at.distance_sq) : settled.distance;
+    gap.at_least = is_proven ? gap.distance - doubt : settled.at_least;
     if (const double deviation = bodies.deviation(); deviation > 0) {
         gap.at_least = std::max(0.0, gap.at_least - deviation);
         gap.status = Status::converged;

@@ -1,7 +1,10 @@
 #include <abut/convex.h>
 
+#include "convex/certain_gap.h"
 #include "convex/convex_data.h"
 #include "convex/convex_query.h"
+#include "convex/exact_closest_points.h"
+#include "convex/exact_depth.h"
 #include "convex/expanding_polytope.h"
 #include "math/vector.h"
 
@@ -24,21 +27,99 @@ DifferenceSimplex simplex_around(const PolytopePair& pair, const Vec3& between) 
     return simplex;
 }
 
-/// From a simplex that holds the origin; none if there is none.
-std::optional<NearestBoundary> begin(const ConvexData& a, const ConvexData& b,
-                                     const PolytopePair& pair, double rounding,
-                                     ConvexWorkspace* workspace, ConvexCounters& counters) {
-    const DifferenceSimplex first = workspace != nullptr && has_simplex(*workspace)
-                                        ? recalled_simplex(pair, *workspace)
-                                        : simplex_around(pair, between_middles(a, b, pair));
-    const SimplexState found = search_simplex(pair, first, rounding);
-    counters.simplices = found.steps;
-    if (!found.meeting)
-        return std::nullopt;
+/// What a query knows of its bodies.
+struct Bodies {
+    const ConvexData &a, &b;
+    const PlacedConvexPair placed;
+    const PolytopePair pair;
+    double rounding;
+};
+
+/// Whether a search has proven that bodies are apart.
+bool surely_apart(const Bodies& bodies, const ClosestPointSearch& search) {
+    return search.at.proven && search.at.end == WalkEnd::closest &&
+           is_measurable(search.at.distance_sq, 9 * bodies.rounding + world_rounding(bodies.pair) +
+                                                    bodies.placed.outside());
+}
+
+/// From a simplex that holds the origin; none if there surely is none.
+std::optional<NearestBoundary> begin(const Bodies& bodies, ConvexWorkspace* workspace,
+                                     ConvexCounters& counters) {
+    const PolytopePair& pair = bodies.pair;
+    ClosestPointSearch search;
+    search.simplex = workspace != nullptr && has_simplex(*workspace)
+                         ? recalled_simplex(pair, *workspace)
+                         : simplex_around(pair, between_middles(bodies.a, bodies.b, pair));
+    find_closest_points_from_simplex(pair, bodies.rounding, search);
+    if (search.at.end != WalkEnd::meeting || !search.simplex) {
+        if (surely_apart(bodies, search) ||
+            settle_gap(bodies.placed, bodies.rounding, search).distance > 0) {
+            counters.simplices = search.simplices;
+            return std::nullopt;
+        }
+    }
+    counters.simplices = search.simplices;
+    if (!search.simplex)
+        return NearestBoundary{};
     if (workspace != nullptr)
-        remember(found.simplex, *workspace);
-    return expand_simplex(pair, rounding, found.simplex,
+        remember(*search.simplex, *workspace);
+    return expand_simplex(pair, bodies.rounding, *search.simplex,
                           workspace != nullptr ? &workspace->deepest : nullptr);
+}
+
+/// Whether both bounds of a search are proven, if need be the upper one by a look at all vertices,
+/// and meet.
+bool is_proven(const Bodies& bodies, const NearestBoundary& nearest) {
+    const double error = bodies.rounding + world_rounding(bodies.pair);
+    if (!(nearest.is_inside_proven && nearest.depth - nearest.at_least <= 12 * error))
+        return false;
+    if (nearest.is_depth_proven)
+        return true;
+    const double reach = highest(bodies.pair.b, bodies.b.left_out, nearest.normal) +
+                         highest(bodies.pair.a, bodies.a.left_out, -nearest.normal);
+    return reach <= nearest.depth + 4 * error;
+}
+
+/// By integers.
+std::optional<NearestBoundary> decide_depth(const Bodies& bodies, const NearestBoundary& nearest,
+                                            ConvexWorkspace* workspace, Vec3& point_a,
+                                            Vec3& point_b) {
+    if (workspace != nullptr)
+        workspace->deepest.corners.clear(), workspace->deepest.faces.clear();
+    const PlacedPoints points = bodies.placed.points();
+    require_finite(points);
+    const IntegerGrid grid(points);
+    DifferenceSimplex start;
+    for (const VertexPair& corner : nearest.corners)
+        add_if_new(corner, start);
+    const ExactClosestPoints closest = exact_closest_points(points, grid, start);
+    if (!closest.meeting)
+        return std::nullopt;
+    const NearestBoundary decided = exact_depth(points, grid, closest.simplex);
+    for (std::size_t i = 0; i < 3; ++i) {
+        point_a = point_a + decided.weights[i] * (points.a[decided.corners[i].a] - points.a[0]);
+        point_b = point_b + decided.weights[i] * (points.b[decided.corners[i].b] - points.b[0]);
+    }
+    point_a = points.a[0] + point_a, point_b = points.b[0] + point_b;
+    return decided;
+}
+
+/// What is not proven yet.
+[[gnu::noinline, gnu::cold]] void settle_depth(const Bodies& bodies, NearestBoundary nearest,
+                                               ConvexWorkspace* workspace, ConvexDepth& result) {
+    const ConvexCounters counters = result.counters;
+    result = {};
+    result.counters = counters;
+    const std::optional<NearestBoundary> decided =
+        decide_depth(bodies, nearest, workspace, result.point_a, result.point_b);
+    if (!decided) {
+        result.point_a = result.point_b = {};
+        return;
+    }
+    result.meet = true;
+    result.counters.simplices += decided->steps;
+    result.depth = decided->depth, result.at_least = decided->at_least;
+    result.direction = -decided->normal;
 }
 
 } // namespace
@@ -46,15 +127,16 @@ std::optional<NearestBoundary> begin(const ConvexData& a, const ConvexData& b,
 ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
                         const Transform& world_from_b, ConvexWorkspace* workspace) {
     const double rounding = rounding_of(a.data(), world_from_a, b.data(), world_from_b);
-    const PolytopePair pair(a.data().levels[0].polytope, world_from_a, b.data().levels[0].polytope,
-                            world_from_b);
+    const PlacedConvexPair placed{a.data(), b.data(), world_from_a, world_from_b};
+    const Bodies bodies{a.data(), b.data(), placed, placed.pair(), rounding};
+    const PolytopePair& pair = bodies.pair;
     ConvexDepth result;
     // From what proved the last depth, if it still holds the origin.
     std::optional<NearestBoundary> nearest;
     if (workspace != nullptr && !workspace->deepest.faces.empty())
         nearest = expand_again(pair, rounding, workspace->deepest);
     if (!nearest)
-        nearest = begin(a.data(), b.data(), pair, rounding, workspace, result.counters);
+        nearest = begin(bodies, workspace, result.counters);
     if (!nearest)
         return result;
     result.meet = true;
@@ -70,8 +152,8 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     const Vec3 origin{world_from_a.m[9], world_from_a.m[10], world_from_a.m[11]};
     result.point_a = origin + result.point_a;
     result.point_b = origin + result.point_b;
-    if (result.depth - result.at_least > 2 * rounding)
-        result.status = Status::converged;
+    if (!is_proven(bodies, *nearest))
+        settle_depth(bodies, *nearest, workspace, result);
     return result;
 }
 

@@ -8,12 +8,19 @@
 /// What queries of two convex bodies have in common.
 namespace abut {
 
-/// No coordinate in the pair's frame is off by more: a length.
-///
-/// In          `pair`: the bodies' own polytopes.
+/// Lengths: no coordinate in the pair's frame is off by more, and none from where abut/types.h has it.
+struct Roundings {
+    double of_pair = 0, all = 0;
+};
+
 /// Errors      Error{bad_argument} if a transform is not finite.
-double rounding_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
-                   const Transform& world_from_b);
+Roundings roundings_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
+                       const Transform& world_from_b);
+
+inline double rounding_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
+                          const Transform& world_from_b) {
+    return roundings_of(a, world_from_a, b, world_from_b).of_pair;
+}
 
 /// From the middle of one body's inner ball to that of the other, in the pair's frame.
 Vec3 between_middles(const ConvexData& a, const ConvexData& b, const PolytopePair& pair);

@@ -24,7 +24,8 @@ constexpr std::uint32_t kNoNumber = 0xffffffffU;
 class ExpandingPolytope {
 public:
     ExpandingPolytope(const PolytopePair& pair, double rounding)
-        : a_(pair.a), b_(pair.b), rounding_(rounding), boundary_(rounding) {
+        : a_(pair.a), b_(pair.b), rounding_(rounding),
+          all_rounding_(rounding + world_rounding(pair)), boundary_(rounding) {
         open_.resize(64);
     }
 
@@ -80,12 +81,14 @@ public:
                 nearest.normal = scale * face.normal;
                 nearest.depth = std::max(0.0, offset + std::max(0.0, excess));
                 nearest.at_least = std::max(0.0, offset);
-                finish(face, offset, nearest);
+                const bool is_foot_inside = finish(face, offset, nearest);
+                prove(f, is_foot_inside, nearest);
                 return true;
             }
             ++nearest.steps;
             const bool one_ring = (recalled_ && fill_dent(vertices, f)) ||
                                   boundary_.grow(corner, vertices, f) || !recalled_;
+            is_whole_ = is_whole_ && boundary_.is_one_ring();
             if (!open_new_faces() || !one_ring)
                 return false;
         }
@@ -218,8 +221,9 @@ private:
         return false;
     }
 
-    /// The point of the plane, which lies in this face or in one that is coplanar with it.
-    void finish(const GrowingBoundary::Face& face, double offset, NearestBoundary& nearest) const {
+    /// The point of the plane, which lies in this face or in one that is coplanar with it. Whether it
+    /// lies in this one.
+    bool finish(const GrowingBoundary::Face& face, double offset, NearestBoundary& nearest) const {
         const Vec3 point = offset * nearest.normal;
         double least_sq = std::numeric_limits<double>::infinity();
         const auto try_face = [&](const GrowingBoundary::Face& f) HWY_ATTR {
@@ -235,15 +239,134 @@ private:
         };
         try_face(face);
         if (least_sq <= rounding_ * rounding_)
-            return;
+            return true;
         const double farthest = std::max(offset, 0.0) + rounding_;
         for (const GrowingBoundary::Face& f : boundary_.faces())
             if (f.offset_sq <= farthest * farthest)
                 try_face(f);
+        return false;
+    }
+
+    /// Proves both bounds; docs/convex.md, "Proofs". In: the nearest face, which has `nearest` but for
+    /// what is set here.
+    HWY_INLINE void prove(std::uint32_t f, bool is_foot_inside, NearestBoundary& nearest) const {
+        const double at_least =
+            least_along(boundary_.faces()[f], nearest.normal) - 4 * all_rounding_;
+        if (!(is_whole_ && at_least > 0 && is_around(at_least)))
+            return;
+        nearest.at_least = at_least;
+        nearest.is_inside_proven = true;
+        const bool all_were_seen = !a_.polytope().columns.empty() && !b_.polytope().columns.empty();
+        nearest.is_depth_proven =
+            all_were_seen || (is_facet(f, nearest.normal) &&
+                              (is_foot_inside || is_foot_near(boundary_.faces()[f], nearest)));
+    }
+
+    /// Whether the foot of the origin lies in a face's plane not much farther from it than it is
+    /// large, as in the other half of a parallelogram: what rounding turns the plane by may then be as
+    /// much there as at its corners.
+    [[nodiscard]] HWY_NOINLINE bool is_foot_near(const GrowingBoundary::Face& face,
+                                                 const NearestBoundary& nearest) const {
+        const Vec3 foot = nearest.depth * nearest.normal;
+        const Vec3 p = boundary_.at(face.corners[0]) - foot,
+                   q = boundary_.at(face.corners[1]) - foot,
+                   r = boundary_.at(face.corners[2]) - foot;
+        const double most = 2 * length_sq(face.normal);
+        return std::abs(dot(cross(q, r), face.normal)) <= most &&
+               std::abs(dot(cross(r, p), face.normal)) <= most &&
+               std::abs(dot(cross(p, q), face.normal)) <= most;
+    }
+
+    [[nodiscard]] HWY_INLINE double least_along(const GrowingBoundary::Face& face,
+                                                const Vec3& direction) const {
+        return std::min({dot(direction, boundary_.at(face.corners[0])),
+                         dot(direction, boundary_.at(face.corners[1])),
+                         dot(direction, boundary_.at(face.corners[2]))});
+    }
+
+    /// Whether all faces turn their inner side to the origin, wherever rounding may have moved their
+    /// corners from, and no point of them is nearer to it than a length.
+    [[nodiscard]] HWY_INLINE bool is_around(double radius) const {
+        double size_sq = 0;
+        for (const GrowingBoundary::Corner& corner : boundary_.corners())
+            size_sq = std::max(size_sq, length_sq(corner.at));
+        // Twice what rounding may have added to a height or to the radius times the normal.
+        const double doubt = 64 * all_rounding_ * size_sq, radius_sq = radius * radius;
+        bool around = size_sq > 0x1p-600;
+        for (const GrowingBoundary::Face& face : boundary_.faces()) {
+            // h - doubt / 2 >= radius |n|, divided by |n| and squared.
+            const bool beyond = face.offset_sq * (face.height - doubt) >= radius_sq * face.height;
+            around = around && (beyond || !face.alive() || is_beyond(face, doubt, radius));
+        }
+        return around;
+    }
+    /// The same of a face whose plane is nearer, or too short to tell: by its corners, of which the
+    /// face's points are mixtures.
+    [[nodiscard]] HWY_NOINLINE bool is_beyond(const GrowingBoundary::Face& face, double doubt,
+                                              double radius) const {
+        return face.height > doubt &&
+               least_along(face, normalized_or_zero(face.normal)) >= radius + 3 * all_rounding_;
+    }
+
+    /// Whether a face of the polytope surely lies in one of the difference: a triangle of one body at
+    /// a vertex of the other, or two edges. By the neighbours, as a walk proves a distance.
+    [[nodiscard]] bool is_facet(std::uint32_t f, const Vec3& normal) const {
+        const GrowingBoundary::Face& face = boundary_.faces()[f];
+        std::uint32_t a[3], b[3];
+        std::uint32_t count_a = 0, count_b = 0;
+        const auto add = [](std::uint32_t v, std::uint32_t* list, std::uint32_t& count) HWY_ATTR {
+            if ((count < 1 || list[0] != v) && (count < 2 || list[1] != v))
+                list[count++] = v;
+        };
+        double edge_sq = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const GrowingBoundary::Corner& corner = boundary_.corners()[face.corners[k]];
+            add(corner.vertices.a, a, count_a), add(corner.vertices.b, b, count_b);
+            edge_sq = std::max(
+                edge_sq, length_sq(boundary_.corners()[face.corners[(k + 1) % 3]].at - corner.at));
+        }
+        if (count_a + count_b != 4)
+            return false;
+        const double height_sq = length_sq(face.normal) / edge_sq,
+                     rounding_sq = rounding_ * rounding_,
+                     least_behind = 0x1p118 * rounding_sq * rounding_sq;
+        const Xyz n = to_xyz(normal);
+        const double behind_a = behind(a_, to_vec3(a_.pulled_back(-n)), a, count_a),
+                     behind_b = behind(b_, to_vec3(b_.pulled_back(n)), b, count_b);
+        return least_behind > 0x1p-900 && behind_a < 0 && behind_b < 0 &&
+               behind_a * behind_a * height_sq >= least_behind &&
+               behind_b * behind_b * height_sq >= least_behind;
+    }
+
+    /// How much further along a direction than a vertex, an edge or a triangle a neighbour lies at
+    /// most; below 0 if all lie behind; 0 if the vertices are no such.
+    [[nodiscard]] HWY_INLINE static double behind(const PlacedXyz& side, const Vec3& n,
+                                                  const std::uint32_t* vertices,
+                                                  std::uint32_t count) {
+        const Polytope& p = side.polytope();
+        const HullVertex& v = p.vertices[vertices[0]];
+        if (count == 1)
+            return rings::highest_neighbour(p, v, n).most;
+        const std::uint32_t end = v.first_edge + v.degree;
+        std::uint32_t edge = v.first_edge;
+        while (edge < end && p.target(edge) != vertices[1])
+            ++edge;
+        if (edge == end)
+            return 0;
+        const auto excess = [&](std::uint32_t e) HWY_ATTR { return dot(n, p.to(e) - v.at); };
+        const std::uint32_t left = p.after(v, edge), right = p.before(v, edge);
+        if (count == 2)
+            return std::max(excess(left), excess(right));
+        // Of a triangle, which has all behind it on one side: that of another neighbour.
+        if (p.target(left) == vertices[2])
+            return excess(p.after(v, left));
+        return p.target(right) == vertices[2] ? excess(left) : 0;
     }
 
     PlacedXyz a_, b_;
     double rounding_;
+    double all_rounding_;  ///< that of positions in the world's frame too
+    bool is_whole_ = true; ///< the boundary is closed
     double upper_sq_ = std::numeric_limits<double>::infinity(); ///< of the depth's square
     GrowingBoundary boundary_;
     std::vector<std::uint32_t> open_; ///< faces that may be the nearest, some that went, and room

@@ -20,6 +20,9 @@ struct NearestBoundary {
     std::array<VertexPair, 3> corners{}; ///< of the face that the point lies on
     std::array<double, 3> weights{};     ///< of the point
     std::uint32_t steps = 0;             ///< corners that were added
+    /// Without a doubt, as placed by abut/types.h: the origin lies inside, and the depth is not below
+    /// `at_least`; and it is not above `depth` by more than a few roundings.
+    bool is_inside_proven = false, is_depth_proven = false;
 };
 
 /// Grows a polytope inside the difference b - a of two polytopes where its boundary is nearest to the

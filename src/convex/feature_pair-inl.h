@@ -32,14 +32,18 @@ struct Measured {
     Xyz point_a, gap;
     double distance_sq = std::numeric_limits<double>::infinity();
     Corners a = 1, b = 1;
+    /// How far rounding of the corners may turn the gap between the features' lines and planes: by its
+    /// share of the root of this, an edge's length or a triangle's height. 0: that is not known.
+    double spread_sq = std::numeric_limits<double>::infinity();
 };
 
 HWY_INLINE Measured turned(const Measured& m) {
-    return {m.point_a + m.gap, -m.gap, m.distance_sq, m.b, m.a};
+    return {m.point_a + m.gap, -m.gap, m.distance_sq, m.b, m.a, m.spread_sq};
 }
 
-HWY_INLINE Measured measured(const Xyz& point_a, const Xyz& gap, Corners a, Corners b) {
-    return {point_a, gap, length_sq(gap), a, b};
+HWY_INLINE Measured measured(const Xyz& point_a, const Xyz& gap, Corners a, Corners b,
+                             double spread_sq = std::numeric_limits<double>::infinity()) {
+    return {point_a, gap, length_sq(gap), a, b, spread_sq};
 }
 
 /// A point q and the segment from p0 to p1, that of a.
@@ -51,18 +55,39 @@ HWY_INLINE Measured measure_edge_vertex(const Xyz& p0, const Xyz& p1, const Xyz&
     if (along >= all)
         return measured(p1, q - p1, 2, 1);
     const Xyz foot = (along / all) * u;
-    return measured(p0 + foot, w - foot, 3, 1);
+    return measured(p0 + foot, w - foot, 3, 1, all);
 }
 
 HWY_INLINE Corners corners_at(double parameter) {
     return parameter <= 0 ? 1 : parameter >= 1 ? 2 : 3;
 }
 
+/// Measured::spread_sq of two edges: of those of them that have the closest point in their inside,
+/// if the gap is across them to rounding, and they are not almost parallel.
+///
+/// In          closest points as by nearest_on_segments.
+HWY_INLINE double spread_of_edges(const Xyz& u, const Xyz& v, const Xyz& gap, double gap_sq,
+                                  Corners on_u, Corners on_v) {
+    const double uu = length_sq(u), vv = length_sq(v);
+    // The point of u was chosen last, and makes up for what that of v is off by.
+    if (on_v != 3)
+        return on_u == 3 ? uu : std::numeric_limits<double>::infinity();
+    const double along = dot(gap, v);
+    if (!(along * along <= 0x1p-98 * (gap_sq + uu + vv) * vv))
+        return 0;
+    if (on_u != 3)
+        return vv;
+    const double nn = length_sq(cross(u, v));
+    return nn >= 0x1p-8 * uu * vv ? nn / std::max(uu, vv) : 0;
+}
+
 HWY_INLINE Measured measure_edge_edge(const Xyz& p0, const Xyz& p1, const Xyz& q0, const Xyz& q1) {
     const Xyz u = p1 - p0, v = q1 - q0, r = q0 - p0;
     const SegmentPoints c = nearest_on_segments(u, v, r);
-    const Xyz from = c.s * u;
-    return {p0 + from, r + c.t * v - from, c.distance_sq, corners_at(c.s), corners_at(c.t)};
+    const Xyz from = c.s * u, gap = r + c.t * v - from;
+    const Corners on_u = corners_at(c.s), on_v = corners_at(c.t);
+    return {p0 + from, gap,  c.distance_sq,
+            on_u,      on_v, spread_of_edges(u, v, gap, c.distance_sq, on_u, on_v)};
 }
 
 /// Corners of a triangle's foot that have weight.
@@ -92,7 +117,7 @@ inline HWY_NOINLINE void measure_border_vertex(const XyzTriangle& t, const Xyz& 
 HWY_INLINE Measured measure_face_vertex(const XyzTriangle& t, const Xyz& q) {
     const Foot<Xyz> foot = foot_on(q, t);
     if (foot.within)
-        return measured(foot.point, foot.gap, corners_of(foot), 1);
+        return measured(foot.point, foot.gap, corners_of(foot), 1, foot.height_sq());
     Measured nearest;
     measure_border_vertex(t, q, nearest);
     return nearest;
@@ -107,7 +132,7 @@ inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, 
     if (pierces_plane) {
         const Xyz crossing = q0 + (h0 / (h0 - h1)) * (q1 - q0);
         if (foot_on(crossing, t).within) {
-            nearest = {crossing, {}, 0, 7, 3};
+            nearest = {crossing, {}, 0, 7, 3, 0};
             return;
         }
     }
@@ -120,13 +145,15 @@ inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, 
     // one side, only the end that is nearer to the plane: then nothing else is nearer.
     const bool first_is_nearer = std::abs(h0) < std::abs(h1);
     if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q0 : q1, t); foot.within) {
-        take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 1 : 2));
+        take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 1 : 2,
+                      foot.height_sq()));
         if (!pierces_plane)
             return;
     }
     if (pierces_plane)
         if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q1 : q0, t); foot.within)
-            take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 2 : 1));
+            take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 2 : 1,
+                          foot.height_sq()));
     for (std::size_t k = 0; k < 3; ++k) {
         Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
         m.a = kEdgeCorners[k][m.a];

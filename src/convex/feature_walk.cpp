@@ -51,6 +51,9 @@ struct Growth {
     double excess = 0;
     HullFeature feature;
     bool possible = false;
+    /// The same excess, below 0 if all neighbours lie behind the feature; of a triangle that of the
+    /// neighbour that lies behind it most, which tells on which side the body is.
+    double most = 0;
 };
 
 /// `tolerance_sq`: the square of an excess that is rounding.
@@ -66,11 +69,25 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
         const bool left = to_left >= to_right;
         const double most = left ? to_left : to_right;
         if (most * most > tolerance_sq)
-            return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0};
+            return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0, most};
         // Between coplanar triangles: a part of a face, whose side only the others tell.
     }
     const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n);
-    return {h.excess, {f.vertex, h.edge, Feature::edge}, h.excess > 0 && f.kind == Feature::vertex};
+    return {h.excess,
+            {f.vertex, h.edge, Feature::edge},
+            h.excess > 0 && f.kind == Feature::vertex,
+            f.kind == Feature::face ? h.least : h.most};
+}
+
+/// The square of how far behind the features their neighbours have to lie so that rounding cannot be
+/// the reason: docs/convex.md, "Proofs". Infinite where nothing proves that. (Known before the
+/// neighbours are looked at, so that after these a comparison is all.)
+HWY_INLINE double proof_of(double spread_sq, double distance_sq, double rounding_sq) {
+    const double spread = std::min(spread_sq, distance_sq);
+    const double behind_sq = 0x1p125 * (rounding_sq * rounding_sq) * (1 + distance_sq / spread);
+    return spread * spread >= 0x1p12 * rounding_sq * distance_sq
+               ? behind_sq
+               : std::numeric_limits<double>::infinity();
 }
 
 void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limit,
@@ -81,7 +98,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     HullFeature next_a = a, next_b = b;   ///< the pair to measure
     Growth grown_a{}, grown_b{};
     Xyz point_a, gap;
-    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0;
+    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0, behind_sq = 0;
     std::uint32_t count = 0;
     WalkEnd end = WalkEnd::closest;
     for (;;) {
@@ -92,6 +109,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
             shrink(*pair.a.polytope, next.a, a);
             shrink(*pair.b.polytope, next.b, b);
             point_a = next.point_a, gap = next.gap, distance_sq = next.distance_sq;
+            behind_sq = proof_of(next.spread_sq, distance_sq, rounding_sq);
             if (!(distance_sq > rounding_sq)) {
                 end = WalkEnd::meeting;
                 break;
@@ -125,6 +143,8 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     state.distance_sq = distance_sq, state.excess = excess;
     state.feature_pairs += count;
     state.end = end;
+    const double most = std::max(grown_a.most, grown_b.most);
+    state.proven = end == WalkEnd::closest && most < 0 && most * most > behind_sq;
 }
 
 } // namespace abut::HWY_NAMESPACE

@@ -32,7 +32,16 @@ struct WalkState {
     double excess = 0; ///< no point is nearer than the distance less this over the distance
     std::uint32_t feature_pairs = 0; ///< that were measured
     WalkEnd end = WalkEnd::closest;
+    /// closest: without a doubt no point is nearer than the distance less eight times the rounding, if
+    /// is_measurable(distance_sq, rounding).
+    bool proven = false;
 };
+
+/// Returns whether a distance is so much larger than rounding, and rounding so much larger than underflow,
+/// that `walk` compares squared distances reliably.
+inline bool is_measurable(double distance_sq, double rounding) {
+    return rounding > 0x1p-200 && distance_sq > 0x1p40 * rounding * rounding;
+}
 
 inline constexpr std::uint32_t kNoLimit = 0xffffffffU;
 

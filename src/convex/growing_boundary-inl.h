@@ -95,8 +95,13 @@ public:
         }
         for (std::uint32_t f = first; f < faces_.size(); ++f)
             join({f, 1}, {corners_[faces_[f].corners[1]].cone, 2});
+        is_one_ring_ = one_ring;
         return one_ring;
     }
+
+    /// Returns whether the last corner was joined to one closed ring of edges. If each was, the boundary is
+    /// closed.
+    [[nodiscard]] HWY_INLINE bool is_one_ring() const { return is_one_ring_; }
 
     /// The other two corners of an edge's faces are joined in its place.
     void flip(const Side& side) {
@@ -169,6 +174,7 @@ private:
     std::vector<std::uint32_t> visible_; ///< faces, and room
     std::vector<Side> horizon_;          ///< of faces that stay, and room
     std::size_t horizon_count_ = 0;      ///< without the room
+    bool is_one_ring_ = true;
 };
 
 } // namespace abut::HWY_NAMESPACE

@@ -36,4 +36,16 @@ struct PolytopePair {
     PlacedPolytope a, b;
 };
 
+/// What the coordinates of abut/types.h lose, in the world's frame, beside those of the pair's: where
+/// bodies are far from the world's origin, more than these. A length.
+inline double world_rounding(const Transform& world_from_a, const Transform& world_from_b) {
+    const auto &m = world_from_a.m, &n = world_from_b.m;
+    return 0x1p-51 *
+           (sum_of_sizes(Vec3{m[9], m[10], m[11]}) + sum_of_sizes(Vec3{n[9], n[10], n[11]}));
+}
+
+inline double world_rounding(const PolytopePair& pair) {
+    return world_rounding(*pair.a.linear, *pair.b.linear);
+}
+
 } // namespace abut

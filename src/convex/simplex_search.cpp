@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace abut {
@@ -37,6 +38,21 @@ public:
         for (std::uint32_t i = 0; i < s_.count; ++i)
             p = p + s_.weights[i] * pair_->a.vertex(s_.corners[i].a);
         return p;
+    }
+    /// Whether the origin lies inside of four corners wherever rounding may have moved them from.
+    [[nodiscard]] bool surely_holds_origin() const {
+        if (!holds_origin_)
+            return false;
+        double size_sq = 0;
+        for (const Vec3& p : at_)
+            size_sq = std::max(size_sq, length_sq(p));
+        // A determinant of three corners, each off by e at most, by 4 e size^2, and by its rounding.
+        const double error = 16 * (rounding_ + world_rounding(*pair_)) * size_sq;
+        const Vec3 c01 = cross(at_[0], at_[1]), c23 = cross(at_[2], at_[3]);
+        const double shares[4] = {dot(at_[1], c23), -dot(at_[0], c23), dot(at_[3], c01),
+                                  -dot(at_[2], c01)};
+        const auto [least, most] = std::minmax_element(std::begin(shares), std::end(shares));
+        return size_sq > 0x1p-600 && (*least > error || *most < -error);
     }
     /// In          fewer than four corners.
     void grow(const VertexPair& corner) {
@@ -171,6 +187,7 @@ SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& s
     }
     state.simplex = simplex.simplex();
     state.meeting = simplex.holds_origin() || !(simplex.distance_sq() > rounding_sq);
+    state.proven = simplex.surely_holds_origin();
     state.point_a = simplex.point_a();
     state.gap = simplex.gap();
     state.distance_sq = simplex.distance_sq();

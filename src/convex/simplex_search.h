@@ -23,6 +23,7 @@ void add_if_new(const VertexPair& corner, DifferenceSimplex& simplex);
 struct SimplexState {
     DifferenceSimplex simplex;
     bool meeting = false; ///< the origin lies in the simplex: so the polytopes share a point
+    bool proven = false;  ///< meeting: without a doubt, as placed by abut/types.h
     Vec3 point_a;         ///< in the pair's frame: the weighted sum of the vertices of a
     Vec3 gap;             ///< to that of b
     double distance_sq = 0;

@@ -101,7 +101,7 @@ private:
 
 } // namespace
 
-HullSurface walkable_hull(std::span<const Vec3> all) {
+HullSurface walkable_hull(std::span<const Vec3> all, LeftOutVertices* left_out) {
     double largest = 0;
     for (const Vec3& p : all)
         largest = std::max(largest, max_abs(p));
@@ -109,8 +109,14 @@ HullSurface walkable_hull(std::span<const Vec3> all) {
     std::iota(numbers.begin(), numbers.end(), 0);
     std::vector<Vec3> points(all.begin(), all.end());
     HullSurface hull;
-    for (;;) {
+    std::vector<std::uint32_t> all_vertices;
+    for (int round = 0;; ++round) {
         hull = exact_hull(points);
+        if (left_out != nullptr && round == 0)
+            all_vertices = hull.vertices;
+        // In each round what is dropped is held by vertices that stay; twice for its own rounding.
+        if (left_out != nullptr)
+            left_out->outside = 2 * round * kRounding * largest;
         const std::vector<bool> dropped =
             SuperfluousVertices(points, hull, kRounding * largest).find();
         if (dropped.empty())
@@ -129,6 +135,14 @@ HullSurface walkable_hull(std::span<const Vec3> all) {
     for (IndexTriangle& t : hull.triangles)
         for (std::uint32_t& v : t)
             v = numbers[v];
+    if (left_out != nullptr) {
+        std::vector<bool> stays(all.size());
+        for (const std::uint32_t v : hull.vertices)
+            stays[v] = true;
+        for (const std::uint32_t v : all_vertices)
+            if (!stays[v])
+                left_out->vertices.push_back(v);
+    }
     return hull;
 }
 

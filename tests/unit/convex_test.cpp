@@ -99,7 +99,8 @@ TEST(Convex, DistancesAndFeaturesByHand) {
     EXPECT_EQ(kCube.vertices()[corners.id_b], (Vec3{0, 0, 0}));
     EXPECT_EQ(corners.point_b, (Vec3{3, 4, 3}));
     EXPECT_EQ(corners.status, Status::exact);
-    EXPECT_EQ(corners.at_least, corners.distance);
+    EXPECT_LT(corners.at_least, corners.distance); // rounded down
+    EXPECT_GT(corners.at_least, corners.distance - 1e-12);
 
     const Convex tip = hull({{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}});
     const ConvexGap face = distance(kCube, Pose{}, tip, translation(0.25, 0.5, 3));
@@ -122,6 +123,48 @@ TEST(Convex, DistancesAndFeaturesByHand) {
         EXPECT_EQ(ridge.vertices()[v].z, 0);
     EXPECT_EQ(edges.point_a, (Vec3{1, 0, 0}));
     EXPECT_EQ(edges.point_b, (Vec3{1, 0, 0.5}));
+}
+
+TEST(Convex, TouchingIsToldFromALeastDistanceApart) {
+    const double least = std::numeric_limits<double>::denorm_min();
+    // Faces, edges and corners that touch; then one unit in the last place aside, either way.
+    for (const Vec3& by : {Vec3{1, 0.25, 0.5}, Vec3{1, 1, 0.5}, Vec3{1, 1, 1}}) {
+        const ConvexGap touching = distance(kCube, Pose{}, kCube, translation(by.x, by.y, by.z));
+        EXPECT_EQ(touching.distance, 0);
+        EXPECT_EQ(touching.status, Status::exact);
+        const ConvexDepth depth = penetration(kCube, Pose{}, kCube, translation(by.x, by.y, by.z));
+        EXPECT_TRUE(depth.meet);
+        EXPECT_EQ(depth.depth, 0);
+        EXPECT_EQ(depth.at_least, 0);
+        const double beyond = std::nextafter(1, 2), before = std::nextafter(1, 0);
+        const ConvexGap apart = distance(kCube, Pose{}, kCube, translation(beyond, by.y, by.z));
+        EXPECT_EQ(apart.distance, 0x1p-52);
+        EXPECT_GT(apart.at_least, 0);
+        EXPECT_FALSE(penetration(kCube, Pose{}, kCube, translation(beyond, by.y, by.z)).meet);
+        EXPECT_EQ(distance(kCube, Pose{}, kCube, translation(before, by.y, by.z)).distance, 0);
+    }
+    const Convex origin(std::vector<Vec3>{{0, 0, 0}});
+    const ConvexGap smallest = distance(origin, Pose{}, origin, translation(least, 0, 0));
+    EXPECT_EQ(smallest.distance, least);
+    EXPECT_EQ(smallest.status, Status::exact);
+    EXPECT_FALSE(penetration(origin, Pose{}, origin, translation(least, 0, 0)).meet);
+    EXPECT_EQ(penetration(kCube, Pose{}, kCube, translation(0, 1 - 0x1p-53, least)).depth, 0x1p-53);
+}
+
+TEST(Convex, AnySizeOfCoordinates) {
+    for (const double size : {1e-200, 1e-100, 1e100, 1e200}) {
+        const Transform a = scaling(size, size, size);
+        Transform b = a;
+        b.m[9] = 3 * size;
+        EXPECT_NEAR(distance(kCube, a, kCube, b).distance, 2 * size, 1e-12 * size);
+        b.m[9] = 0.75 * size;
+        EXPECT_EQ(distance(kCube, a, kCube, b).distance, 0);
+        EXPECT_NEAR(penetration(kCube, a, kCube, b).depth, 0.25 * size, 1e-12 * size);
+    }
+    const Transform huge = scaling(1e308, 1e308, 1e308);
+    const Convex large = hull({{0, 0, 0}, {1e9, 0, 0}});
+    EXPECT_THROW((void)distance(large, huge, kCube, Pose{}), Error);
+    EXPECT_THROW((void)penetration(large, huge, kCube, Pose{}), Error);
 }
 
 TEST(Convex, BodiesAreSolid) {
@@ -176,7 +219,8 @@ TEST(Convex, PenetrationByHand) {
     const ConvexDepth side = penetration(kCube, Pose{}, kCube, translation(0.25, 0.5, 0.75));
     EXPECT_TRUE(side.meet);
     EXPECT_EQ(side.depth, 0.25);
-    EXPECT_EQ(side.at_least, 0.25);
+    EXPECT_LE(side.at_least, 0.25);
+    EXPECT_GT(side.at_least, 0.25 - 1e-13);
     EXPECT_EQ(side.direction, (Vec3{0, 0, 1}));
     EXPECT_EQ(side.point_a.z, 1);
     EXPECT_EQ(side.point_b.z, 0.75);
