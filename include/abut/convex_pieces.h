@@ -25,6 +25,10 @@ class ConvexPiecesData;
 /// The solid is what its surface winds around, with the surface itself. Two solids that share a
 /// point, one inside of the other included, are at distance 0, where `distance` of two models is
 /// about their surfaces.
+///
+/// All queries mean the same by "share a point": the triangles, placed as abut/types.h says, share
+/// one, as `collide` of two models decides exactly, or a component of one solid lies inside of the
+/// other. Where rounding hides what the convex pieces do, the triangles are asked.
 class ConvexPieces {
 public:
     /// Errors      Error{bad_mesh} naming an edge or a triangle if the mesh is not closed, or turned
@@ -83,7 +87,7 @@ struct PiecesCounters {
 /// A pair of closest points of two solids, or a common point.
 struct PiecesGap {
     double distance = std::numeric_limits<double>::infinity(); ///< 0 if they share a point
-    double at_least = 0; ///< no two points are closer: proven, to rounding
+    double at_least = 0; ///< no two points are closer; rounded down
     /// World frame. Where the solids share a point: one of them, in both, to rounding.
     Vec3 point_a, point_b;
     std::uint32_t piece_a = 0, piece_b = 0;
@@ -92,9 +96,8 @@ struct PiecesGap {
     std::uint32_t triangle_a = 0, triangle_b = 0;
     Feature feature_a = Feature::face, feature_b = Feature::face;
     std::uint8_t index_a = 0, index_b = 0; ///< that i
-    /// converged: between at_least and distance, within the error allowed; or at distance 0, nearer
-    /// than rounding can tell from touching. bound_only: `distance` is the bound given, and no two
-    /// points are closer.
+    /// exact: the distance to rounding. converged: between at_least and distance, within the error
+    /// allowed. bound_only: `distance` is the bound given, and no two points are closer.
     Status status = Status::exact;
     PiecesCounters counters;
 };
@@ -109,14 +112,14 @@ struct PiecesDistanceOptions {
 
 /// Distance of two solids, and one pair of points that realises it.
 ///
-/// Accuracy    1e-12 of the distance, or a few roundings of the coordinates in a frame with the
-///             world's axes and the origin of `a`. What is nearer than that is at distance 0.
-///             Whether one solid lies inside of the other is decided exactly.
+/// Accuracy    1e-12 of the distance, or a few roundings of the coordinates. 0 if and only if the
+///             solids share a point, which is decided exactly.
 /// Errors      Error{bad_argument} if a transform is not finite, or the bound or the error is
 ///             negative or NaN.
 /// Cost        with a workspace and small steps, a few pairs of pieces; else a few pairs of hulls
 ///             for each level of the hierarchies, and more where the solids are close to each other
-///             in many places.
+///             in many places. Where they are nearer than rounding can tell, or faces are parallel
+///             but for rounding, also that of `distance` of two models.
 /// Source      [Ehmann, Lin 2001]. Differs: bounds that a motion cannot have broken are not looked
 ///             at again; docs/convex-pieces.md.
 PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
@@ -124,7 +127,8 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
 
 /// Whether some two points of the solids are at most `tolerance` apart.
 ///
-/// Accuracy    as `distance`.
+/// Accuracy    as `distance` without a workspace, whose result it is compared with where it is near
+///             the tolerance.
 /// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or
 ///             NaN.
 bool within(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
@@ -150,14 +154,16 @@ struct PiecesCollideOptions {
 struct PiecesContacts {
     bool meet = false;                   ///< the solids share a point
     bool contained = false;              ///< one lies inside of the other and no pieces meet
-    std::vector<PiecePair> pairs;        ///< pieces that meet; sorted
+    std::vector<PiecePair> pairs;        ///< pieces that meet, to rounding; sorted
     std::vector<TrianglePair> triangles; ///< if asked for; sorted, decided exactly
     PiecesCounters counters;
 };
 
 /// The pieces of two solids that share a point. Touching counts.
 ///
-/// Accuracy    of pieces as `distance`; of triangles exact.
+/// Accuracy    whether the solids meet, and the triangles: exact, as `collide` of two models. Every
+///             pair of pieces whose triangles share a point is listed, and where the solids meet also
+///             pieces nearer to each other than rounding can tell.
 /// Errors      Error{bad_argument} if a transform is not finite.
 PiecesContacts collide(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
                        const Transform& world_from_b, const PiecesCollideOptions& options = {});
@@ -188,8 +194,8 @@ struct PiecesPenetrationOptions {
 
 /// Penetration of two solids.
 ///
-/// Degenerate  where solids only touch, or pieces are flat, the depth may be 0.
-/// Accuracy    whether they meet as `distance`; depths to a few roundings of the coordinates;
+/// Degenerate  where solids only touch they meet, with depth 0; where pieces are flat, it may be 0 too.
+/// Accuracy    whether they meet exactly, as `collide`; depths to a few roundings of the coordinates;
 ///             `separation` is tested exactly on the triangles.
 /// Errors      Error{bad_argument} if a transform is not finite.
 /// Cost        a search over the pairs of pieces that meet; with `separation` 50 to 100 contact

@@ -1,7 +1,10 @@
 #include "pieces/hull_tree.h"
 
+#include "convex/inner_ball.h"
 #include "convex/walkable_hull.h"
 #include "core/parallel.h"
+#include "geometry/point_triangle_distance.h"
+#include "math/predicates.h"
 #include "math/vector.h"
 
 #include <algorithm>
@@ -22,25 +25,67 @@ constexpr std::size_t kWidth = 4;
 struct SourcedHull {
     Polytope polytope;
     std::vector<std::uint32_t> source;
+    double inner_radius = 0, loss = 0;
+    bool is_flat = false;
 };
 
-SourcedHull hull_of(std::span<const Vec3> positions, std::span<const std::uint32_t> numbers) {
+/// Beyond so many pairs of a point and a triangle what a hull loses is not measured.
+constexpr std::size_t kMostForLoss = 1 << 20;
+
+/// How far points lie outside of the hull that was made of them. `is_vertex`: of each point.
+double loss_of(std::span<const Vec3> points, const std::vector<bool>& is_vertex,
+               const HullSurface& hull) {
+    if (hull.vertices.size() == points.size())
+        return 0;
+    double largest = 0;
+    for (const Vec3& p : points)
+        largest = std::max(largest, max_abs(p));
+    // More than once, vertices may have been left out.
+    if (hull.dimension < 3 || points.size() * hull.triangles.size() > kMostForLoss)
+        return 0x1p-44 * largest;
+    double loss = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (is_vertex[i])
+            continue;
+        bool outside = false;
+        double nearest_sq = std::numeric_limits<double>::infinity();
+        for (const IndexTriangle& t : hull.triangles) {
+            const Triangle corners{points[t[0]], points[t[1]], points[t[2]]};
+            outside = outside || orient3d(corners[0], corners[1], corners[2], points[i]) > 0;
+            nearest_sq =
+                std::min(nearest_sq, point_triangle_distance(points[i], corners).distance_sq);
+        }
+        if (outside)
+            loss = std::max(loss, std::sqrt(nearest_sq) * (1 + 0x1p-40) + 0x1p-50 * largest);
+    }
+    return loss;
+}
+
+SourcedHull hull_of(std::span<const Vec3> positions, std::span<const std::uint32_t> numbers,
+                    bool is_piece) {
     std::vector<Vec3> points;
     for (const std::uint32_t v : numbers)
         points.push_back(positions[v]);
     HullSurface hull = walkable_hull(points);
     std::vector<std::uint32_t> number(points.size());
+    std::vector<bool> is_vertex(points.size());
     std::vector<Vec3> corners;
     SourcedHull result;
     for (const std::uint32_t p : hull.vertices) {
+        is_vertex[p] = true;
         number[p] = static_cast<std::uint32_t>(corners.size());
         corners.push_back(points[p]);
         result.source.push_back(numbers[p]);
     }
+    result.is_flat = hull.dimension == 2;
+    if (is_piece)
+        result.loss = loss_of(points, is_vertex, hull);
     for (IndexTriangle& t : hull.triangles)
         for (std::uint32_t& v : t)
             v = number[v];
     result.polytope = make_polytope(corners, hull.triangles);
+    if (is_piece && hull.dimension == 3)
+        result.inner_radius = inner_ball(corners, hull.triangles).radius;
     if (corners.size() > kNoTable) {
         const double resolution = std::round(2 * std::sqrt(static_cast<double>(corners.size())));
         result.polytope.starts =
@@ -116,7 +161,8 @@ private:
         HullNode& n = tree_.nodes[node];
         SourcedHull hull;
         if (n.is_leaf()) {
-            hull = hull_of(positions_, vertices_[n.piece]);
+            hull = hull_of(positions_, vertices_[n.piece], true);
+            n.inner_radius = hull.inner_radius, n.loss = hull.loss, n.is_flat = hull.is_flat;
         } else {
             std::vector<std::uint32_t> all;
             for (std::uint32_t i = n.child; i < n.child + n.children; ++i) {
@@ -126,7 +172,7 @@ private:
             }
             std::sort(all.begin(), all.end());
             all.erase(std::unique(all.begin(), all.end()), all.end());
-            hull = hull_of(positions_, all);
+            hull = hull_of(positions_, all, false);
         }
         n.hull = std::move(hull.polytope);
         set_sphere(n);

@@ -16,6 +16,10 @@ struct HullNode {
     Polytope hull;
     Vec3 middle; ///< no point of the hull is farther than `radius` from here
     double radius = 0;
+    double inner_radius = 0; ///< of a piece: its hull holds a ball of this radius; 0 if it is flat
+    bool is_flat = false;    ///< of a piece: it lies in a plane
+    bool is_sheet = false;   ///< of a piece: flat, and all of its hull is covered by its triangles
+    double loss = 0;         ///< of a piece: no vertex of it lies farther outside of the hull
     std::uint32_t child = kLeaf; ///< the first of some, which follow each other; kLeaf: a piece
     std::uint32_t children = 0;
     std::uint32_t piece = 0; ///< of a leaf

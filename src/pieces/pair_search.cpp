@@ -2,8 +2,11 @@
 
 #include "convex/climb.h"
 #include "convex/convex_query.h"
+#include "pieces/contact_proof.h"
+#include "pieces/proven_room.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut {
 
@@ -16,8 +19,16 @@ constexpr std::uint32_t kPatience = 24;
 /// at once: few of them are apart.
 constexpr double kDeep = 0.35;
 
-/// Roundings by which a hull may hold less than what is below it, and some more.
-constexpr double kMargin = 32;
+/// A gap of two points, each off by a few roundings, points in a direction that is off by those over
+/// its length; a hull then reaches farther along it by that times its size.
+constexpr double kTurn = 8;
+
+/// Where the gap is so short that this makes more than so many roundings, the walk's bound is too low
+/// to tell the distance.
+constexpr double kMostTurn = 512;
+
+/// What the distance of two pieces may be off by, in roundings.
+constexpr double kTolerance = 4;
 
 bool is_root(const BoundedPair& pair) {
     return pair.hulls == HullPair{};
@@ -41,7 +52,7 @@ BoundedPair pop(std::vector<BoundedPair>& heap) {
 
 } // namespace
 
-bool PiecePairSearch::try_pair(const HullPair& hulls, const ClosestPointSearch& start) {
+double PiecePairSearch::measure(const HullPair& hulls, const ClosestPointSearch& start) {
     ClosestPointSearch search;
     search.at.a = start.at.a, search.at.b = start.at.b;
     if (start.at.end == WalkEnd::meeting)
@@ -52,41 +63,78 @@ bool PiecePairSearch::try_pair(const HullPair& hulls, const ClosestPointSearch& 
         find_closest_points_from_simplex(pair, placed_.rounding, search);
     else
         find_closest_points(pair, placed_.rounding, search);
+    return take(hulls, pair, search);
+}
+
+/// Where a walk ends, neighbours are no farther along the gap than rounding tells.
+PiecePairSearch::WalkBound PiecePairSearch::bound_of(const HullPair& hulls,
+                                                     const PolytopePair& pair, const WalkState& at,
+                                                     double distance) const {
+    const double error = kTurn * placed_.rounding;
+    if (hides_more(pair, at, error * placed_.most_a(), error * placed_.most_b()))
+        return {};
+    const double excess = at.excess / distance, turn = kTurn * placed_.size(hulls) / distance;
+    return {distance - excess - turn * placed_.rounding - placed_.margin(hulls),
+            excess <= kTolerance * placed_.rounding && turn <= kMostTurn};
+}
+
+/// Notes what a search of a pair of pieces has found. Returns a proven bound of their distance.
+double PiecePairSearch::take(const HullPair& hulls, const PolytopePair& pair,
+                             const ClosestPointSearch& search) {
     counters_.feature_pairs += search.at.feature_pairs;
     counters_.simplices += search.simplices;
-    const double distance =
-        search.at.end == WalkEnd::meeting ? 0 : std::sqrt(search.at.distance_sq);
+    if (search.at.end == WalkEnd::meeting) {
+        best_ = {hulls, search, 0, 0, true, proves_contact(placed_, hulls, search)};
+        return 0;
+    }
+    const double distance = std::sqrt(search.at.distance_sq);
+    const WalkBound bound = bound_of(hulls, pair, search.at, distance);
+    double at_least = bound.at_least;
+    const double enough = std::min(distance, best_.distance) - kTolerance * placed_.rounding;
+    if (!bound.is_clear && at_least < enough) {
+        at_least =
+            std::max(at_least, proven_room_at(pair, search.at, placed_.a.reach, placed_.b.reach,
+                                              placed_.margin(hulls), enough));
+        if (at_least < enough)
+            unresolved_ = std::min(unresolved_, at_least);
+    }
+    at_least = std::max(at_least, 0.0);
     if (distance < best_.distance || (first_ && distance <= best_.distance))
-        best_ = {hulls, search, distance, true};
-    return ends();
+        best_ = {hulls, search, distance, at_least, true, false};
+    return at_least;
+}
+
+bool PiecePairSearch::is_decided() const {
+    if (best_.meet())
+        return best_.proven;
+    return at_least() > placed_.contact_zone() &&
+           !(unresolved_ < best_.distance - std::max(slack_, kTolerance * placed_.rounding));
 }
 
 void PiecePairSearch::measure_pieces(BoundedPair& pair) {
     ClosestPointSearch search;
     search.at.a = pair.a, search.at.b = pair.b;
     ++counters_.hull_pairs;
-    find_closest_points(placed_.hulls(pair.hulls), placed_.rounding, search);
-    counters_.feature_pairs += search.at.feature_pairs;
-    counters_.simplices += search.simplices;
-    const bool meet = search.at.end == WalkEnd::meeting;
-    pair.bound = meet ? 0 : std::sqrt(search.at.distance_sq);
+    const PolytopePair hulls = placed_.hulls(pair.hulls);
+    find_closest_points(hulls, placed_.rounding, search);
+    pair.bound = std::max(pair.bound, take(pair.hulls, hulls, search));
     pair.a = search.at.a, pair.b = search.at.b;
-    if (pair.bound < best_.distance || (first_ && pair.bound <= best_.distance))
-        best_ = {pair.hulls, search, pair.bound, true};
 }
 
 void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
     WalkState state;
     state.a = pair.a, state.b = pair.b;
     ++counters_.hull_pairs;
-    walk(placed_.hulls(pair.hulls), placed_.rounding, kPatience, state);
+    const PolytopePair hulls = placed_.hulls(pair.hulls);
+    walk(hulls, placed_.rounding, kPatience, state);
     counters_.feature_pairs += state.feature_pairs;
     pair.a = state.a, pair.b = state.b;
     // Where the walk ends early the hulls meet, mostly, and are opened anyway.
     pair.bound = floor;
     pair.along = {};
     if (state.end == WalkEnd::closest) {
-        pair.bound = std::max(floor, std::sqrt(state.distance_sq) - kMargin * placed_.rounding);
+        const double distance = std::sqrt(state.distance_sq);
+        pair.bound = std::max(floor, bound_of(pair.hulls, hulls, state, distance).at_least);
         pair.along = state.gap;
     }
 }
@@ -102,21 +150,26 @@ double PiecePairSearch::begin(BoundedPair& pair) {
     ++counters_.directions;
     const double l = length(along);
     return l > 0
-               ? dot(along, hulls.b.vertex(b) - hulls.a.vertex(a)) / l - kMargin * placed_.rounding
+               ? dot(along, hulls.b.vertex(b) - hulls.a.vertex(a)) / l - placed_.margin(pair.hulls)
                : 0;
 }
 
-bool PiecePairSearch::may_meet(const HullPair& hulls) {
+bool PiecePairSearch::may_meet(const HullPair& hulls, double room) {
     BoundedPair pair;
     pair.hulls = hulls;
-    if (begin(pair) > 0)
+    if (begin(pair) > room)
         return false;
     measure_hulls(pair, 0);
-    return !(pair.bound > 0);
+    return !(pair.bound > room);
 }
 
 void PiecePairSearch::measure(BoundedPair& pair, double floor) {
-    placed_.are_pieces(pair.hulls) ? measure_pieces(pair) : measure_hulls(pair, floor);
+    if (placed_.are_pieces(pair.hulls)) {
+        pair.bound = floor;
+        measure_pieces(pair);
+    } else {
+        measure_hulls(pair, floor);
+    }
 }
 
 /// To the pieces that have the closest vertices of the whole: they are the closest pieces, often,
@@ -157,7 +210,7 @@ void PiecePairSearch::run(PairFront& front, bool keep) {
             break;
         BoundedPair pair = pop(front.heap);
         if (best_.found && pair.hulls == best_.hulls) {
-            pair.bound = best_.distance;
+            pair.bound = std::max(floor, best_.at_least);
             pair.a = best_.search.at.a, pair.b = best_.search.at.b;
         } else if (const double apart = pair.begun ? 0 : begin(pair);
                    apart > std::max(floor, 0.0)) {

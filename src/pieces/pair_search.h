@@ -15,7 +15,7 @@ namespace abut {
 
 /// A pair of hulls, and what is known of its distance.
 struct BoundedPair {
-    double bound = 0; ///< no nearer than this less the drift since (see PairFront)
+    double bound = 0; ///< proven: no nearer than this less the drift since (see PairFront)
     HullPair hulls;
     HullFeature a, b;   ///< where the last walk ended, or the next one begins
     Vec3 along;         ///< at first: a direction in which the hulls may be apart
@@ -39,7 +39,9 @@ struct ClosestPieces {
     HullPair hulls;
     ClosestPointSearch search;
     double distance = std::numeric_limits<double>::infinity();
+    double at_least = 0; ///< proven: no two points of the pair are closer
     bool found = false;
+    bool proven = false; ///< if they meet: so do the solids, whatever rounding did
 
     [[nodiscard]] bool meet() const { return found && distance == 0; }
 };
@@ -59,24 +61,40 @@ public:
 
     /// Measures a pair of pieces, from features that were closest before. Whether it ends the
     /// search.
-    bool try_pair(const HullPair& hulls, const ClosestPointSearch& start);
-    /// False only if the hulls of a pair are apart.
-    bool may_meet(const HullPair& hulls);
+    bool try_pair(const HullPair& hulls, const ClosestPointSearch& start) {
+        measure(hulls, start);
+        return ends();
+    }
+    /// The same; returns a proven bound of the pair's distance.
+    double measure(const HullPair& hulls, const ClosestPointSearch& start);
+    /// False only if the hulls of a pair are proven to be apart, by more than `room`.
+    bool may_meet(const HullPair& hulls, double room);
     /// From the front on; an empty one begins at the roots. With `keep` it is left so that it holds
     /// all pairs again.
     void run(PairFront& front, bool keep);
 
     [[nodiscard]] const ClosestPieces& best() const { return best_; }
-    /// No two pieces are closer. After `run`.
+    /// Proven: no two pieces are closer. After `run`.
     [[nodiscard]] double at_least() const {
         return best_.found ? std::min(at_least_, best_.distance) : at_least_;
     }
+    /// Whether the distance found is that of the solids, to rounding; else rounding hides whether
+    /// other pieces are nearer, or whether these meet. After `run`.
+    [[nodiscard]] bool is_decided() const;
 
 private:
     double begin(BoundedPair& pair);
     void jump(const BoundedPair& roots);
     void measure(BoundedPair& pair, double floor);
     void measure_pieces(BoundedPair& pair);
+    double take(const HullPair& hulls, const PolytopePair& pair, const ClosestPointSearch& search);
+    /// The bound that the end of a walk proves.
+    struct WalkBound {
+        double at_least = 0;
+        bool is_clear = false; ///< the distance is known to rounding, if not the bound itself
+    };
+    [[nodiscard]] WalkBound bound_of(const HullPair& hulls, const PolytopePair& pair,
+                                     const WalkState& at, double distance) const;
     void measure_hulls(BoundedPair& pair, double floor);
     void open(const BoundedPair& pair, PairFront& front);
     [[nodiscard]] bool ends() const { return best_.found && (first_ || best_.distance == 0); }
@@ -90,6 +108,8 @@ private:
     PiecesCounters& counters_;
     ClosestPieces best_;
     double slack_ = 0, at_least_ = std::numeric_limits<double>::infinity();
+    /// The least bound of pairs measured whose distance is not known better than to rounding.
+    double unresolved_ = std::numeric_limits<double>::infinity();
     bool first_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include "geometry/triangle_triangle_intersect.h"
 #include "pieces/pieces_containment.h"
 #include "pieces/pieces_query.h"
+#include "pieces/placed_triangle.h"
 
 #include <algorithm>
 
@@ -10,56 +11,40 @@ namespace abut {
 
 namespace {
 
-/// All pairs of pieces that meet.
+/// All pairs of pieces that meet, or are so near that rounding may hide it.
 class MeetingPieces {
 public:
     MeetingPieces(const PlacedPieces& placed, PiecesContacts& contacts)
         : placed_(placed), contacts_(contacts) {}
 
     void find() {
+        const double zone = placed_.contact_zone();
         std::vector<HullPair> pending{{0, 0}};
         while (!pending.empty()) {
             const HullPair pair = pending.back();
             pending.pop_back();
             ++contacts_.counters.sphere_pairs;
-            if (placed_.sphere_gap(pair) > 0)
+            if (placed_.sphere_gap(pair) > zone)
                 continue;
             PiecePairSearch search(placed_, contacts_.counters);
-            if (placed_.are_pieces(pair)) {
-                if (search.try_pair(pair, {}))
-                    contacts_.pairs.push_back(
-                        {placed_.node_a(pair.a).piece, placed_.node_b(pair.b).piece});
-            } else if (search.may_meet(pair)) {
-                placed_.for_each_child(pair, [&](const HullPair& p) { pending.push_back(p); });
+            if (!placed_.are_pieces(pair)) {
+                if (search.may_meet(pair, zone))
+                    placed_.for_each_child(pair, [&](const HullPair& p) { pending.push_back(p); });
+            } else if (search.measure(pair, {}) <= zone) {
+                contacts_.pairs.push_back(
+                    {placed_.node_a(pair.a).piece, placed_.node_b(pair.b).piece});
+                proven_ = proven_ || search.best().proven;
             }
         }
-        std::sort(contacts_.pairs.begin(), contacts_.pairs.end());
     }
+    /// Whether a pair of those found proves that the solids share a point.
+    [[nodiscard]] bool proven() const { return proven_; }
 
 private:
     const PlacedPieces& placed_;
     PiecesContacts& contacts_;
+    bool proven_ = false;
 };
-
-struct PlacedTriangle {
-    Triangle corners;
-    Box3 box;
-    std::uint32_t number = 0;
-};
-
-std::vector<PlacedTriangle> placed_triangles(const ConvexPiecesData& solid, std::uint32_t piece,
-                                             const Transform& world) {
-    std::vector<PlacedTriangle> result;
-    for (const std::uint32_t t : solid.triangles_of(piece)) {
-        PlacedTriangle& placed = result.emplace_back();
-        placed.number = t;
-        for (std::size_t k = 0; k < 3; ++k) {
-            placed.corners[k] = apply(world, solid.mesh().positions[solid.mesh().triangles[t][k]]);
-            extend(placed.box, placed.corners[k]);
-        }
-    }
-    return result;
-}
 
 /// Each triangle is in one piece, so no pair comes twice.
 void add_triangles(const PlacedPieces& placed, PiecesContacts& contacts) {
@@ -79,6 +64,51 @@ void add_triangles(const PlacedPieces& placed, PiecesContacts& contacts) {
     std::sort(contacts.triangles.begin(), contacts.triangles.end());
 }
 
+void sort_once(std::vector<PiecePair>& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+void find_all(const PlacedPieces& placed, bool triangles, PiecesContacts& contacts) {
+    MeetingPieces pieces(placed, contacts);
+    pieces.find();
+    bool surfaces_meet = false;
+    if (triangles || (!contacts.pairs.empty() && !pieces.proven())) {
+        Contacts surfaces =
+            collide(placed.a.model, placed.world_from_a, placed.b.model, placed.world_from_b,
+                    {.mode = triangles ? ContactMode::all : ContactMode::first});
+        surfaces_meet = surfaces.any();
+        for (const TrianglePair& t : surfaces.pairs)
+            contacts.pairs.push_back({placed.a.piece_of[t.a], placed.b.piece_of[t.b]});
+        if (triangles)
+            contacts.triangles = std::move(surfaces.pairs);
+    }
+    // Hulls that meet to rounding only, of solids that do not.
+    if (!pieces.proven() && !surfaces_meet)
+        contacts.pairs.clear();
+    sort_once(contacts.pairs);
+    contacts.contained = contacts.pairs.empty() && contained_point(placed).has_value();
+}
+
+void find_first(const PlacedPieces& placed, PiecesWorkspace* workspace, PiecesContacts& contacts) {
+    PiecesQuery query(placed, workspace, contacts.counters);
+    query.search().set_bound(0);
+    query.search().stop_at_first();
+    const bool found = query.run();
+    if (!query.search().is_decided()) {
+        if (const auto t = query.touching_triangles())
+            contacts.pairs.push_back({placed.a.piece_of[t->a], placed.b.piece_of[t->b]});
+        else
+            contacts.contained = query.contained_point(0).has_value();
+        return;
+    }
+    const HullPair& hulls = query.search().best().hulls;
+    if (found)
+        contacts.pairs.push_back({placed.node_a(hulls.a).piece, placed.node_b(hulls.b).piece});
+    else
+        contacts.contained = query.contained_point(query.search().at_least()).has_value();
+}
+
 } // namespace
 
 PiecesContacts collide(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
@@ -86,22 +116,13 @@ PiecesContacts collide(const ConvexPieces& a, const Transform& world_from_a, con
     PiecesContacts contacts;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
     if (options.mode == ContactMode::all) {
-        MeetingPieces(placed, contacts).find();
-        contacts.contained = contacts.pairs.empty() && contained_point(placed).has_value();
+        find_all(placed, options.triangles, contacts);
     } else {
-        PiecesQuery query(placed, options.workspace, contacts.counters);
-        query.search().set_bound(0);
-        query.search().stop_at_first();
-        if (query.run()) {
-            const HullPair& hulls = query.search().best().hulls;
-            contacts.pairs.push_back({placed.node_a(hulls.a).piece, placed.node_b(hulls.b).piece});
-        } else {
-            contacts.contained = query.contained_point(query.search().at_least()).has_value();
-        }
+        find_first(placed, options.workspace, contacts);
+        if (options.triangles)
+            add_triangles(placed, contacts);
     }
     contacts.meet = contacts.contained || !contacts.pairs.empty();
-    if (options.triangles)
-        add_triangles(placed, contacts);
     return contacts;
 }
 

@@ -3,6 +3,8 @@
 #include <abut/error.h>
 
 #include "core/parallel.h"
+#include "geometry/triangle_triangle_intersect.h"
+#include "math/predicates.h"
 #include "pieces/decompose.h"
 #include "rigid/model_data.h"
 
@@ -34,6 +36,27 @@ bool has_inside_below(const Mesh& mesh, std::uint32_t triangle) {
     const Vec3 middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
     const Vec3 step = (1e-3 * std::sqrt(length(n))) * normalized_or_zero(n);
     return winding_number(mesh, middle - step) > 0.5;
+}
+
+/// Whether the triangles of a flat piece cover its hull: no edge that ends them runs inside of it.
+bool is_sheet(const SurfaceGraph& surface, const Polytope& hull,
+              std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> piece_of) {
+    const Triangle first = surface.triangle(triangles[0]);
+    const int axis = projection_axis(first);
+    if (axis < 0)
+        return false;
+    const int turn = orient2d(first[0], first[1], first[2], axis);
+    for (const std::uint32_t t : triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t beyond = surface.across[t][k];
+            if (beyond != kNoEdge && piece_of[beyond] == piece_of[t])
+                continue;
+            const Triangle c = surface.triangle(t);
+            for (const HullVertex& v : hull.vertices)
+                if (turn * orient2d(c[k], c[(k + 1) % 3], v.at, axis) < 0)
+                    return false;
+        }
+    return true;
 }
 
 /// Errors      Error{bad_mesh} if a component is turned inside out and bounds no cavity.
@@ -68,12 +91,15 @@ ConvexPiecesData::ConvexPiecesData(const Model& solid) : model(solid), id(next_i
     require_outward(mesh(), surface);
     const Pieces pieces = decompose(model, surface);
     std::vector<std::vector<std::uint32_t>> vertices(pieces.size());
+    piece_of.resize(mesh().triangles.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         triangles.insert(triangles.end(), pieces[i].begin(), pieces[i].end());
         begin.push_back(static_cast<std::uint32_t>(triangles.size()));
         auto& v = vertices[i];
-        for (const std::uint32_t t : pieces[i])
+        for (const std::uint32_t t : pieces[i]) {
+            piece_of[t] = static_cast<std::uint32_t>(i);
             v.insert(v.end(), surface.corners[t].begin(), surface.corners[t].end());
+        }
         std::sort(v.begin(), v.end());
         v.erase(std::unique(v.begin(), v.end()), v.end());
     }
@@ -84,6 +110,10 @@ ConvexPiecesData::ConvexPiecesData(const Model& solid) : model(solid), id(next_i
             faces[i] = find_piece_faces(surface, tree.nodes[tree.leaf_of[i]].hull, tree.sources[i],
                                         pieces[i]);
     });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        HullNode& leaf = tree.nodes[tree.leaf_of[i]];
+        leaf.is_sheet = leaf.is_flat && is_sheet(surface, leaf.hull, pieces[i], piece_of);
+    }
     triangle_at.resize(mesh().positions.size());
     for (std::uint32_t t = 0; t < surface.corners.size(); ++t)
         for (const std::uint32_t v : surface.corners[t]) {
@@ -98,8 +128,8 @@ std::size_t ConvexPiecesData::bytes() const {
     const auto bytes_of = [](const std::vector<std::uint32_t>& v) {
         return v.capacity() * sizeof(std::uint32_t);
     };
-    std::size_t sum = sizeof(*this) + bytes_of(begin) + bytes_of(triangles) + tree.bytes() +
-                      bytes_of(triangle_at) + bytes_of(components) +
+    std::size_t sum = sizeof(*this) + bytes_of(begin) + bytes_of(triangles) + bytes_of(piece_of) +
+                      tree.bytes() + bytes_of(triangle_at) + bytes_of(components) +
                       faces.capacity() * sizeof(PieceFaces);
     for (const PieceFaces& f : faces)
         sum += bytes_of(f.face_of_edge) + bytes_of(f.begin) + bytes_of(f.triangles);

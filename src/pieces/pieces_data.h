@@ -28,6 +28,7 @@ public:
     Model model;
     std::uint64_t id = 0;                           ///< no other in this process has it
     std::vector<std::uint32_t> begin{0}, triangles; ///< of each piece
+    std::vector<std::uint32_t> piece_of;            ///< by triangle
     HullTree tree;
     std::vector<PieceFaces> faces;          ///< by piece; empty ones for pieces of few triangles
     std::vector<std::uint32_t> triangle_at; ///< a triangle at each position

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace abut {
@@ -36,18 +37,21 @@ struct Side {
     const Vec3 &point, &other;   ///< in there, in that frame
 };
 
-/// The feature of one of some triangles that is nearest to the other side's point.
-SurfaceFeature nearest_feature(const Side& s, std::span<const std::uint32_t> triangles,
-                               double& least_sq) {
+/// The feature of one of some triangles that is nearest to a point. `least_sq`: only one that is
+/// nearer. `place`: that point of the feature.
+SurfaceFeature nearest_feature(const Side& s, const Vec3& point,
+                               std::span<const std::uint32_t> triangles, double& least_sq,
+                               Vec3& place) {
     SurfaceFeature result;
     const Mesh& mesh = s.solid.mesh();
     for (const std::uint32_t t : triangles) {
         const auto& c = mesh.triangles[t];
         const NearestOnTriangle n = nearest_on_triangle(
-            s.other, {s.place.place(mesh.positions[c[0]]), s.place.place(mesh.positions[c[1]]),
-                      s.place.place(mesh.positions[c[2]])});
+            point, {s.place.place(mesh.positions[c[0]]), s.place.place(mesh.positions[c[1]]),
+                    s.place.place(mesh.positions[c[2]])});
         if (n.distance_sq < least_sq) {
             least_sq = n.distance_sq;
+            place = n.point;
             result = {t, static_cast<Feature>(n.dimension), n.index};
         }
     }
@@ -64,43 +68,82 @@ SurfaceFeature at_vertex(const Side& s) {
     return result;
 }
 
+/// Whether a point lies on a segment, to `most_off`.
+bool lies_on(const Vec3& point, const Vec3& from, const Vec3& to, double most_off) {
+    const Vec3 edge = to - from, w = point - from;
+    const double along = dot(w, edge), all = length_sq(edge);
+    return along >= 0 && along <= all && length_sq(cross(w, edge)) <= most_off * most_off * all;
+}
+
+/// The one of some triangles that has the hull's edge on which the closest point lies, as most such
+/// edges have one: found by its ends. None if there is none.
+std::optional<SurfaceFeature> same_edge(const Side& s, double most_off,
+                                        std::span<const std::uint32_t> triangles) {
+    if (s.on.kind != Feature::edge)
+        return std::nullopt;
+    const Polytope& p = *s.place.polytope;
+    const Vec3 &from = p.vertices[s.on.vertex].at, to = p.to(s.on.edge);
+    const Mesh& mesh = s.solid.mesh();
+    for (const std::uint32_t t : triangles) {
+        const auto& c = mesh.triangles[t];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &v = mesh.positions[c[k]], &w = mesh.positions[c[(k + 1) % 3]];
+            if ((v == from && w == to) || (v == to && w == from)) {
+                if (!lies_on(s.point, s.place.place(from), s.place.place(to), most_off))
+                    return std::nullopt;
+                return SurfaceFeature{t, Feature::edge, static_cast<std::uint8_t>(k)};
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 /// The triangle and its feature that a closest point lies on. `last`: the one before, or null.
 SurfaceFeature name(const Side& s, const Vec3& origin, double rounding, const std::uint32_t* last) {
     if (s.on.kind == Feature::vertex)
         return at_vertex(s);
-    const double expected = length(s.other - s.point);
-    const auto holds_point = [&](double distance_sq) {
-        return std::sqrt(distance_sq) <= expected * (1 + 0x1p-40) + 16 * rounding;
-    };
+    const double most_off = 0x1p-48 * length(s.other - s.point) + 2 * rounding;
     double least_sq = std::numeric_limits<double>::infinity();
+    Vec3 place;
+    const auto holds_point = [&] { return length_sq(place - s.point) <= most_off * most_off; };
     SurfaceFeature result;
     if (last != nullptr) {
-        result = nearest_feature(s, {last, 1}, least_sq);
-        if (holds_point(least_sq))
+        if (const auto same = same_edge(s, most_off, {last, 1}))
+            return *same;
+        result = nearest_feature(s, s.other, {last, 1}, least_sq, place);
+        if (holds_point())
             return result;
         least_sq = std::numeric_limits<double>::infinity();
     }
     const PieceFaces& faces = s.solid.faces[s.piece];
     if (faces.begin.empty()) {
-        result = nearest_feature(s, s.solid.triangles_of(s.piece), least_sq);
+        if (const auto same = same_edge(s, most_off, s.solid.triangles_of(s.piece)))
+            return *same;
+        result = nearest_feature(s, s.other, s.solid.triangles_of(s.piece), least_sq, place);
     } else {
         const std::uint32_t face = faces.face_of_edge[s.on.edge];
-        result = nearest_feature(s, faces.in(face), least_sq);
+        if (const auto same = same_edge(s, most_off, faces.in(face)))
+            return *same;
+        result = nearest_feature(s, s.other, faces.in(face), least_sq, place);
         const std::uint32_t beyond = faces.face_of_edge[s.place.polytope->twin(s.on.edge)];
         if (s.on.kind == Feature::edge && beyond != face) {
-            double of_face_sq = least_sq;
-            const SurfaceFeature there = nearest_feature(s, faces.in(beyond), of_face_sq);
-            if (of_face_sq < least_sq)
-                least_sq = of_face_sq, result = there;
+            const double of_face_sq = least_sq;
+            const SurfaceFeature there =
+                nearest_feature(s, s.other, faces.in(beyond), least_sq, place);
+            if (least_sq < of_face_sq)
+                result = there;
         }
     }
-    // Where the hull covers what other pieces have: one of theirs.
-    if (!holds_point(least_sq)) {
-        const std::uint32_t triangle = nearest(s.solid.model, s.world, origin + s.point).triangle;
-        least_sq = std::numeric_limits<double>::infinity();
-        result = nearest_feature(s, {&triangle, 1}, least_sq);
-    }
-    return result;
+    if (!std::isinf(least_sq) && holds_point())
+        return result;
+    // The hull covers what other pieces have: one of theirs; or triangles lie almost in one plane.
+    const std::uint32_t triangle = nearest(s.solid.model, s.world, origin + s.point).triangle;
+    least_sq = std::numeric_limits<double>::infinity();
+    result = nearest_feature(s, s.other, {&triangle, 1}, least_sq, place);
+    if (holds_point())
+        return result;
+    least_sq = std::numeric_limits<double>::infinity();
+    return nearest_feature(s, s.point, {&triangle, 1}, least_sq, place);
 }
 
 void report_common_point(const PlacedPieces& placed, const Vec3& point, PiecesGap& gap) {
@@ -117,7 +160,6 @@ void report(const PlacedPieces& placed, PiecesQuery& query, PiecesGap& gap) {
     gap.piece_b = placed.node_b(best.hulls.b).piece;
     if (best.distance == 0) {
         report_common_point(placed, placed.origin() + at.point_a, gap);
-        gap.status = at.distance_sq == 0 ? Status::exact : Status::converged;
         return;
     }
     const PolytopePair hulls = placed.hulls(best.hulls);
@@ -139,6 +181,41 @@ void report(const PlacedPieces& placed, PiecesQuery& query, PiecesGap& gap) {
     gap.triangle_b = b.triangle, gap.feature_b = b.kind, gap.index_b = b.index;
 }
 
+/// Where rounding hides what the hulls do.
+void report_surfaces(const PlacedPieces& placed, PiecesQuery& query, double upper_bound,
+                     PiecesGap& gap) {
+    const ClosestPieces& best = query.search().best();
+    // Placed as the triangles are, the points found may be a little farther apart.
+    const double bound = best.found ? best.distance + 2 * placed.contact_zone() : upper_bound;
+    Gap surfaces = query.surface_gap(bound);
+    if (surfaces.status == Status::bound_only && best.found)
+        surfaces = query.surface_gap(std::numeric_limits<double>::infinity());
+    const bool is_beyond = surfaces.status == Status::bound_only || surfaces.distance > upper_bound;
+    gap.triangle_a = surfaces.triangle_a, gap.triangle_b = surfaces.triangle_b;
+    gap.piece_a = placed.a.piece_of[gap.triangle_a];
+    gap.piece_b = placed.b.piece_of[gap.triangle_b];
+    if (!is_beyond && surfaces.distance == 0) {
+        gap.distance = 0;
+        gap.point_a = gap.point_b = surfaces.point_a;
+        return;
+    }
+    const double apart = std::max(0.0, surfaces.at_least - placed.contact_zone());
+    if (const auto point = query.contained_point(apart)) {
+        report_common_point(placed, *point, gap);
+        return;
+    }
+    if (is_beyond) {
+        gap.distance = gap.at_least = upper_bound;
+        gap.status = Status::bound_only;
+        return;
+    }
+    gap.distance = surfaces.distance;
+    gap.at_least = std::max(0.0, surfaces.distance - placed.world_rounding());
+    gap.point_a = surfaces.point_a, gap.point_b = surfaces.point_b;
+    gap.feature_a = surfaces.feature_a, gap.index_a = surfaces.index_a;
+    gap.feature_b = surfaces.feature_b, gap.index_b = surfaces.index_b;
+}
+
 } // namespace
 
 PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
@@ -152,6 +229,10 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
     query.search().set_slack(options.max_error);
     const bool found = query.run();
     const ClosestPieces& best = query.search().best();
+    if (!query.search().is_decided()) {
+        report_surfaces(placed, query, options.upper_bound, gap);
+        return gap;
+    }
     if (best.meet()) {
         report(placed, query, gap);
         return gap;
@@ -166,11 +247,8 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
         return gap;
     }
     report(placed, query, gap);
-    gap.at_least = options.max_error > 0 ? query.search().at_least() : gap.distance;
-    const double excess = best.search.at.excess;
-    if (excess * excess > placed.rounding * placed.rounding * gap.distance * gap.distance)
-        gap.at_least = std::max(0.0, std::min(gap.at_least, gap.distance - excess / gap.distance));
-    if (gap.at_least < gap.distance)
+    gap.at_least = std::min(query.search().at_least(), gap.distance);
+    if (options.max_error > 0 && gap.at_least < gap.distance)
         gap.status = Status::converged;
     return gap;
 }
@@ -180,10 +258,19 @@ bool within(const ConvexPieces& a, const Transform& world_from_a, const ConvexPi
     require_not_negative(tolerance, "tolerance");
     PiecesCounters counters;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
+    if (std::isinf(tolerance))
+        return true;
     PiecesQuery query(placed, workspace, counters);
     query.search().set_bound(tolerance);
     query.search().stop_at_first();
-    return query.run() || query.contained_point(query.search().at_least()).has_value();
+    const bool found = query.run();
+    const ClosestPieces& best = query.search().best();
+    const double hidden = 0x1p-40 * tolerance + 8 * placed.contact_zone();
+    if (found && (best.proven || best.distance < tolerance - hidden))
+        return true;
+    if (!found && query.search().at_least() > tolerance + hidden)
+        return query.contained_point(query.search().at_least()).has_value();
+    return distance(a, world_from_a, b, world_from_b).distance <= tolerance;
 }
 
 } // namespace abut

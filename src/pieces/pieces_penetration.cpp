@@ -3,12 +3,15 @@
 #include <abut/rigid.h>
 
 #include "convex/expanding_polytope.h"
+#include "pieces/contact_proof.h"
 #include "pieces/pair_search.h"
 #include "pieces/pieces_containment.h"
+#include "pieces/proven_room.h"
 #include "rigid/model_data.h"
 #include "rigid/separation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -27,16 +30,24 @@ public:
     /// deepest any more are never looked at.
     void find() {
         push({0, 0});
-        while (!pending_.empty() && pending_.front().first > result_.depth) {
+        while (!pending_.empty() && (pending_.front().first > result_.depth || !near_)) {
             std::pop_heap(pending_.begin(), pending_.end(), less);
             const HullPair pair = pending_.back().second;
             pending_.pop_back();
             if (placed_.are_pieces(pair))
                 measure(pair);
-            else if (PiecePairSearch(placed_, result_.counters).may_meet(pair))
+            else if (PiecePairSearch(placed_, result_.counters)
+                         .may_meet(pair, placed_.contact_zone()))
                 placed_.for_each_child(pair, [&](const HullPair& child) { push(child); });
         }
     }
+
+    /// Whether two of the pieces prove that the solids share a point.
+    [[nodiscard]] bool proven() const { return proven_; }
+    /// Whether some pieces are so near that rounding may hide that they meet.
+    [[nodiscard]] bool near() const { return near_; }
+    /// Whether pieces may go into each other that were measured as apart.
+    [[nodiscard]] bool misses_depth() const { return misses_depth_; }
 
     /// Of the pairs that were the deepest for a while, the deepest first.
     [[nodiscard]] std::vector<Vec3> directions() const {
@@ -50,7 +61,7 @@ private:
     void push(const HullPair& pair) {
         ++result_.counters.sphere_pairs;
         const double most = placed_.most_depth(pair);
-        if (most < 0)
+        if (most < -placed_.contact_zone())
             return;
         pending_.emplace_back(most, pair);
         std::push_heap(pending_.begin(), pending_.end(), less);
@@ -63,13 +74,29 @@ private:
         first.count = 1; // of the first vertices
         const SimplexState found = search_simplex(pair, first, placed_.rounding);
         result_.counters.simplices += found.steps;
-        if (!found.meeting)
+        if (!found.meeting) {
+            if (!near_ && may_be_near(hulls, pair, found))
+                near_ = true;
             return;
+        }
+        near_ = true;
+        proven_ = proven_ || proves_contact(placed_, hulls, found.simplex);
         const NearestBoundary nearest =
             expand_simplex(pair, placed_.rounding, found.simplex, nullptr);
         if (!result_.meet || nearest.at_least > result_.depth)
             keep(hulls, pair, nearest);
         result_.meet = true;
+    }
+
+    /// Whether rounding may hide that pieces meet, which a search of simplices says are apart.
+    bool may_be_near(const HullPair& hulls, const PolytopePair& pair, const SimplexState& found) {
+        const double zone = placed_.contact_zone(), distance = std::sqrt(found.distance_sq);
+        if (distance - found.excess / distance > 2 * zone + placed_.margin(hulls) ||
+            PiecePairSearch(placed_, result_.counters).measure(hulls, {}) > zone)
+            return false;
+        const double room = proven_room(pair, found.gap, placed_.a.reach, placed_.b.reach, 0);
+        misses_depth_ = misses_depth_ || room < -zone;
+        return true;
     }
 
     void keep(const HullPair& hulls, const PolytopePair& pair, const NearestBoundary& nearest) {
@@ -90,6 +117,7 @@ private:
     PiecesDepth& result_;
     std::vector<Bounded> pending_; ///< a heap
     std::vector<Vec3> directions_;
+    bool proven_ = false, near_ = false, misses_depth_ = false;
 };
 
 /// A translation of b after which the solids share no point.
@@ -121,14 +149,21 @@ PiecesDepth penetration(const ConvexPieces& a, const Transform& world_from_a, co
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
     DeepestPieces deepest(placed, result);
     deepest.find();
-    if (!result.meet) {
-        if (!contained_point(placed))
-            return result;
-        // Before b is out, the surfaces meet.
+    if (!deepest.proven()) {
+        const bool touch =
+            deepest.near() && collide(a.model(), world_from_a, b.model(), world_from_b).any();
+        if (!touch) {
+            PiecesDepth apart;
+            apart.counters = result.counters;
+            result = apart;
+            if (!contained_point(placed))
+                return result;
+            // Before b is out, the surfaces meet.
+            result.depth = distance(a.model(), world_from_a, b.model(), world_from_b).distance;
+        }
         result.meet = true;
-        result.depth = distance(a.model(), world_from_a, b.model(), world_from_b).distance;
     }
-    if (a.size() > 1 || b.size() > 1)
+    if (a.size() > 1 || b.size() > 1 || deepest.misses_depth())
         result.status = Status::bound_only;
     if (options.separation)
         result.separation = way_out(placed, deepest.directions(), result.depth);

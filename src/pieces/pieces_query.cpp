@@ -23,7 +23,7 @@ PiecesQuery::PiecesQuery(const PlacedPieces& placed, PiecesWorkspace* workspace,
 }
 
 void PiecesQuery::recall() {
-    const PosePair poses{placed_.world_from_a, placed_.world_from_b};
+    const PosePair poses(placed_.world_from_a, placed_.world_from_b);
     if (last_->id_a != placed_.a.id || last_->id_b != placed_.b.id) {
         *last_ = {};
         last_->id_a = placed_.a.id, last_->id_b = placed_.b.id;
@@ -65,6 +65,21 @@ std::optional<Vec3> PiecesQuery::contained_point(double apart) {
         last_->contained = point.has_value();
     }
     return point;
+}
+
+Gap PiecesQuery::surface_gap(double bound) const {
+    DistanceOptions options;
+    options.workspace = last_ != nullptr ? &last_->surfaces : nullptr;
+    options.upper_bound = bound;
+    return distance(placed_.a.model, placed_.world_from_a, placed_.b.model, placed_.world_from_b,
+                    options);
+}
+
+std::optional<TrianglePair> PiecesQuery::touching_triangles() const {
+    const Contacts contacts =
+        collide(placed_.a.model, placed_.world_from_a, placed_.b.model, placed_.world_from_b,
+                {.workspace = last_ != nullptr ? &last_->surfaces : nullptr});
+    return contacts.any() ? std::optional(contacts.pairs[0]) : std::nullopt;
 }
 
 PiecesWorkspace::PiecesWorkspace() = default;

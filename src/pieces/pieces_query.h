@@ -24,9 +24,11 @@ public:
     /// other, less the approach since: while it is positive, that has not changed.
     double undisturbed = 0;
     std::optional<bool> contained;
+    Workspace surfaces; ///< where the triangles were asked
 };
 
-/// One query of two solids: what is remembered, the search, whether one is inside of the other.
+/// One query of two solids: what is remembered, the search, whether one is inside of the other, and
+/// the triangles, which decide where rounding hides what the hulls do.
 class PiecesQuery {
 public:
     PiecesQuery(const PlacedPieces& placed, PiecesWorkspace* workspace, PiecesCounters& counters);
@@ -50,6 +52,10 @@ public:
     /// A point in both solids, where one is inside of the other. In: no pieces meet, and these are
     /// no nearer than `apart`.
     std::optional<Vec3> contained_point(double apart);
+    /// The distance of the surfaces, if it is at most `bound`; else bound_only.
+    [[nodiscard]] Gap surface_gap(double bound) const;
+    /// Two triangles that share a point, if there are any.
+    [[nodiscard]] std::optional<TrianglePair> touching_triangles() const;
 
 private:
     void recall();

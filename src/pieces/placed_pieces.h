@@ -54,6 +54,32 @@ public:
     [[nodiscard]] double smaller_radius(const HullPair& p) const {
         return std::min(most_a_ * node_a(p.a).radius, most_b_ * node_b(p.b).radius);
     }
+    /// No vector of a's frame gets longer than most_a() times its length, or shorter than least_a()
+    /// times it.
+    [[nodiscard]] double most_a() const { return most_a_; }
+    [[nodiscard]] double most_b() const { return most_b_; }
+    [[nodiscard]] double least_a() const { return least_stretch(least_sq_a_, world_from_a); }
+    [[nodiscard]] double least_b() const { return least_stretch(least_sq_b_, world_from_b); }
+    /// No vertex, placed as `apply` does, is off by more.
+    [[nodiscard]] double world_rounding() const {
+        return rounding + 0x1p-51 * (sum_of_sizes(origin()) + sum_of_sizes(origin() + shift_));
+    }
+    /// Solids whose hulls are at least this far apart share no point, also once each vertex of their
+    /// triangles is placed with a rounding of its own.
+    [[nodiscard]] double contact_zone() const { return 4 * world_rounding(); }
+    /// What a bound of the distance of two hulls is lowered by, for rounding and for what the hulls
+    /// leave out.
+    [[nodiscard]] double margin(const HullPair& p) const {
+        const HullNode &na = node_a(p.a), &nb = node_b(p.b);
+        if (!na.is_leaf() || !nb.is_leaf())
+            return 64 *
+                   rounding; // hulls of hulls leave out 2^-46 of the largest coordinate and more
+        return 2 * rounding + most_a_ * na.loss + most_b_ * nb.loss;
+    }
+    /// No two points of the two hulls' spheres are farther apart than their gap and this.
+    [[nodiscard]] double size(const HullPair& p) const {
+        return 2 * (most_a_ * node_a(p.a).radius + most_b_ * node_b(p.b).radius);
+    }
     /// Radii of the balls around the solids.
     [[nodiscard]] double size() const {
         return most_a_ * node_a(0).radius + most_b_ * node_b(0).radius;
@@ -76,8 +102,11 @@ public:
     double rounding; ///< no coordinate in the frame is off by more
 
 private:
+    [[nodiscard]] static double least_stretch(double least_sq, const Transform& t);
+
     Vec3 shift_; ///< from the origin of a to that of b
     double most_a_, most_b_;
+    double least_sq_a_, least_sq_b_; ///< negative, or much too small, where the map is no rotation
 };
 
 } // namespace abut

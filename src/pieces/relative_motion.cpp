@@ -57,9 +57,12 @@ double size_of(const Transform& t, const BodyBall& ball) {
 
 } // namespace
 
+PosePair::PosePair(const Transform& of_a, const Transform& of_b)
+    : a(of_a), b(of_b), a_is_rigid(is_rotation(of_a)), b_is_rigid(is_rotation(of_b)) {}
+
 double most_approach(const PosePair& from, const PosePair& to, const BodyBall& a,
                      const BodyBall& b) {
-    const bool rotations = is_rotation(to.b) && is_rotation(from.b);
+    const bool rotations = to.b_is_rigid && from.b_is_rigid;
     if (from.a == to.a) {
         if (from.b == to.b)
             return 0;
@@ -67,7 +70,7 @@ double most_approach(const PosePair& from, const PosePair& to, const BodyBall& a
         return way(from.b, to.b, b, rotations) * (1 + kSlack) + 0x1p-50 * size_of(to.b, b) +
                (rotations ? 8 * kRounding * b.radius : 0);
     }
-    if (rotations && is_rotation(to.a) && is_rotation(from.a)) {
+    if (rotations && to.a_is_rigid && from.a_is_rigid) {
         const Transform before = seen_from(from.a, from.b), now = seen_from(to.a, to.b);
         return way(before, now, b, true) * (1 + kSlack) +
                0x1p-40 * (size_of(now, b) + size_of(before, b) + a.radius + sum_of_sizes(a.middle));

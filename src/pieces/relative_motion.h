@@ -14,7 +14,11 @@ struct BodyBall {
 
 /// Where two bodies stand.
 struct PosePair {
+    PosePair() = default;
+    PosePair(const Transform& of_a, const Transform& of_b);
+
     Transform a, b;
+    bool a_is_rigid = true, b_is_rigid = true; ///< to rounding
 };
 
 /// How much nearer any point of one body can have come to any point of the other between two pairs

@@ -1,0 +1,172 @@
+#include "pieces/proven_room.h"
+
+#include "convex/climb.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+/// Whether a vertex has a neighbour that is at least so high along a direction.
+bool has_high_neighbour(const Polytope& polytope, const Vec3& direction, const HullVertex& vertex,
+                        double least) {
+    const RingBlock* block = polytope.rings.data() + vertex.first_edge / RingBlock::kEdges;
+    const RingBlock* const end =
+        block + (vertex.degree + RingBlock::kEdges - 1) / RingBlock::kEdges;
+    // What is left of the last block repeats the first edge.
+    for (; block != end; ++block) {
+        bool high = false;
+        for (std::size_t k = 0; k < RingBlock::kEdges; ++k)
+            high |=
+                direction.x * block->x[k] + direction.y * block->y[k] + direction.z * block->z[k] >=
+                least;
+        if (high)
+            return true;
+    }
+    return false;
+}
+
+/// Returns the highest of the vertices that rounding may hide: those that are connected to `vertex`
+/// through vertices of at least the height `least`.
+std::uint32_t highest_hidden(const Polytope& polytope, const Vec3& direction, std::uint32_t vertex,
+                             double least) {
+    std::vector<bool> seen(polytope.vertices.size());
+    std::vector<std::uint32_t> reached{vertex};
+    seen[vertex] = true;
+    double most = dot(direction, polytope.vertices[vertex].at);
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+        const HullVertex& v = polytope.vertices[reached[i]];
+        for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e) {
+            const double height = dot(direction, polytope.to(e));
+            const std::uint32_t w = polytope.target(e);
+            if (height < least || seen[w])
+                continue;
+            seen[w] = true;
+            reached.push_back(w);
+            if (height > most)
+                most = height, vertex = w;
+        }
+    }
+    return vertex;
+}
+
+/// The highest vertex along a direction, from one that no neighbour is higher than.
+std::uint32_t highest(const PlacedPolytope& side, const Vec3& along, std::uint32_t vertex,
+                      double reach) {
+    const Polytope& polytope = *side.polytope;
+    const Vec3 direction = side.pulled_back(along);
+    // Two heights that seem to differ by less may be the other way round.
+    const double hidden = 0x1p-48 * sum_of_sizes(direction) * reach;
+    const HullVertex& v = polytope.vertices[vertex];
+    const double least = dot(direction, v.at) - hidden;
+    return has_high_neighbour(polytope, direction, v, least)
+               ? highest_hidden(polytope, direction, vertex, least)
+               : vertex;
+}
+
+/// Two edges of the triangle between an edge and the next around its vertex.
+std::array<Vec3, 2> sides(const PlacedPolytope& side, std::uint32_t vertex, std::uint32_t edge) {
+    const Polytope& p = *side.polytope;
+    const HullVertex& v = p.vertices[vertex];
+    return {apply_linear(*side.linear, p.to(edge) - v.at),
+            apply_linear(*side.linear, p.to(p.after(v, edge)) - v.at)};
+}
+
+/// Directions in which features face, on either side of them.
+class FacingDirections {
+public:
+    FacingDirections(const PolytopePair& pair, const WalkState& at) {
+        add(at.gap);
+        add_normals(pair.a, at.a);
+        add_normals(pair.b, at.b);
+        const Vec3 u = along(pair.a, at.a), v = along(pair.b, at.b);
+        if (at.a.kind != Feature::vertex && at.b.kind != Feature::vertex)
+            add(cross(u, v));
+        for (const Vec3& w : {u, v}) // across an edge
+            if (const double sq = length_sq(w); sq > 0)
+                add(at.gap - (dot(at.gap, w) / sq) * w);
+    }
+    [[nodiscard]] const Vec3* begin() const { return directions_.data(); }
+    [[nodiscard]] const Vec3* end() const { return directions_.data() + count_; }
+
+private:
+    static Vec3 along(const PlacedPolytope& side, const HullFeature& f) {
+        return f.kind == Feature::vertex ? Vec3{} : sides(side, f.vertex, f.edge)[0];
+    }
+    /// Adds the normal of the triangle, or of both triangles at the edge.
+    void add_normals(const PlacedPolytope& side, const HullFeature& f) {
+        if (f.kind == Feature::vertex)
+            return;
+        const auto [u, v] = sides(side, f.vertex, f.edge);
+        add(cross(u, v));
+        if (f.kind == Feature::face)
+            return;
+        const Polytope& p = *side.polytope;
+        const auto [s, t] = sides(side, f.vertex, p.before(p.vertices[f.vertex], f.edge));
+        add(cross(s, t));
+    }
+    void add(const Vec3& direction) {
+        if (direction == Vec3{} || !is_finite(direction))
+            return;
+        directions_.at(count_++) = dot(direction, directions_[0]) < 0 ? -direction : direction;
+    }
+
+    std::array<Vec3, 8> directions_;
+    std::size_t count_ = 0;
+};
+
+/// Whether the polytope has a vertex beyond the edge's own along n, or may have.
+bool has_more(const PlacedPolytope& side, const HullFeature& f, const Vec3& gap, double error) {
+    if (f.kind != Feature::edge)
+        return false;
+    const Polytope& p = *side.polytope;
+    const HullVertex& v = p.vertices[f.vertex];
+    const Vec3 n = side.pulled_back(gap);
+    const auto is_behind = [&](std::uint32_t edge) {
+        const Vec3 to = p.to(edge) - v.at;
+        const double height = dot(n, to);
+        return height < 0 && height * height > error * error * length_sq(to);
+    };
+    if (is_behind(p.after(v, f.edge)) && is_behind(p.before(v, f.edge)))
+        return false;
+    for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e) {
+        const Vec3 to = p.to(e) - v.at;
+        if (const double height = dot(n, to);
+            height > 0 && height * height > error * error * length_sq(to))
+            return true;
+    }
+    return false;
+}
+
+} // namespace
+
+double proven_room(const PolytopePair& pair, const Vec3& along, double reach_a, double reach_b,
+                   double margin) {
+    auto [a, b] = farthest(pair, along);
+    // All vertices of two small hulls have been looked at.
+    if (pair.a.polytope->columns.empty() || pair.b.polytope->columns.empty()) {
+        a = highest(pair.a, along, a, reach_a);
+        b = highest(pair.b, -along, b, reach_b);
+    }
+    return dot(along, pair.b.vertex(b) - pair.a.vertex(a)) / length(along) - margin;
+}
+
+double proven_room_at(const PolytopePair& pair, const WalkState& at, double reach_a, double reach_b,
+                      double margin, double enough) {
+    double most = 0;
+    for (const Vec3& direction : FacingDirections(pair, at)) {
+        most = std::max(most, proven_room(pair, direction, reach_a, reach_b, margin));
+        if (most >= enough)
+            break;
+    }
+    return most;
+}
+
+bool hides_more(const PolytopePair& pair, const WalkState& at, double error_a, double error_b) {
+    return has_more(pair.a, at.a, at.gap, error_a) || has_more(pair.b, at.b, -at.gap, error_b);
+}
+
+} // namespace abut
