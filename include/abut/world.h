@@ -167,7 +167,7 @@ public:
 
     /// When bodies that move in this step first meet, each pair once, sorted. Deformables move as their
     /// steps say, while t goes from 0 to 1 as in the motions; other bodies that are not named stay
-    /// where they are. Does not move anything.
+    /// where they are, and two such bodies are no pair. What meets at t = 0 has that time and no normal.
     ///
     /// Accuracy    no time is later than the first contact, and no contact is missed: as
     ///             `time_of_impact`. Two deformables: exact, as `first_impact`; `contact_time` is less

@@ -15,10 +15,10 @@ namespace abut {
 namespace {
 
 /// What a coordinate may be off by that was computed from others of this size.
-constexpr double kRounding = 0x1p-48;
+constexpr double kBoxRounding = 0x1p-48;
 
 Box3 grown(const Vec3& centre, const Vec3& half) {
-    const auto outward = [](double c, double h) { return h + kRounding * (std::abs(c) + h); };
+    const auto outward = [](double c, double h) { return h + kBoxRounding * (std::abs(c) + h); };
     const Vec3 by{outward(centre.x, half.x), outward(centre.y, half.y), outward(centre.z, half.z)};
     return {centre - by, centre + by};
 }
@@ -48,7 +48,7 @@ Box3 bounds_of_convex(const ConvexData& convex, const Transform& world_from_body
     double size = max_abs({m[9], m[10], m[11]});
     for (std::size_t i = 0; i < 9; ++i)
         size = std::max(size, std::abs(m[i]) * convex.reach);
-    const Vec3 error = 8 * kRounding * Vec3{size, size, size};
+    const Vec3 error = 8 * kBoxRounding * Vec3{size, size, size};
     return {box.lower - error, box.upper + error};
 }
 
@@ -162,7 +162,7 @@ Box3 placed_bounds(const Box3& own_bounds, const Transform& world_from_body) {
         m.begin(), m.begin() + 9, [](double a, double b) { return std::abs(a) < std::abs(b); });
     const double size = std::max(1.0, std::abs(stretch)) * (max_abs(centre) + max_abs(half)) +
                         max_abs({m[9], m[10], m[11]});
-    const double error = 8 * kRounding * size;
+    const double error = 8 * kBoxRounding * size;
     return grown(apply(world_from_body, centre), turned + Vec3{error, error, error});
 }
 
@@ -170,11 +170,11 @@ double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& po
     if (const auto* box = std::get_if<RoundedBox>(&shape))
         return (length(box->centre - point) + length({box->half[0], box->half[1], box->half[2]}) +
                 box->radius) *
-               (1 + kRounding);
+               (1 + kBoxRounding);
     if (is_empty(own_bounds))
         return 0;
     return length(max(absolute(own_bounds.lower - point), absolute(own_bounds.upper - point))) *
-           (1 + kRounding);
+           (1 + kBoxRounding);
 }
 
 } // namespace abut

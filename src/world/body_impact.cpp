@@ -2,6 +2,7 @@
 
 #include "math/transform.h"
 #include "rigid/motion_bounds.h"
+#include "rigid/search_steps.h"
 #include "world/deforming_impact.h"
 #include "world/narrow_phase.h"
 
@@ -24,20 +25,30 @@ constexpr double kRounding = 0x1p-44;
 class Advancement {
 public:
     Advancement(const MovingBody& a, const MovingBody& b, const ImpactOptions& options)
-        : a_(a), b_(b), reach_a_(reach_of(a)), reach_b_(reach_of(b)),
+        : a_(a), b_(b), options_(options), reach_a_(reach_of(a)), reach_b_(reach_of(b)),
           convex_(is_convex(a.shape) && is_convex(b.shape)) {
         const double size = std::max(reach_a_, reach_b_);
         scale_ = size + max_abs(a.motion.centre) + max_abs(b.motion.centre) +
                  max_abs(a.motion.velocity) + max_abs(b.motion.velocity);
-        tolerance_ =
-            std::max(options.tolerance.value_or(kImpactTolerance * size), 4 * kRounding * scale_);
+        asked_tolerance_ = options.tolerance.value_or(kImpactTolerance * size);
+        tolerance_ = std::max(asked_tolerance_, 4 * kRounding * scale_);
     }
 
     Impact run() const {
-        constexpr int kMostSteps = 1000;
+        constexpr std::uint64_t kMostSteps = 1000;
+        SearchSteps steps(options_);
+        Impact impact = search(steps, kMostSteps);
+        impact.steps = steps.count();
+        return impact;
+    }
+
+private:
+    [[nodiscard]] Impact search(SearchSteps& steps, std::uint64_t most_steps) const {
         double time = 0;
         BodyGap gap = gap_at(0);
-        for (int step = 0; step < kMostSteps; ++step) {
+        while (steps.count() < most_steps) {
+            if (!steps.take(time))
+                return out_of_steps(time);
             if (gap.distance <= tolerance_)
                 return hit(time, gap);
             const double speed = closing_speed(gap);
@@ -53,7 +64,6 @@ public:
         return impact;
     }
 
-private:
     [[nodiscard]] BodyGap gap_at(double time) const {
         const Transform world_a = at(a_.motion, time), world_b = at(b_.motion, time);
         PairWorkspace workspace;
@@ -84,7 +94,7 @@ private:
         for (const double contact : {time, time_beyond(time, gap)})
             if (contact <= 1 && gap_at(contact).distance <= 0) {
                 impact.contact_time = contact;
-                impact.status = Status::exact;
+                impact.status = impact.gap <= asked_tolerance_ ? Status::exact : Status::converged;
                 break;
             }
         return impact;
@@ -96,10 +106,11 @@ private:
     }
 
     const MovingBody &a_, &b_;
+    const ImpactOptions& options_;
     double reach_a_, reach_b_;
     bool convex_;
     double scale_ = 0; ///< of the coordinates
-    double tolerance_ = 0;
+    double asked_tolerance_ = 0, tolerance_ = 0;
 };
 
 const Model& model_of(const BodyShape& shape) {

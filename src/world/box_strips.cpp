@@ -7,19 +7,47 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace abut {
 
 namespace {
 
-/// A bound moved outwards by half of the gap, and by what rounding takes from it.
+/// A bound moved outwards by half of the gap or a little more, so that boxes at most `gap` apart
+/// overlap: 0x1p-50 outweighs the rounding of normal numbers; of those near zero, sums are exact, and
+/// half of a gap is off by less than the least number.
 double lowered(double x, double gap) {
-    return x - (0.5 * gap + 0x1p-50 * (std::abs(x) + gap));
+    constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+    return x - (0.5 * gap + kLeast + 0x1p-50 * (std::abs(x) + gap));
 }
 Box3 widened(const Box3& box, double gap) {
     const auto &l = box.lower, &u = box.upper;
     return {{lowered(l.x, gap), lowered(l.y, gap), lowered(l.z, gap)},
             {-lowered(-u.x, gap), -lowered(-u.y, gap), -lowered(-u.z, gap)}};
+}
+
+/// Whether a - b <= gap. Exact.
+///
+/// In          a is below infinity, b above minus infinity; gap is finite.
+bool differ_by_at_most(double a, double b, double gap) {
+    const double difference = a - b;
+    // Rounding is monotone: only what is rounded to the gap itself may lie on either side of it.
+    if (difference != gap)
+        return difference < gap;
+    // The error of a difference is a double, and this gives it. [Dekker 1971]
+    const double error = std::abs(a) >= std::abs(b) ? (a - difference) - b : a - (difference + b);
+    return error <= 0;
+}
+
+/// Whether the boxes are at most `gap` apart on every axis. Exact.
+///
+/// In          boxes that take part.
+bool are_near(const Box3& p, const Box3& q, double gap) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!differ_by_at_most(component(p.lower, axis), component(q.upper, axis), gap) ||
+            !differ_by_at_most(component(q.lower, axis), component(p.upper, axis), gap))
+            return false;
+    return true;
 }
 
 /// Searches strip after strip.
@@ -102,7 +130,7 @@ private:
             if (std::max(i, k) < before)
                 return false;
             const auto [a, b] = std::minmax(reaching_[i], reaching_[k]);
-            return (gap_ == 0 || overlap(boxes_[a], boxes_[b], gap_)) &&
+            return (gap_ == 0 || are_near(boxes_[a], boxes_[b], gap_)) &&
                    (!wanted_ || wanted_(a, b));
         })->restart(here, list);
         std::vector<IndexPair>& found = found_.emplace_back();

@@ -17,7 +17,7 @@ namespace {
 /// What a caller's rounding may put a body off its course by, relative to its coordinates; and what is
 /// taken off lengths and times to be safe from that, and from rounding here.
 constexpr double kOffCourse = 0x1p-48;
-constexpr double kRounding = 0x1p-40;
+constexpr double kGapRounding = 0x1p-40;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Vec3 moved_by(const SpeedBounds& bounds, double t) {
@@ -116,7 +116,7 @@ Box3 CollisionSchedule::swept_box(std::uint32_t body) const {
     const double span = end - begin, sagitta = length(bounds.acceleration) * span * span / 8;
     const double by = 0.5 * bounds.acceleration_bound * end * end + sagitta +
                       std::min(bounds.angular_speed * span, 2.0) * reach_of(body) +
-                      kRounding * (most * end + max_abs(origin_of(body)));
+                      kGapRounding * (most * end + max_abs(origin_of(body)));
     const Vec3 way = moved_by(bounds, end) - here, margin{by, by, by};
     const Box3& box = world_.boxes()[body];
     return {min(box.lower, box.lower + way) - margin, max(box.upper, box.upper + way) + margin};
@@ -173,11 +173,11 @@ double CollisionSchedule::time_to_collision(IndexPair pair, double distance) con
     const double acceleration = length(a.bounds.acceleration - b.bounds.acceleration) +
                                 a.bounds.acceleration_bound + b.bounds.acceleration_bound;
     const double size = max_abs(origin_of(pair.a())) + max_abs(origin_of(pair.b())) + distance;
-    const double d = distance - kRounding * size;
+    const double d = distance - kGapRounding * size;
     if (d <= 0)
         return 0;
     const double sum = v + std::sqrt(v * v + 2 * acceleration * d);
-    return sum > 0 ? 2 * d / sum * (1 - kRounding) : kNever;
+    return sum > 0 ? 2 * d / sum * (1 - kGapRounding) : kNever;
 }
 
 std::vector<BodyPair> CollisionSchedule::advance(double time) {

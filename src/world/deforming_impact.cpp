@@ -4,6 +4,7 @@
 
 #include "math/transform.h"
 #include "rigid/motion_bounds.h"
+#include "rigid/search_steps.h"
 #include "world/deforming_pair.h"
 #include "world/narrow_phase.h"
 #include "world/surface_impact.h"
@@ -18,7 +19,7 @@ namespace abut {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNoContact = std::numeric_limits<double>::infinity();
 
 double diagonal(const Box3& box) {
     return length(box.upper - box.lower);
@@ -34,7 +35,7 @@ bool keep_below_zero(double start, double end, TimeRange& shares) {
     constexpr double kMore = 0x1p-40;
     const double zero = start / (start - end);
     if (start > 0)
-        shares.begin = end > 0 ? kNever : std::max(shares.begin, zero - kMore);
+        shares.begin = end > 0 ? kNoContact : std::max(shares.begin, zero - kMore);
     else if (end > 0)
         shares.end = std::min(shares.end, zero + kMore);
     return shares.begin <= shares.end;
@@ -62,8 +63,8 @@ class DeformingSearch {
 public:
     DeformingSearch(const DeformingPair& pair, const ImpactOptions& options)
         : pair_(pair), tree_a_(pair.tree_a()), tree_b_(pair.tree_b()),
-          tolerance_(std::max(options.tolerance.value_or(kImpactTolerance * pair.size()),
-                              4 * pair.margin())) {}
+          asked_tolerance_(options.tolerance.value_or(kImpactTolerance * pair.size())),
+          tolerance_(std::max(asked_tolerance_, 4 * pair.margin())), steps_(options) {}
 
     Impact run() {
         if (!tree_a_.empty() && !tree_b_.empty())
@@ -72,9 +73,13 @@ public:
             std::pop_heap(queue_.begin(), queue_.end(), Later{});
             const Waiting pair = queue_.back();
             queue_.pop_back();
-            open(pair);
+            is_refused_ = !steps_.take(pair.range.begin);
+            if (!is_refused_)
+                open(pair);
+            if (is_refused_)
+                return with_counts(out_of_steps(pair.range.begin));
         }
-        return impact();
+        return with_counts(impact());
     }
 
 private:
@@ -98,7 +103,7 @@ private:
     };
     /// Two triangles that come near each other; b by its slot.
     struct Found {
-        double time = kNever;
+        double time = kNoContact;
         std::uint32_t a = 0, b = 0;
         ClosestPoints closest{};
         double speed = 0; ///< at which they seemed to approach each other
@@ -163,6 +168,9 @@ private:
     void advance(std::uint32_t triangle, std::uint32_t slot, const TimeRange& range) {
         Found pair{range.begin, triangle, slot, {}, 0};
         for (int step = 0; pair.time <= std::min(range.end, found_.time); ++step) {
+            is_refused_ = !steps_.take(range.begin);
+            if (is_refused_)
+                return;
             ++counters_.primitive_tests;
             const Triangle a = pair_.triangle_a(triangle, pair.time),
                            b = pair_.triangle_b(slot, pair.time);
@@ -187,10 +195,15 @@ private:
             found_ = pair;
     }
 
+    [[nodiscard]] Impact with_counts(Impact impact) const {
+        impact.counters = counters_;
+        impact.steps = steps_.count();
+        return impact;
+    }
+
     [[nodiscard]] Impact impact() const {
         Impact impact;
-        impact.counters = counters_;
-        if (found_.time == kNever)
+        if (found_.time == kNoContact)
             return impact;
         const Vec3 shift = pair_.shift(found_.time);
         impact.hit = true, impact.time = found_.time;
@@ -200,7 +213,9 @@ private:
         impact.point_b = found_.closest.b - pair_.radius() * impact.normal + shift;
         impact.triangle_a = found_.a, impact.triangle_b = pair_.number_b(found_.b);
         impact.contact_time = contact_time();
-        impact.status = impact.contact_time < kNever ? Status::exact : Status::bound_only;
+        impact.status = !(impact.contact_time < kNoContact) ? Status::bound_only
+                        : impact.gap <= asked_tolerance_    ? Status::exact
+                                                            : Status::converged;
         return impact;
     }
     /// A time at which the two triangles meet, if they do so where it is expected.
@@ -211,13 +226,15 @@ private:
             if (pair_.meet(found_.a, found_.b, time))
                 return time;
         }
-        return kNever;
+        return kNoContact;
     }
 
     const DeformingPair& pair_;
     const MovingTree& tree_a_;
     const Tree& tree_b_;
-    double tolerance_;
+    double asked_tolerance_, tolerance_;
+    SearchSteps steps_;
+    bool is_refused_ = false;    ///< a step
     std::vector<Waiting> queue_; ///< a heap
     Found found_;
     Counters counters_;

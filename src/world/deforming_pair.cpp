@@ -12,7 +12,7 @@ namespace abut {
 namespace {
 
 /// What rounding takes from a length, relative to what it was computed from.
-constexpr double kRounding = 0x1p-44;
+constexpr double kStepRounding = 0x1p-44;
 /// What a box moves by, relative to its coordinates, on its way from a node's axes to its tree's: they
 /// are at right angles to single precision.
 constexpr double kNodeRounding = 0x1p-19;
@@ -65,7 +65,7 @@ DeformingPair::DeformingPair(const DeformableData& deformable, const MovingBody&
     double scale = max_abs(velocity_) + max_abs(body.motion.centre);
     for (const Box3& box : {step, start})
         scale += max_abs(box.lower) + max_abs(box.upper);
-    margin_ = kRounding * scale;
+    margin_ = kStepRounding * scale;
 }
 
 std::span<const std::uint32_t> DeformingPair::triangles_a(NodeRef leaf) const {
@@ -137,7 +137,7 @@ double DeformingPair::free_time(std::uint32_t triangle_a, const Triangle& a, con
     along.bend = rate * rate * reach;
     along.fastest = way_a + reach * length(cross(w, n)) + margin_;
     const double any = (distance - b_.radius - taken) / (most_a + rate * reach + margin_);
-    return std::max(abut::free_time(along), (1 - kRounding) * any);
+    return std::max(abut::free_time(along), (1 - kStepRounding) * any);
 }
 
 bool DeformingPair::meet(std::uint32_t triangle_a, std::uint32_t slot, double time) const {

@@ -2,6 +2,7 @@
 #include <abut/world.h>
 
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "deform/deformable_data.h"
 #include "rigid/shape_arguments.h"
 #include "world/body_impact.h"
@@ -229,12 +230,15 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
         overlapping_boxes(swept, 0, [&](std::uint32_t i, std::uint32_t k) {
             return (moves[i] != 0 || moves[k] != 0) && data_->may_meet(i, k);
         });
+    ProgressMeter meter(options.progress, "impacts", pairs.size());
+    ImpactOptions each = options;
+    each.progress.report = nullptr; // one stage for all
     return results_of<BodyImpact>(
         pairs, [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyImpact> {
             const Body &a = bodies[pair.a()], &b = bodies[pair.b()];
-            const Impact impact =
-                body_impact({a.shape, a.own_bounds, motion_of[pair.a()]},
-                            {b.shape, b.own_bounds, motion_of[pair.b()]}, options);
+            const Impact impact = body_impact({a.shape, a.own_bounds, motion_of[pair.a()]},
+                                              {b.shape, b.own_bounds, motion_of[pair.b()]}, each);
+            meter.advance();
             if (!impact.hit)
                 return std::nullopt;
             return BodyImpact{data_->id_of(pair.a()), data_->id_of(pair.b()), impact};

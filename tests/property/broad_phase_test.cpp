@@ -5,6 +5,7 @@
 #include <abut/error.h>
 #include <abut/progress.h>
 
+#include "math/dyadic.h"
 #include "tests/support/box_script.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
@@ -170,6 +171,43 @@ TEST(BroadPhase, FindsPairsWithinAGap) {
     }
     EXPECT_GT(found, 1000U);
     EXPECT_GT(apart, 1000U);
+}
+
+/// A double, a few units from where a bound plus the gap lies; sums of all sizes, denormal ones too.
+TEST(BroadPhase, DecidesAGapExactly) {
+    Random random(5007);
+    int near = 0, apart = 0, rounded = 0;
+    for (int round = 0; round < many(20000); ++round) {
+        const auto any_double = [&] {
+            const int exponent =
+                random.chance(0.3) ? random.integer(-1074, -1000) : random.integer(-60, 60);
+            return std::ldexp(std::round(random.uniform(0, 9)) + random.uniform(0, 1), exponent);
+        };
+        const double gap = any_double(), bound = random.chance(0.5) ? any_double() : -any_double();
+        double lower = bound + gap;
+        for (int i = random.integer(-2, 2); i != 0; i += i < 0 ? 1 : -1)
+            lower = std::nextafter(lower, i < 0 ? -HUGE_VAL : HUGE_VAL);
+        const double far = std::max(std::abs(lower), std::abs(bound)) + 1;
+        std::vector<Box3> boxes{{{-far, -far, -far}, {far, far, far}},
+                                {{-far, -far, -far}, {far, far, far}}};
+        const auto set = [&](Box3& box, double from, double to, int axis) {
+            (axis == 0 ? box.lower.x : axis == 1 ? box.lower.y : box.lower.z) = from;
+            (axis == 0 ? box.upper.x : axis == 1 ? box.upper.y : box.upper.z) = to;
+        };
+        const int axis = random.integer(0, 2);
+        const bool swapped = random.chance(0.5);
+        set(boxes[swapped ? 1 : 0], -far, bound, axis);
+        set(boxes[swapped ? 0 : 1], lower, far, axis);
+        const bool expected = (Dyadic(lower) - Dyadic(bound) - Dyadic(gap)).sign() <= 0;
+        ASSERT_EQ(overlapping_boxes(boxes, gap).size(), expected ? 1U : 0U)
+            << std::hexfloat << lower << ' ' << bound << ' ' << gap;
+        (expected ? near : apart) += 1;
+        rounded += expected != (lower - bound <= gap) ? 1 : 0;
+    }
+    std::cout << near << " near, " << apart << " apart, " << rounded << " misjudged by rounding\n";
+    EXPECT_GT(near, many(20000) / 4);
+    EXPECT_GT(apart, many(20000) / 4);
+    EXPECT_GT(rounded, many(20000) / 100);
 }
 
 TEST(BroadPhase, RefusesWhatIsNotANumberAndStaysAsItWas) {

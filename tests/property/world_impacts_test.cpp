@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -297,6 +298,98 @@ TEST(WorldImpacts, ADeformableWithinASolidMeetsItAtOnceAndOneAtRestMovesNothing)
     ASSERT_EQ(impacts.size(), 1U);
     EXPECT_EQ(impacts[0].impact.time, 0);
     EXPECT_EQ(impacts[0].impact.contact_time, 0);
+}
+
+/// What is said of bodies that share a point at the start does not depend on where they go.
+TEST(WorldImpacts, ADeformableThatOverlapsABodyAtRestMeetsItAtTheStartIfItMoves) {
+    const Mesh mesh = tetrahedron(1);
+    const Model crossed(box_mesh({0.1, 0.1, -0.5}, {0.2, 0.2, 0.5})); // through a face
+    for (const bool as_model : {false, true})
+        for (const Vec3& step : {Vec3{0, 0, 0.1}, Vec3{0, 0, 9}, Vec3{-9, 0, 0}, Vec3{}}) {
+            MovingSurface sheet(mesh);
+            World world;
+            const BodyId rest = as_model ? world.add(crossed, {})
+                                         : world.add(Box3{{0.1, 0.1, -0.5}, {0.2, 0.2, 0.5}}, {});
+            const BodyId moving = world.add(sheet.surface);
+            sheet.set_step(mesh.positions,
+                           transformed(mesh, translation(step.x, step.y, step.z)).positions);
+            world.refresh(moving);
+            EXPECT_EQ(world.touching().size(), 1U);
+            const auto impacts = world.impacts({});
+            if (step == Vec3{}) {
+                EXPECT_TRUE(impacts.empty()); // neither moves: `touching` names the pair
+                const auto pushed = world.impacts(
+                    {{rest, Motion::between({{}, {1, 0, 0, 0}}, {{5, 0, 0}, {1, 0, 0, 0}})}});
+                ASSERT_EQ(pushed.size(), 1U);
+                EXPECT_EQ(pushed[0].impact.time, 0);
+                continue;
+            }
+            ASSERT_EQ(impacts.size(), 1U);
+            const Impact& impact = impacts[0].impact;
+            EXPECT_EQ(impact.time, 0);
+            EXPECT_EQ(impact.contact_time, 0);
+            EXPECT_EQ(impact.gap, 0);
+            EXPECT_EQ(impact.normal, Vec3{});
+            // A point of both, at the start.
+            EXPECT_NEAR(length(impact.point_a - impact.point_b), 0, 1e-15);
+            EXPECT_GE(impact.point_a.x, 0.1 - 1e-15);
+            EXPECT_LE(impact.point_a.x, 0.2 + 1e-15);
+        }
+}
+
+TEST(WorldImpacts, ALimitOnStepsTellsTheTimeThatIsProvenFreeAndAFlagStopsThem) {
+    Random random(5208);
+    int limited = 0;
+    for (int round = 0; round < many(60); ++round) {
+        SCOPED_TRACE(round);
+        // A body of each kind goes through a model.
+        World world;
+        world.add(Model(sphere_mesh(0.5, 12, 7)), {});
+        const Pose start{{-2, 0.1, 0.1}, {1, 0, 0, 0}};
+        MovingSurface sheet(transformed(tetrahedron(0.3), translation(-2, 0.1, 0.1)));
+        sheet.set_step(sheet.mesh.positions,
+                       transformed(sheet.mesh, translation(4, 0, 0)).positions);
+        const int kind = round % 4;
+        const BodyId body = kind == 0 ? world.add(Sphere{{}, 0.1}, start)
+                            : kind == 1
+                                ? world.add(Box3{{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}, start)
+                            : kind == 2 ? world.add(Model(tetrahedron(0.3)), start)
+                                        : world.add(sheet.surface);
+        std::vector<BodyMotion> motions;
+        if (kind != 3)
+            motions.push_back({body, {start, start.translation, {4, 0, 0}, random.in_cube(2)}});
+        const auto whole = world.impacts(motions);
+        ASSERT_EQ(whole.size(), 1U);
+        EXPECT_GT(whole[0].impact.steps, 0U);
+        EXPECT_FALSE(whole[0].impact.out_of_steps);
+        double before = 0;
+        for (std::uint64_t most = 0; most < whole[0].impact.steps; most += 1 + most / 4) {
+            const auto impacts = world.impacts(motions, {.max_steps = most});
+            ASSERT_EQ(impacts.size(), 1U);
+            const Impact& impact = impacts[0].impact;
+            if (!impact.out_of_steps)
+                continue;
+            ++limited;
+            EXPECT_EQ(impact.steps, most);
+            EXPECT_EQ(impact.status, Status::bound_only);
+            EXPECT_LE(before, impact.time);
+            EXPECT_LE(impact.time, whole[0].impact.time);
+            before = impact.time;
+        }
+        std::vector<double> reports;
+        const auto report = [&](std::string_view, double fraction) { reports.push_back(fraction); };
+        ASSERT_EQ(world.impacts(motions, {.progress = {report, nullptr}}).size(), 1U);
+        EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+        EXPECT_EQ(reports.back(), 1);
+        const std::atomic<bool> stop = true;
+        try {
+            world.impacts(motions, {.progress = {{}, &stop}});
+            FAIL() << "not stopped";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::interrupted);
+        }
+    }
+    EXPECT_GT(limited, many(60));
 }
 
 TEST(WorldImpacts, RefusesMotionsOfDeformablesAndBadTolerances) {
