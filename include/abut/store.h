@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/progress.h>
+#include <abut/scene.h>
 #include <abut/types.h>
 
 #include <cstdint>
@@ -24,8 +25,11 @@ struct ImportOptions {
     /// What the program and its libraries take comes on top: some 64 MiB. Formats without a
     /// streaming reader (see docs/store.md) need what read_scene needs, one file at a time.
     std::uint64_t memory = std::uint64_t{512} << 20;
-    /// Metres per unit of the files; as ReadOptions::unit.
+    /// For files whose format does not say them; as in ReadOptions.
     double unit = 0;
+    UpAxis up = UpAxis::z;
+    bool spaces = false;              ///< as ReadOptions::spaces
+    bool allow_outside_files = false; ///< as ReadOptions::allow_outside_files
     Progress progress{};
 };
 
@@ -39,6 +43,9 @@ struct ImportedModel {
     /// Against what the store had; a part is known by its id.
     std::uint64_t added = 0, changed = 0, removed = 0;
     double seconds = 0;
+    double unit = 1;       ///< metres per unit of the file
+    UpAxis up = UpAxis::y; ///< of the file
+    std::vector<SceneNote> notes{};
 };
 
 struct ImportReport {
@@ -51,6 +58,9 @@ struct ImportReport {
 /// Brings model files into a store, which is made if it is not there: one SQLite file that holds
 /// every distinct mesh once, in compressed and checksummed blocks, and the parts with their places.
 ///
+/// The world of a store has the axes of the first file that is imported; it keeps them as long as it
+/// holds a model, and the parts of files with other axes are turned.
+///
 /// A file that the store has and that has not changed costs nothing; of one that has, only what
 /// differs is written. Models of the store that are not named stay.
 ///
@@ -61,6 +71,8 @@ struct ImportReport {
 ///             as a model, a file given twice, too little memory; as open_store for the store, and
 ///             cannot_write if the disk is full. Error{interrupted}. After an error the store holds
 ///             each model as it was before, or as it is now.
+ImportReport import_models(const std::vector<ModelPath>& files, const std::string& store,
+                           const ImportOptions& options = {});
 ImportReport import_models(const std::vector<std::string>& files, const std::string& store,
                            const ImportOptions& options = {});
 
@@ -112,9 +124,13 @@ struct StoreSummary {
         std::uint64_t parts = 0;
         std::uint64_t triangles = 0; ///< each instance counted
         std::uint64_t generation = 0;
+        double unit = 1;       ///< metres per unit of the file
+        UpAxis up = UpAxis::y; ///< of the file
+        std::vector<SceneNote> notes{};
     };
     std::string path;
     int version = 0;
+    UpAxis up = UpAxis::y;        ///< of the world
     bool complete = false;        ///< all models are
     std::uint64_t generation = 0; ///< grows with each import that changes something
     std::vector<Model> models;

@@ -9,11 +9,14 @@
 #include "store/import_geometry.h"
 #include "store/merge_parts.h"
 #include "store/model_file.h"
+#include "store/note_text.h"
 #include "store/schema.h"
 #include "store/store_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <optional>
 
 namespace abut {
@@ -33,11 +36,12 @@ bool refers_to_files(const std::string& file) {
 }
 
 /// All that can be refused before the store is touched.
-std::vector<ModelFile> check_files(const std::vector<std::string>& files,
-                                   const std::string& store) {
+std::vector<ModelFile> check_files(const std::vector<ModelPath>& files, const std::string& store) {
     std::error_code missing;
     std::vector<ModelFile> found;
-    for (const std::string& file : files) {
+    for (const auto& [file, unit, up] : files) {
+        if (!std::isfinite(unit) || unit < 0)
+            throw Error(ErrorCode::bad_argument, file, "unit must be a positive number of metres");
         found.push_back(look_at(file));
         if (std::filesystem::equivalent(file, store, missing) || is_store(file))
             throw Error(ErrorCode::bad_argument, file,
@@ -49,12 +53,22 @@ std::vector<ModelFile> check_files(const std::vector<std::string>& files,
     return found;
 }
 
+/// The options that decide how a file is read, as text.
+std::string asked_of(const ModelPath& path, const ImportOptions& options) {
+    const auto up = [](const std::optional<UpAxis>& axis) {
+        return axis ? std::string(to_string(*axis)) + "-up" : "-";
+    };
+    return fmt::format("{}:{}, else {}:{}{}", path.unit, up(path.up), options.unit, up(options.up),
+                       options.spaces ? ", spaces" : "");
+}
+
 class StoreImport {
 public:
     StoreImport(const std::string& store, const ImportOptions& options)
-        : store_(store), options_(options), writer_(store, page_cache(options.memory)) {}
+        : store_(store), options_(options),
+          writer_(store, page_cache(options.memory), ExclusiveStore::IfMissing::create) {}
 
-    ImportReport run(const std::vector<std::string>& files, const std::vector<ModelFile>& found) {
+    ImportReport run(const std::vector<ModelPath>& files, const std::vector<ModelFile>& found) {
         const StopWatch watch;
         ImportReport report;
         generation_ = last_generation(writer_.database()) + 1;
@@ -73,6 +87,9 @@ public:
     /// Models that were brought in.
     [[nodiscard]] std::size_t complete() const noexcept { return complete_; }
 
+    /// As StoreWriter::undo_creation.
+    void undo_creation() noexcept { writer_.undo_creation(); }
+
 private:
     /// Of the memory, what SQLite may use.
     static std::uint64_t page_cache(std::uint64_t memory) {
@@ -89,15 +106,25 @@ private:
         return read_model_row(find, store_);
     }
 
-    ImportedModel import(const std::string& file, const ModelFile& found) {
+    /// The axes of the world; none in a store without parts.
+    std::optional<UpAxis> world_up() {
+        Statement first(writer_.database(), std::string("SELECT ") + kModelColumns +
+                                                " FROM model WHERE parts > 0 LIMIT 1");
+        if (!first.step())
+            return std::nullopt;
+        return read_model_row(first, store_).world_up;
+    }
+
+    ImportedModel import(const ModelPath& path, const ModelFile& found) {
         const StopWatch watch;
+        const std::string& file = path.path;
         ImportedModel result;
         result.file = file;
         result.bytes = found.bytes;
         const std::optional<ModelRow> known = known_model(found.path);
         const bool was_complete = known && !known->importing;
         const bool as_before =
-            was_complete && known->unit == options_.unit && !refers_to_files(file);
+            was_complete && known->asked == asked_of(path, options_) && !refers_to_files(file);
         ModelRow model = known.value_or(ModelRow());
         may_have_unused_ = may_have_unused_ || (known && known->importing);
         if (as_before && known->bytes == found.bytes && known->modified == found.modified) {
@@ -118,11 +145,11 @@ private:
         model.bytes = found.bytes;
         model.hash_low = hash.low;
         model.hash_high = hash.high;
-        model.unit = options_.unit;
+        model.asked = asked_of(path, options_);
         mark_as_importing(known, model);
         PartChanges changes;
         try {
-            changes = import_content(file, model, result);
+            changes = import_content(path, model, result);
         } catch (const Error& error) {
             if (error.code() != ErrorCode::interrupted)
                 take_mark_back(known, model);
@@ -135,16 +162,22 @@ private:
         result.added = changes.added;
         result.changed = changes.changed;
         result.removed = changes.removed;
-        result.parts = model.parts;
-        result.triangles = model.triangles;
+        tell(model, result);
         result.seconds = watch.seconds();
         return result;
     }
 
-    static void finish_unchanged(const ModelRow& known, ImportedModel& result,
-                                 const StopWatch& watch) {
-        result.parts = known.parts;
-        result.triangles = known.triangles;
+    void tell(const ModelRow& model, ImportedModel& result) const {
+        result.parts = model.parts;
+        result.triangles = model.triangles;
+        result.unit = model.unit;
+        result.up = model.up;
+        result.notes = parse_notes(model.notes, store_);
+    }
+
+    void finish_unchanged(const ModelRow& known, ImportedModel& result,
+                          const StopWatch& watch) const {
+        tell(known, result);
         result.seconds = watch.seconds();
     }
 
@@ -172,11 +205,24 @@ private:
         }
     }
 
-    PartChanges import_content(const std::string& file, ModelRow& model, ImportedModel& result) {
+    PartChanges import_content(const ModelPath& path, ModelRow& model, ImportedModel& result) {
+        const std::string& file = path.path;
         const std::string folder = folder_of(store_);
         const std::uint64_t memory = options_.memory - page_cache(options_.memory);
-        const auto source =
-            open_scene_source(file, {options_.unit, folder, memory / 8, options_.progress});
+        SourceOptions from;
+        from.read.unit = options_.unit;
+        from.read.up = options_.up;
+        from.read.spaces = options_.spaces;
+        from.read.allow_outside_files = options_.allow_outside_files;
+        from.read.progress = options_.progress;
+        from.world = world_up();
+        from.folder = folder;
+        from.memory = memory / 8;
+        const auto source = open_scene_source(path, from);
+        model.unit = source->frame().unit;
+        model.up = source->frame().up;
+        model.world_up = from.world.value_or(model.up);
+        model.notes = note_text(source->notes());
         result.streamed = source->streams();
         ImportedGeometry geometry(folder);
         import_geometry(*source, file, memory * 3 / 4, options_.progress, writer_, geometry);
@@ -213,24 +259,25 @@ const char* to_string(ImportOutcome outcome) {
 
 ImportReport import_models(const std::vector<std::string>& files, const std::string& store,
                            const ImportOptions& options) {
+    std::vector<ModelPath> paths;
+    paths.reserve(files.size());
+    for (const std::string& file : files)
+        paths.push_back({file});
+    return import_models(paths, store, options);
+}
+
+ImportReport import_models(const std::vector<ModelPath>& files, const std::string& store,
+                           const ImportOptions& options) {
     if (options.memory < kLeastMemory)
         throw Error(ErrorCode::bad_argument, "an import needs at least 16 MiB of memory");
     const std::vector<ModelFile> found = check_files(files, store);
-    std::error_code unknown;
-    const bool is_new = !std::filesystem::exists(store, unknown);
-    std::optional<StoreImport> import;
+    StoreImport import(store, options);
     try {
-        import.emplace(store, options);
-        return import->run(files, found);
+        return import.run(files, found);
     } catch (const Error& error) {
-        // Nothing came of it, and nothing is to be gone on with.
-        const bool is_empty = is_new && (!import || import->complete() == 0);
-        import.reset();
-        if (is_empty && error.code() != ErrorCode::interrupted) {
-            std::error_code ignored;
-            std::filesystem::remove(store, ignored);
-            std::filesystem::remove(store + "-journal", ignored);
-        }
+        // Without a model, and nothing to resume, a new store is of no use.
+        if (import.complete() == 0 && error.code() != ErrorCode::interrupted)
+            import.undo_creation();
         throw;
     }
 }

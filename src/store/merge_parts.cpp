@@ -176,10 +176,12 @@ PartChanges merge_parts(const SceneSource& source, const ImportedGeometry& geome
 
 void put_model(const ModelRow& model, Database& database) {
     const std::array<std::uint64_t, 2> hash{model.hash_low, model.hash_high};
-    Statement put(database, "INSERT OR REPLACE INTO model VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    Statement put(database, "INSERT OR REPLACE INTO model VALUES "
+                            "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
     put.bind(model.model, model.file, model.path, model.bytes, model.modified,
              std::as_bytes(std::span(hash)), model.unit, model.importing ? 1 : 0, model.parts,
-             model.triangles, model.generation, model.parts_sum, model.checksum())
+             model.triangles, model.generation, model.parts_sum, std::string(to_string(model.up)),
+             std::string(to_string(model.world_up)), model.asked, model.notes, model.checksum())
         .run();
 }
 

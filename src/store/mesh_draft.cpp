@@ -1,60 +1,16 @@
 #include "store/mesh_draft.h"
 
+#include "io/collect_scene.h"
 #include "io/fault.h"
+#include "io/part_checks.h"
 #include "math/vector.h"
-#include "mesh/equal_positions.h"
 #include "mesh/topology.h"
 #include "mesh/used_positions.h"
 #include "store/cut_mesh.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace abut {
-
-namespace {
-
-class Collector : public MeshSink {
-public:
-    Collector(Mesh& mesh, const SceneSource::Size& size) : mesh_(mesh) {
-        mesh.positions.reserve(size.vertices);
-        mesh.triangles.reserve(size.triangles);
-    }
-    void vertices(std::span<const Vec3> positions) override {
-        mesh_.positions.insert(mesh_.positions.end(), positions.begin(), positions.end());
-    }
-    void triangles(std::span<const std::array<std::uint32_t, 3>> indices) override {
-        mesh_.triangles.insert(mesh_.triangles.end(), indices.begin(), indices.end());
-    }
-
-private:
-    Mesh& mesh_;
-};
-
-/// As the isolated readers join them: in the order of their first occurrence.
-void join_vertices(Mesh& mesh) {
-    std::vector<std::uint32_t> number_of = first_equal_positions(std::span(mesh.positions));
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < number_of.size(); ++i) {
-        const std::uint32_t first = number_of[i];
-        if (first < i) {
-            number_of[i] = number_of[first];
-            continue;
-        }
-        mesh.positions[count] = mesh.positions[i];
-        number_of[i] = count++;
-    }
-    if (count == mesh.positions.size())
-        return;
-    mesh.positions.resize(count);
-    mesh.positions.shrink_to_fit();
-    for (auto& triangle : mesh.triangles)
-        for (std::uint32_t& corner : triangle)
-            corner = number_of[corner];
-}
-
-} // namespace
 
 Hash128 mesh_hash(std::uint64_t vertices, const Hash128& positions, std::uint64_t triangles,
                   const Hash128& corners) {
@@ -64,29 +20,14 @@ Hash128 mesh_hash(std::uint64_t vertices, const Hash128& positions, std::uint64_
 }
 
 void check_coordinate(const Vec3& p, std::uint64_t vertex) {
-    constexpr double kLargestFloat = std::numeric_limits<float>::max();
-    const auto all_below = [&](double limit) {
-        return std::fabs(p.x) <= limit && std::fabs(p.y) <= limit && std::fabs(p.z) <= limit;
-    };
-    if (!all_below(kLargestFloat))
-        throw Fault(ErrorCode::bad_mesh, "vertex " + std::to_string(vertex) +
-                                             " has a coordinate that is not a finite number");
-    if (!all_below(kLargestCoordinate))
-        throw Fault(ErrorCode::bad_mesh,
-                    "vertex " + std::to_string(vertex) + " has a coordinate beyond 1e18");
+    if (const char* const fault = coordinate_fault(p))
+        throw Fault(ErrorCode::bad_mesh, "vertex " + std::to_string(vertex) + fault);
 }
 
 MeshDraft load_mesh(const SceneSource& source, std::uint32_t number) {
     MeshDraft draft;
-    Mesh& mesh = draft.mesh;
-    Collector collector(mesh, source.size(number));
-    source.read(number, collector);
-    for (const auto& triangle : mesh.triangles)
-        for (const std::uint32_t corner : triangle)
-            if (corner >= mesh.positions.size())
-                throw Fault(ErrorCode::bad_mesh,
-                            "a triangle refers to a vertex that does not exist");
-    join_vertices(mesh);
+    draft.mesh = collect_mesh(source, number);
+    const Mesh& mesh = draft.mesh;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         check_coordinate(mesh.positions[i], i);
     draft.hash = mesh_hash(

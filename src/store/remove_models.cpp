@@ -38,7 +38,7 @@ std::vector<ModelRow> find_models(Database& database, const std::vector<std::str
 
 RemovalReport remove_models(const std::vector<std::string>& files, const std::string& store) {
     (void)open_store(store); // is there, and is one
-    StoreWriter writer(store, kPageCache);
+    StoreWriter writer(store, kPageCache, ExclusiveStore::IfMissing::fail);
     Database& database = writer.database();
     RemovalReport report;
     {

@@ -35,6 +35,11 @@ std::uint64_t unsigned_of(const Statement& row, int column) {
     return static_cast<std::uint64_t>(row.integer(column));
 }
 
+/// An unknown word gives z: the checksum of its row does not fit then, and the row is refused.
+UpAxis up_of(const std::string& word) {
+    return word == "x" ? UpAxis::x : word == "y" ? UpAxis::y : UpAxis::z;
+}
+
 constexpr const char* kTables = R"(
 CREATE TABLE model(
   model INTEGER PRIMARY KEY,
@@ -49,6 +54,10 @@ CREATE TABLE model(
   triangles INTEGER NOT NULL,
   generation INTEGER NOT NULL,
   parts_sum INTEGER NOT NULL,
+  up TEXT NOT NULL,
+  world_up TEXT NOT NULL,
+  asked TEXT NOT NULL,
+  notes TEXT NOT NULL,
   checksum INTEGER NOT NULL);
 CREATE TABLE mesh(
   mesh INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -109,6 +118,10 @@ std::uint64_t ModelRow::checksum() const {
         .add(triangles)
         .add(generation)
         .add(parts_sum)
+        .add(up)
+        .add(world_up)
+        .add(asked)
+        .add(notes)
         .value();
 }
 
@@ -170,8 +183,12 @@ ModelRow read_model_row(const Statement& row, const std::string& store) {
                     unsigned_of(row, 8),
                     unsigned_of(row, 9),
                     unsigned_of(row, 10),
-                    unsigned_of(row, 11)};
-    require(result.checksum() == unsigned_of(row, 12), store, "model", result.model);
+                    unsigned_of(row, 11),
+                    up_of(row.text(12)),
+                    up_of(row.text(13)),
+                    row.text(14),
+                    row.text(15)};
+    require(result.checksum() == unsigned_of(row, 16), store, "model", result.model);
     return result;
 }
 
@@ -221,8 +238,6 @@ PartRow read_part_row(const Statement& row, const std::string& store) {
 }
 
 void create_schema(Database& database) {
-    // Blocks are large and pages chained: large pages are read in fewer steps.
-    database.run("PRAGMA page_size = 8192");
     Transaction transaction(database);
     const std::string header = "PRAGMA application_id = " + std::to_string(kApplicationId) +
                                "; PRAGMA user_version = " + std::to_string(kStoreVersion);
@@ -240,6 +255,11 @@ void check_schema(Database& database) {
                     "is a store of version " + std::to_string(version) +
                         ", written by a newer Abut; this one reads version " +
                         std::to_string(kStoreVersion));
+    if (version == 1)
+        throw Error(
+            ErrorCode::unsupported, database.path(),
+            "is a store of version 1, which does not know its axes: import the models into a "
+            "new one");
     if (version != kStoreVersion)
         throw Error(ErrorCode::malformed, database.path(),
                     "is damaged: it says that its version is " + std::to_string(version));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <abut/scene.h>
 #include <abut/types.h>
 
 #include "store/sqlite.h"
@@ -10,7 +11,7 @@
 
 namespace abut {
 
-inline constexpr int kStoreVersion = 1;
+inline constexpr int kStoreVersion = 2;
 /// Of the file's header, for `file` and the like: "Abut".
 inline constexpr std::int64_t kApplicationId = 0x41627574;
 
@@ -21,10 +22,14 @@ struct ModelRow {
     std::uint64_t bytes = 0;
     std::int64_t modified = 0; ///< nanoseconds since 1970
     std::uint64_t hash_low = 0, hash_high = 0;
-    double unit = 0;
+    double unit = 1; ///< metres per unit of the file
     bool importing = false;
     std::uint64_t parts = 0, triangles = 0, generation = 0;
     std::uint64_t parts_sum = 0; ///< of the checksums of its parts, modulo 2^64
+    UpAxis up = UpAxis::y;       ///< of the file
+    UpAxis world_up = UpAxis::y; ///< of the world that its parts are in: the same in all rows
+    std::string asked;           ///< the options of the import that decide how the file is read
+    std::string notes;           ///< as note_text has them
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
@@ -67,7 +72,7 @@ struct PartRow {
 /// Columns in the order that the read_… functions and the writer's statements have them.
 inline constexpr const char* kModelColumns =
     "model, file, path, bytes, modified, hash, unit, importing, parts, triangles, generation, "
-    "parts_sum, checksum";
+    "parts_sum, up, world_up, asked, notes, checksum";
 inline constexpr const char* kMeshColumns =
     "mesh, hash, vertices, triangles, first_block, blocks, raw_bytes, stored_bytes, closed, "
     "x0, y0, z0, x1, y1, z1, checksum";

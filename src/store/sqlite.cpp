@@ -3,7 +3,9 @@
 #include <abut/error.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <sqlite3.h>
+#include <unistd.h>
 #include <utility>
 
 namespace abut {
@@ -27,6 +29,8 @@ Verdict verdict_of(int status) {
     case SQLITE_FULL:
         return {ErrorCode::cannot_write, "cannot be written: the disk is full"};
     case SQLITE_READONLY:
+        if (status == SQLITE_READONLY_DBMOVED)
+            return {ErrorCode::unreadable, "was removed by another process"};
         return {ErrorCode::cannot_write, "cannot be written: it is read-only"};
     case SQLITE_CANTOPEN:
         return {ErrorCode::unreadable, "cannot be opened"};
@@ -83,8 +87,10 @@ Database::Database(std::string path, OpenMode mode) : path_(std::move(path)) {
     const std::string name = mode == OpenMode::immutable ? immutable_uri(path_) : path_;
     const int status = sqlite3_open_v2(name.c_str(), &handle_, flags, nullptr);
     if (status != SQLITE_OK) {
-        const Verdict verdict = verdict_of(status);
         sqlite3_close(handle_);
+        if (mode != OpenMode::create && access(path_.c_str(), F_OK) != 0 && errno == ENOENT)
+            throw Error(ErrorCode::file_not_found, path_, "no such file");
+        const Verdict verdict = verdict_of(status);
         throw Error(verdict.code, path_, verdict.text);
     }
     // A job holds the store for moments only, to record a piece of its work.

@@ -2,17 +2,20 @@
 #include <abut/store.h>
 
 #include "core/progress.h"
+#include "io/byte_stream.h"
 #include "io/fault.h"
-#include "io/input_file.h"
 #include "math/vector.h"
 #include "store/hierarchy_codec.h"
 #include "store/mesh_draft.h"
+#include "store/note_text.h"
 #include "store/store_file.h"
 
 #include <array>
-#include <filesystem>
-#include <fstream>
+#include <cerrno>
+#include <cstring>
 #include <string_view>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <unordered_map>
 
 namespace abut {
@@ -86,24 +89,41 @@ void check_boxes(StoreFile& file) {
     });
 }
 
+/// SQLite alone opens a store: to close another descriptor of the file releases the locks that other
+/// connections of this process hold (POSIX, fcntl).
+void require_regular_file(const std::string& path) {
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0) {
+        if (errno == ENOENT || errno == ENOTDIR)
+            throw Error(ErrorCode::file_not_found, path, "no such file");
+        throw Error(ErrorCode::unreadable, path,
+                    std::string("cannot be read: ") + std::strerror(errno));
+    }
+    if (S_ISDIR(status.st_mode))
+        throw Error(ErrorCode::unreadable, path, "is a folder");
+    if (!S_ISREG(status.st_mode))
+        throw Error(ErrorCode::unreadable, path, "is not a regular file");
+    if (status.st_size == 0)
+        throw Error(ErrorCode::malformed, path, "is empty, or an import has just created it");
+    if (access(path.c_str(), R_OK) != 0)
+        throw Error(ErrorCode::unreadable, path,
+                    std::string("cannot be read: ") + std::strerror(errno));
+}
+
 } // namespace
 
 bool is_store(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::array<char, kMagic.size()> start{};
-    return stream.read(start.data(), start.size()) &&
-           std::string_view(start.data(), start.size()) == kMagic;
+    try {
+        // No other way to open it: a named pipe would wait for a writer.
+        ByteStream content = ByteStream::open(path);
+        return content.has(kMagic.size()) && content.ahead().starts_with(kMagic);
+    } catch (const Fault&) {
+        return false; // who reads it as a model tells why
+    }
 }
 
 Store open_store(const std::string& path, const StoreOptions& options) {
-    try {
-        (void)readable_size(path);
-    } catch (const Fault& fault) {
-        throw Error(fault.code(), path, fault.what());
-    }
-    if (!is_store(path))
-        throw Error(ErrorCode::malformed, path,
-                    "is no store of Abut, or its first page is damaged");
+    require_regular_file(path);
     return Store(std::make_shared<StoreFile>(path, options.read_only));
 }
 
@@ -114,8 +134,10 @@ StoreSummary summary(const Store& store) {
     result.version = kStoreVersion;
     result.complete = true;
     for (const ModelRow& model : file.models()) {
-        result.models.push_back(
-            {model.file, !model.importing, model.parts, model.triangles, model.generation});
+        result.models.push_back({model.file, !model.importing, model.parts, model.triangles,
+                                 model.generation, model.unit, model.up,
+                                 parse_notes(model.notes, file.path())});
+        result.up = model.world_up;
         result.complete = result.complete && !model.importing;
         result.generation = std::max(result.generation, model.generation);
         result.parts += model.parts;

@@ -5,7 +5,6 @@
 #include "store/hierarchy_table.h"
 
 #include <algorithm>
-#include <sys/stat.h>
 #include <utility>
 
 namespace abut {
@@ -22,35 +21,24 @@ std::span<const std::byte> bytes_of(const Hash128& hash) {
     return std::as_bytes(std::span(&hash, 1));
 }
 
-bool is_empty_or_missing(const std::string& path) {
-    struct stat status {};
-    return stat(path.c_str(), &status) != 0 || (S_ISREG(status.st_mode) && status.st_size == 0);
-}
-
 } // namespace
 
-StoreWriter::StoreWriter(const std::string& path, std::uint64_t cache)
-    : database_(path, OpenMode::create) {
-    const bool is_new = is_empty_or_missing(path);
-    database_.run(("PRAGMA cache_size = -" + std::to_string(cache >> 10)).c_str());
-    database_.run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL");
-    if (is_new)
-        create_schema(database_);
-    check_schema(database_);
-    // The lock is taken by the first write and then kept.
-    database_.run("BEGIN EXCLUSIVE; COMMIT");
+StoreWriter::StoreWriter(const std::string& path, std::uint64_t cache,
+                         ExclusiveStore::IfMissing if_missing)
+    : store_(path, cache, if_missing) {
+    Database& database = store_.database();
     // The number of a mesh or a part that was removed never comes again.
-    next_mesh_ = database_.number("SELECT seq FROM sqlite_sequence WHERE name = 'mesh'") + 1;
-    next_block_ = database_.number("SELECT max(first_block + blocks) FROM mesh");
+    next_mesh_ = database.number("SELECT seq FROM sqlite_sequence WHERE name = 'mesh'") + 1;
+    next_block_ = database.number("SELECT max(first_block + blocks) FROM mesh");
     next_block_ = std::max<std::int64_t>(next_block_, 1);
     // Of a mesh whose import was killed.
-    if (database_.number("SELECT max(block) FROM block") >= next_block_) {
-        Statement remove(database_, "DELETE FROM block WHERE block >= ?");
+    if (database.number("SELECT max(block) FROM block") >= next_block_) {
+        Statement remove(database, "DELETE FROM block WHERE block >= ?");
         remove.bind(next_block_).run();
     }
-    find_mesh_.emplace(database_, "SELECT mesh FROM mesh WHERE hash = ?");
-    add_mesh_.emplace(database_, kAddMesh);
-    add_block_.emplace(database_, kAddBlock);
+    find_mesh_.emplace(database, "SELECT mesh FROM mesh WHERE hash = ?");
+    add_mesh_.emplace(database, kAddMesh);
+    add_block_.emplace(database, kAddBlock);
 }
 
 std::optional<std::int64_t> StoreWriter::find_mesh(const Hash128& hash) {
@@ -121,7 +109,7 @@ std::int64_t StoreWriter::end_mesh(MeshRow mesh) {
 
 void StoreWriter::begin() {
     if (!transaction_)
-        transaction_.emplace(database_);
+        transaction_.emplace(database());
 }
 
 void StoreWriter::commit_if_large() {
@@ -142,23 +130,32 @@ void StoreWriter::commit() {
 
 std::uint64_t StoreWriter::remove_unused_meshes() {
     commit();
-    Transaction transaction(database_);
-    database_.run("CREATE TEMP TABLE unused AS SELECT mesh, first_block, blocks FROM mesh "
-                  "WHERE mesh NOT IN (SELECT mesh FROM part)");
-    const std::int64_t count = database_.number("SELECT count(*) FROM unused");
+    Database& database = store_.database();
+    Transaction transaction(database);
+    database.run("CREATE TEMP TABLE unused AS SELECT mesh, first_block, blocks FROM mesh "
+                 "WHERE mesh NOT IN (SELECT mesh FROM part)");
+    const std::int64_t count = database.number("SELECT count(*) FROM unused");
     if (count > 0) {
         {
-            Statement unused(database_, "SELECT first_block, blocks FROM unused");
-            Statement remove(database_, "DELETE FROM block WHERE block >= ? AND block < ?");
+            Statement unused(database, "SELECT first_block, blocks FROM unused");
+            Statement remove(database, "DELETE FROM block WHERE block >= ? AND block < ?");
             while (unused.step())
                 remove.bind(unused.integer(0), unused.integer(0) + unused.integer(1)).run();
         }
-        database_.run("DELETE FROM mesh WHERE mesh IN (SELECT mesh FROM unused)");
-        remove_lost_hierarchies(database_);
+        database.run("DELETE FROM mesh WHERE mesh IN (SELECT mesh FROM unused)");
+        remove_lost_hierarchies(database);
     }
-    database_.run("DROP TABLE unused");
+    database.run("DROP TABLE unused");
     transaction.commit();
     return static_cast<std::uint64_t>(count);
+}
+
+void StoreWriter::undo_creation() noexcept {
+    transaction_.reset();
+    find_mesh_.reset();
+    add_mesh_.reset();
+    add_block_.reset();
+    store_.undo_creation();
 }
 
 } // namespace abut

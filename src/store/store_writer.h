@@ -1,5 +1,6 @@
 #pragma once
 
+#include "store/exclusive_store.h"
 #include "store/mesh_draft.h"
 #include "store/schema.h"
 #include "store/sqlite.h"
@@ -19,9 +20,8 @@ namespace abut {
 /// is not there yet, which the next writer removes.
 class StoreWriter {
 public:
-    /// In          cache: bytes for pages.
-    /// Errors      as Database; as check_schema.
-    StoreWriter(const std::string& path, std::uint64_t cache);
+    /// In, errors  as ExclusiveStore.
+    StoreWriter(const std::string& path, std::uint64_t cache, ExclusiveStore::IfMissing if_missing);
 
     /// The number of a mesh that is in the store. From any thread, as add_mesh.
     std::optional<std::int64_t> find_mesh(const Hash128& hash);
@@ -39,8 +39,12 @@ public:
     /// Removes meshes that no part uses. Returns how many.
     std::uint64_t remove_unused_meshes();
 
+    /// Closes a store that this writer has created, and leaves its path as it was before. A store that was
+    /// there stays as it is. Nothing else may be called afterwards.
+    void undo_creation() noexcept;
+
     /// For rows of models and parts; commit() first.
-    [[nodiscard]] Database& database() noexcept { return database_; }
+    [[nodiscard]] Database& database() noexcept { return store_.database(); }
     [[nodiscard]] std::uint64_t new_meshes() const noexcept { return new_meshes_; }
 
 private:
@@ -48,7 +52,7 @@ private:
     void commit_if_large();
 
     std::mutex mutex_;
-    Database database_;
+    ExclusiveStore store_;
     std::optional<Statement> find_mesh_, add_mesh_, add_block_;
     std::optional<Transaction> transaction_;
     std::int64_t next_mesh_ = 1, next_block_ = 1;

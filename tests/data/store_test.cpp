@@ -3,6 +3,7 @@
 #include <abut/store.h>
 
 #include "tests/support/folder.h"
+#include "tests/support/paths.h"
 #include "tests/support/stores.h"
 
 #include <algorithm>

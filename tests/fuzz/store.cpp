@@ -186,10 +186,11 @@ private:
         distort(row.triangles);
         distort(row.generation);
         const std::array hash{row.hash_low, row.hash_high};
-        Statement(database_, "INSERT INTO model VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?)")
+        Statement(database_, "INSERT INTO model VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
             .bind(row.model, row.file, row.path, row.bytes, row.modified,
                   std::as_bytes(std::span(hash)), row.unit, row.importing ? 1 : 0, row.parts,
-                  row.triangles, row.generation, row.parts_sum, row.checksum())
+                  row.triangles, row.generation, row.parts_sum, std::string(to_string(row.up)),
+                  std::string(to_string(row.world_up)), row.asked, row.notes, row.checksum())
             .run();
     }
 

@@ -95,10 +95,13 @@ TEST(Store, GivesBackWhatReadSceneGives) {
     for (int round = 0; round < rounds; ++round) {
         const Folder folder;
         write_glb(some_scene(random, 12), folder / "a.glb");
-        const double unit = random.chance(0.3) ? 0.001 : 0;
-        const Scene scene = read_scene(folder / "a.glb", {.unit = unit});
+        ModelPath path{folder / "a.glb"};
+        path.unit = random.chance(0.3) ? 0.001 : 0;
+        if (random.chance(0.3))
+            path.up = UpAxis::z;
+        const Scene scene = read_scene(path);
         const ImportReport report =
-            import_models({folder / "a.glb"}, folder / "s.abut", {.memory = kLittle, .unit = unit});
+            import_models(std::vector{path}, folder / "s.abut", {.memory = kLittle});
         streamed += report.models.at(0).streamed ? 1 : 0;
         ASSERT_EQ(report.models.at(0).added, scene.parts.size());
         expect_stored(folder / "s.abut", scene);

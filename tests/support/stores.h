@@ -63,11 +63,14 @@ inline void expect_same_scene(const Scene& a, const Scene& b) {
 }
 
 /// The store holds this scene as its model number `index`, with the boxes of the clash job.
-inline void expect_stored(const std::string& store, const Scene& scene, std::size_t index = 0) {
+inline void expect_stored(const std::string& store, Scene scene, std::size_t index = 0) {
     StoreFile file(store, true);
     const std::vector<ModelRow> models = file.models();
     ASSERT_LT(index, models.size());
     EXPECT_FALSE(models[index].importing);
+    EXPECT_EQ(models[index].unit, scene.unit);
+    EXPECT_EQ(models[index].up, scene.up);
+    turn_up(scene, models[index].world_up);
     const StoredScene stored = stored_scene(file, models[index]);
     expect_same_scene(scene, stored.scene);
     const PartInstances instances = gather_parts({scene});

@@ -41,7 +41,7 @@ TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
     const Store store = open_store(store_);
     const StoreSummary found = summary(store);
     EXPECT_TRUE(found.complete);
-    EXPECT_EQ(found.version, 1);
+    EXPECT_EQ(found.version, 2);
     EXPECT_EQ(found.generation, 1U);
     EXPECT_EQ(found.parts, 3U);
     EXPECT_EQ(found.triangles, 9U);
