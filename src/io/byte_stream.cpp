@@ -2,11 +2,13 @@
 
 #include "io/fault.h"
 #include "io/input_file.h"
+#include "io/read_watch.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <unistd.h>
+#include <utility>
 
 namespace abut {
 
@@ -40,10 +42,11 @@ private:
     int number_;
 };
 
-ByteStream ByteStream::open(const std::string& path) {
+ByteStream ByteStream::open(const std::string& path, std::shared_ptr<const ReadWatch> watch) {
     const OpenFile file = open_readable(path);
     ByteStream stream{std::string_view()};
     stream.file_ = std::make_shared<const Descriptor>(file.descriptor);
+    stream.watch_ = std::move(watch);
     stream.unread_ = file.size;
     return stream;
 }
@@ -51,6 +54,8 @@ ByteStream ByteStream::open(const std::string& path) {
 bool ByteStream::more() {
     if (file_ == nullptr)
         return false;
+    if (watch_ != nullptr)
+        watch_->check();
     const std::size_t kept = ahead_.size();
     if (kept > 0)
         std::memmove(buffer_.data(), ahead_.data(), kept);

@@ -9,6 +9,8 @@
 
 namespace abut {
 
+class ReadWatch;
+
 /// The bytes of a text, or of a file of any size, in their order; of a file, some at a time are in
 /// memory.
 class ByteStream {
@@ -16,8 +18,10 @@ public:
     /// In          whole: must outlive the stream.
     explicit ByteStream(std::string_view whole) : ahead_(whole) {}
 
+    /// In          watch: is asked whenever bytes are read; null: nobody is.
     /// Errors      as readable_size.
-    static ByteStream open(const std::string& path);
+    static ByteStream open(const std::string& path,
+                           std::shared_ptr<const ReadWatch> watch = nullptr);
 
     /// The next bytes, as many as are in memory. They stay where they are until `more` or `has`.
     [[nodiscard]] std::string_view ahead() const noexcept { return ahead_; }
@@ -27,7 +31,7 @@ public:
 
     /// Brings more bytes into memory. False at the end.
     ///
-    /// Errors      Fault unreadable.
+    /// Errors      Fault unreadable; Error of the watch.
     /// Cost        no more than twice the bytes ahead are held, or some 512 KiB.
     bool more();
 
@@ -47,6 +51,7 @@ private:
 
     std::string_view ahead_;
     std::shared_ptr<const Descriptor> file_; ///< none: all there is, is ahead
+    std::shared_ptr<const ReadWatch> watch_;
     std::vector<char> buffer_;
     std::uint64_t unread_ = 0; ///< bytes of the file
 };

@@ -185,7 +185,7 @@ std::span<const std::byte> ResultMemory::bytes() {
 }
 
 ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimits& limits,
-                      const std::function<bool()>& should_stop, const ResultMemory& result) {
+                      const std::function<bool()>& should_stop, int result) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Error(ErrorCode::reader_failed,
@@ -201,7 +201,8 @@ ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimi
 
     pid_t child = -1;
     {
-        const SpawnSettings settings(result.descriptor(), child_alive.get());
+        const Descriptor handed(fcntl(result, F_DUPFD_CLOEXEC, kFirstFreeFile));
+        const SpawnSettings settings(handed.get(), child_alive.get());
         const int fault =
             posix_spawn(&child, arguments.front().c_str(), settings.files(), settings.attributes(),
                         pointers.data(), child_environment().data());

@@ -52,7 +52,8 @@ struct ChildReport {
     int status = 0;
 };
 
-/// Runs a program with its result on descriptor scene_stream::kResultFile and waits for it.
+/// Runs a program and waits for it. It finds the file for its result, descriptor `result` here, on
+/// descriptor scene_stream::kResultFile.
 ///
 /// The child gets a process group of its own, /dev/null for its standard streams, and is dead and
 /// reaped, with all that it started, on return. Never forks without exec: the caller may have
@@ -62,6 +63,6 @@ struct ChildReport {
 ///             second.
 /// Errors      Error{unsupported} if the program cannot be started.
 ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimits& limits,
-                      const std::function<bool()>& should_stop, const ResultMemory& result);
+                      const std::function<bool()>& should_stop, int result);
 
 } // namespace abut

@@ -2,15 +2,13 @@
 
 #include <abut/error.h>
 
+#include "io/model_frame.h"
 #include "io/part_checks.h"
 #include "io/scene_stream.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <unordered_map>
-#include <unordered_set>
 
 namespace abut {
 
@@ -19,6 +17,7 @@ namespace {
 constexpr std::uint32_t kTriangleBytes = 12;
 constexpr std::uint32_t kMeshHeaderBytes = 12;
 constexpr std::uint32_t kPartHeaderBytes = 112;
+constexpr std::uint32_t kNoteHeaderBytes = 20;
 
 [[noreturn]] void not_sound(const std::string& file) {
     throw Error(ErrorCode::reader_failed, file, "its reader gave a damaged result");
@@ -53,23 +52,13 @@ private:
     const std::string& file_;
 };
 
-/// What is wrong with a mesh, by its number; reported with the name of the first part that uses it.
-using MeshFaults = std::unordered_map<std::uint64_t, std::string>;
-
-/// Positions of a mesh, and the first one that is not finite (or would not be a finite float).
 template <typename Real>
-std::uint64_t decode_positions(std::span<const std::byte> bytes, std::vector<Vec3>& positions) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    const auto in_range = [](double value) { return std::fabs(value) <= kLargest; };
-    std::uint64_t first_bad = positions.size();
-    for (std::size_t i = positions.size(); i-- > 0;) {
+void decode_positions(std::span<const std::byte> bytes, std::vector<Vec3>& positions) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
         Real xyz[3];
         std::memcpy(xyz, bytes.data() + i * sizeof xyz, sizeof xyz);
         positions[i] = {xyz[0], xyz[1], xyz[2]};
-        if (!(in_range(xyz[0]) && in_range(xyz[1]) && in_range(xyz[2])))
-            first_bad = i;
     }
-    return first_bad;
 }
 
 Mesh decode_mesh(Cursor& cursor, std::uint64_t number, MeshFaults& faults) {
@@ -83,12 +72,11 @@ Mesh decode_mesh(Cursor& cursor, std::uint64_t number, MeshFaults& faults) {
 
     Mesh mesh;
     mesh.positions.resize(vertices);
-    const std::uint64_t bad = real_bytes == sizeof(float)
-                                  ? decode_positions<float>(positions, mesh.positions)
-                                  : decode_positions<double>(positions, mesh.positions);
-    if (bad != vertices)
-        faults.emplace(number, "vertex " + std::to_string(bad) +
-                                   " has a coordinate that is not a finite number");
+    if (real_bytes == sizeof(float))
+        decode_positions<float>(positions, mesh.positions);
+    else
+        decode_positions<double>(positions, mesh.positions);
+    find_bad_coordinate(mesh, number, faults);
 
     mesh.triangles.resize(triangles);
     if (triangles > 0)
@@ -119,32 +107,39 @@ Part decode_part(Cursor& cursor, std::size_t meshes, const std::string& file) {
     return part;
 }
 
-/// Whether one triangle at least, in world coordinates, is not exactly degenerate. In any usual
-/// file the first one is.
-bool any_triangle_has_area(const Scene& scene) {
-    return std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
-        return has_area(scene.meshes[part.mesh], part.world_from_mesh);
-    });
+/// Text of a reader on one line.
+std::string one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < ' ')
+            c = ' ';
+    return text;
 }
 
-void make_ids_unique(std::vector<Part>& parts) {
-    std::unordered_set<std::string> given;
-    for (const Part& part : parts)
-        given.insert(part.id);
-    std::unordered_set<std::string> used;
-    std::unordered_map<std::string, std::uint64_t> repeats;
-    for (Part& part : parts) {
-        if (!used.insert(part.id).second) {
-            std::uint64_t& repeat = repeats.try_emplace(part.id, 1).first->second;
-            std::string id;
-            do
-                id = part.id + "#" + std::to_string(++repeat);
-            while (given.contains(id) || !used.insert(id).second);
-            part.id = std::move(id);
-        }
-        if (part.name.empty())
-            part.name = part.id;
-    }
+SceneNote decode_note(Cursor& cursor, const std::string& file) {
+    const auto kind = cursor.value<std::uint32_t>();
+    if (kind > static_cast<std::uint32_t>(NoteKind::open))
+        not_sound(file);
+    const auto sizes = cursor.value<std::array<std::uint32_t, 4>>();
+    SceneNote note;
+    note.kind = static_cast<NoteKind>(kind);
+    note.id = cursor.text(sizes[0]);
+    note.name = cursor.text(sizes[1]);
+    note.type = cursor.text(sizes[2]);
+    note.text = one_line(cursor.text(sizes[3]));
+    if (note.name.empty())
+        note.name = note.id;
+    return note;
+}
+
+FormatFrame format_frame(const scene_stream::Header& header, const std::string& file) {
+    const auto is_good = [](double unit) { return std::isfinite(unit) && unit > 0; };
+    if (header.up > 1 + static_cast<std::uint32_t>(UpAxis::z) || !is_good(header.applied) ||
+        (header.unit != 0 && !is_good(header.unit)))
+        not_sound(file);
+    FormatFrame format{header.unit, std::nullopt};
+    if (header.up > 0)
+        format.up = static_cast<UpAxis>(header.up - 1);
+    return format;
 }
 
 void throw_sent_error(Cursor& cursor, const scene_stream::Header& header, const std::string& file) {
@@ -152,16 +147,14 @@ void throw_sent_error(Cursor& cursor, const scene_stream::Header& header, const 
     if (code < static_cast<std::uint32_t>(ErrorCode::file_not_found) ||
         code > static_cast<std::uint32_t>(ErrorCode::reader_failed))
         not_sound(file);
-    std::string text = cursor.text(header.text_size);
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < ' ')
-            c = ' ';
-    throw Error(static_cast<ErrorCode>(code), file, text);
+    throw Error(static_cast<ErrorCode>(code), file, one_line(cursor.text(header.text_size)));
 }
 
 } // namespace
 
-Scene decode_scene(std::span<const std::byte> stream, const std::string& file, double unit) {
+Scene decode_scene(std::span<const std::byte> stream, const ModelPath& path,
+                   const ReadOptions& options) {
+    const std::string& file = path.path;
     if (stream.empty())
         throw Error(ErrorCode::reader_failed, file, "its reader gave no result");
     Cursor cursor(stream, file);
@@ -171,11 +164,17 @@ Scene decode_scene(std::span<const std::byte> stream, const std::string& file, d
     if (header.status != 0)
         throw_sent_error(cursor, header, file);
     if (header.meshes > cursor.left() / kMeshHeaderBytes ||
-        header.parts > cursor.left() / kPartHeaderBytes)
+        header.parts > cursor.left() / kPartHeaderBytes ||
+        header.notes > cursor.left() / kNoteHeaderBytes)
         not_sound(file);
+    const FormatFrame format = format_frame(header, file);
+    const ModelFrame frame = model_frame(format, path, options);
+    const double factor = scale_of(format, header.applied, frame);
 
     Scene scene;
     scene.file = file;
+    scene.unit = frame.unit;
+    scene.up = frame.up;
     MeshFaults faults;
     scene.meshes.reserve(header.meshes);
     for (std::uint64_t i = 0; i < header.meshes; ++i)
@@ -183,31 +182,19 @@ Scene decode_scene(std::span<const std::byte> stream, const std::string& file, d
     scene.parts.reserve(header.parts);
     for (std::uint64_t i = 0; i < header.parts; ++i)
         scene.parts.push_back(decode_part(cursor, scene.meshes.size(), file));
+    for (std::uint32_t i = 0; i < header.notes; ++i)
+        scene.notes.push_back(decode_note(cursor, file));
     if (std::memcmp(cursor.take(sizeof scene_stream::kEnd).data(), scene_stream::kEnd,
                     sizeof scene_stream::kEnd) != 0 ||
         cursor.left() != 0)
         not_sound(file);
     make_ids_unique(scene.parts);
 
-    bool any_triangle = false;
-    for (Part& part : scene.parts) {
-        const auto fault = faults.find(part.mesh);
-        if (fault != faults.end())
-            throw Error(ErrorCode::bad_mesh, file, "part " + part.id + ": " + fault->second);
-        any_triangle = any_triangle || !scene.meshes[part.mesh].triangles.empty();
-        if (unit != 1)
-            for (double& value : part.world_from_mesh.m)
-                value *= unit;
-        if (!stays_finite(part.world_from_mesh))
-            throw Error(ErrorCode::bad_mesh, file,
-                        "part " + part.id + ": its transform is not finite or too large");
-    }
+    for (Part& part : scene.parts)
+        scale(part.world_from_mesh, factor);
+    check_scene(scene, faults);
     if (!faults.empty())
         not_sound(file); // a mesh that no part uses
-    if (!any_triangle)
-        throw Error(ErrorCode::bad_mesh, file, "holds no triangles");
-    if (!any_triangle_has_area(scene))
-        throw Error(ErrorCode::bad_mesh, file, "holds only degenerate triangles");
     return scene;
 }
 

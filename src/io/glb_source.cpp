@@ -1,41 +1,23 @@
 #include "io/fault.h"
 #include "io/glb_document.h"
+#include "io/gltf_geometry.h"
+#include "io/gltf_json.h"
+#include "io/input_file.h"
 #include "io/scene_source.h"
 #include "io/unique_ids.h"
 #include "math/transform.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <tuple>
 
 namespace abut {
 
 namespace {
 
-constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
-constexpr std::size_t kVertexBytes = 3 * sizeof(float);
-constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
-
-std::uint64_t component_bytes(std::uint16_t component) {
-    switch (component) {
-    case 5121:
-        return 1;
-    case 5123:
-        return 2;
-    case 5125:
-        return 4;
-    default:
-        throw NotStreamable();
-    }
-}
-
-/// Where the elements of an accessor lie in the file.
-struct Elements {
-    std::uint64_t at = 0, count = 0, stride = 0, bytes = 0;
-};
-
-/// Nodes with geometry, in the order of the tree; called with each node's number and its transform.
+/// Nodes with a mesh, in the order of the tree; called with each node's number and its transform.
 template <typename Take>
 void walk(const GlbDocument& document, const Take& take) {
     struct Visit {
@@ -47,9 +29,11 @@ void walk(const GlbDocument& document, const Take& take) {
     std::vector<bool> has_parent(nodes);
     std::vector<Visit> open;
     const auto push = [&](std::uint32_t node, const Transform& world) {
+        if (node >= nodes)
+            malformed("its JSON refers to node " + std::to_string(node) + ", which does not exist");
         // A node with two parents, or one that is its own ancestor, would be read forever.
-        if (node >= nodes || has_parent[node])
-            throw NotStreamable();
+        if (has_parent[node])
+            malformed("node " + std::to_string(node) + " has two parents");
         has_parent[node] = true;
         open.push_back({node, world});
     };
@@ -61,24 +45,88 @@ void walk(const GlbDocument& document, const Take& take) {
             open.pop_back();
             const Part node = cursor.part(visit.node);
             Transform world = compose(visit.world_from_parent, node.world_from_mesh);
-            // As the isolated reader composes, whose sums turn -0 into 0.
+            // Sums turn -0 into 0.
             for (std::size_t i = 0; i < 9; ++i)
                 world.m[i] += 0.0;
             for (std::uint64_t i = document.first_child[visit.node + 1];
                  i-- > document.first_child[visit.node];)
                 push(document.children[i], world);
-            if (node.mesh != GlbDocument::kNone)
-                take(visit.node, node, world);
+            if (node.mesh == GlbDocument::kNone)
+                continue;
+            if (node.mesh >= document.meshes())
+                malformed("its JSON refers to mesh " + std::to_string(node.mesh) +
+                          ", which does not exist");
+            take(visit.node, node, world);
         }
     }
 }
 
+/// The transforms by which a node's mesh is placed many times (EXT_mesh_gpu_instancing).
+class InstanceReader {
+public:
+    InstanceReader(const GltfGeometry& geometry, const GlbDocument::Instances& instances) {
+        for (const auto& [accessor, components, values] :
+             {std::tuple{instances.translation, 3, &translation_},
+              std::tuple{instances.rotation, 4, &rotation_},
+              std::tuple{instances.scale, 3, &scale_}}) {
+            if (accessor == GlbDocument::kNone)
+                continue;
+            *values = geometry.values(accessor, static_cast<std::uint8_t>(components));
+            if (count_ && *count_ != (*values)->count)
+                malformed("the attributes of a node's instances differ in their counts");
+            count_ = (*values)->count;
+        }
+        if (!count_)
+            malformed("a node has instances without attributes");
+    }
+
+    /// Calls with each instance's node_from_instance.
+    template <typename Take>
+    void for_each(const Take& take) const {
+        constexpr std::uint64_t kPiece = 4096;
+        std::vector<double> translation, rotation, scale;
+        for (std::uint64_t first = 0; first < *count_; first += kPiece) {
+            const std::uint64_t count = std::min(kPiece, *count_ - first);
+            read(translation_, first, count, translation);
+            read(rotation_, first, count, rotation);
+            read(scale_, first, count, scale);
+            for (std::uint64_t i = 0; i < count; ++i)
+                take(gltf_transform(
+                    translation_ ? values_at<3>(translation, i) : std::array<double, 3>{0, 0, 0},
+                    rotation_ ? values_at<4>(rotation, i) : std::array<double, 4>{0, 0, 0, 1},
+                    scale_ ? values_at<3>(scale, i) : std::array<double, 3>{1, 1, 1}));
+        }
+    }
+
+private:
+    using Values = std::optional<GltfGeometry::Elements>;
+
+    static void read(const Values& values, std::uint64_t first, std::uint64_t count,
+                     std::vector<double>& to) {
+        if (!values)
+            return;
+        to.resize(count * values->components);
+        GltfGeometry::read(*values, first, std::span(to));
+    }
+    template <std::size_t size>
+    static std::array<double, size> values_at(const std::vector<double>& from, std::uint64_t i) {
+        std::array<double, size> result{};
+        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * size), size, result.begin());
+        return result;
+    }
+
+    std::optional<std::uint64_t> count_;
+    Values translation_, rotation_, scale_;
+};
+
 class GlbSource : public SceneSource {
 public:
-    GlbSource(const std::string& path, const SourceOptions& options)
-        : SceneSource(options.folder), file_(path), document_(options.folder) {
-        read_glb_document(file_, document_);
-        std::vector<std::uint32_t> number_of(document_.meshes(), GlbDocument::kNone);
+    GlbSource(const ModelPath& path, const SourceOptions& options)
+        : SceneSource(kGltfFrame, path, options), file_(path.path, options.watch),
+          document_(options.folder) {
+        read_glb_document(file_, lower_extension(path.path) != ".glb", document_);
+        geometry_.emplace(path.path, file_, document_, options);
+        std::vector<std::uint32_t> number_of(document_.meshes(), kUnknown);
         UniqueIds ids;
         const auto id_of = [](std::uint32_t node, const Part& part) {
             return part.id.empty() ? "node " + std::to_string(node) : part.id;
@@ -88,25 +136,24 @@ public:
         });
         ids.finish();
         walk(document_, [&](std::uint32_t node, const Part& found, const Transform& world) {
-            Part part = found;
-            part.id = ids.unique(id_of(node, found));
-            if (part.name.empty())
-                part.name = part.id;
-            part.world_from_mesh = world;
-            if (options.unit != 0 && options.unit != 1)
-                for (double& value : part.world_from_mesh.m)
-                    value *= options.unit;
-            if (found.mesh >= number_of.size())
-                throw NotStreamable();
             std::uint32_t& number = number_of[found.mesh];
-            if (number == GlbDocument::kNone)
+            if (number == kUnknown)
                 number = take_mesh(found.mesh);
+            if (number == kNoSurface)
+                return;
+            Part part = found;
             part.mesh = number;
-            parts_.append(part);
+            const std::string id = id_of(node, found);
+            for_each_placement(node, world, [&](const Transform& world_from_mesh) {
+                part.id = ids.unique(id);
+                part.name = found.name.empty() ? part.id : found.name;
+                part.world_from_mesh = world_from_mesh;
+                append(part);
+            });
         });
-        if (parts_.size() == 0)
-            throw NotStreamable();
-        parts_.finish();
+        if (parts().size() == 0)
+            throw Fault(ErrorCode::bad_mesh, "holds no triangles");
+        finish();
     }
 
     [[nodiscard]] std::uint32_t meshes() const override {
@@ -115,152 +162,149 @@ public:
     [[nodiscard]] Size size(std::uint32_t mesh) const override { return sizes_[mesh]; }
 
     void read(std::uint32_t mesh, MeshSink& sink) const override {
-        for_each_primitive(meshes_[mesh], [&](const GlbDocument::Primitive& primitive) {
-            read_positions(positions(primitive), sink);
+        for_each_surface(meshes_[mesh], [&](const GlbDocument::Primitive& primitive) {
+            read_positions(geometry_->positions(primitive), sink);
         });
         std::uint32_t first = 0;
-        for_each_primitive(meshes_[mesh], [&](const GlbDocument::Primitive& primitive) {
-            const auto vertices = static_cast<std::uint32_t>(positions(primitive).count);
-            if (const auto elements = indices(primitive))
-                read_triangles(*elements, first, vertices, sink);
-            else
-                make_triangles(first, vertices, sink);
-            first += vertices;
+        for_each_surface(meshes_[mesh], [&](const GlbDocument::Primitive& primitive) {
+            Corners corners{geometry_->indices(primitive), first,
+                            static_cast<std::uint32_t>(geometry_->positions(primitive).count)};
+            read_triangles(primitive.mode, corners, sink);
+            first += corners.vertices;
         });
     }
 
 private:
+    static constexpr std::uint32_t kUnknown = 0xffffffff, kNoSurface = 0xfffffffe;
+    using Mode = GlbDocument::Primitive::Mode;
+
+    /// Primitives with triangles; points and lines are left out.
     template <typename Take>
-    void for_each_primitive(std::uint32_t gltf_mesh, const Take& take) const {
+    void for_each_surface(std::uint32_t gltf_mesh, const Take& take) const {
         for (std::uint64_t i = document_.first_primitive[gltf_mesh];
              i < document_.first_primitive[gltf_mesh + 1]; ++i)
-            take(document_.primitives[i]);
+            if (document_.primitives[i].mode != Mode::other)
+                take(document_.primitives[i]);
     }
 
+    template <typename Take>
+    void for_each_placement(std::uint32_t node, const Transform& world, const Take& take) const {
+        const auto instances = std::lower_bound(
+            document_.instances.begin(), document_.instances.end(), node,
+            [](const GlbDocument::Instances& a, std::uint32_t b) { return a.node < b; });
+        if (instances == document_.instances.end() || instances->node != node) {
+            take(world);
+            return;
+        }
+        InstanceReader(*geometry_, *instances).for_each([&](const Transform& node_from_instance) {
+            take(compose(world, node_from_instance));
+        });
+    }
+
+    static std::uint64_t triangles(Mode mode, std::uint64_t corners) {
+        if (mode != Mode::triangles)
+            return corners - std::min<std::uint64_t>(corners, 2);
+        if (corners % 3 != 0)
+            malformed("the indices of a primitive are not a multiple of three");
+        return corners / 3;
+    }
+
+    /// The number of a mesh here, or kNoSurface.
     std::uint32_t take_mesh(std::uint32_t gltf_mesh) {
         Size size;
-        for_each_primitive(gltf_mesh, [&](const GlbDocument::Primitive& primitive) {
-            const std::uint64_t vertices = positions(primitive).count;
-            const auto corners = indices(primitive);
-            const std::uint64_t count = corners ? corners->count : vertices;
-            // Without elements Assimp may leave the primitive out; what is no multiple of three is
-            // refused.
-            if (vertices == 0 || count == 0 || count % 3 != 0)
-                throw NotStreamable();
+        for_each_surface(gltf_mesh, [&](const GlbDocument::Primitive& primitive) {
+            const std::uint64_t vertices = geometry_->positions(primitive).count;
+            const auto corners = geometry_->indices(primitive);
             size.vertices += vertices;
-            size.triangles += count / 3;
+            size.triangles += triangles(primitive.mode, corners ? corners->count : vertices);
         });
-        if (size.triangles == 0 || std::max(size.vertices, size.triangles) > kLargestMesh)
-            throw NotStreamable();
+        if (size.triangles == 0)
+            return kNoSurface;
+        if (std::max(size.vertices, size.triangles) > kLargestMesh)
+            throw Fault(ErrorCode::unsupported, "has a part with more than 4 billion vertices");
         meshes_.push_back(gltf_mesh);
         sizes_.push_back(size);
         return static_cast<std::uint32_t>(sizes_.size() - 1);
     }
 
-    [[nodiscard]] Elements elements(std::uint32_t accessor_index, std::uint64_t size) const {
-        if (accessor_index >= document_.accessors.size())
-            throw NotStreamable();
-        const GlbDocument::Accessor& accessor = document_.accessors[accessor_index];
-        if (accessor.view >= document_.views.size())
-            throw NotStreamable();
-        const GlbDocument::View& view = document_.views[accessor.view];
-        const std::uint64_t stride = view.stride == 0 ? size : view.stride;
-        constexpr std::uint64_t kLargest = std::uint64_t{1} << 40;
-        if (!view.is_plain || stride < size ||
-            std::max({accessor.count, accessor.offset, view.offset, view.bytes}) > kLargest)
-            throw NotStreamable();
-        const bool fits = accessor.count == 0 ||
-                          (accessor.offset + stride * (accessor.count - 1) + size <= view.bytes &&
-                           view.offset + view.bytes <= document_.binary_bytes);
-        if (!fits)
-            throw NotStreamable();
-        return {document_.binary_at + view.offset + accessor.offset, accessor.count, stride, size};
-    }
-
-    [[nodiscard]] Elements positions(const GlbDocument::Primitive& primitive) const {
-        const Elements result = elements(primitive.position, kVertexBytes);
-        const GlbDocument::Accessor& accessor = document_.accessors[primitive.position];
-        constexpr std::uint16_t kFloat = 5126;
-        if (!accessor.is_vector || accessor.component != kFloat)
-            throw NotStreamable();
-        return result;
-    }
-
-    [[nodiscard]] std::optional<Elements> indices(const GlbDocument::Primitive& primitive) const {
-        if (primitive.indices == GlbDocument::kNone)
-            return std::nullopt;
-        if (primitive.indices >= document_.accessors.size())
-            throw NotStreamable();
-        const GlbDocument::Accessor& accessor = document_.accessors[primitive.indices];
-        const Elements result = elements(primitive.indices, component_bytes(accessor.component));
-        if (!accessor.is_scalar || result.stride != result.bytes)
-            throw NotStreamable();
-        return result;
-    }
-
-    void read_positions(const Elements& elements, MeshSink& sink) const {
-        const std::uint64_t most = std::max<std::uint64_t>(kPieceBytes / elements.stride, 1);
-        std::vector<std::byte> bytes;
+    static void read_positions(const GltfGeometry::Elements& elements, MeshSink& sink) {
+        constexpr std::uint64_t kPiece = 16384;
+        std::vector<float> numbers;
         std::vector<Vec3> piece;
-        for (std::uint64_t i = 0; i < elements.count; i += most) {
-            const std::uint64_t count = std::min(most, elements.count - i);
-            bytes.resize(elements.stride * (count - 1) + kVertexBytes);
-            file_.read(elements.at + i * elements.stride, bytes);
-            piece.resize(count);
-            for (std::uint64_t k = 0; k < count; ++k) {
-                float xyz[3];
-                std::memcpy(xyz, bytes.data() + k * elements.stride, sizeof xyz);
-                piece[k] = {xyz[0], xyz[1], xyz[2]};
-            }
+        for (std::uint64_t i = 0; i < elements.count; i += kPiece) {
+            piece.resize(std::min(kPiece, elements.count - i));
+            numbers.resize(3 * piece.size());
+            GltfGeometry::read(elements, i, std::span(numbers));
+            for (std::size_t k = 0; k < piece.size(); ++k)
+                piece[k] = {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
             sink.vertices(piece);
         }
     }
 
-    void read_triangles(const Elements& elements, std::uint32_t first, std::uint32_t vertices,
-                        MeshSink& sink) const {
-        const std::uint64_t most = kPieceBytes / 12;
-        std::vector<std::byte> bytes;
+    /// The corners of a primitive, as vertices of the whole mesh.
+    struct Corners {
+        std::optional<GltfGeometry::Elements> indices;
+        std::uint32_t first = 0, vertices = 0;
+
+        [[nodiscard]] std::uint64_t count() const { return indices ? indices->count : vertices; }
+        void read(std::uint64_t from, std::span<std::uint32_t> to) const {
+            if (indices)
+                GltfGeometry::read(*indices, from, to);
+            else
+                std::iota(to.begin(), to.end(), static_cast<std::uint32_t>(from));
+            for (std::uint32_t& corner : to) {
+                if (corner >= vertices)
+                    throw Fault(ErrorCode::bad_mesh, "index " + std::to_string(corner) +
+                                                         " of a primitive refers to a vertex that "
+                                                         "does not exist");
+                corner += first;
+            }
+        }
+    };
+
+    static void read_triangles(Mode mode, const Corners& corners, MeshSink& sink) {
+        constexpr std::uint64_t kPiece = 16384;
+        const std::uint64_t count = triangles(mode, corners.count());
+        std::uint32_t centre = 0; // of a fan
+        if (mode == Mode::fan && count > 0)
+            corners.read(0, std::span(&centre, 1));
+        std::vector<std::uint32_t> read;
         std::vector<std::array<std::uint32_t, 3>> piece;
-        for (std::uint64_t i = 0; i < elements.count / 3; i += most) {
-            const std::uint64_t count = std::min(most, elements.count / 3 - i);
-            bytes.resize(count * 3 * elements.bytes);
-            file_.read(elements.at + i * 3 * elements.bytes, bytes);
-            piece.resize(count);
-            for (std::uint64_t k = 0; k < 3 * count; ++k) {
-                std::uint32_t index = 0;
-                std::memcpy(&index, bytes.data() + k * elements.bytes, elements.bytes);
-                if (index >= vertices)
-                    throw Fault(ErrorCode::bad_mesh, "triangle " + std::to_string(i + k / 3) +
-                                                         " of a primitive" +
-                                                         " refers to a vertex that does not exist");
-                piece[k / 3].at(k % 3) = first + index;
+        for (std::uint64_t first = 0; first < count; first += kPiece) {
+            piece.resize(std::min(kPiece, count - first));
+            if (mode == Mode::triangles) {
+                read.resize(3 * piece.size());
+                corners.read(3 * first, std::span(read));
+                for (std::size_t i = 0; i < piece.size(); ++i)
+                    piece[i] = {read[3 * i], read[3 * i + 1], read[3 * i + 2]};
+            } else if (mode == Mode::strip) {
+                read.resize(piece.size() + 2);
+                corners.read(first, std::span(read));
+                // Every other triangle is turned round, so that all have one orientation.
+                for (std::size_t i = 0; i < piece.size(); ++i)
+                    piece[i] = (first + i) % 2 == 0 ? std::array{read[i], read[i + 1], read[i + 2]}
+                                                    : std::array{read[i + 1], read[i], read[i + 2]};
+            } else {
+                read.resize(piece.size() + 1);
+                corners.read(first + 1, std::span(read));
+                for (std::size_t i = 0; i < piece.size(); ++i)
+                    piece[i] = {centre, read[i], read[i + 1]};
             }
             sink.triangles(piece);
         }
     }
 
-    static void make_triangles(std::uint32_t first, std::uint32_t vertices, MeshSink& sink) {
-        for (std::uint32_t i = 0; i < vertices; i += 3) {
-            const std::array<std::uint32_t, 3> triangle{first + i, first + i + 1, first + i + 2};
-            sink.triangles({&triangle, 1});
-        }
-    }
-
     RandomAccessFile file_;
     GlbDocument document_;
-    std::vector<std::uint32_t> meshes_; ///< of glTF, by their number here
+    std::optional<GltfGeometry> geometry_; ///< always
+    std::vector<std::uint32_t> meshes_;    ///< of glTF, by their number here
     std::vector<Size> sizes_;
 };
 
 } // namespace
 
-std::unique_ptr<SceneSource> open_glb_source(const std::string& path,
-                                             const SourceOptions& options) {
-    try {
-        return std::make_unique<GlbSource>(path, options);
-    } catch (const NotStreamable&) {
-        return nullptr;
-    }
+std::unique_ptr<SceneSource> open_glb_source(const ModelPath& path, const SourceOptions& options) {
+    return std::make_unique<GlbSource>(path, options);
 }
 
 } // namespace abut

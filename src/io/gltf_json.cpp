@@ -2,6 +2,7 @@
 
 #include "io/fault.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -31,23 +32,6 @@ Transform matrix_transform(const json& node) {
     return Transform({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10], m[12], m[13], m[14]});
 }
 
-/// Scale, then rotation by the quaternion x y z w, then translation.
-Transform trs_transform(const json& node) {
-    const auto t = numbers<3>(node, "translation", {0, 0, 0});
-    const auto s = numbers<3>(node, "scale", {1, 1, 1});
-    auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
-    const double length = std::sqrt(x * x + y * y + z * z + w * w);
-    if (!(length > 0))
-        malformed("a node's rotation has zero length");
-    // Written as floats, a unit quaternion is off by 1e-8; its length carries no meaning.
-    x /= length, y /= length, z /= length, w /= length;
-    return Transform({s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
-                      s[0] * 2 * (x * z - y * w), s[1] * 2 * (x * y - z * w),
-                      s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w),
-                      s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
-                      s[2] * (1 - 2 * (x * x + y * y)), t[0], t[1], t[2]});
-}
-
 } // namespace
 
 const json& member_or_empty(const json& object, const char* key) {
@@ -72,13 +56,42 @@ std::string text_or_empty(const json& object, const char* key) {
 }
 
 Transform gltf_transform(const json& node) {
-    return node.contains("matrix") ? matrix_transform(node) : trs_transform(node);
+    if (node.contains("matrix"))
+        return matrix_transform(node);
+    return gltf_transform(numbers<3>(node, "translation", {0, 0, 0}),
+                          numbers<4>(node, "rotation", {0, 0, 0, 1}),
+                          numbers<3>(node, "scale", {1, 1, 1}));
 }
 
-bool is_harmless_gltf_extension(std::string_view name) {
-    return name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") ||
-           name.starts_with("EXT_texture_") || name == "KHR_lights_punctual" ||
-           name == "KHR_xmp_json_ld" || name == "KHR_animation_pointer";
+Transform gltf_transform(const std::array<double, 3>& t, const std::array<double, 4>& rotation,
+                         const std::array<double, 3>& s) {
+    auto [x, y, z, w] = rotation;
+    const double length = std::sqrt(x * x + y * y + z * z + w * w);
+    if (!(length > 0))
+        malformed("a node's rotation has zero length");
+    // Written as floats, a unit quaternion is off by 1e-8; its length carries no meaning.
+    x /= length, y /= length, z /= length, w /= length;
+    return Transform({s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
+                      s[0] * 2 * (x * z - y * w), s[1] * 2 * (x * y - z * w),
+                      s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w),
+                      s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
+                      s[2] * (1 - 2 * (x * x + y * y)), t[0], t[1], t[2]});
+}
+
+bool is_known_gltf_extension(std::string_view name) {
+    constexpr std::array<std::string_view, 13> kKnown{
+        kInstancingExtension,       kDracoExtension,         kMeshoptExtensions[0],
+        kMeshoptExtensions[1],      "KHR_mesh_quantization", "KHR_xmp_json_ld",
+        "KHR_animation_pointer",    "KHR_node_hoverability", "KHR_node_selectability",
+        "EXT_mesh_features",        "EXT_instance_features", "EXT_structural_metadata",
+        "CESIUM_primitive_outline",
+    };
+    constexpr std::array<std::string_view, 5> kKinds{"_materials_", "_texture_", "_lights_",
+                                                     "_techniques_", "_ngon_"};
+    return std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end() ||
+           std::any_of(kKinds.begin(), kKinds.end(), [&](std::string_view kind) {
+               return name.find(kind) != std::string_view::npos;
+           });
 }
 
 } // namespace abut

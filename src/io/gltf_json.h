@@ -2,6 +2,7 @@
 
 #include <abut/types.h>
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,8 +10,6 @@
 
 namespace abut {
 
-/// What both readers of glTF, the isolated one and the one that streams, take from its JSON alike.
-///
 /// Layout of a GLB file:
 ///
 ///     header  u32 magic "glTF" | u32 version | u32 length of the file
@@ -35,8 +34,20 @@ std::string text_or_empty(const nlohmann::json& object, const char* key);
 /// Errors      Fault malformed: other counts of numbers, a projective matrix, a rotation of zero
 ///             length.
 Transform gltf_transform(const nlohmann::json& node);
+/// Scale, then rotation by the quaternion x y z w, then translation.
+///
+/// Errors      Fault malformed for a rotation of zero length.
+Transform gltf_transform(const std::array<double, 3>& translation,
+                         const std::array<double, 4>& rotation, const std::array<double, 3>& scale);
 
-/// Extensions that a file may require although they are ignored: they change no position.
-bool is_harmless_gltf_extension(std::string_view name);
+/// Extensions whose geometry is read.
+inline constexpr std::string_view kInstancingExtension = "EXT_mesh_gpu_instancing";
+inline constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
+inline constexpr std::array<std::string_view, 2> kMeshoptExtensions{"EXT_meshopt_compression",
+                                                                    "KHR_meshopt_compression"};
+
+/// Whether a file may require an extension: one whose geometry is read, or one that changes none,
+/// such as materials, lights, textures and metadata.
+bool is_known_gltf_extension(std::string_view name);
 
 } // namespace abut

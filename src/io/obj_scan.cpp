@@ -9,15 +9,22 @@ namespace abut {
 
 namespace {
 
-/// A line with those that its final backslash joins to it.
+bool is_comment(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t");
+    return first != std::string_view::npos && line[first] == '#';
+}
+
+/// A line with those that its final backslash joins to it; a comment may end in one by chance, as
+/// a folder's name does.
 bool next_logical(LineScan& lines, std::string_view& line, std::string& joined) {
     if (!lines.next(line))
         return false;
-    if (line.empty() || line.back() != '\\')
+    if (line.empty() || line.back() != '\\' || is_comment(line))
         return true;
     joined.clear();
     do {
         joined.append(line.substr(0, line.size() - 1)).push_back(' ');
+        line = {};
     } while (lines.next(line) && !line.empty() && line.back() == '\\');
     joined.append(line);
     line = joined;
@@ -76,9 +83,9 @@ private:
 
 } // namespace
 
-void scan_obj(ByteStream& content,
-              const std::function<void(std::string_view rest, const LineScan& lines)>& vertex,
-              const std::function<void(std::span<const std::uint64_t> corners)>& face) {
+void scan_obj(ByteStream& content, const std::function<void(const Vec3&)>& vertex,
+              const std::function<void(std::span<const std::uint64_t> corners)>& face,
+              const std::function<void(char statement, std::string_view name)>& name) {
     LineScan lines(content);
     CornerReader corners;
     std::string_view line;
@@ -88,13 +95,36 @@ void scan_obj(ByteStream& content,
         std::string_view rest = line;
         const std::string_view word = take_word(rest);
         if (word == "v") {
-            vertex(rest, lines);
+            vertex(take_position(rest, lines));
             ++vertices;
         } else if (word == "f") {
             face(corners.read(rest, vertices, lines));
+        } else if (name && (word == "o" || word == "g")) {
+            name(word.front(), trimmed(rest));
         }
     }
     corners.check(vertices);
+}
+
+void ObjParts::name(char statement, std::string_view name) {
+    if (statement == 'o') {
+        object_ = name;
+        group_.clear();
+        part_of_group_.clear();
+    } else {
+        group_ = name == "default" ? std::string_view() : name;
+    }
+    current_.reset();
+}
+
+std::size_t ObjParts::of_face() {
+    if (!current_) {
+        const auto [entry, is_new] = part_of_group_.try_emplace(group_, ids_.size());
+        if (is_new)
+            ids_.push_back(!group_.empty() ? group_ : !object_.empty() ? object_ : "defaultobject");
+        current_ = entry->second;
+    }
+    return *current_;
 }
 
 } // namespace abut

@@ -3,12 +3,15 @@
 #include "io/scene_source.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace abut {
+
+/// A position as files of one mesh have it.
+struct FloatPosition {
+    float x = 0, y = 0, z = 0;
+};
 
 /// A file of one mesh, which one part shows.
 class OnePartSource : public SceneSource {
@@ -17,27 +20,16 @@ public:
     [[nodiscard]] Size size(std::uint32_t) const override { return size_; }
 
 protected:
-    OnePartSource(const std::string& path, const SourceOptions& options)
-        : SceneSource(options.folder), path_(path), unit_(options.unit) {}
+    /// The formats of one mesh have neither a unit nor axes.
+    OnePartSource(const ModelPath& path, const SourceOptions& options)
+        : SceneSource(FormatFrame{}, path, options), path_(path.path), watch_(options.watch) {}
 
     void set_part(const std::string& id, const Size& size) {
         size_ = size;
         Part part;
         part.id = part.name = id;
-        if (unit_ != 0 && unit_ != 1)
-            for (double& value : part.world_from_mesh.m)
-                value *= unit_;
-        parts_.append(part);
-        parts_.finish();
-    }
-
-    /// Names that Assimp takes as they are: one word of letters, digits and a few signs.
-    static bool is_plain_name(std::string_view name) {
-        constexpr std::size_t kLongest = 200;
-        return name.size() <= kLongest && std::all_of(name.begin(), name.end(), [](char c) {
-                   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
-                          c == '-' || c == '.';
-               });
+        append(std::move(part));
+        finish();
     }
 
     /// Triangles of vertices 0 1 2, 3 4 5, …
@@ -54,10 +46,10 @@ protected:
         }
     }
 
-    std::string path_; // NOLINT: read by those who know the format
+    std::string path_;                       // NOLINT: read by those who know the format
+    std::shared_ptr<const ReadWatch> watch_; // NOLINT: likewise
 
 private:
-    double unit_;
     Size size_;
 };
 

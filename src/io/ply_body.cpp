@@ -1,6 +1,7 @@
 #include "io/ply_body.h"
 
 #include <algorithm>
+#include <array>
 
 namespace abut {
 
@@ -10,7 +11,7 @@ bool PlyBody::skip(const PlyType& type, std::uint64_t count) {
             const std::string_view word = take_word(data_);
             if (word.empty())
                 return false;
-            if (!looks_like_number(word))
+            if (!to_real(word))
                 malformed("has " + std::string(word.substr(0, 40)) + " for a number");
         }
         return true;
@@ -86,7 +87,48 @@ bool take_corners(PlyBody& body, const PlyProperty& list, std::uint64_t vertices
     return true;
 }
 
+/// The properties x, y and z.
+using Axes = std::array<const PlyProperty*, 3>;
+
+Axes axes_of(const PlyElement& vertex) {
+    Axes axes{};
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const std::string name(1, "xyz"[i]);
+        for (const PlyProperty& property : vertex.properties)
+            if (property.name == name && !property.is_list)
+                axes.at(i) = &property;
+        if (axes.at(i) == nullptr)
+            malformed("its vertices have no " + name);
+    }
+    return axes;
+}
+
+/// False at the end of the data.
+bool take_vertex(PlyBody& body, const PlyElement& element, const Axes& axes, Vec3& position) {
+    for (const PlyProperty& property : element.properties) {
+        const bool taken = &property == axes[0]   ? body.take(property.value, position.x)
+                           : &property == axes[1] ? body.take(property.value, position.y)
+                           : &property == axes[2] ? body.take(property.value, position.z)
+                                                  : body.skip(property);
+        if (!taken)
+            return false;
+    }
+    return true;
+}
+
 } // namespace
+
+void take_ply_vertices(PlyBody& body, const PlyElement& element,
+                       const std::function<void(const Vec3&)>& vertex) {
+    const Axes axes = axes_of(element);
+    take_ply_elements(element, [&] {
+        Vec3 position;
+        if (!take_vertex(body, element, axes, position))
+            return false;
+        vertex(position);
+        return true;
+    });
+}
 
 void take_ply_faces(PlyBody& body, const PlyElement& element, std::uint64_t vertices,
                     const PlyFace& face) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <abut/types.h>
+
 #include "io/fault.h"
 #include "io/ply_header.h"
 #include "io/text_scan.h"
@@ -55,6 +57,12 @@ private:
     PlyEncoding encoding_;
 };
 
+/// Takes the vertices: their properties x, y and z.
+///
+/// Errors      as PlyBody; Fault malformed if the data ends before or one of the three is missing.
+void take_ply_vertices(PlyBody& body, const PlyElement& element,
+                       const std::function<void(const Vec3&)>& vertex);
+
 /// Takes a face's corners: indices of vertices, any number of them.
 using PlyFace = std::function<void(std::span<const std::uint64_t> corners)>;
 
@@ -100,7 +108,12 @@ bool PlyBody::take_word_as(Number& value) {
     const std::string_view word = take_word(data_);
     if (word.empty())
         return false;
-    const auto number = to_number<Number>(word);
+    const auto number = [&]() -> std::optional<Number> {
+        if constexpr (std::numeric_limits<Number>::is_integer)
+            return to_number<Number>(word);
+        else
+            return to_real(word);
+    }();
     if (!number)
         malformed("has " + std::string(word.substr(0, 40)) +
                   (std::numeric_limits<Number>::is_integer ? " for an integer" : " for a number"));

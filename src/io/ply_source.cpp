@@ -12,14 +12,8 @@ namespace abut {
 
 namespace {
 
-constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
-
-struct FloatPosition {
-    float x = 0, y = 0, z = 0;
-};
-
 /// Vertices with x, y, z, all of them real numbers, and then faces of one list: what scanners and
-/// simulations write. Binary only: in text each number is as Assimp reads it.
+/// simulations write. In text they are read whole.
 void check_header(const PlyHeader& header) {
     const auto& elements = header.elements;
     if (header.encoding == PlyEncoding::text || elements.size() != 2 ||
@@ -41,9 +35,9 @@ void check_header(const PlyHeader& header) {
 /// All vertices as the file has them, used or not.
 class PlySource : public OnePartSource {
 public:
-    PlySource(const std::string& path, const SourceOptions& options)
+    PlySource(const ModelPath& path, const SourceOptions& options)
         : OnePartSource(path, options), memory_(options.memory) {
-        ByteStream content = ByteStream::open(path_);
+        ByteStream content = ByteStream::open(path_, watch_);
         const PlyHeader header = read_ply_header(content);
         check_header(header);
         Size size{header.vertices(), 0};
@@ -59,7 +53,7 @@ public:
     }
 
     void read(std::uint32_t, MeshSink& sink) const override {
-        ByteStream content = ByteStream::open(path_);
+        ByteStream content = ByteStream::open(path_, watch_);
         const PlyHeader header = read_ply_header(content);
         check_header(header);
         PlyBody body(header, content);
@@ -88,11 +82,12 @@ private:
                     return false;
             }
             // Narrowed to float, as read_scene gives it.
-            const FloatPosition narrow{static_cast<float>(p.x), static_cast<float>(p.y),
-                                       static_cast<float>(p.z)};
+            const Vec3 narrow{rounded_to_float(p.x), rounded_to_float(p.y), rounded_to_float(p.z)};
             if (positions)
-                positions->set(number++, narrow);
-            piece.push_back({narrow.x, narrow.y, narrow.z});
+                positions->set(number++,
+                               {static_cast<float>(narrow.x), static_cast<float>(narrow.y),
+                                static_cast<float>(narrow.z)});
+            piece.push_back(narrow);
             if (piece.size() == kPiece) {
                 sink.vertices(piece);
                 piece.clear();
@@ -140,8 +135,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<SceneSource> open_ply_source(const std::string& path,
-                                             const SourceOptions& options) {
+std::unique_ptr<SceneSource> open_ply_source(const ModelPath& path, const SourceOptions& options) {
     try {
         return std::make_unique<PlySource>(path, options);
     } catch (const NotStreamable&) {

@@ -2,18 +2,20 @@
 
 #include "io/fault.h"
 #include "io/input_file.h"
+#include "io/read_watch.h"
 
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <unistd.h>
+#include <utility>
 
 namespace abut {
 
-RandomAccessFile::RandomAccessFile(const std::string& path) : size_(readable_size(path)) {
-    descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor_ < 0)
-        throw Fault(ErrorCode::unreadable, std::string("cannot be read: ") + std::strerror(errno));
+RandomAccessFile::RandomAccessFile(const std::string& path, std::shared_ptr<const ReadWatch> watch)
+    : watch_(std::move(watch)) {
+    const OpenFile file = open_readable(path);
+    descriptor_ = file.descriptor;
+    size_ = file.size;
 }
 
 RandomAccessFile::~RandomAccessFile() {
@@ -21,6 +23,8 @@ RandomAccessFile::~RandomAccessFile() {
 }
 
 void RandomAccessFile::read(std::uint64_t at, std::span<std::byte> bytes) const {
+    if (watch_ != nullptr)
+        watch_->check();
     while (!bytes.empty()) {
         const ssize_t count =
             pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));

@@ -2,23 +2,28 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
 namespace abut {
 
+class ReadWatch;
+
 /// A file that is read at any place, from any thread.
 class RandomAccessFile {
 public:
+    /// In          watch: is asked whenever bytes are read; null: nobody is.
     /// Errors      Fault as readable_size.
-    explicit RandomAccessFile(const std::string& path);
+    explicit RandomAccessFile(const std::string& path,
+                              std::shared_ptr<const ReadWatch> watch = nullptr);
     ~RandomAccessFile();
     RandomAccessFile(const RandomAccessFile&) = delete;
     RandomAccessFile& operator=(const RandomAccessFile&) = delete;
 
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
 
-    /// Errors      Fault unreadable, also if the file has become shorter.
+    /// Errors      Fault unreadable, also if the file has become shorter; Error of the watch.
     void read(std::uint64_t at, std::span<std::byte> bytes) const;
 
     template <typename Value>
@@ -31,6 +36,7 @@ public:
 private:
     int descriptor_ = -1;
     std::uint64_t size_ = 0;
+    std::shared_ptr<const ReadWatch> watch_;
 };
 
 } // namespace abut

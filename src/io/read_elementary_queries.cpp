@@ -1,13 +1,15 @@
 #include <abut/elementary_impact.h>
 #include <abut/error.h>
 
+#include "io/byte_stream.h"
+#include "io/fault.h"
+#include "io/text_scan.h"
 #include "math/integer_polynomial.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 
 namespace abut {
@@ -72,20 +74,18 @@ public:
     QueryReader(const std::string& file, ElementaryKind kind) : file_(file), kind_(kind) {}
 
     ElementaryQueries read() {
-        std::ifstream stream(file_);
-        if (!stream)
-            throw Error(std::filesystem::exists(file_) ? ErrorCode::unreadable
-                                                       : ErrorCode::file_not_found,
-                        file_, "cannot be opened");
-        std::string line;
-        for (number_ = 1; std::getline(stream, line); ++number_) {
-            if (!line.empty() && line.back() == '\r')
-                line.pop_back();
-            if (!line.empty())
-                add_row(line);
+        try {
+            ByteStream content = ByteStream::open(file_);
+            LineScan lines(content);
+            std::string_view line;
+            while (lines.next(line)) {
+                number_ = lines.number();
+                if (!line.empty())
+                    add_row(line);
+            }
+        } catch (const Fault& fault) {
+            throw Error(fault.code(), file_, fault.what());
         }
-        if (stream.bad())
-            throw Error(ErrorCode::unreadable, file_, "cannot be read");
         if (rows_ % kRowsOfPair != 0)
             fail("the last pair has " + std::to_string(rows_ % kRowsOfPair) + " of 8 rows");
         if (rows_ == 0)
@@ -154,7 +154,8 @@ private:
     const std::string& file_;
     ElementaryKind kind_;
     ElementaryQueries queries_;
-    std::size_t number_ = 0, rows_ = 0, columns_ = 0;
+    std::uint64_t number_ = 0;
+    std::size_t rows_ = 0, columns_ = 0;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <abut/frame.h>
 
 #include "io/fault.h"
+#include "io/file_kind.h"
 #include "io/frame_formats.h"
 #include "io/input_file.h"
 #include "mesh/topology.h"
@@ -29,6 +30,7 @@ void read_unchecked(const std::string& path, std::vector<Vec3>& positions, Frame
     if (extension != ".obj" && extension != ".ply")
         throw Error(ErrorCode::unsupported, path, "frames are read from .obj and .ply files only");
     try {
+        check_file_kind(path, extension);
         ByteStream content = ByteStream::open(path);
         (extension == ".obj" ? read_obj_frame : read_ply_frame)(content, positions, faces);
     } catch (const Fault& fault) {

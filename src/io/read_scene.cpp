@@ -2,20 +2,29 @@
 #include <abut/scene.h>
 
 #include "core/progress.h"
+#include "core/temporary_file.h"
 #include "io/child_process.h"
+#include "io/collect_scene.h"
 #include "io/decode_scene.h"
 #include "io/fault.h"
+#include "io/file_kind.h"
 #include "io/input_file.h"
+#include "io/model_frame.h"
+#include "io/part_checks.h"
+#include "io/polygon_file.h"
+#include "io/read_watch.h"
+#include "io/reader_end.h"
 #include "io/reader_program.h"
-#include "io/scene_stream.h"
+#include "io/scene_source.h"
 #include "math/transform.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <limits>
+#include <memory>
+#include <new>
 #include <numeric>
 #include <tbb/global_control.h>
 #include <thread>
@@ -24,69 +33,72 @@ namespace abut {
 
 namespace {
 
-std::string megabytes(std::uint64_t bytes) {
-    return std::to_string(bytes >> 20) + " MiB";
-}
+constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 62;
 
-/// Throws if the reader ended in any way but with a whole result.
-void check_end(const ChildReport& report, const std::string& file, const ReadOptions& options) {
-    const auto failed = [&](const std::string& what) {
-        throw Error(ErrorCode::reader_failed, file, what);
-    };
-    const std::string limit =
-        options.memory_limit > 0 ? " (limit " + megabytes(options.memory_limit) + ")" : "";
-    switch (report.end) {
-    case ChildEnd::exited:
-        if (report.status == scene_stream::kOutOfMemory)
-            failed("its reader ran out of memory" + limit);
-        if (report.status != 0)
-            failed("its reader failed with exit status " + std::to_string(report.status));
-        return;
-    case ChildEnd::killed:
-        failed(std::string("its reader crashed: ") + strsignal(report.status));
-        return;
-    case ChildEnd::time_limit: {
-        std::string seconds = std::to_string(options.time_limit);
-        seconds.erase(seconds.find_last_not_of('0') + 1);
-        if (seconds.back() == '.')
-            seconds.pop_back();
-        failed("its reader was stopped after " + seconds + " s");
-        return;
-    }
-    case ChildEnd::memory_limit:
-        failed("its reader ran out of memory" + limit);
-        return;
-    case ChildEnd::stopped:
-        throw Error(ErrorCode::interrupted, "interrupted");
-    }
-}
-
-Scene read_one(const std::string& file, const ReadOptions& options,
-               const std::function<bool()>& should_stop) {
-    const std::vector<std::string> command = reader_command(file, options.memory_limit);
+Scene read_isolated(const ModelPath& path, const ReadOptions& options,
+                    const std::function<bool()>& should_stop) {
+    const std::string& file = path.path;
+    const std::vector<std::string> command = reader_command(file, options);
+    const ChildLimits limits{options.time_limit, options.memory_limit};
     ResultMemory result;
     ChildReport report;
     try {
-        report =
-            run_child(command, {options.time_limit, options.memory_limit}, should_stop, result);
+        report = run_child(command, limits, should_stop, result.descriptor());
     } catch (const Error& error) {
         throw Error(error.code(), file, error.what());
     }
-    check_end(report, file, options);
-    return decode_scene(result.bytes(), file, options.unit == 0 ? 1 : options.unit);
+    check_end(report, file, limits);
+    return decode_scene(result.bytes(), path, options);
+}
+
+/// Makes the result of a reader of polygons what read_scene promises: its file, frame and checks.
+Scene completed(Scene scene, const ModelPath& path, const ReadOptions& options) {
+    const ModelFrame frame = model_frame(FormatFrame{}, path, options);
+    scene.file = path.path;
+    scene.unit = frame.unit;
+    scene.up = frame.up;
+    make_ids_unique(scene.parts);
+    MeshFaults faults;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        find_bad_coordinate(scene.meshes[i], i, faults);
+    for (Part& part : scene.parts)
+        scale(part.world_from_mesh, frame.unit);
+    check_scene(scene, faults);
+    return scene;
+}
+
+Scene read_one(const ModelPath& path, const ReadOptions& options,
+               const std::function<bool()>& should_stop) {
+    const std::string& file = path.path;
+    const auto watch = std::make_shared<const ReadWatch>(file, options, should_stop);
+    try {
+        check_file_kind(file, lower_extension(file));
+        if (auto scene = read_polygon_file(file, watch))
+            return completed(std::move(*scene), path, options);
+        const auto source = open_own_source(
+            path, {.read = options, .folder = kInMemory, .memory = kUnlimited, .watch = watch});
+        if (source != nullptr)
+            return collect_scene(*source, file, *watch);
+    } catch (const Fault& fault) {
+        throw Error(fault.code(), file, fault.what());
+    } catch (const std::bad_alloc&) {
+        throw_memory_limit(file, options.memory_limit);
+    }
+    return read_isolated(path, options, should_stop);
 }
 
 /// Reads the files, the largest first, by several threads that each wait for one reader.
 class ParallelReader {
 public:
-    ParallelReader(const std::vector<std::string>& files, const ReadOptions& options)
+    ParallelReader(const std::vector<ModelPath>& files, const ReadOptions& options)
         : files_(files), options_(options), sizes_(files.size()), order_(files.size()),
           scenes_(files.size()), faults_(files.size()), first_fault_(files.size()) {
         for (std::size_t i = files.size(); i-- > 0;) {
             try {
-                sizes_[i] = readable_size(files[i]);
+                sizes_[i] = readable_size(files[i].path);
             } catch (const Fault& fault) {
-                faults_[i] = std::make_exception_ptr(Error(fault.code(), files[i], fault.what()));
+                faults_[i] =
+                    std::make_exception_ptr(Error(fault.code(), files[i].path, fault.what()));
                 first_fault_ = i;
             }
         }
@@ -139,7 +151,7 @@ private:
         }
     }
 
-    const std::vector<std::string>& files_;
+    const std::vector<ModelPath>& files_;
     const ReadOptions& options_;
     std::vector<std::size_t> sizes_;
     std::vector<std::size_t> order_;
@@ -151,12 +163,27 @@ private:
 
 } // namespace
 
+Scene read_scene(const ModelPath& path, const ReadOptions& options) {
+    return std::move(read_scenes(std::vector{path}, options).front());
+}
+
 Scene read_scene(const std::string& path, const ReadOptions& options) {
-    return std::move(read_scenes({path}, options).front());
+    return read_scene(ModelPath{path}, options);
 }
 
 std::vector<Scene> read_scenes(const std::vector<std::string>& paths, const ReadOptions& options) {
-    if (!std::isfinite(options.unit) || options.unit < 0)
+    std::vector<ModelPath> files;
+    files.reserve(paths.size());
+    for (const std::string& path : paths)
+        files.push_back({path});
+    return read_scenes(files, options);
+}
+
+std::vector<Scene> read_scenes(const std::vector<ModelPath>& paths, const ReadOptions& options) {
+    const auto is_unit = [](double unit) { return std::isfinite(unit) && unit >= 0; };
+    if (!is_unit(options.unit) || !std::all_of(paths.begin(), paths.end(), [&](const auto& path) {
+            return is_unit(path.unit);
+        }))
         throw Error(ErrorCode::bad_argument, "unit must be a positive number of metres");
     if (!std::isfinite(options.time_limit) || options.time_limit < 0)
         throw Error(ErrorCode::bad_argument, "time limit must not be negative");
@@ -166,7 +193,10 @@ std::vector<Scene> read_scenes(const std::vector<std::string>& paths, const Read
 }
 
 Mesh read_mesh(const std::string& path, const ReadOptions& options) {
-    const Scene scene = read_scene(path, options);
+    return to_mesh(read_scene(path, options));
+}
+
+Mesh to_mesh(const Scene& scene) {
     std::size_t vertices = 0;
     std::size_t triangles = 0;
     for (const Part& part : scene.parts) {
@@ -174,15 +204,21 @@ Mesh read_mesh(const std::string& path, const ReadOptions& options) {
         triangles += scene.meshes[part.mesh].triangles.size();
     }
     if (vertices > std::numeric_limits<std::uint32_t>::max())
-        throw Error(ErrorCode::bad_mesh, path, "has too many vertices for one mesh");
+        throw Error(ErrorCode::bad_mesh, scene.file, "has too many vertices for one mesh");
 
     Mesh mesh;
     mesh.positions.reserve(vertices);
     mesh.triangles.reserve(triangles);
     for (const Part& part : scene.parts) {
         const auto base = static_cast<std::uint32_t>(mesh.positions.size());
-        for (const Vec3& position : scene.meshes[part.mesh].positions)
+        for (const Vec3& position : scene.meshes[part.mesh].positions) {
             mesh.positions.push_back(apply(part.world_from_mesh, position));
+            // Its own coordinates are no fault: the transform may have made them too large.
+            if (const char* const fault = coordinate_fault(mesh.positions.back()))
+                throw Error(ErrorCode::bad_mesh, scene.file,
+                            "part " + part.id + ": vertex " +
+                                std::to_string(mesh.positions.size() - 1 - base) + fault);
+        }
         for (const auto& [a, b, c] : scene.meshes[part.mesh].triangles)
             mesh.triangles.push_back({base + a, base + b, base + c});
     }

@@ -18,8 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kAssimpExtensions{".glb", ".gltf", ".obj", ".ply",
-                                                            ".stl", ".off",  ".fbx", ".dae"};
+constexpr std::array<std::string_view, 3> kAssimpExtensions{".fbx", ".dae", ".3mf"};
 
 std::string environment(const char* name) {
     const char* const value = std::getenv(name);
@@ -47,7 +46,8 @@ std::string find_reader(const std::string& file) {
     const fs::path here = program_folder();
     for (const fs::path& candidate :
          {here / "abut-reader", here.parent_path() / "libexec/abut/abut-reader",
-          fs::path(ABUT_INSTALLED_READER), fs::path(ABUT_BUILD_READER)})
+          helper_folder() / "abut-reader", fs::path(ABUT_INSTALLED_READER),
+          fs::path(ABUT_BUILD_READER)})
         if (is_program(candidate))
             return candidate;
     throw Error(ErrorCode::unsupported, file,
@@ -74,7 +74,8 @@ std::string find_node(const std::string& file, const fs::path& converter) {
     }
     throw Error(
         ErrorCode::unsupported, file,
-        "IFC needs Node.js: install it with `apt-get install nodejs npm`, then `npm ci` in " +
+        "IFC needs Node.js: run tools/install_dependencies build, or `apt-get install nodejs npm` "
+        "and `npm ci` in " +
             converter.string());
 }
 
@@ -88,7 +89,8 @@ fs::path find_converter(const std::string& file) {
                         chosen);
     }
     const std::array candidates{program_folder().parent_path() / "libexec/abut/ifc",
-                                fs::path(ABUT_INSTALLED_IFC), fs::path(ABUT_SOURCE_IFC)};
+                                helper_folder() / "ifc", fs::path(ABUT_INSTALLED_IFC),
+                                fs::path(ABUT_SOURCE_IFC)};
     for (const fs::path& candidate : candidates)
         if (is_there(candidate / "convert.mjs") && is_there(candidate / "node_modules/web-ifc"))
             return candidate;
@@ -102,10 +104,10 @@ fs::path find_converter(const std::string& file) {
 
 } // namespace
 
-std::vector<std::string> reader_command(const std::string& file, std::uint64_t memory_limit) {
+std::vector<std::string> reader_command(const std::string& file, const ReadOptions& options) {
     const std::string extension = lower_extension(file);
     const std::string parent = std::to_string(getpid());
-    if (extension == ".ifc") {
+    if (extension == ".ifc" || extension == ".ifczip") {
         const fs::path converter = find_converter(file);
         const std::string node = find_node(file, converter);
         if (!is_there(converter / "node_modules/web-ifc"))
@@ -113,14 +115,25 @@ std::vector<std::string> reader_command(const std::string& file, std::uint64_t m
                         "IFC needs web-ifc: run `npm ci` in " + converter.string());
         // No limit of address space: Node.js reserves far more than it uses. run_child watches what
         // it uses.
-        return {find_reader(file), parent, "0", "--exec", node, converter / "convert.mjs", file};
+        return {find_reader(file),
+                parent,
+                "0",
+                "--exec",
+                node,
+                converter / "convert.mjs",
+                file,
+                options.spaces ? "spaces" : "no-spaces"};
     }
     if (std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) ==
         kAssimpExtensions.end())
         throw Error(ErrorCode::unsupported, file,
                     "no reader for " + (extension.empty() ? "files without extension" : extension) +
-                        " (known: .glb .gltf .obj .ply .stl .off .fbx .dae .ifc)");
-    return {find_reader(file), parent, std::to_string(memory_limit), "--read", file};
+                        " (known: .glb .gltf .obj .ply .stl .off .fbx .dae .3mf .ifc .ifczip)");
+    return {find_reader(file), parent, std::to_string(options.memory_limit), "--read", file};
+}
+
+std::vector<std::string> decoder_command(const std::string& file, std::uint64_t memory_limit) {
+    return {find_reader(file), std::to_string(getpid()), std::to_string(memory_limit), "--decode"};
 }
 
 } // namespace abut

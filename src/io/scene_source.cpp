@@ -3,7 +3,11 @@
 #include <abut/error.h>
 
 #include "io/fault.h"
+#include "io/file_kind.h"
 #include "io/input_file.h"
+#include "io/read_watch.h"
+
+#include <atomic>
 
 namespace abut {
 
@@ -12,11 +16,12 @@ namespace {
 /// A scene in memory.
 class WholeScene : public SceneSource {
 public:
-    WholeScene(Scene scene, const std::string& folder)
-        : SceneSource(folder), meshes_(std::move(scene.meshes)) {
-        for (const Part& part : scene.parts)
-            parts_.append(part);
-        parts_.finish();
+    WholeScene(Scene scene, const SourceOptions& options)
+        : SceneSource(ModelFrame{scene.unit, scene.up}, options), meshes_(std::move(scene.meshes)) {
+        for (Part& part : scene.parts)
+            append(std::move(part));
+        finish();
+        notes_ = std::move(scene.notes);
     }
     [[nodiscard]] std::uint32_t meshes() const override {
         return static_cast<std::uint32_t>(meshes_.size());
@@ -36,27 +41,34 @@ private:
 
 } // namespace
 
-std::unique_ptr<SceneSource> open_scene_source(const std::string& path,
+std::unique_ptr<SceneSource> open_own_source(const ModelPath& path, const SourceOptions& options) {
+    const std::string extension = lower_extension(path.path);
+    if (extension == ".glb" || extension == ".gltf")
+        return open_glb_source(path, options);
+    if (extension == ".obj")
+        return open_obj_source(path, options);
+    if (extension == ".ply")
+        return open_ply_source(path, options);
+    if (extension == ".stl")
+        return open_stl_source(path, options);
+    return nullptr;
+}
+
+std::unique_ptr<SceneSource> open_scene_source(const ModelPath& path,
                                                const SourceOptions& options) {
     try {
-        (void)readable_size(path);
-        const std::string extension = lower_extension(path);
-        std::unique_ptr<SceneSource> source;
-        if (extension == ".glb")
-            source = open_glb_source(path, options);
-        else if (extension == ".obj")
-            source = open_obj_source(path, options);
-        else if (extension == ".ply")
-            source = open_ply_source(path, options);
-        else if (extension == ".stl")
-            source = open_stl_source(path, options);
-        if (source != nullptr)
+        check_file_kind(path.path, lower_extension(path.path));
+        SourceOptions watched = options;
+        const std::atomic<bool>* const stop = options.read.progress.stop;
+        watched.watch =
+            std::make_shared<const ReadWatch>(path.path, ReadOptions{.time_limit = 0},
+                                              [stop] { return stop != nullptr && stop->load(); });
+        if (auto source = open_own_source(path, watched))
             return source;
     } catch (const Fault& fault) {
-        throw Error(fault.code(), path, fault.what());
+        throw Error(fault.code(), path.path, fault.what());
     }
-    return std::make_unique<WholeScene>(
-        read_scene(path, {.unit = options.unit, .progress = options.progress}), options.folder);
+    return std::make_unique<WholeScene>(read_scene(path, options.read), options);
 }
 
 } // namespace abut

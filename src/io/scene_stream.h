@@ -6,22 +6,28 @@
 /// ifc/convert.mjs, decoded by decode_scene, which trusts none of it. Byte order is the machine's;
 /// nothing is aligned or padded.
 ///
-///     header   char[8] magic "abutscn1"
+///     header   char[8] magic "abutscn2"
 ///              u32     status: 0 a scene follows; 1 + ErrorCode: an error follows
 ///              u32     bytes of the error's text (0 for a scene)
 ///              u64     meshes
 ///              u64     parts
+///              f64     metres per unit of the file by its format; 0: the format has no unit
+///              f64     metres per coordinate as sent, by its format
+///              u32     what points up: 0 the format does not say it, 1 + UpAxis
+///              u32     notes
 ///     error    the text: one line without the file's name
 ///     mesh     u32 vertices | u32 triangles | u32 bytes of a coordinate, 4 or 8
 ///              f32 or f64 [3 vertices] x y z … | u32[3 triangles] a b c …
 ///     part     f64[12] world_from_mesh (see Transform) | u32 mesh | u32 id, u32 name, u32 type:
-///     bytes | the three texts end      char[8] "abut-end", and nothing after it
+///              bytes | the three texts
+///     note     u32 NoteKind | u32 id, u32 name, u32 type, u32 text: bytes | the four texts
+///     end      char[8] "abut-end", and nothing after it
 ///
-/// All meshes come before all parts. Positions are floats because that is what both readers
+/// All meshes come before all parts, all parts before all notes. Positions are floats because that is what both readers
 /// deliver.
 namespace abut::scene_stream {
 
-inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '1'};
+inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '2'};
 inline constexpr char kEnd[8] = {'a', 'b', 'u', 't', '-', 'e', 'n', 'd'};
 
 struct Header {
@@ -30,8 +36,12 @@ struct Header {
     std::uint32_t text_size;
     std::uint64_t meshes;
     std::uint64_t parts;
+    double unit;
+    double applied;
+    std::uint32_t up;
+    std::uint32_t notes;
 };
-static_assert(sizeof(Header) == 32);
+static_assert(sizeof(Header) == 56);
 
 /// Written for an index that its primitive does not hold, so that it is out of range in the whole
 /// mesh too.

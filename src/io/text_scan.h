@@ -1,5 +1,7 @@
 #pragma once
 
+#include <abut/types.h>
+
 #include "io/byte_stream.h"
 
 #include <charconv>
@@ -12,37 +14,30 @@
 
 namespace abut {
 
-/// Lines of a text, numbered from 1, without their ends (\n or \r\n).
+/// Lines of a text, numbered from 1, without their ends (\n, \r\n or \r). A byte-order mark of
+/// UTF-8 is passed over.
+///
+/// Errors      Fault malformed for what is no text in UTF-8 or ASCII: a zero byte, another
+///             byte-order mark, a line of more than 64 MiB.
 class LineScan {
 public:
     /// In          text: must outlive the scan. What has not been taken as a line stays there.
     explicit LineScan(ByteStream& text) : text_(text) {}
 
     /// False at the end of the text. The line stays where it is until the next one is asked for.
-    bool next(std::string_view& line) {
-        std::size_t end = text_.ahead().find('\n');
-        while (end == std::string_view::npos) {
-            const std::size_t searched = text_.ahead().size();
-            if (!text_.more())
-                break;
-            end = text_.ahead().find('\n', searched);
-        }
-        if (text_.ahead().empty())
-            return false;
-        line = text_.ahead().substr(0, end);
-        text_.take(end == std::string_view::npos ? line.size() : end + 1);
-        if (!line.empty() && line.back() == '\r')
-            line.remove_suffix(1);
-        ++number_;
-        return true;
-    }
+    bool next(std::string_view& line);
+
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
     /// "line 12", for messages.
     [[nodiscard]] std::string place() const { return "line " + std::to_string(number_); }
 
 private:
+    void begin();
+
     ByteStream& text_;
     std::uint64_t number_ = 0;
+    char end_ = '\n';           ///< of the first line; others may end otherwise
+    std::size_t known_end_ = 0; ///< where the next end_ is ahead, plus one; 0: not known
 };
 
 inline bool is_blank(char c) {
@@ -64,20 +59,17 @@ inline std::string_view take_word(std::string_view& text) {
 
 /// The same of a text that comes piece by piece. The word stays where it is until the next one is
 /// asked for.
-inline std::string_view take_word(ByteStream& text) {
-    while (true) {
-        std::string_view rest = text.ahead();
-        std::string_view word = take_word(rest);
-        text.take(text.ahead().size() - rest.size() - word.size()); // blanks
-        // What ends where the bytes in memory end may go on.
-        if (rest.empty()) {
-            if (text.more())
-                continue;
-            word = text.ahead();
-        }
-        text.take(word.size());
-        return word;
-    }
+///
+/// Errors      Fault malformed for a word of more than 64 MiB or one with zero bytes.
+std::string_view take_word(ByteStream& text);
+
+/// Without the blanks at its ends.
+inline std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && is_blank(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back()))
+        text.remove_suffix(1);
+    return text;
 }
 
 /// A whole word as a number; none if it is beyond the range of the type.
@@ -92,19 +84,17 @@ std::optional<Number> to_number(std::string_view word) {
     return value;
 }
 
-/// Whether a word is a number, quickly: from_chars on every coordinate would double the cost of the
-/// look.
-inline bool looks_like_number(std::string_view word) {
-    const std::size_t sign = !word.empty() && (word.front() == '-' || word.front() == '+') ? 1 : 0;
-    if (word.size() == sign)
-        return false;
-    bool simple = word[sign] != '.' || word.size() > sign + 1;
-    std::size_t points = 0;
-    for (const char c : word.substr(sign)) {
-        points += c == '.' ? 1 : 0;
-        simple = simple && ((c >= '0' && c <= '9') || c == '.');
-    }
-    return (simple && points <= 1) || to_number<double>(word).has_value();
-}
+/// A whole word as a real number: a decimal point, an exponent after e or E, nan, inf. Beyond the
+/// range of doubles it is infinite or zero.
+std::optional<double> to_real(std::string_view word);
+
+/// The nearest float, as a double. Not inline on purpose: of static_cast<float> on the members of a
+/// Vec3, g++ 12 drops two of three where it makes them one vector operation (-O2 and above).
+double rounded_to_float(double value);
+
+/// The three numbers that a vertex begins with.
+///
+/// Errors      Fault malformed, naming the line and the word that is no number.
+Vec3 take_position(std::string_view& rest, const LineScan& lines);
 
 } // namespace abut

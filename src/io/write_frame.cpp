@@ -17,7 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "values are written as they lie");
 
 template <typename Value>
-void append(std::string& bytes, const Value& value) {
+void append_value(std::string& bytes, const Value& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
@@ -37,8 +37,8 @@ std::string header_of(const Mesh& mesh, const std::string& real) {
 template <typename Real>
 void append_positions(std::string& bytes, const Mesh& mesh) {
     for (const Vec3& p : mesh.positions)
-        append(bytes,
-               std::array{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)});
+        append_value(bytes, std::array{static_cast<Real>(p.x), static_cast<Real>(p.y),
+                                       static_cast<Real>(p.z)});
 }
 
 } // namespace
@@ -60,7 +60,7 @@ void write_frame(const Mesh& mesh, const std::string& path) {
         append_positions<double>(bytes, mesh);
     for (const auto& corners : mesh.triangles) {
         bytes += '\3';
-        append(bytes, corners);
+        append_value(bytes, corners);
     }
     write_file_atomically(path, bytes);
 }

@@ -2,6 +2,7 @@
 #include <abut/scene.h>
 
 #include "core/atomic_file.h"
+#include "io/model_frame.h"
 
 #include <algorithm>
 #include <array>
@@ -78,14 +79,15 @@ json mesh_accessors(const Scene& scene, std::string& binary) {
     return accessors;
 }
 
-json node_of(const Part& part) {
+json node_of(const Part& part, UpAxis up) {
     json node{{"name", part.id}, {"mesh", part.mesh}};
     if (part.name != part.id)
         node["extras"]["name"] = part.name;
     if (!part.type.empty())
         node["extras"]["type"] = part.type;
-    if (part.world_from_mesh != Transform()) {
-        const auto& m = part.world_from_mesh.m;
+    const Transform world_from_mesh = turned(part.world_from_mesh, up, *kGltfFrame.up);
+    if (world_from_mesh != Transform()) {
+        const auto& m = world_from_mesh.m;
         node["matrix"] = {m[0], m[1], m[2], 0, m[3], m[4],  m[5],  0,
                           m[6], m[7], m[8], 0, m[9], m[10], m[11], 1};
     }
@@ -109,7 +111,7 @@ void write_glb(const Scene& scene, const std::string& path) {
     json roots = json::array();
     for (const Part& part : scene.parts) {
         roots.push_back(nodes.size());
-        nodes.push_back(node_of(part));
+        nodes.push_back(node_of(part, scene.up));
     }
     document["meshes"] = std::move(meshes);
     document["nodes"] = std::move(nodes);

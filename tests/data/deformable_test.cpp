@@ -7,6 +7,7 @@
 #include "tests/command/impact_file.h"
 #include "tests/command/run_command.h"
 #include "tests/data/ccd_frames.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -3,6 +3,8 @@
 #include <abut/frame.h>
 #include <abut/scene.h>
 
+#include "tests/support/paths.h"
+
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <ostream>

@@ -3,6 +3,8 @@
 
 #include <abut/scene.h>
 
+#include "tests/support/paths.h"
+
 #include <cstring>
 #include <filesystem>
 #include <fstream>

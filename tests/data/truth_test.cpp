@@ -3,6 +3,7 @@
 #include <abut/clash.h>
 
 #include "tests/support/body.h"
+#include "tests/support/paths.h"
 
 #include <cmath>
 #include <filesystem>

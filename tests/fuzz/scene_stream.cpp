@@ -11,7 +11,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
         const abut::Scene scene =
-            abut::decode_scene(std::as_bytes(std::span(data, size)), "fuzzed", 1);
+            abut::decode_scene(std::as_bytes(std::span(data, size)), {"fuzzed"}, {});
         for (const abut::Mesh& mesh : scene.meshes) {
             for (const auto& triangle : mesh.triangles)
                 for (const std::uint32_t corner : triangle)

@@ -123,26 +123,78 @@ TEST(Formats, UnitScalesTheTransformAndKeepsTheMesh) {
     EXPECT_THROW(read_scene("any.obj", options), Error);
 }
 
-TEST(Formats, FbxComesInItsOwnUnitAndQuadsBecomeTriangles) {
-    const TemporaryFolder folder;
-    const Scene scene = read_scene(folder.file("cube.fbx", cube_fbx()));
-    const auto triangles = world_triangles(scene);
-    ASSERT_EQ(triangles.size(), 12U);
-    double largest = 0;
-    for (const auto& triangle : triangles)
-        for (const Vec3& corner : triangle)
-            largest = std::max({largest, corner.x, corner.y, corner.z});
-    EXPECT_EQ(largest, 1); // UnitScaleFactor 100 is left to ReadOptions::unit
+/// The largest corner of a scene, coordinate by coordinate, and the smallest.
+std::array<Vec3, 2> extent_of(const Scene& scene) {
+    Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+    for (const auto& triangle : world_triangles(scene))
+        for (const Vec3& p : triangle) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    return {low, high};
 }
 
-TEST(Formats, ColladaComesInMetresAndYUp) {
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+    text.replace(text.find(what), what.size(), with);
+    return text;
+}
+
+TEST(Formats, FbxComesInMetresByItsUnitAndQuadsBecomeTriangles) {
+    const TemporaryFolder folder;
+    for (const auto& [written, metres] :
+         std::vector<std::pair<std::string, double>>{{"100", 1}, {"1", 0.01}, {"2.54", 0.0254}}) {
+        const Scene scene = read_scene(folder.file(
+            "cube.fbx",
+            replaced(cube_fbx(), "\"UnitScaleFactor\", \"double\", \"Number\", \"\",100",
+                     "\"UnitScaleFactor\", \"double\", \"Number\", \"\"," + written)));
+        EXPECT_EQ(world_triangles(scene).size(), 12U);
+        EXPECT_EQ(scene.unit, metres);
+        EXPECT_EQ(scene.up, UpAxis::y);
+        EXPECT_EQ(extent_of(scene)[1], (Vec3{metres, metres, metres}));
+    }
+}
+
+TEST(Formats, FbxHasItsOwnAxes) {
+    const TemporaryFolder folder;
+    const std::string y_up = sample_files().at("sample.fbx");
+    std::string z_up = replaced(y_up, "\"UpAxis\", \"int\", \"Integer\", \"\",1",
+                                "\"UpAxis\", \"int\", \"Integer\", \"\",2");
+    z_up = replaced(z_up, "\"FrontAxis\", \"int\", \"Integer\", \"\",2",
+                    "\"FrontAxis\", \"int\", \"Integer\", \"\",1");
+    z_up = replaced(z_up, "\"FrontAxisSign\", \"int\", \"Integer\", \"\",1",
+                    "\"FrontAxisSign\", \"int\", \"Integer\", \"\",-1");
+    const Scene upright = read_scene(folder.file("z.fbx", z_up));
+    EXPECT_EQ(upright.up, UpAxis::z);
+    EXPECT_EQ(extent_of(upright)[1], (Vec3{1.25, 2.5, 0.1F})); // as the file has it
+    // x up, y to the left: turned to y up. The corner at y = 2.5 lies at x = -2.5 then.
+    std::string x_up = replaced(y_up, "\"UpAxis\", \"int\", \"Integer\", \"\",1",
+                                "\"UpAxis\", \"int\", \"Integer\", \"\",0");
+    x_up = replaced(x_up, "\"CoordAxis\", \"int\", \"Integer\", \"\",0",
+                    "\"CoordAxis\", \"int\", \"Integer\", \"\",1");
+    x_up = replaced(x_up, "\"CoordAxisSign\", \"int\", \"Integer\", \"\",1",
+                    "\"CoordAxisSign\", \"int\", \"Integer\", \"\",-1");
+    const Scene turned = read_scene(folder.file("x.fbx", x_up));
+    EXPECT_EQ(turned.up, UpAxis::y);
+    EXPECT_EQ(extent_of(turned)[0], (Vec3{-2.5, 0, 0}));
+    EXPECT_EQ(extent_of(turned)[1], (Vec3{0, 1.25, 0.1F}));
+    error_of(folder.file("twice.fbx", replaced(y_up, "\"UpAxis\", \"int\", \"Integer\", \"\",1",
+                                               "\"UpAxis\", \"int\", \"Integer\", \"\",2")),
+             ErrorCode::malformed);
+}
+
+TEST(Formats, ColladaComesInItsOwnUnitAndAxes) {
     const TemporaryFolder folder;
     std::string text = sample_files().at("sample.dae");
     text.replace(text.find("meter=\"1\""), 9, "meter=\".5\"");
     text.replace(text.find("Y_UP"), 4, "Z_UP");
     const Scene scene = read_scene(folder.file("sample.dae", text));
-    // z up to y up: (x, y, z) becomes (x, z, -y).
-    EXPECT_EQ(world_triangles(scene)[0][1], (Vec3{0, 0, -1.25})); // corner 2
+    EXPECT_EQ(scene.unit, 0.5);
+    EXPECT_EQ(scene.up, UpAxis::z);
+    EXPECT_EQ(world_triangles(scene)[0][1], (Vec3{0, 1.25, 0})); // corner 2
+    // The unit and axes of a path overrule those of the file.
+    const Scene other = read_scene(ModelPath{scene.file, 2, UpAxis::x});
+    EXPECT_EQ(other.up, UpAxis::x);
+    EXPECT_EQ(world_triangles(other)[0][1], (Vec3{0, 5, 0}));
 }
 
 TEST(Formats, ReadMeshJoinsTheParts) {

@@ -91,7 +91,7 @@ TEST_F(DamagedFrame, IndicesOutOfRange) {
 }
 
 TEST_F(DamagedFrame, WhatIsNoNumber) {
-    for (const char* const word : {"1.25x", "x", "0x1", "1,25", "1e999", "--1", "1..2"}) {
+    for (const char* const word : {"1.25x", "x", "0x1", "1,25", "--1", "1..2"}) {
         refuse("a.ply", sample("text.ply", "1.25", word), ErrorCode::malformed, word);
         refuse("a.obj", sample("sample.obj", "1.25", word), ErrorCode::malformed,
                "line 3: a vertex needs three numbers");
@@ -106,7 +106,7 @@ TEST_F(DamagedFrame, WhatIsNoNumber) {
 }
 
 TEST_F(DamagedFrame, CoordinatesThatCannotBeUsed) {
-    for (const char* const word : {"nan", "-inf", "1e19", "-1e99"}) {
+    for (const char* const word : {"nan", "-inf", "1e19", "-1e99", "1e999"}) {
         refuse("a.ply", sample("text.ply", "1.25", word), ErrorCode::bad_mesh, "vertex 1 has");
         refuse("a.obj", sample("sample.obj", "1.25", word), ErrorCode::bad_mesh, "vertex 1 has");
     }

@@ -53,10 +53,11 @@ TEST_F(Hostile, PathsThatCannotBeRead) {
 
 TEST_F(Hostile, AFileWithoutPermission) {
     const std::string path = folder_.file("locked.obj", samples_.at("sample.obj"));
+    ASSERT_EQ(chmod(folder_.path("").c_str(), 0755), 0);
     ASSERT_EQ(chmod(path.c_str(), 0), 0);
-    if (access(path.c_str(), R_OK) == 0)
-        GTEST_SKIP() << "this user may read every file";
-    error_of(path, ErrorCode::unreadable);
+    const AsNobody nobody;
+    const std::string text = error_of(path, ErrorCode::unreadable);
+    EXPECT_NE(text.find("Permission denied"), std::string::npos) << text;
 }
 
 TEST_F(Hostile, GarbageInEveryFormat) {
@@ -67,7 +68,7 @@ TEST_F(Hostile, GarbageInEveryFormat) {
         std::string noise;
         for (unsigned i = 0; i < 2000; ++i)
             noise += static_cast<char>(i * 2654435761U >> 13);
-        refuse(name, noise, code);
+        refuse(name, noise, ErrorCode::malformed);
     }
 }
 
@@ -84,8 +85,8 @@ TEST_F(Hostile, IndexOutOfRange) {
     refuse("b.ply", ply, ErrorCode::bad_mesh);
     std::string bytes = tetrahedron_bytes();
     bytes[48 + 4] = 4;
-    EXPECT_TRUE(
-        contains(refuse_glb(document_, ErrorCode::bad_mesh, bytes), "part n: 1 of its triangles"));
+    EXPECT_TRUE(contains(refuse_glb(document_, ErrorCode::bad_mesh, bytes),
+                         "part n: index 4 of a primitive"));
 }
 
 TEST_F(Hostile, NumbersThatAreNotFinite) {
@@ -178,8 +179,8 @@ TEST_F(Hostile, GltfThatContradictsItself) {
         refuse_glb(changed(pointer, value), ErrorCode::malformed);
     }
     refuse_glb(changed("/asset/version", "1.0"), ErrorCode::unsupported);
-    refuse_glb(changed("/extensionsRequired", {"KHR_mesh_quantization"}), ErrorCode::unsupported);
-    refuse_glb(changed("/accessors/0/componentType", 5123), ErrorCode::unsupported);
+    refuse_glb(changed("/extensionsRequired", {"ACME_nurbs"}), ErrorCode::unsupported);
+    refuse_glb(changed("/accessors/0/componentType", 5125), ErrorCode::unsupported);
 }
 
 TEST_F(Hostile, GltfWithABufferThatIsMissingOrShort) {

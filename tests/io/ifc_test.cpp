@@ -1,6 +1,7 @@
 // IFC 2x3 and 4 through web-ifc. Without Node.js or web-ifc these tests are skipped.
 
 #include "tests/io/support.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,16 +85,18 @@ TEST_F(Ifc, House2x3) {
     EXPECT_EQ(wall.type, "IfcWallStandardCase");
     EXPECT_EQ(scene.meshes[wall.mesh].triangles.size(), 12U);
     EXPECT_EQ(scene.meshes[wall.mesh].positions.size(), 8U); // none is stored twice
-    // Y is up: IFC's (x, y, z) is (x, z, -y).
-    expect_box(bounds_of(scene, wall), {0, 0, -0.2}, {4, 3, 0});
+    EXPECT_EQ(scene.up, UpAxis::z);
+    EXPECT_EQ(scene.unit, 1);
+    EXPECT_TRUE(scene.notes.empty());
+    expect_box(bounds_of(scene, wall), {0, 0, 0}, {4, 0.2, 3});
     // The same shape again, and with a hole: that one must not share the mesh.
     const Part& plain = parts.at("1WallOfTheTests0000002");
     EXPECT_EQ(plain.mesh, wall.mesh);
-    expect_box(bounds_of(scene, plain), {0, 0, -5.2}, {4, 3, -5});
+    expect_box(bounds_of(scene, plain), {0, 5, 0}, {4, 5.2, 3});
     const Part& holed = parts.at("1WallOfTheTests0000003");
     EXPECT_NE(holed.mesh, wall.mesh);
     EXPECT_GE(scene.meshes[holed.mesh].triangles.size(), 28U);
-    expect_box(bounds_of(scene, holed), {0, 0, -10.2}, {4, 3, -10});
+    expect_box(bounds_of(scene, holed), {0, 10, 0}, {4, 10.2, 3});
     EXPECT_NEAR(volume_of(scene, wall), 4 * 0.2 * 3, 1e-6);
     EXPECT_NEAR(volume_of(scene, holed), 4 * 0.2 * 3 - 0.2, 1e-6);
 
@@ -103,9 +106,9 @@ TEST_F(Ifc, House2x3) {
     EXPECT_EQ(two.name, "Block two");
     EXPECT_EQ(two.type, "IfcFurnishingElement");
     EXPECT_EQ(one.mesh, two.mesh);
-    expect_box(bounds_of(scene, one), {1, 0, -2.25}, {1.5, 1, -2});
+    expect_box(bounds_of(scene, one), {1, 2, 0}, {1.5, 2.25, 1});
     // Turned by a quarter about its origin at (3, 2, 0.5): x to y, y to -x.
-    expect_box(bounds_of(scene, two), {2.75, 0.5, -2.5}, {3, 1.5, -2});
+    expect_box(bounds_of(scene, two), {2.75, 2, 0.5}, {3, 2.5, 1.5});
 }
 
 TEST_F(Ifc, House4InMillimetresWithPartsOfTwoSolids) {
@@ -116,21 +119,179 @@ TEST_F(Ifc, House4InMillimetresWithPartsOfTwoSolids) {
     const Part& wall = parts.at("4WallOfTheTests0000001");
     EXPECT_EQ(wall.name, "Wänd");
     EXPECT_EQ(wall.type, "IfcWall");
-    expect_box(bounds_of(scene, wall), {0, 0, -0.2}, {4, 3, 0});
+    expect_box(bounds_of(scene, wall), {0, 0, 0}, {4, 0.2, 3});
     const Part& one = parts.at("4TableOfTheTests000001");
     const Part& two = parts.at("4TableOfTheTests000002");
     EXPECT_EQ(one.type, "IfcFurniture");
     EXPECT_EQ(one.mesh, two.mesh);
     EXPECT_EQ(scene.meshes[one.mesh].triangles.size(), 24U);
-    expect_box(bounds_of(scene, one), {0.5, 0, -2.3}, {1.5, 0.75, -1.7});
-    expect_box(bounds_of(scene, two), {2.7, 1, -2.5}, {3.3, 1.75, -1.5});
+    expect_box(bounds_of(scene, one), {0.5, 1.7, 0}, {1.5, 2.3, 0.75});
+    expect_box(bounds_of(scene, two), {2.7, 1.5, 1}, {3.3, 2.5, 1.75});
 }
 
-TEST_F(Ifc, UnitComesOnTop) {
+TEST_F(Ifc, ItsUnitAndAxesAreOverruledByThePathAlone) {
+    const char* const wall = "1WallOfTheTests0000001";
     ReadOptions options;
     options.unit = 1000;
-    const Scene scene = read_scene(kFolder + "house_2x3.ifc", options);
-    EXPECT_NEAR(bounds_of(scene, by_id(scene).at("1WallOfTheTests0000001")).upper.x, 4000, 1e-3);
+    options.up = UpAxis::x;
+    const Scene plain = read_scene(kFolder + "house_2x3.ifc", options);
+    EXPECT_EQ(plain.up, UpAxis::z);
+    EXPECT_NEAR(bounds_of(plain, by_id(plain).at(wall)).upper.x, 4, 1e-6);
+    const Scene scene = read_scene(ModelPath{kFolder + "house_2x3.ifc", 1000, UpAxis::y}, options);
+    EXPECT_EQ(scene.up, UpAxis::y);
+    EXPECT_EQ(scene.unit, 1000);
+    EXPECT_NEAR(bounds_of(scene, by_id(scene).at(wall)).upper.x, 4000, 1e-3);
+    EXPECT_NEAR(bounds_of(scene, by_id(scene).at(wall)).upper.z, 3000, 1e-3);
+    // Its unit is the millimetre: taken as metres all is 1000 times as large.
+    const Scene large = read_scene(ModelPath{kFolder + "house_4.ifc", 1});
+    EXPECT_NEAR(bounds_of(large, by_id(large).at("4WallOfTheTests0000001")).upper.x, 4000, 1e-3);
+}
+
+/// The text of a file with replacements.
+std::string changed(const std::string& file,
+                    const std::vector<std::pair<std::string, std::string>>& replacements) {
+    std::string text = read_bytes(kFolder + file);
+    for (const auto& [from, to] : replacements) {
+        const std::size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        if (at != std::string::npos)
+            text.replace(at, from.size(), to);
+    }
+    return text;
+}
+
+TEST_F(Ifc, AProductThatItsOpeningCutsAwayHasANote) {
+    // The hole of 1 x 1 becomes one of 9 x 9 from below the wall on.
+    const Scene scene = read_scene(folder_.file(
+        "gone.ifc", changed("house_2x3.ifc", {{"#101,1.,1.)", "#101,9.,9.)"},
+                                              {"#103=IFCCARTESIANPOINT((0.,0.,1.))",
+                                               "#103=IFCCARTESIANPOINT((0.,0.,-1.))"},
+                                              {"(#102,#104,#11,1.)", "(#102,#104,#11,9.)"}})));
+    EXPECT_EQ(scene.parts.size(), 4U);
+    ASSERT_EQ(scene.notes.size(), 1U);
+    EXPECT_EQ(scene.notes[0].kind, NoteKind::cut_away);
+    EXPECT_EQ(scene.notes[0].id, "1WallOfTheTests0000003");
+    EXPECT_EQ(scene.notes[0].name, "Wall with hole");
+    EXPECT_EQ(scene.notes[0].type, "IfcWallStandardCase");
+    EXPECT_FALSE(scene.notes[0].text.empty());
+}
+
+TEST_F(Ifc, AProductThatCannotBeBuiltHasANote) {
+    // The profile of the south wall, which two others show too, has no extent.
+    const Scene scene = read_scene(
+        folder_.file("flat.ifc", changed("house_2x3.ifc", {{"#32,4.,0.2)", "#32,0.,0.)"}})));
+    EXPECT_EQ(scene.parts.size(), 2U);
+    std::map<std::string, NoteKind> notes;
+    for (const SceneNote& note : scene.notes)
+        notes.emplace(note.id, note.kind);
+    EXPECT_EQ(notes.size(), 3U);
+    EXPECT_EQ(notes.at("1WallOfTheTests0000001"), NoteKind::not_built);
+    EXPECT_EQ(notes.at("1WallOfTheTests0000002"), NoteKind::not_built);
+}
+
+TEST_F(Ifc, APartThatLacksOneOfItsShapesHasANote) {
+    // The table's top has no extent.
+    const Scene scene = read_scene(
+        folder_.file("legs.ifc", changed("house_4.ifc", {{"#41,1000.,600.)", "#41,0.,0.)"}})));
+    EXPECT_EQ(scene.parts.size(), 3U);
+    ASSERT_EQ(scene.notes.size(), 2U);
+    for (const SceneNote& note : scene.notes) {
+        EXPECT_EQ(note.kind, NoteKind::not_built);
+        EXPECT_EQ(note.type, "IfcFurniture");
+        EXPECT_TRUE(contains(note.text, "of its 2 shapes 1 ")) << note.text;
+    }
+}
+
+TEST_F(Ifc, SpacesAndZonesAreLeftOutUnlessAskedFor) {
+    const std::string file = folder_.file(
+        "spaces.ifc",
+        changed("house_4.ifc",
+                {{"#58=IFCFURNITURE('4TableOfTheTests000001',$,'Table one',$,$,#57,#54,$,$)",
+                  "#58=IFCSPACE('4TableOfTheTests000001',$,'Room',$,$,#57,#54,$,"
+                  ".ELEMENT.,.INTERNAL.,$)"},
+                 {"#66=IFCFURNITURE('4TableOfTheTests000002',$,'Table two',$,$,#65,#62,$,$)",
+                  "#66=IFCSPATIALZONE('4TableOfTheTests000002',$,'Zone',$,$,#65,#62,"
+                  "$,.CONSTRUCTION.)"}}));
+    const Scene scene = read_scene(file);
+    ASSERT_EQ(scene.parts.size(), 1U);
+    ASSERT_EQ(scene.notes.size(), 2U);
+    for (const SceneNote& note : scene.notes)
+        EXPECT_EQ(note.kind, NoteKind::space) << note.id;
+    ReadOptions options;
+    options.spaces = true;
+    const Scene all = read_scene(file, options);
+    EXPECT_TRUE(all.notes.empty());
+    const auto parts = by_id(all);
+    ASSERT_EQ(parts.size(), 3U);
+    EXPECT_EQ(parts.at("4TableOfTheTests000001").type, "IfcSpace");
+    EXPECT_EQ(parts.at("4TableOfTheTests000001").name, "Room");
+    EXPECT_EQ(parts.at("4TableOfTheTests000002").type, "IfcSpatialZone");
+    expect_box(bounds_of(all, parts.at("4TableOfTheTests000001")), {0.5, 1.7, 0}, {1.5, 2.3, 0.75});
+}
+
+TEST_F(Ifc, TrianglesOfNoAreaCloseTheSurfaceThatTheyAreIn) {
+    // A box of 2 x 1 x 1 m whose lower front edge has a vertex (9) in its middle on one side only: a
+    // triangle without area (1 9 2) joins both sides.
+    const std::string set =
+        "#34=IFCTRIANGULATEDFACESET(#900,$,.T.,((1,3,2),(1,4,3),(5,6,7),(5,7,8),(1,9,5),(9,6,5),"
+        "(9,2,6),(1,2,9),(2,3,7),(2,7,6),(3,4,8),(3,8,7),(4,1,5),(4,5,8)),$);\n"
+        "#900=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(2000.,0.,0.),(2000.,1000.,0.),(0.,1000.,0.),"
+        "(0.,0.,1000.),(2000.,0.,1000.),(2000.,1000.,1000.),(0.,1000.,1000.),(1000.,0.,0.)));";
+    const Scene scene = read_scene(
+        folder_.file("box.ifc", changed("house_4.ifc",
+                                        {{"#34=IFCEXTRUDEDAREASOLID(#33,#13,#11,3000.);", set}})));
+    const Part& wall = by_id(scene).at("4WallOfTheTests0000001");
+    EXPECT_EQ(scene.meshes[wall.mesh].positions.size(), 9U);
+    EXPECT_EQ(scene.meshes[wall.mesh].triangles.size(), 14U);
+    const MeshReport report = inspect(scene.meshes[wall.mesh]);
+    EXPECT_TRUE(report.closed);
+    EXPECT_EQ(report.degenerate_triangles, 1U);
+    EXPECT_EQ(report.flipped_edges, 0U);
+    EXPECT_TRUE(scene.notes.empty());
+}
+
+TEST_F(Ifc, ASolidWhoseSurfaceIsOpenHasANote) {
+    const std::string set =
+        "#34=IFCTRIANGULATEDFACESET(#900,$,.T.,((1,3,2),(1,2,4),(2,3,4)),$);\n"
+        "#900=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(2000.,0.,0.),(2000.,1000.,0.),"
+        "(0.,0.,1000.)));";
+    const Scene scene = read_scene(
+        folder_.file("open.ifc", changed("house_4.ifc",
+                                         {{"#34=IFCEXTRUDEDAREASOLID(#33,#13,#11,3000.);", set}})));
+    ASSERT_EQ(scene.notes.size(), 1U);
+    EXPECT_EQ(scene.notes[0].kind, NoteKind::open);
+    EXPECT_EQ(scene.notes[0].id, "4WallOfTheTests0000001");
+    EXPECT_TRUE(contains(scene.notes[0].text, "3 edges")) << scene.notes[0].text;
+}
+
+TEST_F(Ifc, ASiteFarFromTheOriginKeepsItsPrecision) {
+    // Millimetres: the site lies at (155,000.1234, 463,000.5678, 12.5) m.
+    const Scene scene = read_scene(folder_.file(
+        "far.ifc",
+        changed("house_4.ifc", {{"#20=IFCLOCALPLACEMENT($,#13);",
+                                 "#900=IFCCARTESIANPOINT((155000123.4,463000567.8,12500.));\n"
+                                 "#901=IFCAXIS2PLACEMENT3D(#900,#11,#12);\n"
+                                 "#20=IFCLOCALPLACEMENT($,#901);"}})));
+    const auto parts = by_id(scene);
+    const Vec3 at{155000.1234, 463000.5678, 12.5};
+    expect_box(bounds_of(scene, parts.at("4WallOfTheTests0000001")), at,
+               {at.x + 4, at.y + 0.2, at.z + 3});
+    expect_box(bounds_of(scene, parts.at("4TableOfTheTests000002")),
+               {at.x + 2.7, at.y + 1.5, at.z + 1}, {at.x + 3.3, at.y + 2.5, at.z + 1.75});
+}
+
+TEST_F(Ifc, AShapeFarFromItsOriginKeepsItsPrecision) {
+    // A tetrahedron whose coordinates themselves are those of a map, in millimetres.
+    const std::string set =
+        "#34=IFCTRIANGULATEDFACESET(#900,$,.T.,((1,3,2),(1,2,4),(2,3,4),(3,1,4)),$);\n"
+        "#900=IFCCARTESIANPOINTLIST3D(((155000000.123,463000000.456,12000.),(155002000.123,"
+        "463000000.456,12000.),(155000000.123,463001000.456,12000.),(155000000.123,463000000.456,"
+        "13000.)));";
+    const Scene scene = read_scene(
+        folder_.file("far.ifc", changed("house_4.ifc",
+                                        {{"#34=IFCEXTRUDEDAREASOLID(#33,#13,#11,3000.);", set}})));
+    expect_box(bounds_of(scene, by_id(scene).at("4WallOfTheTests0000001")),
+               {155000.000123, 463000.000456, 12}, {155002.000123, 463001.000456, 13});
 }
 
 TEST_F(Ifc, ATruncatedFileIsRefused) {

@@ -3,6 +3,7 @@
 #include "io/scene_stream.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"
+#include "tests/support/paths.h"
 
 #include <atomic>
 #include <chrono>
@@ -26,7 +27,7 @@ protected:
         return fail_with("cat '" + folder_.file("stream", bytes) + "' >&3\n", code);
     }
     TemporaryFolder folder_;
-    std::string model_ = folder_.file("model.obj", sample_files().at("sample.obj"));
+    std::string model_ = folder_.file("model.dae", sample_files().at("sample.dae"));
 };
 
 bool contains(const std::string& text, const std::string& part) {
@@ -122,6 +123,16 @@ TEST_F(Isolation, CountsAndIndicesOfAStreamAreNotTrusted) {
         fail_with_stream(changed(count, std::uint64_t{1} << 62), ErrorCode::reader_failed);
         fail_with_stream(changed(count, ~std::uint64_t{0}), ErrorCode::reader_failed);
     }
+    // Of the frame: the unit, the scale, what points up; then the number of notes.
+    for (const double value : {-1.0, std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()}) {
+        fail_with_stream(changed(32, value), ErrorCode::reader_failed);
+        fail_with_stream(changed(40, value), ErrorCode::reader_failed);
+    }
+    fail_with_stream(changed(40, 0.0), ErrorCode::reader_failed);
+    fail_with_stream(changed(48, std::uint32_t{4}), ErrorCode::reader_failed);
+    fail_with_stream(changed(52, std::uint32_t{1}), ErrorCode::reader_failed);
+    fail_with_stream(changed(52, ~std::uint32_t{0}), ErrorCode::reader_failed);
     for (const std::size_t field : {mesh, mesh + 4, mesh + 8}) {
         fail_with_stream(changed(field, std::uint32_t{0}), ErrorCode::reader_failed);
         fail_with_stream(changed(field, ~std::uint32_t{0}), ErrorCode::reader_failed);
@@ -142,7 +153,7 @@ TEST_F(Isolation, AnErrorThatAReaderReportsIsPassedOnAsOneLine) {
     std::string stream(scene_stream::kMagic, 8);
     append(stream, std::uint32_t{1 + static_cast<std::uint32_t>(ErrorCode::malformed)});
     append(stream, std::uint32_t{9});
-    append(stream, std::array<std::uint64_t, 2>{});
+    append(stream, std::array<std::uint64_t, 5>{});
     EXPECT_TRUE(
         contains(fail_with_stream(stream + "two\nlines", ErrorCode::malformed), "two lines"));
     fail_with_stream(stream + "short", ErrorCode::reader_failed);
@@ -151,13 +162,19 @@ TEST_F(Isolation, AnErrorThatAReaderReportsIsPassedOnAsOneLine) {
 }
 
 TEST_F(Isolation, MemoryIsLimited) {
-    // Two million triangles need some 500 MB.
-    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    for (int i = 0; i < 2'000'000; ++i)
-        text += "f 1 2 3\n";
-    const std::string large = folder_.file("large.obj", text);
+    // A million triangles need some 300 MB.
+    constexpr int kTriangles = 1'000'000;
+    std::string indices;
+    for (int i = 0; i < kTriangles; ++i)
+        indices += "0 1 2 ";
+    std::string text = sample_files().at("sample.dae");
+    const std::size_t start = text.find("<p>") + 3;
+    text.replace(start, text.find("</p>") - start, indices);
+    text.replace(text.find("triangles count=\"4\""), 19,
+                 "triangles count=\"" + std::to_string(kTriangles) + "\"");
+    const std::string large = folder_.file("large.dae", text);
     ReadOptions options;
-    options.memory_limit = std::uint64_t{200} << 20;
+    options.memory_limit = std::uint64_t{100} << 20;
     EXPECT_TRUE(contains(error_of(large, ErrorCode::reader_failed, options), "memory"));
     EXPECT_EQ(read_scene(model_, options).parts.size(), 1U);
     // A program that sets itself no limit is watched.

@@ -189,7 +189,7 @@ std::string tetrahedron_fbx() {
     for (const auto& [a, b, c] : kFaces)
         indices += fmt::format("{},{},{},", a, b, -1 - static_cast<int>(c));
     indices.pop_back();
-    return fbx(vertices, 12, indices, 12, 1);
+    return fbx(vertices, 12, indices, 12, 100);
 }
 
 } // namespace

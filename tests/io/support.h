@@ -49,6 +49,23 @@ private:
     std::filesystem::path path_;
 };
 
+/// While it lives, a process of root opens files as nobody, whom permissions bind.
+class AsNobody {
+public:
+    AsNobody() {
+        if (geteuid() == 0) {
+            EXPECT_EQ(seteuid(65534), 0);
+        }
+    }
+    ~AsNobody() {
+        if (getuid() == 0) {
+            EXPECT_EQ(seteuid(0), 0);
+        }
+    }
+    AsNobody(const AsNobody&) = delete;
+    AsNobody& operator=(const AsNobody&) = delete;
+};
+
 /// An environment variable for the length of a test.
 class Environment {
 public:

@@ -1,19 +1,33 @@
-// node convert.mjs FILE.ifc: writes FILE's products to descriptor 3 as the scene stream of ../scene_stream.h.
+// node convert.mjs FILE.ifc spaces|no-spaces: writes FILE's products to descriptor 3 as the scene stream of
+// ../scene_stream.h.
 //
-// One part a product with triangles: id = GlobalId, name = Name, type = its IFC class. Metres, Y up, as web-ifc gives
-// them; openings and spaces are left out, as web-ifc does. Products that are placed copies of the same geometry share
-// a mesh. Geometry is what web-ifc computes: floats around the geometry's own centre, placed by a double matrix.
+// One part a product with triangles: id = GlobalId, name = Name, type = its IFC class. Metres, Z up, as IFC has it.
+// Openings are left out, and spaces and zones unless they are asked for. Every product with a body is a part or has a
+// note that says why it is none. Products that are placed copies of the same geometry share a mesh. Geometry is what web-ifc computes: floats around the geometry's own centre, placed by a double matrix.
 
 import crypto from 'node:crypto';
 import fs from 'node:fs';
 
+import {Products} from './products.mjs';
+import {edgeFaults, withClosedSlits} from './surface.mjs';
+import {plainFile, zippedFile} from './zip.mjs';
+
 const RESULT = 3;
-const MAGIC = Buffer.from('abutscn1');
+const MAGIC = Buffer.from('abutscn2');
 const END = Buffer.from('abut-end');
-const HEADER_BYTES = 32;
+const HEADER_BYTES = 56;
 // ErrorCode of include/abut/error.h; 1 + code is the stream's status.
 const MALFORMED = 3;
 const UNSUPPORTED = 4;
+const Z_UP = 3; // 1 + UpAxis::z
+// NoteKind of include/abut/scene.h.
+const SPACE = 0;
+const CUT_AWAY = 1;
+const NOT_BUILT = 2;
+const NOT_CLOSED = 3;
+// Holes of a surface are closed that are not wider than this, or than some roundings of the largest coordinate.
+const SLIT_METRES = 1e-6;
+const SLIT_ROUNDINGS = 8 * 2 ** -24;
 // Two products share a mesh of several geometries if these lie alike to within this: what is left of a placement in
 // survey coordinates after double arithmetic is some 1e-9 m.
 const SAME_PLACE_METRES = 1e-7;
@@ -66,6 +80,8 @@ function withJoinedVertices({positions, triangles}) {
 class Output {
     #parts = []; // buffers, several a part
     #partCount = 0;
+    #notes = []; // buffers, several a note
+    #noteCount = 0;
     #meshes = 0;
     #position = HEADER_BYTES;
 
@@ -97,26 +113,38 @@ class Output {
         ++this.#partCount;
     }
 
-    #header(status, textSize, meshes, parts) {
+    #header(status, textSize, meshes, parts, unit, notes) {
         const header = Buffer.alloc(HEADER_BYTES);
         MAGIC.copy(header);
         header.writeUInt32LE(status, 8);
         header.writeUInt32LE(textSize, 12);
         header.writeBigUInt64LE(BigInt(meshes), 16);
         header.writeBigUInt64LE(BigInt(parts), 24);
+        header.writeDoubleLE(unit, 32);
+        header.writeDoubleLE(1, 40); // web-ifc gives metres
+        header.writeUInt32LE(Z_UP, 48);
+        header.writeUInt32LE(notes, 52);
         this.#write(header, 0);
     }
 
-    end() {
-        this.#append(Buffer.concat([...this.#parts, END]));
-        this.#header(0, 0, this.#meshes, this.#partCount);
+    /** kind: a number of NoteKind of include/abut/scene.h. */
+    note(kind, id, name, type, text) {
+        const texts = [id, name, type, text].map(text => Buffer.from(text));
+        this.#notes.push(Buffer.from(Uint32Array.of(kind, ...texts.map(text => text.length)).buffer), ...texts);
+        ++this.#noteCount;
+    }
+
+    /** unit: metres per unit of the file. */
+    end(unit) {
+        this.#append(Buffer.concat([...this.#parts, ...this.#notes, END]));
+        this.#header(0, 0, this.#meshes, this.#partCount, unit, this.#noteCount);
     }
 
     error(code, text) {
         fs.ftruncateSync(RESULT, 0);
         const bytes = Buffer.from(text.split('\n')[0].slice(0, 500));
         this.#write(bytes, HEADER_BYTES);
-        this.#header(1 + code, bytes.length, 0, 0);
+        this.#header(1 + code, bytes.length, 0, 0, 1, 0);
     }
 }
 
@@ -143,10 +171,13 @@ function inverse(m) {
             -(n[2] * x + n[5] * y + n[8] * z), 1];
 }
 
+/** web-ifc turns IFC's axes (z up) so that y is up; this turns them back, exactly. */
+const zUp = m => m.map((v, i) => i % 4 === 1 ? 0 - m[i + 1] : i % 4 === 2 ? m[i - 1] : v);
+
 const transformOf = m => [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10], m[12], m[13], m[14]];
 
 /** One geometry of web-ifc, which keeps six floats a vertex (position, normal) and three indices a triangle. */
-function geometryOf(api, model, id) {
+function geometryOf(api, model, id, metresPerUnit) {
     const geometry = api.GetGeometry(model, id);
     const vertices = api.GetVertexArray(geometry.GetVertexData(), geometry.GetVertexDataSize());
     const triangles =
@@ -155,9 +186,14 @@ function geometryOf(api, model, id) {
     for (let from = 0, to = 0; from < vertices.length; from += 6, to += 3)
         positions.set(vertices.subarray(from, from + 3), to);
     geometry.delete();
+    const whole = withJoinedVertices({positions, triangles});
+    const reach = whole.positions.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+    whole.triangles = withClosedSlits(whole.positions, whole.triangles,
+                                      Math.max(SLIT_METRES / metresPerUnit, SLIT_ROUNDINGS * reach));
     // Not the express id tells geometries apart: a wall with an opening has that of the same wall without one.
-    const hash = crypto.createHash('sha256').update(positions).update(triangles).digest('base64');
-    return {hash, positions, triangles};
+    const hash =
+        crypto.createHash('sha256').update(whole.positions).update(whole.triangles).digest('base64');
+    return {hash, ...whole};
 }
 
 /** Several geometries as one mesh in the frame of the first; doubles, so that no position is rounded again. */
@@ -190,30 +226,80 @@ function keyOf(pieces, metresPerUnit) {
         .join(';');
 }
 
+/** The length of a column: metres per unit of what the matrix places. */
+const scaleOf = m => Math.hypot(m[0], m[1], m[2]);
+
 class Converter {
     #meshOf = new Map();
+    #seen = new Set(); // express ids of the products that web-ifc gives
 
-    constructor(api, model, output) {
+    constructor(api, model, output, products) {
         this.api = api;
         this.model = model;
         this.output = output;
+        this.products = products;
     }
 
     add(product) {
+        const about = this.products.about(product.expressID);
+        this.#seen.add(product.expressID);
+        if (about.isLeftOut)
+            return this.#note(about, SPACE, 'is a space or a zone: no part of what is built');
         const placed = [];
         for (let i = 0; i < product.geometries.size(); ++i) {
             const {geometryExpressID, flatTransformation} = product.geometries.get(i);
-            const geometry = geometryOf(this.api, this.model, geometryExpressID);
+            const world = zUp([...flatTransformation]);
+            const geometry = geometryOf(this.api, this.model, geometryExpressID, scaleOf(world));
             if (geometry.triangles.length > 0)
-                placed.push({world: [...flatTransformation], geometry});
+                placed.push({world, geometry});
         }
         if (placed.length === 0)
-            return;
+            return this.#missing(about);
         const [mesh, world] = placed.length === 1 ? this.#single(placed[0]) : this.#several(placed);
-        const line = this.api.GetLine(this.model, product.expressID);
-        const type = this.api.GetNameFromTypeCode(this.api.GetLineType(this.model, product.expressID));
-        this.output.part(transformOf(world), mesh, line.GlobalId?.value ?? `#${product.expressID}`,
-                         line.Name?.value ?? '', type ?? '');
+        this.output.part(transformOf(world), mesh, about.id, about.name, about.type);
+        const shapes = this.products.shapes(product.expressID);
+        if (placed.length < shapes)
+            this.#note(about, NOT_BUILT,
+                       `of its ${shapes} shapes ${shapes - placed.length} could not be built, or are cut away`);
+        if (this.products.isSolid(product.expressID))
+            this.#checkClosed(about, placed);
+    }
+
+    /** Notes for the products with a body that web-ifc has not given. */
+    noteOthers() {
+        for (const expressID of this.products.withBody())
+            if (!this.#seen.has(expressID)) {
+                const about = this.products.about(expressID);
+                if (about.isLeftOut)
+                    this.#note(about, SPACE, 'is a space or a zone: no part of what is built');
+                else
+                    this.#missing(about);
+            }
+    }
+
+    #note({id, name, type}, kind, text) { this.output.note(kind, id, name, type, text); }
+
+    #missing(about) {
+        if (about.openings > 0)
+            this.#note(about, CUT_AWAY,
+                       `${about.openings === 1 ? 'its opening leaves' : `its ${about.openings} openings leave`} nothing of it`);
+        else
+            this.#note(about, NOT_BUILT, 'has a body, of which no triangle could be built');
+    }
+
+    #checkClosed(about, placed) {
+        const sum = {open: 0, crowded: 0};
+        for (const {geometry} of placed) {
+            const {open, crowded} = edgeFaults(geometry.triangles);
+            sum.open += open;
+            sum.crowded += crowded;
+        }
+        const faults = [
+            ...sum.open > 0 ? [`${sum.open} edges with one triangle`] : [],
+            ...sum.crowded > 0 ? [`${sum.crowded} edges with more than two`] : []
+        ];
+        if (faults.length > 0)
+            this.#note(about, NOT_CLOSED, `is a solid, but its surface has ${faults.join(' and ')}`);
     }
 
     #mesh(key, make) {
@@ -235,57 +321,76 @@ class Converter {
         const pieces = placed.map(
             ({world: own, geometry}, i) =>
                 ({geometry, place: back === null ? own : i === 0 ? identity : multiply(back, own)}));
-        const metresPerUnit = Math.hypot(world[0], world[1], world[2]);
-        return [this.#mesh(keyOf(pieces, metresPerUnit), () => joined(pieces)), world];
+        return [this.#mesh(keyOf(pieces, scaleOf(world)), () => joined(pieces)), world];
     }
 }
 
+const SI_PREFIXES = {EXA: 1e18, PETA: 1e15, TERA: 1e12, GIGA: 1e9, MEGA: 1e6, KILO: 1e3, HECTO: 1e2, DECA: 1e1,
+                     DECI: 1e-1, CENTI: 1e-2, MILLI: 1e-3, MICRO: 1e-6, NANO: 1e-9, PICO: 1e-12, FEMTO: 1e-15,
+                     ATTO: 1e-18};
+
+/** Metres of an IfcNamedUnit of length. */
+function metresOf(unit) {
+    if (unit?.Name?.value === 'METRE')
+        return SI_PREFIXES[unit.Prefix?.value] ?? 1;
+    const factor = unit?.ConversionFactor;
+    return factor ? factor.ValueComponent.value * metresOf(factor.UnitComponent) : 1;
+}
+
+/** The length unit of the project; metres where the file has none. */
+function metresPerUnit(api, model) {
+    const projects = api.GetLineIDsWithType(model, api.GetTypeCodeFromName('IFCPROJECT'));
+    if (projects.size() === 0)
+        return 1;
+    const units = api.GetLine(model, projects.get(0), true).UnitsInContext?.Units ?? [];
+    const unit = metresOf(units.find(unit => unit?.UnitType?.value === 'LENGTHUNIT'));
+    return unit > 0 && Number.isFinite(unit) ? unit : 1;
+}
+
 /** web-ifc reads what it finds of a truncated file: it has to end as it should. Its schema is in the header. */
-function checkFile(file, size) {
-    const read = (length, position) => {
-        const bytes = Buffer.alloc(Math.max(0, Math.min(length, size - position)));
-        fs.readSync(file, bytes, 0, bytes.length, position);
-        return bytes.toString('latin1');
-    };
+function checkFile(file) {
+    const read = (length, position) => file.read(length, position).toString('latin1');
     const header = read(1 << 16, 0);
     if (!header.includes('ISO-10303-21;'))
         throw new Fault(MALFORMED, 'is no IFC file (STEP text)');
-    if (!/END-ISO-10303-21\s*;\s*$/.test(read(1024, Math.max(0, size - 1024))))
+    if (!/END-ISO-10303-21\s*;\s*$/.test(read(1024, Math.max(0, file.size - 1024))))
         throw new Fault(MALFORMED, 'is truncated: it does not end with END-ISO-10303-21;');
     const schema = /FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'/i.exec(header)?.[1];
     if (schema !== undefined && !/^IFC(2X3|4)/i.test(schema))
         throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
 }
 
-async function convert(path, output) {
-    const file = fs.openSync(path, 'r');
-    checkFile(file, fs.fstatSync(file).size);
+async function convert(path, withSpaces, output) {
+    const damaged = text => { throw new Fault(MALFORMED, text); };
+    const file = /\.ifczip$/i.test(path) ? zippedFile(path, damaged) : plainFile(path);
+    checkFile(file);
     const {IfcAPI} = await import('web-ifc');
     const api = new IfcAPI();
     await api.Init(undefined, true);
-    const model = api.OpenModelFromCallback((offset, size) => {
-        const bytes = new Uint8Array(size);
-        return bytes.subarray(0, fs.readSync(file, bytes, 0, size, offset));
-    }, {COORDINATE_TO_ORIGIN: false});
+    const model = api.OpenModelFromCallback((offset, size) => file.read(size, offset), {COORDINATE_TO_ORIGIN: false});
     if (model < 0)
         throw new Fault(MALFORMED, 'cannot be parsed as IFC');
-    const converter = new Converter(api, model, output);
+    const converter = new Converter(api, model, output, new Products(api, model, withSpaces));
     let fault = null;
-    api.StreamAllMeshes(model, product => {
+    const take = product => {
         try {
             fault ?? converter.add(product);
         } catch (error) {
             fault = error; // not through the frames of WebAssembly
         }
-    });
+    };
+    api.StreamAllMeshes(model, take);
+    if (withSpaces) // the others are among all meshes
+        api.StreamAllMeshesWithTypes(model, [api.GetTypeCodeFromName('IFCSPACE')], take);
     if (fault !== null)
         throw fault;
-    output.end();
+    converter.noteOthers();
+    output.end(metresPerUnit(api, model));
 }
 
 const output = new Output();
 try {
-    await convert(process.argv[2], output);
+    await convert(process.argv[2], process.argv[3] === 'spaces', output);
 } catch (error) {
     output.error(error instanceof Fault ? error.code : MALFORMED, error.message ?? String(error));
 }

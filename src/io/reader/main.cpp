@@ -1,11 +1,16 @@
-// abut-reader PARENT MEMORY --read FILE        reads a model with Assimp, writes scene_stream.h to
-// descriptor 3 abut-reader PARENT MEMORY --exec PROGRAM …   becomes another reader, under the same
-// precautions
+// abut-reader PARENT MEMORY --read FILE
+//     reads a model with Assimp, writes scene_stream.h to descriptor 3
+// abut-reader PARENT MEMORY --decode
+//     decodes the compressed geometry of decode_request.h on descriptor 3
+// abut-reader PARENT MEMORY --exec PROGRAM SCRIPT FILE …
+//     becomes another reader, under the same precautions; it may read SCRIPT's folder and FILE
 //
 // Not for users: the library starts it. PARENT is the process that it dies with; MEMORY the bytes
 // of address space that it may take, 0 for any.
 
 #include "io/fault.h"
+#include "io/reader/confine.h"
+#include "io/reader/decode.h"
 #include "io/reader/read_model.h"
 #include "io/reader/stream_writer.h"
 #include "io/scene_stream.h"
@@ -14,6 +19,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <malloc.h>
 #include <new>
 #include <sys/prctl.h>
@@ -57,6 +63,7 @@ void keep_freed_memory() {
 [[noreturn]] void read(const char* file) {
     keep_freed_memory();
     std::set_new_handler(end_for_lack_of_memory);
+    abut::confine_reader(file);
     abut::StreamWriter writer(abut::scene_stream::kResultFile);
     try {
         abut::read_model(file, writer);
@@ -71,18 +78,41 @@ void keep_freed_memory() {
     _exit(0);
 }
 
+[[noreturn]] void decode() {
+    keep_freed_memory();
+    std::set_new_handler(end_for_lack_of_memory);
+    abut::confine_reader("");
+    try {
+        abut::decode_geometry(abut::scene_stream::kResultFile);
+    } catch (const std::bad_alloc&) {
+        end_for_lack_of_memory();
+    } catch (const std::exception&) {
+        _exit(kCannotStart);
+    }
+    _exit(0);
+}
+
+/// In          arguments: the program, its script, the file …
+[[noreturn]] void become(char** arguments) {
+    const std::filesystem::path folder = std::filesystem::path(arguments[1]).parent_path();
+    // The modules may lie elsewhere, behind a link.
+    abut::confine_program(arguments[0], {folder, folder / "node_modules", arguments[2]});
+    execv(arguments[0], arguments);
+    _exit(kCannotStart);
+}
+
 } // namespace
 
 int main(int count, char** arguments) {
-    if (count < 5)
+    if (count < 4)
         return kBadUsage;
     take_precautions(static_cast<pid_t>(std::strtol(arguments[1], nullptr, 10)),
                      std::strtoull(arguments[2], nullptr, 10));
-    if (std::strcmp(arguments[3], "--read") == 0)
+    if (std::strcmp(arguments[3], "--decode") == 0)
+        decode();
+    if (count > 4 && std::strcmp(arguments[3], "--read") == 0)
         read(arguments[4]);
-    if (std::strcmp(arguments[3], "--exec") == 0) {
-        execv(arguments[4], arguments + 4);
-        return kCannotStart;
-    }
+    if (count > 6 && std::strcmp(arguments[3], "--exec") == 0)
+        become(arguments + 4);
     return kBadUsage;
 }

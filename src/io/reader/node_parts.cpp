@@ -4,7 +4,6 @@
 #include "io/reader/affine.h"
 
 #include <string_view>
-#include <variant>
 
 namespace abut {
 
@@ -44,45 +43,10 @@ std::string metadata(const aiNode& node, const char* key) {
 }
 
 /// What is still to be visited, the next one last: no recursion, since files set the depth.
-template <typename Node>
 struct Visit {
-    Node node;
-    const aiNode* from_assimp = nullptr;
+    const aiNode* node = nullptr;
     Transform world_from_parent;
 };
-
-void check_promise(const aiScene& scene, const aiNode& node,
-                   const std::vector<GltfTree::Primitive>& primitives, const std::string& id) {
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-        const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-        const GltfTree::Primitive& promised = primitives[i];
-        if (!promised.is_surface)
-            continue;
-        if (mesh.mNumVertices != promised.vertices)
-            malformed("part " + id + ": only " + std::to_string(mesh.mNumVertices) + " of " +
-                      std::to_string(promised.vertices) + " vertices could be read");
-        // Assimp leaves out what it cannot draw, without a word.
-        if (mesh.mNumFaces != promised.triangles)
-            throw Fault(ErrorCode::bad_mesh,
-                        "part " + id + ": " + std::to_string(promised.triangles - mesh.mNumFaces) +
-                            " of its triangles refer to vertices that do not exist");
-    }
-}
-
-/// Whether Assimp's node stands for that node of the JSON, as far as one can see.
-bool is_same(const aiScene& scene, const GltfTree& tree, const GltfTree::Node& node,
-             const aiNode& from_assimp) {
-    if (from_assimp.mNumChildren != node.children.size())
-        return false;
-    const std::size_t primitives =
-        node.mesh < 0 ? 0 : tree.meshes[static_cast<std::size_t>(node.mesh)].size();
-    if (from_assimp.mNumMeshes != primitives)
-        return false;
-    for (unsigned i = 0; i < from_assimp.mNumMeshes; ++i)
-        if (from_assimp.mMeshes[i] >= scene.mNumMeshes)
-            return false;
-    return node.name.empty() || own_name(from_assimp).rfind(node.name, 0) == 0;
-}
 
 } // namespace
 
@@ -99,14 +63,14 @@ std::vector<NodePart> assimp_parts(const aiScene& scene) {
     std::vector<NodePart> parts;
     if (scene.mRootNode == nullptr)
         return parts;
-    std::vector<Visit<std::monostate>> open{{{}, scene.mRootNode, {}}};
+    std::vector<Visit> open{{scene.mRootNode, {}}};
     for (std::size_t number = 0; !open.empty(); ++number) {
-        const auto visit = open.back();
+        const Visit visit = open.back();
         open.pop_back();
-        const aiNode& node = *visit.from_assimp;
+        const aiNode& node = *visit.node;
         const Transform world = compose(visit.world_from_parent, local_transform(node));
         for (unsigned i = node.mNumChildren; i-- > 0;)
-            open.push_back({{}, node.mChildren[i], world});
+            open.push_back({node.mChildren[i], world});
         NodePart part{own_name(node), metadata(node, "name"), metadata(node, "type"), world,
                       surfaces(scene, node)};
         if (part.meshes.empty())
@@ -114,42 +78,6 @@ std::vector<NodePart> assimp_parts(const aiScene& scene) {
         if (part.id.empty())
             part.id = "node " + std::to_string(number);
         parts.push_back(std::move(part));
-    }
-    return parts;
-}
-
-std::vector<NodePart> gltf_parts(const aiScene& scene, const GltfTree& tree) {
-    std::vector<NodePart> parts;
-    std::vector<Visit<std::uint32_t>> open;
-    // Assimp puts several roots below one of its own.
-    const aiNode& root = *scene.mRootNode;
-    if (tree.roots.size() == 1)
-        open.push_back({tree.roots.front(), &root, {}});
-    else if (root.mNumChildren != tree.roots.size())
-        return {};
-    else
-        for (std::size_t i = tree.roots.size(); i-- > 0;)
-            open.push_back({tree.roots[i], root.mChildren[i], {}});
-
-    while (!open.empty()) {
-        const auto visit = open.back();
-        open.pop_back();
-        const GltfTree::Node& node = tree.nodes[visit.node];
-        const aiNode& from_assimp = *visit.from_assimp;
-        if (!is_same(scene, tree, node, from_assimp))
-            return {};
-        const Transform world = compose(visit.world_from_parent, node.parent_from_node);
-        for (std::size_t i = node.children.size(); i-- > 0;)
-            open.push_back({node.children[i], from_assimp.mChildren[i], world});
-        NodePart part{node.name, node.extras_name, node.extras_type, world,
-                      surfaces(scene, from_assimp)};
-        if (part.id.empty())
-            part.id = "node " + std::to_string(visit.node);
-        if (node.mesh >= 0)
-            check_promise(scene, from_assimp, tree.meshes[static_cast<std::size_t>(node.mesh)],
-                          part.id);
-        if (!part.meshes.empty())
-            parts.push_back(std::move(part));
     }
     return parts;
 }

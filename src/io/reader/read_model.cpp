@@ -2,14 +2,16 @@
 
 #include "io/fault.h"
 #include "io/input_file.h"
-#include "io/reader/gltf_tree.h"
+#include "io/reader/collada_asset.h"
+#include "io/reader/fbx_frame.h"
 #include "io/reader/joined_vertices.h"
 #include "io/reader/node_parts.h"
-#include "io/reader/promise.h"
+#include "io/reader/threemf.h"
 #include "io/scene_stream.h"
 #include "io/triangulate.h"
 
 #include <algorithm>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/scene.h>
@@ -23,6 +25,22 @@ namespace abut {
 namespace {
 
 constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
+
+/// Gives Assimp the model and no other file: it would follow a path anywhere, for materials that
+/// nobody asks for.
+class OnlyTheModel : public Assimp::DefaultIOSystem {
+public:
+    explicit OnlyTheModel(std::string model) : model_(std::move(model)) {}
+    bool Exists(const char* file) const override {
+        return file == model_ && DefaultIOSystem::Exists(file);
+    }
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        return file == model_ ? DefaultIOSystem::Open(file, mode) : nullptr;
+    }
+
+private:
+    std::string model_;
+};
 
 const aiScene& import(Assimp::Importer& importer, const std::string& file) {
     // No step of Assimp's: they join, drop and move vertices. Polygons are cut here.
@@ -114,31 +132,45 @@ void write_mesh(const aiScene& scene, const MeshList& list, const Sizes& sizes,
     }
 }
 
+/// Assimp's nodes are called "Object_" and the object's id.
+std::string name_in_3mf(const ThreemfModel& model, const std::string& node) {
+    constexpr std::string_view kPrefix = "Object_";
+    const auto name = node.starts_with(kPrefix) ? model.names.find(node.substr(kPrefix.size()))
+                                                : model.names.end();
+    return name == model.names.end() ? std::string() : name->second;
+}
+
 } // namespace
 
 void read_model(const std::string& file, StreamWriter& writer) {
     const std::string extension = lower_extension(file);
-    const bool is_gltf = extension == ".glb" || extension == ".gltf";
-    GltfTree tree;
-    if (is_gltf)
-        tree = read_gltf_tree(file, extension == ".glb");
-    const std::optional<std::uint64_t> promised = promised_triangles(file, extension);
-    if (promised == 0)
-        throw Fault(ErrorCode::bad_mesh, "holds no triangles");
 
+    const ThreemfModel model_of_3mf = extension == ".3mf" ? read_3mf_model(file) : ThreemfModel();
     // Never destroyed: the process ends without taking the scene apart.
-    auto* const importer = new Assimp::Importer; // NOLINT(cppcoreguidelines-owning-memory)
+    auto* const importer = new Assimp::Importer;    // NOLINT(cppcoreguidelines-owning-memory)
+    importer->SetIOHandler(new OnlyTheModel(file)); // NOLINT: the importer's from now on
     importer->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     const aiScene& scene = import(*importer, file);
 
-    std::vector<NodePart> parts = is_gltf ? gltf_parts(scene, tree) : std::vector<NodePart>();
-    if (parts.empty())
-        parts = assimp_parts(scene);
-
+    std::vector<NodePart> parts = assimp_parts(scene);
+    // COLLADA: Assimp puts the unit into the root.
+    FormatFrame frame;
+    double applied = 1;
+    if (extension == ".dae") {
+        frame = read_collada_frame(file);
+    } else if (extension == ".fbx") {
+        frame = read_fbx_frame(scene, parts);
+        applied = frame.unit;
+    } else if (extension == ".3mf") {
+        frame = model_of_3mf.frame;
+        applied = frame.unit;
+        for (NodePart& part : parts)
+            part.name = name_in_3mf(model_of_3mf, part.id);
+    }
     std::map<MeshList, std::uint32_t> number_of;
     std::vector<const MeshList*> lists;
     std::vector<Sizes> sizes;
-    std::uint64_t triangles = 0;
     for (const NodePart& part : parts) {
         const auto [entry, is_new] =
             number_of.emplace(part.meshes, static_cast<std::uint32_t>(lists.size()));
@@ -146,13 +178,8 @@ void read_model(const std::string& file, StreamWriter& writer) {
             lists.push_back(&entry->first);
             sizes.push_back(sizes_of(scene, entry->first));
         }
-        triangles += sizes[entry->second].triangles;
     }
-    if (promised && triangles != *promised)
-        malformed("only " + std::to_string(triangles) + " of " + std::to_string(*promised) +
-                  " triangles could be read");
-
-    writer.begin(lists.size(), parts.size());
+    writer.begin(frame, applied, lists.size(), parts.size());
     for (std::size_t i = 0; i < lists.size(); ++i)
         write_mesh(scene, *lists[i], sizes[i], writer);
     for (const NodePart& part : parts)

@@ -24,8 +24,12 @@ StreamWriter::StreamWriter(int descriptor) : descriptor_(descriptor) {
     buffer_.reserve(kBufferBytes);
 }
 
-void StreamWriter::begin(std::uint64_t meshes, std::uint64_t parts) {
+void StreamWriter::begin(const FormatFrame& frame, double applied, std::uint64_t meshes,
+                         std::uint64_t parts) {
     scene_stream::Header start = header();
+    start.unit = frame.unit;
+    start.applied = applied;
+    start.up = frame.up ? 1 + static_cast<std::uint32_t>(*frame.up) : 0;
     start.meshes = meshes;
     start.parts = parts;
     put(&start, sizeof start);

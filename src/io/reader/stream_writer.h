@@ -3,6 +3,8 @@
 #include <abut/error.h>
 #include <abut/types.h>
 
+#include "io/model_frame.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +21,8 @@ class StreamWriter {
 public:
     explicit StreamWriter(int descriptor);
 
-    void begin(std::uint64_t meshes, std::uint64_t parts);
+    /// applied: metres per coordinate that is written, as scale_of takes it.
+    void begin(const FormatFrame& frame, double applied, std::uint64_t meshes, std::uint64_t parts);
     void begin_mesh(std::uint32_t vertices, std::uint32_t triangles);
     void positions(const float* xyz, std::size_t vertices);
     void triangle(const std::array<std::uint32_t, 3>& abc);

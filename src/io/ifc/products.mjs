@@ -1,0 +1,107 @@
+// What an IFC file says of its products, besides their geometry.
+
+// Volumes in which things are, not things.
+const SPACES = ['IFCSPACE', 'IFCSPATIALZONE', 'IFCEXTERNALSPATIALELEMENT'];
+// What is cut out of other products.
+const FEATURES = ['IFCFEATUREELEMENTSUBTRACTION'];
+// Identifiers of representations that are no body [IFC 4, IfcShapeRepresentation].
+const NO_BODY = ['Axis', 'FootPrint', 'Profile', 'Surface', 'Reference', 'Box', 'Annotation', 'Plan', 'Boundary',
+                 'WalkingLine', 'Clearance', 'Lighting', 'CoG', 'Coverage', 'SurveyPoints'];
+// Types of representations that hold surfaces or solids.
+const BODY_TYPES = ['SweptSolid', 'AdvancedSweptSolid', 'Brep', 'AdvancedBrep', 'CSG', 'Clipping', 'SolidModel',
+                    'Tessellation', 'SurfaceModel', 'Surface3D', 'SectionedSpine', 'MappedRepresentation'];
+const SOLIDS = ['IFCSOLIDMODEL', 'IFCBOOLEANRESULT', 'IFCCSGPRIMITIVE3D'];
+// Mapped items within mapped items, of a file that is not at fault.
+const DEEPEST = 32;
+
+export class Products {
+    #withBody = new Map(); // express id: the representations that are its body
+    #leftOut = new Set();
+    #openings = new Map(); // express id: number of its openings
+    #solids;
+    #shapes = new Map(); // express id of a representation or an item: of its shapes
+    #codeOf;
+
+    constructor(api, model, withSpaces) {
+        this.api = api;
+        this.model = model;
+        this.#codeOf = name => api.GetTypeCodeFromName(name);
+        const all = name => [...api.GetLineIDsWithType(model, this.#codeOf(name), true)];
+        this.#solids = new Set(SOLIDS.flatMap(all));
+        if (!withSpaces)
+            this.#leftOut = new Set(SPACES.flatMap(all));
+        for (const relation of all('IFCRELVOIDSELEMENT')) {
+            const element = api.GetLine(model, relation).RelatingBuildingElement?.value;
+            this.#openings.set(element, (this.#openings.get(element) ?? 0) + 1);
+        }
+        const features = new Set(FEATURES.flatMap(all));
+        for (const product of all('IFCPRODUCT')) {
+            const body = features.has(product) ? [] : this.#bodyOf(product);
+            if (body.length > 0)
+                this.#withBody.set(product, body);
+        }
+    }
+
+    /** Express ids. */
+    withBody() { return this.#withBody.keys(); }
+
+    about(expressID) {
+        const line = this.api.GetLine(this.model, expressID);
+        return {
+            id: line.GlobalId?.value ?? `#${expressID}`,
+            name: line.Name?.value ?? '',
+            type: this.api.GetNameFromTypeCode(this.api.GetLineType(this.model, expressID)) ?? '',
+            isLeftOut: this.#leftOut.has(expressID),
+            openings: this.#openings.get(expressID) ?? 0,
+        };
+    }
+
+    /** Whether all shapes of a product's body are solids, so that its surface should be closed. */
+    isSolid(expressID) {
+        const shapes = this.#shapesOfBody(expressID);
+        return shapes.length > 0 && shapes.every(shape => this.#isSolidShape(shape));
+    }
+
+    /** How many shapes a product's body has. */
+    shapes(expressID) { return this.#shapesOfBody(expressID).length; }
+
+    #line(reference) { return this.api.GetLine(this.model, reference); }
+
+    #bodyOf(product) {
+        const shape = this.#line(product).Representation;
+        if (!shape)
+            return [];
+        return (this.#line(shape.value).Representations ?? []).map(r => r.value).filter(id => {
+            const {RepresentationIdentifier: name, RepresentationType: type} = this.#line(id);
+            if (NO_BODY.includes(name?.value))
+                return false;
+            return name?.value === 'Body' || BODY_TYPES.includes(type?.value);
+        });
+    }
+
+    #shapesOfBody(expressID) {
+        return (this.#withBody.get(expressID) ?? []).flatMap(representation => this.#shapesOf(representation, 0));
+    }
+
+    /** The items of a representation; mapped ones are what they map. */
+    #shapesOf(id, depth) {
+        const known = this.#shapes.get(id);
+        if (known !== undefined)
+            return known;
+        const line = this.#line(id);
+        const within = Array.isArray(line.Items) ? line.Items.map(item => item.value)
+            : line.MappingSource                 ? [this.#line(line.MappingSource.value).MappedRepresentation.value]
+                                                 : null;
+        const shapes =
+            within === null || depth === DEEPEST ? [id] : within.flatMap(inner => this.#shapesOf(inner, depth + 1));
+        this.#shapes.set(id, shapes);
+        return shapes;
+    }
+
+    #isSolidShape(id) {
+        if (this.#solids.has(id))
+            return true;
+        const {Closed: closed} = this.#line(id); // of a tessellated face set
+        return closed?.value === true || closed?.value === 'T';
+    }
+}

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <abut/scene.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace abut {
+
+class ReadWatch;
+
+/// Reads an OBJ, OFF, PLY or STL file (this one in text) into memory. Ids as in the file, they may
+/// occur twice; names are empty; the unit is that of the file.
+///
+/// None for another extension, and for a binary STL file.
+///
+/// Errors      Fault; Error of the watch.
+std::optional<Scene> read_polygon_file(const std::string& path,
+                                       const std::shared_ptr<const ReadWatch>& watch);
+
+} // namespace abut

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "io/model_frame.h"
+#include "io/reader/node_parts.h"
+
+#include <map>
+#include <string>
+
+namespace abut {
+
+/// What Assimp leaves out of a 3MF file: its unit, and the names of its objects.
+struct ThreemfModel {
+    FormatFrame frame;                        ///< z up [3MF Core 1.3, 3.3]
+    std::map<std::string, std::string> names; ///< by the objects' ids
+};
+
+/// Errors      Fault malformed: no archive, no model in it, an unknown unit, sizes that no model
+///             can have.
+ThreemfModel read_3mf_model(const std::string& file);
+
+} // namespace abut
