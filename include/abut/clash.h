@@ -105,11 +105,22 @@ struct ClashReport {
         std::string file;
         std::uint64_t parts = 0;
         std::uint64_t triangles = 0; ///< each instance counted
+        double unit = 1;             ///< metres per unit of the file
+        UpAxis up = UpAxis::y;       ///< of the file
+        std::vector<SceneNote> notes{};
+    };
+    /// The frame of all points and directions: metres, and the axes of a file.
+    struct Frame {
+        UpAxis up = UpAxis::y;
+        std::string of; ///< the first model (of a store, the one that was imported first)
     };
     struct Seconds {
         double import = 0, build = 0, broad = 0, narrow = 0, total = 0;
     };
+    Frame frame;
     std::vector<ModelSummary> models;
+    /// What makes the result doubtful, a line each: models that share no space.
+    std::vector<std::string> warnings;
     double clearance = 0, touch = 0;
     std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
     std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
@@ -124,7 +135,8 @@ struct ClashReport {
 
 /// Finds all clashes between the parts of different models (of one model: between its parts).
 ///
-/// In/out      models in one world frame, metres. `seconds.import` is left 0.
+/// In/out      models in metres; those whose axes are not those of the first are turned to them, by
+///             quarter turns. `seconds.import` is left 0.
 /// Errors      Error{bad_argument} for a negative or NaN tolerance, Error{interrupted}.
 /// Cost        the broad phase O(n log n + candidates); hierarchies are built once a mesh, and only
 ///             for meshes that a candidate needs.

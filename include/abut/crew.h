@@ -1,5 +1,7 @@
 #pragma once
 
+#include <abut/helper_programs.h>
+
 #include <chrono>
 #include <cstddef>
 #include <memory>

@@ -95,7 +95,7 @@ struct NearestPart : WalkAnswer {
     bool found = false; ///< else no part is nearer than the bound, and `gap` is not set
     WalkGap gap;
     double at_least =
-        0; ///< no part is nearer: proven; the distance itself if the answer is complete
+        0; ///< no part is nearer, to rounding; the distance itself if the answer is complete
 };
 struct NearParts : WalkAnswer {
     std::vector<WalkGap> parts; ///< sorted by part

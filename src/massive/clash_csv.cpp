@@ -3,15 +3,19 @@
 #include "core/atomic_file.h"
 #include "massive/clash_text.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 /// CSV as RFC 4180 has it: a header, CRLF, quotes where a cell needs them; UTF-8 without a
 /// byte-order mark.
 ///
-/// A spreadsheet takes a cell that begins with = + - @ (or a tab or carriage return before them)
-/// for a formula, quoted or not, and the texts here come from files of others. Such a text gets an
-/// apostrophe in front, which spreadsheets take as "this is text". Numbers are ours and stay as
-/// they are. Programs that want the texts unaltered read the JSON report.
+/// A spreadsheet takes a cell that begins with = + - @ | for a formula or a command, quoted or not,
+/// also in full width (East Asian forms) and after space, and the texts here come from files of
+/// others. Such a text gets an apostrophe in front, which spreadsheets take as "this is text".
+/// Numbers are ours and stay as they are. Programs that want the texts unaltered read the JSON
+/// report.
 namespace abut {
 
 namespace {
@@ -22,10 +26,27 @@ constexpr std::string_view kHeader =
     "direction_x,direction_y,direction_z,triangle_pairs,rule";
 constexpr std::string_view kStatusHeader = ",status,note"; // of a store alone
 
+/// Whether a spreadsheet may take the text for more than text. A control character in front is
+/// reason enough: programs differ in which of them they skip.
+bool is_active(std::string_view text) {
+    using namespace std::string_view_literals;
+    // Each also in full width.
+    constexpr std::array kStarts{"="sv,      "+"sv,      "-"sv,      "@"sv,      "|"sv,
+                                 "\uFF1D"sv, "\uFF0B"sv, "\uFF0D"sv, "\uFF20"sv, "\uFF5C"sv};
+    // Space, no-break, ideographic and zero-width space, byte-order mark.
+    constexpr std::array kSpaces{" "sv, "\u00A0"sv, "\u3000"sv, "\u200B"sv, "\uFEFF"sv};
+    const auto leads = [&](std::string_view start) { return text.starts_with(start); };
+    for (auto space = kSpaces.begin();
+         (space = std::ranges::find_if(kSpaces, leads)) != kSpaces.end();)
+        text.remove_prefix(space->size());
+    const bool control = !text.empty() && static_cast<unsigned char>(text.front()) < 0x20;
+    return control || std::ranges::any_of(kStarts, leads);
+}
+
 /// Appends a comma and the text.
 void append_cell(TextBuffer& out, std::string_view raw) {
     const std::string text = valid_utf8(raw);
-    const bool formula = text.find_first_of("=+-@\t\r\n") == 0;
+    const bool formula = is_active(text);
     const bool quoted = text.find_first_of("\",\r\n") != std::string::npos;
     append(out, quoted ? ",\"" : ",");
     if (formula)

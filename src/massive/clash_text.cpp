@@ -69,6 +69,28 @@ void append_json_ascii(TextBuffer& out, char c) {
     }
 }
 
+/// Appends `, "notes": [...]` if there are some.
+void append_json_notes(TextBuffer& out, const std::vector<SceneNote>& notes) {
+    if (notes.empty())
+        return;
+    append(out, ", \"notes\": [");
+    const char* separator = "\n    ";
+    for (const SceneNote& note : notes) {
+        append(out, separator);
+        fmt::format_to(fmt::appender(out), "{{\"kind\": \"{}\", \"id\": ", to_string(note.kind));
+        append_json_string(out, note.id);
+        append(out, ", \"name\": ");
+        append_json_string(out, note.name);
+        append(out, ", \"type\": ");
+        append_json_string(out, note.type);
+        append(out, ", \"text\": ");
+        append_json_string(out, note.text);
+        append(out, "}");
+        separator = ",\n    ";
+    }
+    append(out, "]");
+}
+
 } // namespace
 
 std::string valid_utf8(std::string_view text) {
@@ -155,11 +177,27 @@ void append_json_head(TextBuffer& out, const ClashReport& report) {
         append(out, separator);
         append(out, "  {\"file\": ");
         append_json_string(out, model.file);
-        fmt::format_to(fmt::appender(out), ", \"parts\": {}, \"triangles\": {}}}", model.parts,
+        fmt::format_to(fmt::appender(out),
+                       ", \"parts\": {}, \"triangles\": {}, \"unit\": ", model.parts,
                        model.triangles);
+        append_json_number(out, model.unit);
+        fmt::format_to(fmt::appender(out), ", \"up\": \"{}\"", to_string(model.up));
+        append_json_notes(out, model.notes);
+        append(out, "}");
         separator = ",\n";
     }
-    append(out, "\n],\n\"clearance\": ");
+    fmt::format_to(
+        fmt::appender(out),
+        "\n],\n\"frame\": {{\"up\": \"{}\", \"unit\": \"m\", \"of\": ", to_string(report.frame.up));
+    append_json_string(out, report.frame.of);
+    append(out, "},\n\"warnings\": [");
+    separator = "";
+    for (const std::string& warning : report.warnings) {
+        append(out, separator);
+        append_json_string(out, warning);
+        separator = ", ";
+    }
+    append(out, "],\n\"clearance\": ");
     append_json_number(out, report.clearance);
     append(out, ",\n\"touch\": ");
     append_json_number(out, report.touch);

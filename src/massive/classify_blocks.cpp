@@ -159,7 +159,7 @@ private:
             return std::nullopt;
         const MeasuredGap nearest = nearest_within(
             contained ? std::numeric_limits<double>::infinity() : clearance * clearance);
-        if (!contained && std::isinf(nearest.measured_sq))
+        if (!contained && (std::isinf(nearest.measured_sq) || nearest.gap.distance >= clearance))
             return std::nullopt;
         return apart_clash(nearest.gap, contained);
     }

@@ -41,15 +41,28 @@ CrewLead::~CrewLead() {
             thread->join();
 }
 
+std::optional<WorkPiece> CrewLead::next() {
+    helpers_have_work_.wait();
+    return piece_for(0);
+}
+
+void CrewLead::brief_helpers() {
+    struct CountDown {
+        std::latch& latch;
+        ~CountDown() { latch.count_down(); }
+    } const count_down{helpers_have_work_};
+    const std::vector<std::byte> briefing = encode(
+        Briefing{options_, plan_.budget, plan_.blocks_budget, parts_key(plan_.stored.models)});
+    for (std::size_t helper = 1; helper < crew_.size(); ++helper)
+        crew_.send(helper, briefing);
+    for (int i = 0; i < kPiecesAtOnce; ++i)
+        for (std::size_t helper = 1; helper < crew_.size(); ++helper)
+            hand_out(helper);
+}
+
 void CrewLead::serve() {
     try {
-        const std::vector<std::byte> briefing = encode(
-            Briefing{options_, plan_.budget, plan_.blocks_budget, parts_key(plan_.stored.models)});
-        for (std::size_t helper = 1; helper < crew_.size(); ++helper)
-            crew_.send(helper, briefing);
-        for (int i = 0; i < kPiecesAtOnce; ++i)
-            for (std::size_t helper = 1; helper < crew_.size(); ++helper)
-                hand_out(helper);
+        brief_helpers();
         while (!ended_) {
             check_stop(options_.progress);
             if (const auto message = crew_.receive(kPatience))

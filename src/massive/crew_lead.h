@@ -13,6 +13,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <latch>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -28,7 +29,9 @@ public:
     CrewLead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions& options);
     ~CrewLead() override;
 
-    std::optional<WorkPiece> next() override { return piece_for(0); }
+    /// Waits until every helper has its first pieces: the leader does not take all of a small job before
+    /// the others have heard of it.
+    std::optional<WorkPiece> next() override;
     void done(PieceResult result) override;
     void on_pair() override;
 
@@ -41,6 +44,7 @@ public:
 
 private:
     void serve();
+    void brief_helpers();
     void record();
     void handle(const Crew::Message& message);
     void hand_out(std::size_t worker);
@@ -55,6 +59,7 @@ private:
     std::vector<PieceResult> done_; ///< to be recorded
     WorkSchedule schedule_;
     std::exception_ptr failure_;
+    std::latch helpers_have_work_{1};
     std::atomic<bool> ended_ = false; ///< all is recorded, or the job has failed
     std::thread server_, recorder_;   ///< last: they use the others
 };

@@ -9,6 +9,7 @@
 #include "massive/clash_identity.h"
 #include "massive/classify_by_id.h"
 #include "massive/mesh_in_blocks.h"
+#include "massive/model_boxes.h"
 #include "massive/part_instances.h"
 #include "massive/rule_table.h"
 #include "math/vector.h"
@@ -49,8 +50,11 @@ private:
     void summarise() {
         report_.clearance = options_.clearance;
         report_.touch = options_.touch;
+        if (!models_.empty())
+            report_.frame = {models_.front().up, models_.front().file};
         for (const Scene& model : models_) {
-            ClashReport::ModelSummary summary{model.file, model.parts.size(), 0};
+            ClashReport::ModelSummary summary{model.file, model.parts.size(), 0,
+                                              model.unit, model.up,           model.notes};
             for (const Part& part : model.parts)
                 summary.triangles +=
                     part.mesh < model.meshes.size() ? model.meshes[part.mesh].triangles.size() : 0;
@@ -68,6 +72,7 @@ private:
         progress.advance();
         std::vector<Box3> boxes;
         boxes.reserve(parts_.parts.size());
+        warn(boxes_of_models());
         RuleTable rules(options_);
         for (std::uint32_t i = 0; i < parts_.parts.size(); ++i) {
             const PartInstance& p = parts_.parts[i];
@@ -86,6 +91,24 @@ private:
         }
         report_.candidates = candidates_.size();
         progress.advance();
+    }
+
+    [[nodiscard]] std::vector<Box3> boxes_of_models() const {
+        std::vector<Box3> boxes(models_.size());
+        for (const PartInstance& part : parts_.parts) {
+            Box3& box = boxes[part.model];
+            box.lower = min(box.lower, part.box.lower);
+            box.upper = max(box.upper, part.box.upper);
+        }
+        return boxes;
+    }
+
+    void warn(const std::vector<Box3>& boxes) {
+        std::vector<std::string> files;
+        files.reserve(models_.size());
+        for (const Scene& model : models_)
+            files.push_back(model.file);
+        report_.warnings = warn_of_distant_models(files, boxes, largest_clearance(options_));
     }
 
     void build() {

@@ -12,23 +12,23 @@ namespace abut {
 
 namespace {
 
-struct Table {
+struct GraphTable {
     std::string_view name, sql;
 };
 
 /// SQLite keeps these texts, so it knows which version made a table.
-constexpr Table kTables[]{{"overlap_graph", R"(CREATE TABLE overlap_graph(
+constexpr GraphTable kTables[]{{"overlap_graph", R"(CREATE TABLE overlap_graph(
   clearance REAL NOT NULL,
   generation INTEGER NOT NULL,
   edges INTEGER NOT NULL,
   units INTEGER NOT NULL))"},
-                          {"overlap_unit", R"(CREATE TABLE overlap_unit(
+                               {"overlap_unit", R"(CREATE TABLE overlap_unit(
   unit INTEGER PRIMARY KEY,
   edges INTEGER NOT NULL,
   meshes INTEGER NOT NULL,
   bytes INTEGER NOT NULL,
   cut INTEGER NOT NULL))"},
-                          {"overlap_edge", R"(CREATE TABLE overlap_edge(
+                               {"overlap_edge", R"(CREATE TABLE overlap_edge(
   part_a INTEGER NOT NULL REFERENCES part,
   part_b INTEGER NOT NULL REFERENCES part,
   unit INTEGER NOT NULL REFERENCES overlap_unit,
@@ -36,7 +36,7 @@ constexpr Table kTables[]{{"overlap_graph", R"(CREATE TABLE overlap_graph(
 
 bool has_tables(Database& database) {
     Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = ?");
-    return std::ranges::all_of(kTables, [&](const Table& table) {
+    return std::ranges::all_of(kTables, [&](const GraphTable& table) {
         find.bind(table.sql, table.name);
         return find.step() && find.integer(0) != 0;
     });
@@ -46,14 +46,14 @@ bool has_tables(Database& database) {
 void make_tables(Database& database) {
     if (has_tables(database))
         return;
-    for (const Table& table : kTables) {
+    for (const GraphTable& table : kTables) {
         Statement find(database, "SELECT 1 FROM sqlite_schema WHERE name = ?");
         if (find.bind(table.name).step())
             throw Error(ErrorCode::bad_argument, database.path(),
                         "has another table " + std::string(table.name) +
                             ": the graph cannot be kept");
     }
-    for (const Table& table : kTables)
+    for (const GraphTable& table : kTables)
         Statement(database, table.sql).run();
     database.run("CREATE INDEX overlap_edge_by_b ON overlap_edge(part_b)");
 }

@@ -1,5 +1,10 @@
 #include "massive/job_result.h"
 
+#include "massive/clash_identity.h"
+#include "massive/model_boxes.h"
+#include "math/vector.h"
+#include "store/note_text.h"
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -7,6 +12,25 @@
 #include <utility>
 
 namespace abut {
+
+namespace {
+
+std::vector<std::string> warn_of_distant_models(const StoredParts& stored,
+                                                const ClashOptions& options) {
+    std::vector<std::string> files;
+    files.reserve(stored.models.size());
+    for (const ModelRow& model : stored.models)
+        files.push_back(model.file);
+    std::vector<Box3> boxes(files.size());
+    for (std::size_t i = 0; i < stored.parts.size(); ++i) {
+        Box3& box = boxes[stored.parts[i].model];
+        box.lower = min(box.lower, stored.boxes[i].lower);
+        box.upper = max(box.upper, stored.boxes[i].upper);
+    }
+    return abut::warn_of_distant_models(files, boxes, largest_clearance(options));
+}
+
+} // namespace
 
 JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store,
                      std::size_t workers)
@@ -16,7 +40,11 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
     report.touch = options.touch;
     report.candidates = plan_.candidates;
     for (const ModelRow& model : plan_.stored.models)
-        report.models.push_back({model.file, model.parts, model.triangles});
+        report.models.push_back({model.file, model.parts, model.triangles, model.unit, model.up,
+                                 parse_notes(model.notes, store.path())});
+    if (!plan_.stored.models.empty())
+        report.frame = {plan_.stored.models.front().world_up, plan_.stored.models.front().file};
+    report.warnings = warn_of_distant_models(plan_.stored, options);
     OutOfCoreCounters& counters = result_.counters;
     counters.units = plan_.units.size();
     counters.workers.resize(workers);
@@ -106,10 +134,17 @@ void JobResult::sum_up_workers() {
     }
 }
 
+void JobResult::add_model(const ModelRow& row) {
+    Scene& model = result_.models.emplace_back();
+    model.file = row.file;
+    model.unit = row.unit;
+    model.up = row.world_up;
+}
+
 StoreClashReport JobResult::finish() {
     sum_up_workers();
     for (const ModelRow& model : plan_.stored.models)
-        result_.models.emplace_back().file = model.file;
+        add_model(model);
     std::unordered_map<std::uint32_t, std::uint32_t> place;
     for (auto& [part, named] : named_) {
         std::vector<Part>& parts = result_.models[plan_.stored.parts[part].model].parts;

@@ -34,6 +34,7 @@ public:
 private:
     void add(PieceResult result);
     void sum_up_workers();
+    void add_model(const ModelRow& row);
     void set_models(Clash& clash) const;
 
     JobPlan& plan_;

@@ -11,14 +11,14 @@ namespace abut {
 
 namespace {
 
-struct Table {
+struct JobTable {
     std::string_view name;
     const char* sql;
 };
 
 /// SQLite keeps these texts, so it knows which version made a table. What no job can find again:
 constexpr std::array kOfPeople{
-    Table{"question", R"(CREATE TABLE question(
+    JobTable{"question", R"(CREATE TABLE question(
   question INTEGER PRIMARY KEY AUTOINCREMENT,
   hash BLOB NOT NULL,
   clearance REAL NOT NULL,
@@ -26,7 +26,7 @@ constexpr std::array kOfPeople{
   self INTEGER NOT NULL,
   rules INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    Table{"clash_history", R"(CREATE TABLE clash_history(
+    JobTable{"clash_history", R"(CREATE TABLE clash_history(
   question INTEGER NOT NULL REFERENCES question,
   id TEXT NOT NULL,
   kind TEXT NOT NULL,
@@ -40,20 +40,20 @@ constexpr std::array kOfPeople{
   resolved INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
   PRIMARY KEY(question, id)) WITHOUT ROWID)"},
-    Table{"clash_mark", R"(CREATE TABLE clash_mark(
+    JobTable{"clash_mark", R"(CREATE TABLE clash_mark(
   serial INTEGER PRIMARY KEY AUTOINCREMENT,
   id TEXT NOT NULL UNIQUE,
   mark TEXT NOT NULL,
   note TEXT NOT NULL,
   marked INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    Table{"row_tally", R"(CREATE TABLE row_tally(
+    JobTable{"row_tally", R"(CREATE TABLE row_tally(
   list TEXT PRIMARY KEY,
   rows INTEGER NOT NULL,
   sum INTEGER NOT NULL) WITHOUT ROWID)"},
 };
 constexpr std::array kOfJobs{
-    Table{"job", R"(CREATE TABLE job(
+    JobTable{"job", R"(CREATE TABLE job(
   job INTEGER PRIMARY KEY AUTOINCREMENT,
   question INTEGER NOT NULL REFERENCES question,
   key BLOB NOT NULL,
@@ -65,13 +65,13 @@ constexpr std::array kOfJobs{
   planned INTEGER NOT NULL,
   finished INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    Table{"job_unit", R"(CREATE TABLE job_unit(
+    JobTable{"job_unit", R"(CREATE TABLE job_unit(
   job INTEGER NOT NULL REFERENCES job,
   unit INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
   pairs BLOB NOT NULL,
   PRIMARY KEY(job, unit)))"},
-    Table{"clash", R"(CREATE TABLE clash(
+    JobTable{"clash", R"(CREATE TABLE clash(
   clash INTEGER PRIMARY KEY,
   job INTEGER NOT NULL REFERENCES job,
   id TEXT NOT NULL,
@@ -88,7 +88,7 @@ constexpr std::array kOfJobs{
 };
 
 /// `new` are the clashes that came with the last job that ended.
-constexpr Table kStatusView{"clash_status", R"(CREATE VIEW clash_status AS
+constexpr JobTable kStatusView{"clash_status", R"(CREATE VIEW clash_status AS
 SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_file, distance,
   CASE WHEN resolved > 0 THEN 'resolved'
     WHEN serial > returned THEN mark
@@ -104,7 +104,7 @@ bool is_of_first_version(Database& database) {
 }
 
 /// Errors      Error{malformed} if there is another table of this name.
-bool is_there(Database& database, const Table& table) {
+bool is_there(Database& database, const JobTable& table) {
     Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = ?");
     find.bind(std::string_view(table.sql), table.name);
     if (!find.step())
@@ -115,9 +115,9 @@ bool is_there(Database& database, const Table& table) {
     return true;
 }
 
-bool are_there(Database& database, std::span<const Table> tables) {
+bool are_there(Database& database, std::span<const JobTable> tables) {
     return std::ranges::all_of(tables,
-                               [&](const Table& table) { return is_there(database, table); });
+                               [&](const JobTable& table) { return is_there(database, table); });
 }
 
 bool has_tables_of_jobs(Database& database) {
@@ -128,7 +128,7 @@ bool has_tables_of_jobs(Database& database) {
 void make_anew(Database& database) {
     database.run("DROP VIEW IF EXISTS clash_status; DROP TABLE IF EXISTS job_unit; "
                  "DROP TABLE IF EXISTS clash; DROP TABLE IF EXISTS job");
-    for (const Table& table : kOfJobs)
+    for (const JobTable& table : kOfJobs)
         database.run(table.sql);
     database.run("CREATE INDEX clash_by_job ON clash(job)");
     database.run(kStatusView.sql);
@@ -141,7 +141,7 @@ void make_anew(Database& database) {
 } // namespace
 
 void prepare_job_tables(Database& database) {
-    for (const Table& table : kOfPeople)
+    for (const JobTable& table : kOfPeople)
         if (!is_there(database, table))
             database.run(table.sql);
     if (!has_tables_of_jobs(database))

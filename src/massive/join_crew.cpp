@@ -46,7 +46,8 @@ fs::path find_module() {
     const fs::path here = program_folder();
     for (const fs::path& candidate :
          {here / "abut-mpi.so", here.parent_path() / "libexec/abut/abut-mpi.so",
-          fs::path(ABUT_INSTALLED_MPI), fs::path(ABUT_BUILD_MPI)}) {
+          helper_folder() / "abut-mpi.so", fs::path(ABUT_INSTALLED_MPI),
+          fs::path(ABUT_BUILD_MPI)}) {
         std::error_code ignored;
         if (fs::is_regular_file(candidate, ignored))
             return candidate;

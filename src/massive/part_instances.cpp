@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "core/parallel.h"
+#include "io/model_frame.h"
 #include "math/transform.h"
 #include "mesh/topology.h"
 #include "mesh/used_positions.h"
@@ -23,7 +24,11 @@ PartInstances gather_parts(const std::vector<Scene>& models) {
             if (part.mesh >= models[m].meshes.size())
                 throw Error(ErrorCode::bad_mesh, models[m].file,
                             "part " + part.id + " has no mesh");
-            result.parts.push_back({m, p, first + part.mesh, part.world_from_mesh, {}});
+            result.parts.push_back({m,
+                                    p,
+                                    first + part.mesh,
+                                    turned(part.world_from_mesh, models[m].up, models.front().up),
+                                    {}});
         }
     }
     std::vector<std::vector<std::uint32_t>> parts_of_mesh(result.meshes.size());

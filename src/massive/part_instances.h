@@ -15,7 +15,7 @@ struct PartInstance {
     Box3 box; ///< world box of the vertices that triangles use; empty if there is no triangle
 };
 
-/// The parts of all models.
+/// The parts of all models, in the frame of the first.
 struct PartInstances {
     std::vector<PartInstance> parts; ///< by model, then as in the model
     std::vector<const Mesh*> meshes; ///< all models' meshes; no copies

@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <functional>
+#include <future>
 #include <gtest/gtest.h>
 #include <iostream>
 #include <string>
@@ -136,24 +137,37 @@ TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
     write_glb(some_scene(random, 20, 4), job.folder / "other.glb");
     (void)import_models({job.folder / "other.glb"}, other);
     for (const std::string& store : {other, missing}) {
+        // The job does not end before the first helper has done its piece, which it begins when the second
+        // has told what is wrong.
+        std::promise<void> told;
+        const auto help = [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
+            if (rank == 1)
+                told.get_future().wait();
+            help_find_clashes(rank == 2 ? store : job.store, *crew);
+            if (rank == 2)
+                told.set_value();
+        };
         try {
-            (void)find_together(job.store, job.options, {}, 3,
-                                [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
-                                    help_find_clashes(rank == 2 ? store : job.store, *crew);
-                                });
+            (void)find_together(job.store, job.options, {}, 3, help);
             FAIL() << "with another store";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(),
-                      store == other ? ErrorCode::bad_argument : ErrorCode::unreadable)
+                      store == other ? ErrorCode::bad_argument : ErrorCode::file_not_found)
                 << error.what();
             EXPECT_EQ(error.file(), store);
         }
     }
-    // One that leaves without a word.
+    // One that leaves without a word, likewise before the job can end.
+    std::promise<void> left;
     EXPECT_THROW((void)find_together(job.store, job.options, {}, 3,
-                                     [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
-                                         if (rank == 1)
+                                     [&](std::size_t rank, std::unique_ptr<Crew> crew) {
+                                         if (rank == 1) {
+                                             left.get_future().wait();
                                              help_find_clashes(job.store, *crew);
+                                         } else {
+                                             crew.reset();
+                                             left.set_value();
+                                         }
                                      }),
                  std::runtime_error);
     job.expect(find_together(job.store, job.options, {}, 3));

@@ -2,6 +2,7 @@
 #include <abut/error.h>
 
 #include "massive/clash_text.h"
+#include "tests/support/paths.h"
 
 #include <bit>
 #include <cmath>
@@ -47,6 +48,11 @@ struct Sample {
                        make_part("3bend", "3bend", "")};
         models = {structure, pipes};
         report.models = {{structure.file, 2, 24}, {pipes.file, 2, 1000}};
+        report.models[1].unit = 0.001;
+        report.models[1].up = UpAxis::z;
+        report.models[1].notes = {{NoteKind::cut_away, "id \"3\"", "<wall>", "IfcWall", "is gone"}};
+        report.frame = {UpAxis::z, structure.file};
+        report.warnings = {"the boxes of a and b are 2 km apart"};
         report.clearance = 0.05;
         report.touch = 1e-9;
         report.candidates = 17;
@@ -145,9 +151,13 @@ TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
     const Sample sample;
     const ordered_json root = ordered_json::parse(to_json(sample.report, sample.models));
     using Names = std::vector<std::string>;
-    EXPECT_EQ(keys(root), (Names{"models", "clearance", "touch", "candidates", "counts", "clashes",
-                                 "seconds", "peak_rss_mb"}));
-    EXPECT_EQ(keys(root["models"][0]), (Names{"file", "parts", "triangles"}));
+    EXPECT_EQ(keys(root), (Names{"models", "frame", "warnings", "clearance", "touch", "candidates",
+                                 "counts", "clashes", "seconds", "peak_rss_mb"}));
+    EXPECT_EQ(keys(root["models"][0]), (Names{"file", "parts", "triangles", "unit", "up"}));
+    EXPECT_EQ(keys(root["models"][1]),
+              (Names{"file", "parts", "triangles", "unit", "up", "notes"}));
+    EXPECT_EQ(keys(root["models"][1]["notes"][0]), (Names{"kind", "id", "name", "type", "text"}));
+    EXPECT_EQ(keys(root["frame"]), (Names{"up", "unit", "of"}));
     EXPECT_EQ(keys(root["counts"]),
               (Names{"hard", "touch", "contained", "duplicate", "clearance"}));
     EXPECT_EQ(keys(root["seconds"]), (Names{"import", "build", "broad", "narrow", "total"}));
@@ -160,9 +170,16 @@ TEST_F(ClashWriters, JsonValuesReadBackAsTheyWere) {
     Sample sample;
     sample.report.clashes[1].rule = "pipes through slabs";
     const json root = json::parse(to_json(sample.report, sample.models));
-    EXPECT_EQ(root["models"],
-              json::parse(R"([{"file": "models/structure.glb", "parts": 2, "triangles": 24},
-                                              {"file": "models/pipes.glb", "parts": 2, "triangles": 1000}])"));
+    EXPECT_EQ(
+        root["models"],
+        json::parse(
+            R"([{"file": "models/structure.glb", "parts": 2, "triangles": 24, "unit": 1, "up": "y"},
+                              {"file": "models/pipes.glb", "parts": 2, "triangles": 1000, "unit": 0.001, "up": "z",
+                               "notes": [{"kind": "cut_away", "id": "id \"3\"", "name": "<wall>", "type": "IfcWall",
+                                          "text": "is gone"}]}])"));
+    EXPECT_EQ(root["frame"],
+              json::parse(R"({"up": "z", "unit": "m", "of": "models/structure.glb"})"));
+    EXPECT_EQ(root["warnings"], json::parse(R"(["the boxes of a and b are 2 km apart"])"));
     EXPECT_EQ(root["clearance"], 0.05);
     EXPECT_EQ(root["touch"], 1e-9);
     EXPECT_EQ(root["candidates"], 17);
@@ -320,6 +337,22 @@ TEST_F(ClashWriters, CsvQuotesAndDisarmsNames) {
         {"\t=1", "'\t=1"},
         {"\r=1", "'\r=1"},
         {"=a,\"b\"", "'=a,\"b\""},
+        {"|calc", "'|calc"},
+        {" =1+1", "' =1+1"},
+        {" \t=1+1", "' \t=1+1"},
+        {"\n=1", "'\n=1"},
+        {"\x1b=1", "'\x1b=1"},
+        {"\u00A0=1", "'\u00A0=1"},
+        {"\uFEFF=1", "'\uFEFF=1"},
+        {"\uFF1D1+1", "'\uFF1D1+1"},
+        {"\u3000\uFF0B1", "'\u3000\uFF0B1"},
+        {"\uFF0D1", "'\uFF0D1"},
+        {"\uFF20SUM(A1)", "'\uFF20SUM(A1)"},
+        {"\uFF5Ccalc", "'\uFF5Ccalc"},
+        {" Wall", " Wall"},
+        {" ", " "},
+        {"\u3000", "\u3000"},
+        {"1=1", "1=1"},
         {"Wall:3", "Wall:3"},
         {":3", ":3"},
         {"'quoted", "'quoted"},

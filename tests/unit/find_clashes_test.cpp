@@ -243,6 +243,47 @@ TEST(FindClashes, IgnoreRules) {
     EXPECT_EQ(count(), 2U);
 }
 
+TEST(FindClashes, ModelsOfOtherAxesAreTurnedIntoTheFrameOfTheFirst) {
+    // z up from (0, 0, 3) to (1, 1, 4); y up that is from (0, 3, -1) to (1, 4, 0).
+    Scene z_up = scene_of("z", box_mesh({0, 0, 3}, {1, 1, 4}));
+    z_up.up = UpAxis::z;
+    const Scene y_up = scene_of("y", box_mesh({0.25, 3.25, -0.5}, {0.75, 3.75, 5}));
+    const ClashReport first_z = find_clashes({z_up, y_up}, {});
+    const ClashReport first_y = find_clashes({y_up, z_up}, {});
+    EXPECT_EQ(first_z.frame.up, UpAxis::z);
+    EXPECT_EQ(first_z.frame.of, "z");
+    EXPECT_EQ(first_y.frame.up, UpAxis::y);
+    ASSERT_EQ(first_z.clashes.size(), 1U);
+    ASSERT_EQ(first_y.clashes.size(), 1U);
+    EXPECT_EQ(first_z.clashes[0].distance, first_y.clashes[0].distance);
+    EXPECT_EQ(first_z.models[1].up, UpAxis::y);
+    // Away from the wall: along -y where z is up, along z where y is.
+    EXPECT_LT(first_z.clashes[0].point_a.y, 0.51);
+    EXPECT_GE(first_z.clashes[0].point_a.z, 3.2);
+    EXPECT_GT(first_y.clashes[0].point_a.z, -0.51);
+    EXPECT_GE(first_y.clashes[0].point_a.y, 3.2);
+    EXPECT_TRUE(first_z.warnings.empty());
+    const Scene same_axes = scene_of("y", box_mesh({0.25, 3.25, -0.5}, {0.75, 3.75, 5}));
+    z_up.up = UpAxis::y;
+    EXPECT_EQ(find_clashes({z_up, same_axes}, {}).clashes.size(), 0U);
+}
+
+TEST(FindClashes, GroupsOfModelsThatShareNoSpaceAreNamed) {
+    const auto at = [](const std::string& file, double x) {
+        return scene_of(file, box_mesh({x, 0, 0}, {x + 1, 1, 1}));
+    };
+    // a and c share a face, b and d overlap 100 km away, e is 2 m from a.
+    const std::vector<Scene> models{at("a", 0), at("b", 1e5), at("c", 1), at("d", 1e5 + 0.5),
+                                    at("e", -3)};
+    const auto warnings = find_clashes(models, {}).warnings;
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_EQ(warnings[0], "the boxes of a and e are 2 m apart: they share no space");
+    EXPECT_EQ(warnings[1], "the boxes of c and b are 100 km apart: they share no space");
+    EXPECT_EQ(find_clashes(models, {.clearance = 2}).warnings.size(), 1U);
+    EXPECT_TRUE(find_clashes({at("a", 0), Scene{}, at("c", 1)}, {}).warnings.empty());
+    EXPECT_TRUE(find_clashes({at("a", 0)}, {}).warnings.empty());
+}
+
 TEST(FindClashes, InstancesShareAMesh) {
     Scene scene;
     scene.file = "bolts.glb";

@@ -28,6 +28,14 @@ const baseName = (path) => path.split(/[\\/]/).pop() || path;
 const inMillimetres = (metres) => (metres === null ? 'not given' : `${+(metres * 1000).toPrecision(12)} mm`);
 const inSeconds = (value) => (value === null ? '–' : `${value < 10 ? value.toFixed(2) : value.toFixed(1)} s`);
 
+/** What became of products of a model, by the kind of its notes. */
+const NOTES = [
+  ['space', 'spaces and zones are left out'],
+  ['cut_away', 'products have no part, since their openings leave nothing of them'],
+  ['not_built', 'products lack shapes that could not be built'],
+  ['open', 'parts have a surface that is not closed where a solid is meant'],
+];
+
 function showSummary() {
   const names = report.models.map((model) => baseName(model.file));
   byId('subject').textContent = names.join('  ·  ');
@@ -42,12 +50,18 @@ function showSummary() {
   const fact = (title, value, className = '') =>
     make('div', { className }, make('dt', {}, title), make('dd', {}, value));
   byId('facts').append(
+    fact('Frame', `metres, ${report.frame.up} up, as ${baseName(report.frame.of)}`),
     fact('Clearance', inMillimetres(report.clearance)),
     fact('Touch tolerance', inMillimetres(report.touch)),
     fact('Candidate pairs', wholeNumber.format(report.candidates)),
     fact('Time', inSeconds(total)),
     fact('Peak memory', `${wholeNumber.format(Math.round(report.peak_rss_mb ?? 0))} MiB`),
     fact('Clashes', wholeNumber.format(count)),
+    ...report.warnings.map((warning) => fact('Warning', warning, 'wide')),
+    ...report.models.flatMap((model) => NOTES.map(([kind, words]) => {
+      const ids = (model.notes ?? []).filter((note) => note.kind === kind).map((note) => note.id);
+      return ids.length > 0 && fact(baseName(model.file), `${wholeNumber.format(ids.length)} ${words}: ${ids.join(', ')}`, 'wide');
+    })).filter(Boolean),
     ...(hasStatus ? [fact('Status', STATUSES.map((s) => `${s} ${wholeNumber.format(report.statuses[s])}`).join(' · '), 'wide')] : []),
     fact('', `Import ${inSeconds(reading)} · hierarchies ${inSeconds(build)} · broad phase ${inSeconds(broad)}` +
       ` · narrow phase ${inSeconds(narrow)}`, 'wide soft'));
