@@ -157,7 +157,7 @@ int run(const CcdArguments& arguments, const CommonOptions& common) {
     const bool table = !common.json && !common.quiet;
     const auto print_row = [&](const std::string& row) {
         bar.hide();
-        print(row);
+        print_text(row);
     };
     if (table)
         print_row(table_head());
@@ -174,19 +174,19 @@ int run(const CcdArguments& arguments, const CommonOptions& common) {
     }
     bar.finish();
     if (table)
-        print(table_row(total, watch.seconds()));
+        print_text(table_row(total, watch.seconds()));
     if (common.json) {
         nlohmann::ordered_json list = nlohmann::ordered_json::array();
         for (const CcdStep& step : steps)
             list.push_back(describe(step));
-        print(dump({{"scheme", name_of(arguments.surface.scheme, kSchemes)},
-                    {"assignment", name_of(arguments.surface.assignment, kAssignments)},
-                    {"culling", name_of(arguments.surface.culling, kCullings)},
-                    {"mode", arguments.elementary.mode},
-                    {"delta", arguments.elementary.options().delta},
-                    {"thickness", arguments.elementary.thickness},
-                    {"steps", std::move(list)},
-                    {"total", describe(total, watch.seconds(), sequence.surface().bytes())}}));
+        print_json(dump({{"scheme", name_of(arguments.surface.scheme, kSchemes)},
+                         {"assignment", name_of(arguments.surface.assignment, kAssignments)},
+                         {"culling", name_of(arguments.surface.culling, kCullings)},
+                         {"mode", arguments.elementary.mode},
+                         {"delta", arguments.elementary.options().delta},
+                         {"thickness", arguments.elementary.thickness},
+                         {"steps", std::move(list)},
+                         {"total", describe(total, watch.seconds(), sequence.surface().bytes())}}));
     }
     const bool problem = total.impacts != TestCounts{} && !arguments.fail_on.empty();
     return problem ? kExitProblem : kExitDone;
@@ -205,9 +205,16 @@ CLI::Validator impact_file_name() {
 
 Subcommand add_ccd(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<CcdArguments>();
-    CLI::App* app = add_subcommand(root, common, "ccd",
-                                   "Which features of a deforming surface meet from one frame to "
-                                   "the next, and when");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"ccd",
+         kDeforming,
+         "Which features of a deforming surface meet from one frame to the next, and when",
+         {{"abut ccd 'frame-*.ply' --fail-on impacts",
+           "each step of a sequence; exit status 1 if anything meets"},
+          {"abut ccd frame-0.ply frame-1.ply --thickness 1mm --out impacts.csv",
+           "every pair that comes as near as a millimetre: which, when, where"}},
+         "features meet (with --fail-on impacts)"});
     app->add_option("FRAME", arguments->frames,
                     "PLY or OBJ files in order, or one pattern in quotes ('frame-*.ply'), whose "
                     "matches are taken in the order of their numbers")

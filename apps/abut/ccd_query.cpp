@@ -134,7 +134,7 @@ Tally answer(const ElementaryQueries& queries, const ElementaryOptions& options)
     return tally;
 }
 
-nlohmann::ordered_json describe(const Tally& tally) {
+nlohmann::ordered_json describe_tally(const Tally& tally) {
     nlohmann::ordered_json row{{"queries", tally.queries}, {"hits", tally.hits}};
     const auto count = [&](const char* key, std::size_t n) {
         row[key] = tally.has_truth ? nlohmann::ordered_json(n) : nlohmann::ordered_json();
@@ -152,12 +152,19 @@ nlohmann::ordered_json describe(const Tally& tally) {
     return row;
 }
 
+/// A file's name in a column; on a line of its own where the terminal is narrower than a row.
+std::string file_column(const std::string& name) {
+    constexpr int kRow = 132;
+    const int columns = columns_of(stdout);
+    return columns > 0 && columns < kRow ? name + "\n  " : fmt::format("{:<52} ", name);
+}
+
 std::string table_row(const std::string& name, const Tally& tally) {
     const auto count = [&](std::size_t n) { return tally.has_truth ? grouped(n) : "-"; };
-    return fmt::format("{:<52} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9.0f} {:>9.0f}\n", name,
-                       grouped(tally.queries), grouped(tally.hits), count(tally.positives),
-                       count(tally.false_negatives), count(tally.false_positives), tally.mean_ns(),
-                       tally.quantile_ns(0.5));
+    return file_column(shown(name)) +
+           fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>9.0f} {:>9.0f}\n", grouped(tally.queries),
+                       grouped(tally.hits), count(tally.positives), count(tally.false_negatives),
+                       count(tally.false_positives), tally.mean_ns(), tally.quantile_ns(0.5));
 }
 
 int run(const QueryArguments& arguments, const CommonOptions& common) {
@@ -175,26 +182,26 @@ int run(const QueryArguments& arguments, const CommonOptions& common) {
         replace_truth(arguments.truth_file, queries);
 
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
-    std::string text =
-        fmt::format("{:<52} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "file", "queries", "hits",
-                    "positives", "false neg", "false pos", "mean ns", "median ns");
+    std::string text = file_column("file") +
+                       fmt::format("{:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "queries", "hits",
+                                   "positives", "false neg", "false pos", "mean ns", "median ns");
     Tally total;
     for (std::size_t i = 0; i < queries.size(); ++i) {
         const Tally tally = answer(queries[i], options);
         total.add(tally);
         nlohmann::ordered_json row{{"file", arguments.files[i]}};
-        row.update(describe(tally));
+        row.update(describe_tally(tally));
         files.push_back(std::move(row));
         text += table_row(std::filesystem::path(arguments.files[i]).filename().string(), tally);
     }
     if (common.json)
-        print(dump({{"mode", arguments.elementary.mode},
-                    {"delta", options.delta},
-                    {"thickness", options.thickness},
-                    {"files", std::move(files)},
-                    {"total", describe(total)}}));
+        print_json(dump({{"mode", arguments.elementary.mode},
+                         {"delta", options.delta},
+                         {"thickness", options.thickness},
+                         {"files", std::move(files)},
+                         {"total", describe_tally(total)}}));
     else if (!common.quiet)
-        print(text + table_row("total", total));
+        print_text(text + table_row("total", total));
     return kExitDone;
 }
 
@@ -202,9 +209,17 @@ int run(const QueryArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_ccd_query(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<QueryArguments>();
-    CLI::App* app = add_subcommand(root, common, "ccd-query",
-                                   "Elementary tests of continuous collision: answers against "
-                                   "known ones, and what a test costs");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"ccd-query",
+         kDeforming,
+         "Elementary tests of continuous collision: answers against known ones, and what a test "
+         "costs",
+         {{"abut ccd-query queries-vertex-face.csv",
+           "do a vertex and a face meet between t = 0 and 1? Eight rows a query"},
+          {"abut ccd-query queries.csv --kind edge-edge --mode conservative --delta 1e-6",
+           "no impact is missed; pairs nearer than a micrometre may be reported"}},
+         ""});
     app->add_option("CSV", arguments->files, "Files of queries: eight rows each")->required();
     app->add_option("--truth", arguments->truth_file,
                     "JSON list of the answers to all queries, in their order")

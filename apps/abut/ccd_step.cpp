@@ -14,23 +14,30 @@ void add(TestCounts& sum, const TestCounts& counts) {
     sum.edge_edge += counts.edge_edge;
 }
 
-nlohmann::ordered_json to_json(const TestCounts& counts) {
+nlohmann::ordered_json json_of_counts(const TestCounts& counts) {
     return {{"vertex_face", counts.vertex_face}, {"edge_edge", counts.edge_edge}};
 }
 
 void add_counters(nlohmann::ordered_json& json, const DeformableCounters& counters) {
     json["triangle_pairs"] = counters.triangle_pairs;
-    json["candidates"] = to_json(counters.candidates);
-    json["elementary_tests"] = to_json(counters.elementary_tests);
+    json["candidates"] = json_of_counts(counters.candidates);
+    json["elementary_tests"] = json_of_counts(counters.elementary_tests);
     json["exact_fallbacks"] = counters.exact_fallbacks;
 }
 
-nlohmann::ordered_json describe_seconds(double refit, double detect, double total) {
+nlohmann::ordered_json json_of_seconds(double refit, double detect, double total) {
     return {{"refit", refit}, {"detect", detect}, {"total", total}};
 }
 
 std::string file_name(const std::string& path) {
     return std::filesystem::path(path).filename().string();
+}
+
+/// A step's name in a column; on a line of its own where the terminal is narrower than a row.
+std::string step_column(const std::string& name) {
+    constexpr int kRow = 124;
+    const int columns = columns_of(stdout);
+    return columns > 0 && columns < kRow ? name + "\n " : fmt::format("{:<44} ", name);
 }
 
 /// Numbers of a row, impacts to seconds.
@@ -64,46 +71,44 @@ nlohmann::ordered_json describe(const CcdStep& step) {
                                 {"vertices", step.vertices},
                                 {"edges", step.edges},
                                 {"triangles", step.triangles}};
-    json.update(to_json(step.impacts));
+    json.update(json_of_counts(step.impacts));
     json["first_time"] =
         step.first_time ? nlohmann::ordered_json(*step.first_time) : nlohmann::ordered_json();
     add_counters(json, step.counters);
-    json["seconds"] = describe_seconds(step.seconds_refit, step.seconds_detect, step.seconds);
+    json["seconds"] = json_of_seconds(step.seconds_refit, step.seconds_detect, step.seconds);
     return json;
 }
 
 nlohmann::ordered_json describe(const CcdTotal& total, double seconds, std::size_t bytes) {
     nlohmann::ordered_json json{{"steps", total.steps},
                                 {"topology_changes", total.topology_changes}};
-    json.update(to_json(total.impacts));
+    json.update(json_of_counts(total.impacts));
     add_counters(json, total.counters);
-    json["seconds"] = describe_seconds(total.seconds_refit, total.seconds_detect, seconds);
+    json["seconds"] = json_of_seconds(total.seconds_refit, total.seconds_detect, seconds);
     json["peak_rss_mb"] = peak_resident_mib();
     json["bytes"] = bytes;
     return json;
 }
 
 std::string table_head() {
-    return fmt::format("{:<44} {:>11} {:>11} {:>10} {:>13} {:>9} {:>9} {:>9}\n", "step",
-                       "vertex-face", "edge-edge", "first time", "candidates", "refit s",
-                       "detect s", "total s");
+    return step_column("step") + fmt::format("{:>11} {:>11} {:>10} {:>13} {:>9} {:>9} {:>9}\n",
+                                             "vertex-face", "edge-edge", "first time", "candidates",
+                                             "refit s", "detect s", "total s");
 }
 
 std::string table_row(const CcdStep& step) {
-    const std::string name = file_name(step.from) + " -> " + file_name(step.to);
+    const std::string name = shown(file_name(step.from)) + " -> " + shown(file_name(step.to));
     if (step.topology_changed)
-        return fmt::format("{:<44} topology changed: {} vertices, {} triangles\n", name,
-                           grouped(step.vertices), grouped(step.triangles));
-    const std::string first_time = step.first_time ? fmt::format("{:.6f}", *step.first_time) : "-";
-    return fmt::format("{:<44} ", name) + table_cells(step.impacts, first_time, step.counters,
-                                                      step.seconds_refit, step.seconds_detect,
-                                                      step.seconds);
+        return step_column(name) + fmt::format("topology changed: {} vertices, {} triangles\n",
+                                               grouped(step.vertices), grouped(step.triangles));
+    const std::string first_time = step.first_time ? number(*step.first_time) : "-";
+    return step_column(name) + table_cells(step.impacts, first_time, step.counters,
+                                           step.seconds_refit, step.seconds_detect, step.seconds);
 }
 
 std::string table_row(const CcdTotal& total, double seconds) {
-    return fmt::format("{:<44} ", "total") + table_cells(total.impacts, "", total.counters,
-                                                         total.seconds_refit, total.seconds_detect,
-                                                         seconds);
+    return step_column("total") + table_cells(total.impacts, "", total.counters,
+                                              total.seconds_refit, total.seconds_detect, seconds);
 }
 
 } // namespace abut::command

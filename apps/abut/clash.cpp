@@ -26,16 +26,17 @@ struct ClashArguments {
     std::string rules, out, fail_on;
     std::optional<std::string> memory;
     bool no_hierarchies = false;
-    double unit = 0;
+    ReadOptions read;
 };
 
 /// A file against itself would report every part as a duplicate of itself.
-void refuse_repeated(const std::vector<std::string>& files) {
+void refuse_repeated(const std::vector<ModelPath>& files) {
     for (std::size_t i = 0; i < files.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
             std::error_code missing; // a reader says that better
-            if (files[i] == files[j] || std::filesystem::equivalent(files[i], files[j], missing))
-                throw Error(ErrorCode::bad_argument, files[i], "is given twice");
+            if (files[i].path == files[j].path ||
+                std::filesystem::equivalent(files[i].path, files[j].path, missing))
+                throw Error(ErrorCode::bad_argument, files[i].path, "is given twice");
         }
 }
 
@@ -99,7 +100,8 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (crew && crew->rank() > 0)
         return help(arguments, *crew);
     // Everything that can be refused without reading a model is refused first.
-    refuse_repeated(arguments.files);
+    const std::vector<ModelPath> files = parse_model_paths(arguments.files);
+    refuse_repeated(files);
     const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
     const FailOn fail_on(arguments.fail_on, from_store);
     ClashOptions options = arguments.options;
@@ -116,7 +118,13 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (arguments.memory && !from_store)
         throw Error(ErrorCode::bad_argument, "--memory",
                     "is for a store alone: bring the models into one with abut import");
-    if (arguments.unit != 0 && from_store)
+    if (arguments.read.up != ReadOptions().up && from_store)
+        throw Error(ErrorCode::bad_argument, "--up",
+                    "is for models alone: a store has the axes of its first import");
+    if (arguments.read.spaces && from_store)
+        throw Error(ErrorCode::bad_argument, "--spaces",
+                    "is for models alone: a store has those of its import");
+    if (arguments.read.unit != 0 && from_store)
         throw Error(ErrorCode::bad_argument, "--unit",
                     "is for models alone: a store has the one of its import");
     if (crew && !from_store)
@@ -142,8 +150,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             out_of_core = std::move(found.counters);
             crew.reset(); // the others need not wait for the reports
         } else {
-            models = read_scenes(arguments.files,
-                                 {.unit = arguments.unit, .progress = options.progress});
+            ReadOptions read = arguments.read;
+            read.progress = options.progress;
+            models = read_scenes(files, read);
             const double seconds_import = watch.seconds();
             report = find_clashes(models, options);
             report.seconds.import = seconds_import;
@@ -161,14 +170,15 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             text += '\n';
         if (out_of_core)
             text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
-        print(text);
+        print_json(text);
     } else if (!common.quiet) {
         std::string text = summary(report, models);
         if (out_of_core)
             text += out_of_core_summary(*out_of_core);
         if (outputs)
-            text += fmt::format("\nreport      {}, .json, .csv\n", outputs->path("report.html"));
-        print(text);
+            text +=
+                fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
+        print_text(text);
     }
     return fail_on.is_problem(report) ? kExitProblem : kExitDone;
 }
@@ -177,22 +187,31 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_clash(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ClashArguments>();
-    CLI::App* app = add_subcommand(root, common, "clash",
-                                   "Every clash and clearance between the parts of models");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"clash",
+         kClashes,
+         "Every clash and clearance between the parts of models",
+         {{"abut clash design.glb pipes.glb --clearance 50mm --out report",
+           "between two models: report/report.html, report.json and report.csv"},
+          {"abut clash model.glb --fail-on hard,contained",
+           "within one model; exit status 1 if anything goes into or is inside of another part"},
+          {"mpirun -n 2 abut clash site.abut --memory 1G",
+           "of a store, by two processes of at most a gigabyte each (as root, mpirun needs "
+           "--allow-run-as-root)"}},
+         "there is a clash that --fail-on names"});
     app->add_option("MODEL", arguments->files,
-                    "Models in one world frame, or a store of them (abut import)")
+                    fmt::format("Models ({}), or a store of them (abut import)", kModelHelp))
         ->required();
     app->add_option("--memory", arguments->memory,
                     "A store: bytes to keep to, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
     app->add_flag("--no-keep-hierarchies", arguments->no_hierarchies,
                   "A store: do not keep there the hierarchies that are built");
-    app->add_option("--clearance", arguments->options.clearance,
-                    "Report parts that are nearer than this, in metres (default 0: off)")
-        ->check(not_negative());
-    app->add_option("--touch", arguments->options.touch,
-                    "Surfaces that meet no deeper than this only touch, in metres (default 0)")
-        ->check(not_negative());
+    add_length(*app, "--clearance", arguments->options.clearance,
+               "Report parts that are nearer than this (default 0: off)");
+    add_length(*app, "--touch", arguments->options.touch,
+               "Surfaces that meet no deeper than this only touch (default 0)");
     app->add_flag("--self", arguments->options.self,
                   "With several models: also the pairs within each");
     app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")
@@ -204,7 +223,7 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
                     "duplicate, clearance (comma-separated), or any; of a store one that is not "
                     "approved, or one of these statuses: new, active, reviewed, approved")
         ->check(not_empty("WORDS"));
-    add_unit_option(*app, arguments->unit);
+    add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -15,14 +15,36 @@ constexpr std::size_t kRows = 5;
 std::string label(const std::vector<Scene>& models, const Clash& clash, std::size_t side) {
     const Part& part = models[clash.model.at(side)].parts[clash.part.at(side)];
     constexpr std::size_t kLongest = 36;
-    std::string name = part.name;
+    std::string name = shown(part.name);
     if (name.size() > kLongest) {
         std::size_t end = kLongest - 3;
         while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
             --end; // not inside a UTF-8 character
         name = name.substr(0, end) + "...";
     }
-    return part.type.empty() ? name : fmt::format("{} ({})", name, part.type);
+    return part.type.empty() ? name : fmt::format("{} ({})", name, shown(part.type));
+}
+
+/// The word of a kind, as wide as its column.
+std::string kind_text(ClashKind kind) {
+    return fmt::format("{:<10}", abut::to_string(kind));
+}
+
+/// The same, coloured by how bad the kind is.
+std::string kind_column(ClashKind kind) {
+    const bool is_bad = kind == ClashKind::hard || kind == ClashKind::contained;
+    return coloured(is_bad ? Colour::bad : Colour::doubtful, kind_text(kind));
+}
+
+/// A clash in one line, or in two on a terminal that is narrower than that.
+std::string row(const std::vector<Scene>& models, const Clash& clash) {
+    constexpr std::size_t kNames = 27; ///< the column where the names begin
+    const std::string a = label(models, clash, 0), b = label(models, clash, 1);
+    const auto columns = static_cast<std::size_t>(columns_of(stdout));
+    const bool is_narrow = columns > 0 && columns < kNames + a.size() + 5 + b.size();
+    const std::string between = is_narrow ? "\n" + std::string(kNames, ' ') : "  |  ";
+    return fmt::format("  {} {:>10} m  {}{}{}\n", kind_column(clash.kind),
+                       number(clash.distance, 4), a, between, b);
 }
 
 /// The first few clashes of the kinds by `before`.
@@ -43,9 +65,7 @@ std::string extremes(const char* title, const ClashReport& report, const std::ve
                       });
     std::string text = fmt::format("\n{}\n", title);
     for (std::size_t i = 0; i < count; ++i)
-        text +=
-            fmt::format("  {:<10} {:>10.4g} m  {}  |  {}\n", abut::to_string(rows[i]->kind),
-                        rows[i]->distance, label(models, *rows[i], 0), label(models, *rows[i], 1));
+        text += row(models, *rows[i]);
     return text;
 }
 
@@ -54,16 +74,25 @@ std::string extremes(const char* title, const ClashReport& report, const std::ve
 std::string summary(const ClashReport& report, const std::vector<Scene>& models) {
     std::size_t widest = 0;
     for (const auto& model : report.models)
-        widest = std::max(widest, model.file.size());
+        widest = std::max(widest, shown(model.file).size());
     std::string text;
     for (const auto& model : report.models)
-        text += fmt::format("{:<{}}  {:>9} parts  {:>12} triangles\n", model.file, widest,
-                            grouped(model.parts), grouped(model.triangles));
-    text += fmt::format("\nclearance {} m, touch tolerance {} m, {} candidate pairs\n",
-                        report.clearance, report.touch, grouped(report.candidates));
-    for (const ClashKind kind : kClashKinds)
-        text += fmt::format("  {:<10} {:>9}\n", abut::to_string(kind),
-                            grouped(report.counts.at(static_cast<std::size_t>(kind))));
+        text +=
+            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {} m a unit, {} up\n",
+                        shown(model.file), widest, grouped(model.parts), grouped(model.triangles),
+                        number(model.unit), abut::to_string(model.up)) +
+            in_words(model.notes, "  ");
+    for (const std::string& warning : report.warnings)
+        text += fmt::format("warning: {}\n", shown(warning));
+    text += fmt::format("\nframe       metres, {} up, as {}\nclearance {}, touch tolerance {}, "
+                        "{} candidate pairs\n",
+                        abut::to_string(report.frame.up), shown(report.frame.of),
+                        metres(report.clearance), metres(report.touch), grouped(report.candidates));
+    for (const ClashKind kind : kClashKinds) {
+        const std::uint64_t count = report.counts.at(static_cast<std::size_t>(kind));
+        const std::string column = count > 0 ? kind_column(kind) : kind_text(kind);
+        text += fmt::format("  {} {:>9}\n", column, grouped(count));
+    }
     if (report.statuses) {
         std::string counts;
         for (const ClashStatus status : kClashStatuses)

@@ -16,6 +16,17 @@ nlohmann::ordered_json points_of(const Intersection& shared) {
     return points;
 }
 
+std::string describe_points(const Intersection& shared) {
+    std::string points;
+    for (std::uint32_t i = 0; i < shared.count; ++i)
+        points += (i == 0 ? "" : ", ") + direction(shared.corners.at(i));
+    return fmt::format("{} {} m",
+                       shared.count == 1   ? "point"
+                       : shared.count == 2 ? "segment"
+                                           : "polygon",
+                       points);
+}
+
 struct CollideQuery : PairQuery {
     PosesOption poses;
     bool all = false;
@@ -46,11 +57,13 @@ struct CollideQuery : PairQuery {
     }
     [[nodiscard]] std::string in_words(const Contacts& contacts) const {
         if (contacts.any() && !all)
-            return fmt::format("contact: triangle {} of A, triangle {} of B\n",
-                               contacts.pairs.front().a, contacts.pairs.front().b);
+            return fmt::format("contact: triangle {} of A, triangle {} of B{}\n",
+                               contacts.pairs.front().a, contacts.pairs.front().b,
+                               segments ? ", " + describe_points(contacts.segments.front()) : "");
         std::string text = in_a_line(contacts);
-        for (const TrianglePair& pair : contacts.pairs)
-            text += fmt::format("{} {}\n", pair.a, pair.b);
+        for (std::size_t i = 0; i < contacts.pairs.size(); ++i)
+            text += fmt::format("{} {}{}\n", contacts.pairs[i].a, contacts.pairs[i].b,
+                                segments ? "  " + describe_points(contacts.segments.at(i)) : "");
         return text;
     }
     [[nodiscard]] std::string in_a_line(const Contacts& contacts) const {
@@ -66,13 +79,21 @@ struct CollideQuery : PairQuery {
 Subcommand add_collide(CLI::App& root, CommonOptions& common) {
     auto query = std::make_shared<CollideQuery>();
     CLI::App* app =
-        add_subcommand(root, common, "collide", "Do the surfaces of two models share a point?");
+        add_subcommand(root, common,
+                       {"collide",
+                        kTwoModels,
+                        "Do the surfaces of two models share a point?",
+                        {{"abut collide a.obj b.stl --pose-b 0,0,2,1,0,0,0 --fail-on contact",
+                          "is there a contact with B two metres higher? Exit status 1 if so"},
+                         {"abut collide a.obj b.stl --all --segments",
+                          "every pair of triangles that meet, and the points that they share"}},
+                        "the surfaces share a point (with --fail-on contact)"});
     add_two_models(*app, query->models);
     add_poses(*app, query->poses);
     add_volume(*app, query->models);
     app->add_flag("--all", query->all, "List every pair of triangles that meet");
     app->add_flag("--segments", query->segments,
-                  "With --json: also the points that each pair shares");
+                  "Also the points that each pair of triangles shares");
     add_fail_on(*app, query->fail_on, "contact");
     CLI::Option* pieces =
         app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");

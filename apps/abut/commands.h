@@ -22,5 +22,6 @@ Subcommand add_graph(CLI::App& root, CommonOptions& common);
 Subcommand add_ccd(CLI::App& root, CommonOptions& common);
 Subcommand add_ccd_query(CLI::App& root, CommonOptions& common);
 Subcommand add_scene(CLI::App& root, CommonOptions& common);
+Subcommand add_generate(CLI::App& root, CommonOptions& common);
 
 } // namespace abut::command

@@ -2,12 +2,12 @@
 
 #include <abut/error.h>
 
+#include "choice.h"
+
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -37,22 +37,75 @@ ProgressBar::Style CommonOptions::progress_style() const {
     return progress ? ProgressBar::Style::lines : ProgressBar::Style::none;
 }
 
-CLI::App* add_subcommand(CLI::App& root, CommonOptions& common, const std::string& name,
-                         const std::string& description) {
-    CLI::App* app = root.add_subcommand(name, description);
-    app->add_flag("--json", common.json, "Print one JSON object on standard output");
-    app->add_option("--threads", common.threads, "Threads to use (default 0: all)")
-        ->check(whole_number(0, kMostThreads));
-    app->add_flag("--quiet", common.quiet, "Print nothing but errors (and the JSON, if asked for)");
-    app->add_flag("--progress", common.progress,
-                  "Report each stage on standard error even if that is no terminal");
+CLI::App* add_subcommand(CLI::App& root, CommonOptions& common, const VerbHelp& help) {
+    CLI::App* app = root.add_subcommand(std::make_shared<Verb>(help));
+    app->formatter(root.get_formatter());
+    const auto group = [](CLI::Option* option) { option->group(kCommonGroup); };
+    group(app->add_flag("--json", common.json, "Print one JSON object on standard output"));
+    group(app->add_option("--threads", common.threads, "Threads to use (default 0: all)")
+              ->check(whole_number(0, kMostThreads)));
+    group(app->add_flag("--quiet", common.quiet,
+                        "Print nothing but errors (and the JSON, if asked for)"));
+    group(app->add_flag("--progress", common.progress,
+                        "Report each stage on standard error even if that is no terminal"));
     return app;
 }
 
-void add_unit_option(CLI::App& app, double& unit) {
-    app.add_option("--unit", unit,
-                   "Metres per unit of the files (default: what the format says, else 1)")
+void add_read_options(CLI::App& app, ReadOptions& options) {
+    constexpr std::array<Named<UpAxis>, 3> kAxes{
+        {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}}};
+    app.add_option("--unit", options.unit,
+                   "Metres per unit of files whose format has none: OBJ, OFF, PLY, STL (default 1)")
         ->check(positive());
+    add_choice(app, "--up", options.up, kAxes,
+               "Axis that points up in files whose format does not say it");
+    app.add_flag("--spaces", options.spaces, "IFC: spaces and zones become parts too");
+    app.add_flag("--allow-outside-files", options.allow_outside_files,
+                 "glTF: buffers may lie outside of the model's folder");
+}
+
+std::vector<ModelPath> parse_model_paths(const std::vector<std::string>& texts) {
+    std::vector<ModelPath> paths;
+    paths.reserve(texts.size());
+    for (const std::string& text : texts)
+        paths.push_back(parse_model_path(text));
+    return paths;
+}
+
+nlohmann::ordered_json describe_frame(UpAxis up, const std::string& of) {
+    return {{"up", abut::to_string(up)}, {"unit", "m"}, {"of", of}};
+}
+
+nlohmann::ordered_json to_json(const std::vector<SceneNote>& notes) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const SceneNote& note : notes)
+        rows.push_back({{"kind", abut::to_string(note.kind)},
+                        {"id", note.id},
+                        {"name", note.name},
+                        {"type", note.type},
+                        {"text", note.text}});
+    return rows;
+}
+
+std::string in_words(const std::vector<SceneNote>& notes, const std::string& indent) {
+    constexpr std::array<std::pair<NoteKind, const char*>, 4> kWords{
+        {{NoteKind::space, "spaces and zones are left out (--spaces reads them)"},
+         {NoteKind::cut_away, "products have no part: their openings leave nothing of them"},
+         {NoteKind::not_built, "products lack shapes that could not be built"},
+         {NoteKind::open, "parts have a surface that is not closed where a solid is meant"}}};
+    constexpr std::size_t kMost = 3;
+    std::string text;
+    for (const auto& [kind, words] : kWords) {
+        std::size_t count = 0;
+        std::string ids;
+        for (const SceneNote& note : notes)
+            if (note.kind == kind && ++count <= kMost)
+                ids += (ids.empty() ? "" : ", ") + shown(note.id);
+        if (count > 0)
+            text += fmt::format("{}{} {}: {}{}\n", indent, grouped(count), words, ids,
+                                count > kMost ? ", …" : "");
+    }
+    return text;
 }
 
 void add_fail_on(CLI::App& app, std::string& fail_on, const std::string& problem) {
@@ -72,13 +125,36 @@ std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
+std::optional<double> parse_length(std::string_view text) {
+    // A quotient of whole numbers is rounded once: 50mm is the double that 0.05 is.
+    struct Unit {
+        std::string_view name;
+        double numerator, denominator;
+    };
+    constexpr std::array<Unit, 5> kUnits{
+        {{"mm", 1, 1000}, {"cm", 1, 100}, {"in", 254, 10000}, {"ft", 3048, 10000}, {"m", 1, 1}}};
+    const auto* const unit =
+        std::ranges::find_if(kUnits, [&](const Unit& each) { return text.ends_with(each.name); });
+    if (unit == kUnits.end())
+        return parse_number(text);
+    text.remove_suffix(unit->name.size());
+    while (text.ends_with(' '))
+        text.remove_suffix(1);
+    const auto value = parse_number(text);
+    if (!value)
+        return std::nullopt;
+    const double metres = *value * unit->numerator / unit->denominator;
+    return std::isfinite(metres) ? std::optional(metres) : std::nullopt;
+}
+
 std::vector<double> parse_numbers(const std::string& what, std::string_view text,
-                                  const std::string& form) {
+                                  const std::string& form, std::size_t lengths) {
     std::vector<double> numbers;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t comma = std::min(text.find(',', begin), text.size());
         const std::string_view word = text.substr(begin, comma - begin);
-        const auto number = parse_number(word);
+        const bool is_length = numbers.size() < lengths;
+        const auto number = is_length ? parse_length(word) : parse_number(word);
         if (!number)
             throw Error(ErrorCode::bad_argument,
                         fmt::format("{}: '{}' is no finite number", what, word));
@@ -93,6 +169,11 @@ std::vector<double> parse_numbers(const std::string& what, std::string_view text
 }
 
 Vec3 parse_point(const std::string& what, std::string_view text) {
+    const std::vector<double> p = parse_numbers(what, text, "x,y,z", 3);
+    return {p[0], p[1], p[2]};
+}
+
+Vec3 parse_direction(const std::string& what, std::string_view text) {
     const std::vector<double> p = parse_numbers(what, text, "x,y,z");
     return {p[0], p[1], p[2]};
 }
@@ -124,6 +205,19 @@ CLI::Validator whole_number(std::uint64_t lowest, std::uint64_t highest) {
                                       highest, text);
         },
         "N");
+}
+
+CLI::Validator length() {
+    return CLI::Validator(
+        [](std::string& text) {
+            const std::optional<double> metres = parse_length(text);
+            if (!metres || *metres < 0)
+                return fmt::format("must be a length of at least 0, as 0.05 (metres), 50mm, 5cm, "
+                                   "2in or 1ft, not '{}'",
+                                   text);
+            return std::string();
+        },
+        "LENGTH");
 }
 
 std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
@@ -187,13 +281,6 @@ const char* to_string(Status status) {
 
 std::string dump(const nlohmann::ordered_json& value) {
     return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-void print(std::string_view text) {
-    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-    if (!written || std::fflush(stdout) != 0)
-        throw Error(ErrorCode::cannot_write, "standard output",
-                    std::string("cannot be written: ") + std::strerror(errno));
 }
 
 } // namespace abut::command

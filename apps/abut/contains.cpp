@@ -17,10 +17,10 @@ struct ContainsArguments {
     std::string fail_on;
 };
 
-const char* to_string(Side side) {
+const char* name_of_side(Side side) {
     return side == Side::inside ? "inside" : side == Side::outside ? "outside" : "on_surface";
 }
-const char* to_string(ContainmentMethod method) {
+const char* name_of_method(ContainmentMethod method) {
     return method == ContainmentMethod::crossings ? "crossings" : "winding";
 }
 
@@ -33,27 +33,28 @@ int run(const ContainsArguments& arguments, const CommonOptions& common) {
 
     if (common.json) {
         nlohmann::ordered_json answer{{"model", arguments.model.file},
-                                      {"method", to_string(results[0].method)},
+                                      {"frame", model.frame},
+                                      {"method", name_of_method(results[0].method)},
                                       {"points", nlohmann::ordered_json::array()}};
         for (std::size_t i = 0; i < points.size(); ++i) {
             answer["points"].push_back(
-                {{"point", to_json(points[i])}, {"side", to_string(results[i].side)}});
+                {{"point", to_json(points[i])}, {"side", name_of_side(results[i].side)}});
             if (results[i].method == ContainmentMethod::winding)
                 answer["points"].back()["winding_number"] = results[i].winding_number;
         }
         answer["seconds"] = describe_seconds(model, seconds);
-        print(dump(answer));
+        print_json(dump(answer));
     } else if (!common.quiet) {
         std::string text;
         for (const Containment& c : results)
             text += c.method == ContainmentMethod::crossings
-                        ? fmt::format("{}\n", to_string(c.side))
-                        : fmt::format("{} (not closed; winding number {})\n", to_string(c.side),
-                                      c.winding_number);
-        print(text);
+                        ? fmt::format("{}\n", name_of_side(c.side))
+                        : fmt::format("{} (not closed; winding number {})\n", name_of_side(c.side),
+                                      number(c.winding_number));
+        print_text(text);
     }
     const bool fails = std::any_of(results.begin(), results.end(), [&](const Containment& c) {
-        return to_string(c.side) == arguments.fail_on;
+        return name_of_side(c.side) == arguments.fail_on;
     });
     return fails ? kExitProblem : kExitDone;
 }
@@ -62,8 +63,14 @@ int run(const ContainsArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_contains(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ContainsArguments>();
-    CLI::App* app = add_subcommand(root, common, "contains",
-                                   "Are points inside a model, outside, or on its surface?");
+    CLI::App* app = add_subcommand(root, common,
+                                   {"contains",
+                                    kOneModel,
+                                    "Are points inside a model, outside, or on its surface?",
+                                    {{"abut contains a.obj --point 0.5,0.5,0.5", "one point"},
+                                     {"abut contains a.obj --points points.csv --fail-on inside",
+                                      "a line x,y,z each; exit status 1 if any lies inside"}},
+                                    "some point is where --fail-on says"});
     add_one_model(*app, arguments->model);
     add_points(*app, arguments->points);
     app->add_option("--fail-on", arguments->fail_on,

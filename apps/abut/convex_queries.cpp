@@ -14,7 +14,7 @@ nlohmann::ordered_json describe_feature(Feature kind, std::uint32_t id) {
     return {{"kind", to_string(kind)}, {"id", id}};
 }
 
-nlohmann::ordered_json describe(const ConvexCounters& counters) {
+nlohmann::ordered_json describe_work(const ConvexCounters& counters) {
     return {{"feature_pairs", counters.feature_pairs}, {"simplices", counters.simplices}};
 }
 
@@ -47,25 +47,23 @@ void ConvexDistanceQuery::add_answer(const ConvexGap& gap, nlohmann::ordered_jso
         json["feature_b"] = describe_feature(gap.feature_b, gap.id_b);
     }
     json["status"] = to_string(gap.status);
-    json["counters"] = describe(gap.counters);
+    json["counters"] = describe_work(gap.counters);
 }
 
 std::string ConvexDistanceQuery::in_words(const ConvexGap& gap) {
     if (gap.distance == 0)
-        return fmt::format("the hulls meet at ({}, {}, {})\n", gap.point_a.x, gap.point_a.y,
-                           gap.point_a.z);
+        return fmt::format("the hulls meet at {}\n", point(gap.point_a));
     const std::string at_least =
-        gap.at_least < gap.distance ? fmt::format(" (at least {})", gap.at_least) : "";
+        gap.status == Status::exact ? "" : fmt::format(" (at least {})", metres(gap.at_least));
     return fmt::format("distance {}{}\n"
-                       "point on the hull of A ({}, {}, {}), {} {}\n"
-                       "point on the hull of B ({}, {}, {}), {} {}\n",
-                       gap.distance, at_least, gap.point_a.x, gap.point_a.y, gap.point_a.z,
-                       to_string(gap.feature_a), gap.id_a, gap.point_b.x, gap.point_b.y,
-                       gap.point_b.z, to_string(gap.feature_b), gap.id_b);
+                       "point on the hull of A {}, {} {}\n"
+                       "point on the hull of B {}, {} {}\n",
+                       metres(gap.distance), at_least, point(gap.point_a), to_string(gap.feature_a),
+                       gap.id_a, point(gap.point_b), to_string(gap.feature_b), gap.id_b);
 }
 
 std::string ConvexDistanceQuery::in_a_line(const ConvexGap& gap) {
-    return fmt::format("{}\n", gap.distance);
+    return metres(gap.distance) + "\n";
 }
 
 ConvexDepth ConvexPenetrationQuery::ask(const TwoModels& m) {
@@ -80,14 +78,14 @@ void ConvexPenetrationQuery::add_answer(const ConvexDepth& depth, nlohmann::orde
     json["point_a"] = to_json(depth.point_a);
     json["point_b"] = to_json(depth.point_b);
     json["status"] = to_string(depth.status);
-    json["counters"] = describe(depth.counters);
+    json["counters"] = describe_work(depth.counters);
 }
 
 std::string ConvexPenetrationQuery::in_words(const ConvexDepth& depth) {
     if (!depth.meet)
         return "apart\n";
-    return fmt::format("depth {}, out when B moves along ({}, {}, {})\n", depth.depth,
-                       depth.direction.x, depth.direction.y, depth.direction.z);
+    return fmt::format("depth {}, out when B moves along {}\n", metres(depth.depth),
+                       direction(depth.direction));
 }
 
 } // namespace abut::command

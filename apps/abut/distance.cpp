@@ -51,17 +51,17 @@ struct DistanceQuery : PairQuery {
     }
     static std::string in_words(const Gap& gap) {
         if (is_beyond_bound(gap))
-            return fmt::format("distance at least {}\n", gap.at_least);
+            return fmt::format("distance at least {}\n", metres(gap.at_least));
+        // The two bounds of an exact distance differ by rounding alone.
         const std::string at_least =
-            gap.at_least < gap.distance ? fmt::format(" (at least {})", gap.at_least) : "";
+            gap.status == Status::exact ? "" : fmt::format(" (at least {})", metres(gap.at_least));
         return fmt::format("distance {}{}\n"
-                           "point on A ({}, {}, {}), triangle {}\n"
-                           "point on B ({}, {}, {}), triangle {}\n",
-                           gap.distance, at_least, gap.point_a.x, gap.point_a.y, gap.point_a.z,
-                           gap.triangle_a, gap.point_b.x, gap.point_b.y, gap.point_b.z,
-                           gap.triangle_b);
+                           "point on A {}, triangle {}\n"
+                           "point on B {}, triangle {}\n",
+                           metres(gap.distance), at_least, point(gap.point_a), gap.triangle_a,
+                           point(gap.point_b), gap.triangle_b);
     }
-    static std::string in_a_line(const Gap& gap) { return fmt::format("{}\n", gap.distance); }
+    static std::string in_a_line(const Gap& gap) { return metres(gap.distance) + "\n"; }
     static bool is_problem(const Gap& /*gap*/) { return false; }
 };
 
@@ -69,21 +69,26 @@ struct DistanceQuery : PairQuery {
 
 Subcommand add_distance(CLI::App& root, CommonOptions& common) {
     auto query = std::make_shared<DistanceQuery>();
-    CLI::App* app = add_subcommand(root, common, "distance",
-                                   "Distance of the surfaces of two models, and closest points");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"distance",
+         kTwoModels,
+         "Distance of the surfaces of two models, and closest points",
+         {{"abut distance a.obj b.stl --pose-b 3,0,0,1,0,0,0", "with B moved by three metres"},
+          {"abut distance a.obj b.stl --poses poses.csv --json",
+           "the distance for each pose of B in a file, as JSON"}},
+         ""});
     add_two_models(*app, query->models);
     add_poses(*app, query->poses);
     add_volume(*app, query->models);
     DistanceOptions& options = query->options;
-    app->add_option("--absolute-error", options.absolute_error,
-                    "Metres by which the distance may be too large (default 0)")
-        ->check(not_negative());
+    add_length(*app, "--absolute-error", options.absolute_error,
+               "Length by which the distance may be too large (default 0)");
     app->add_option("--relative-error", options.relative_error,
                     "Share of the distance by which it may be too large (default 0)")
         ->check(not_negative());
-    app->add_option("--upper-bound", options.upper_bound,
-                    "Metres beyond which the distance does not matter (default: none)")
-        ->check(not_negative());
+    add_length(*app, "--upper-bound", options.upper_bound,
+               "Length beyond which the distance does not matter (default: none)");
     app->add_flag("--signed", options.signed_distance,
                   "Negative, minus the depth, where the models go into each other");
     CLI::Option* convex =

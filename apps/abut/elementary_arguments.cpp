@@ -23,14 +23,12 @@ ElementaryOptions ElementaryArguments::options() const {
 
 void add_elementary_arguments(CLI::App& app, ElementaryArguments& arguments) {
     app.add_option("--mode", arguments.mode,
-                   "exact (default), or conservative: pairs nearer than delta may be hits")
+                   "exact (the default), or conservative: pairs nearer than delta may be hits")
         ->check(CLI::IsMember({"exact", "conservative"}));
-    app.add_option("--delta", arguments.delta,
-                   fmt::format("Length, of the mode conservative (default {})", kDefaultDelta))
-        ->check(not_negative());
-    app.add_option("--thickness", arguments.thickness,
-                   "Length: features this near are hits (default 0: features that touch)")
-        ->check(not_negative());
+    add_length(app, "--delta", arguments.delta,
+               fmt::format("Of the mode conservative (default {})", metres(kDefaultDelta)));
+    add_length(app, "--thickness", arguments.thickness,
+               "Features this near are hits (default 0: features that touch)");
 }
 
 const char* to_string(ElementaryKind kind) {

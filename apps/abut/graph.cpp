@@ -48,23 +48,23 @@ nlohmann::ordered_json describe(const GraphReport& graph, const std::string& sto
 }
 
 std::string table(const GraphReport& graph, const std::string& store) {
-    std::string text =
-        fmt::format("{}\n"
-                    "  nodes       {:>14}  parts, {} of them without an edge\n"
-                    "  edges       {:>14}  pairs of parts in reach of each other\n"
-                    "  components  {:>14}  the largest of {} parts\n"
-                    "  valence     {:>14.2f}  in the mean, {} at most\n"
-                    "  models      {:>14}  bytes, of meshes and hierarchies that an edge needs\n"
-                    "  large       {:>14}  bytes of them, of {} meshes of which few blocks are in "
-                    "memory at a time\n"
-                    "  units       {:>14}  pieces of work that fit into the memory\n"
-                    "  cut         {:>14}  edges between them\n"
-                    "seconds     {:.2f}\n",
-                    store, grouped(graph.nodes), grouped(graph.isolated), grouped(graph.edges),
-                    grouped(graph.components), grouped(graph.largest_component), graph.mean_valence,
-                    grouped(graph.highest_valence), grouped(graph.bytes),
-                    grouped(graph.large_bytes), grouped(graph.large_meshes),
-                    grouped(graph.units.size()), grouped(graph.cut_edges), graph.seconds);
+    std::string text = fmt::format(
+        "{}\n"
+        "  nodes       {:>14}  parts, {} of them without an edge\n"
+        "  edges       {:>14}  pairs of parts in reach of each other\n"
+        "  components  {:>14}  the largest of {} parts\n"
+        "  valence     {:>14.2f}  in the mean, {} at most\n"
+        "  models      {:>14}  bytes, of meshes and hierarchies that an edge needs\n"
+        "  large       {:>14}  bytes of them, of {} meshes of which few blocks are in "
+        "memory at a time\n"
+        "  units       {:>14}  pieces of work that fit into the memory\n"
+        "  cut         {:>14}  edges between them\n"
+        "seconds     {:.2f}\n",
+        shown(store), grouped(graph.nodes), grouped(graph.isolated), grouped(graph.edges),
+        grouped(graph.components), grouped(graph.largest_component), graph.mean_valence,
+        grouped(graph.highest_valence), grouped(graph.bytes), grouped(graph.large_bytes),
+        grouped(graph.large_meshes), grouped(graph.units.size()), grouped(graph.cut_edges),
+        graph.seconds);
     constexpr std::size_t kRows = 40;
     if (graph.units.size() > 1)
         text += "\n  unit     parts     edges    meshes         bytes\n";
@@ -105,9 +105,9 @@ int run(const GraphArguments& arguments, const CommonOptions& common) {
         outputs->commit();
     }
     if (common.json)
-        print(dump(describe(graph, arguments.store)));
+        print_json(dump(describe(graph, arguments.store)));
     else if (!common.quiet)
-        print(table(graph, arguments.store));
+        print_text(table(graph, arguments.store));
     return kExitDone;
 }
 
@@ -115,13 +115,19 @@ int run(const GraphArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_graph(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<GraphArguments>();
-    CLI::App* app = add_subcommand(root, common, "graph",
-                                   "The overlap graph of a store's parts, and how it is cut into "
-                                   "pieces of work that fit into the memory");
+    CLI::App* app = add_subcommand(root, common,
+                                   {"graph",
+                                    kClashes,
+                                    "The overlap graph of a store's parts, and how it is cut into "
+                                    "pieces of work that fit into "
+                                    "the memory",
+                                    {{"abut graph site.abut --clearance 50mm --memory 2G",
+                                      "how a job with two gigabytes would be cut"},
+                                     {"abut graph site.abut --svg graph.svg", "a drawing of it"}},
+                                    ""});
     app->add_option("STORE", arguments->store, "Made by abut import")->required();
-    app->add_option("--clearance", arguments->options.clearance,
-                    "Parts nearer than this, in metres, have an edge (default 0)")
-        ->check(not_negative());
+    add_length(*app, "--clearance", arguments->options.clearance,
+               "Parts nearer than this have an edge (default 0)");
     app->add_flag("--self", arguments->options.self,
                   "With several models: also the pairs within each");
     app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")

@@ -10,7 +10,10 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <string_view>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <type_traits>
 #include <unistd.h>
 #include <utility>
@@ -62,14 +65,36 @@ void append_record(fmt::memory_buffer& out, std::size_t step, const FeatureImpac
         append_real(out, x);
 }
 
+[[noreturn]] void fail(const std::string& path) {
+    throw Error(ErrorCode::cannot_write, path,
+                std::string("cannot be written: ") + std::strerror(errno));
+}
+
+/// Opens a file for writing and empties it, unless another process writes it: then its content stays.
+std::FILE* open_alone(const std::string& path) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+        fail(path);
+    // Devices and some network file systems know no locks.
+    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        close(descriptor);
+        throw Error(ErrorCode::cannot_write, path,
+                    "cannot be written: it is in use by another process");
+    }
+    struct stat status {};
+    const bool empties = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    if (empties && ftruncate(descriptor, 0) != 0)
+        fail(path);
+    std::FILE* const file = fdopen(descriptor, "wb");
+    if (file == nullptr)
+        fail(path);
+    return file;
+}
+
 } // namespace
 
 ImpactFile::ImpactFile(std::string path)
-    : path_(std::move(path)), binary_(path_.ends_with(".bin")),
-      file_(std::fopen(path_.c_str(), "wbe")) {
-    if (!file_)
-        throw Error(ErrorCode::cannot_write, path_,
-                    std::string("cannot be written: ") + std::strerror(errno));
+    : path_(std::move(path)), binary_(path_.ends_with(".bin")), file_(open_alone(path_)) {
     std::setvbuf(file_.get(), nullptr, _IONBF, 0); // nothing is left for fclose() to write
     if (binary_) {
         buffer_.append(kMagic);

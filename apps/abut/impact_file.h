@@ -19,7 +19,7 @@ namespace abut::command {
 /// and no part of another.
 class ImpactFile {
 public:
-    /// Creates the file, or empties it.
+    /// Creates the file, or empties it. No other process can open it so until it is closed.
     ///
     /// Errors      Error{cannot_write}, naming the file; Error{interrupted}.
     explicit ImpactFile(std::string path);

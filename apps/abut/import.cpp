@@ -16,7 +16,7 @@ namespace {
 struct ImportArguments {
     std::vector<std::string> files; ///< the store last
     std::string memory = "512M";
-    double unit = 0;
+    ReadOptions read;
     bool remove = false;
 };
 
@@ -29,6 +29,9 @@ nlohmann::ordered_json describe(const ImportReport& report, const std::string& s
                           {"bytes", model.bytes},
                           {"parts", model.parts},
                           {"triangles", model.triangles},
+                          {"unit", model.unit},
+                          {"up", abut::to_string(model.up)},
+                          {"notes", to_json(model.notes)},
                           {"added", model.added},
                           {"changed", model.changed},
                           {"removed", model.removed},
@@ -44,21 +47,21 @@ nlohmann::ordered_json describe(const ImportReport& report, const std::string& s
 std::string table(const ImportReport& report, const std::string& store) {
     std::size_t widest = 0;
     for (const ImportedModel& model : report.models)
-        widest = std::max(widest, model.file.size());
+        widest = std::max(widest, shown(model.file).size());
     std::string text;
     for (const ImportedModel& model : report.models) {
         text +=
-            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {}", model.file, widest,
+            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {}", shown(model.file), widest,
                         grouped(model.parts), grouped(model.triangles), to_string(model.outcome));
         if (model.outcome == ImportOutcome::changed)
             text += fmt::format(": {} added, {} changed, {} removed", grouped(model.added),
                                 grouped(model.changed), grouped(model.removed));
-        text += '\n';
+        text += '\n' + in_words(model.notes, "  ");
     }
     return text + fmt::format("{}  {} new meshes, {} removed\n"
                               "seconds     {:.2f}\npeak memory {:.0f} MiB\n",
-                              store, grouped(report.new_meshes), grouped(report.removed_meshes),
-                              report.seconds, peak_resident_mib());
+                              shown(store), grouped(report.new_meshes),
+                              grouped(report.removed_meshes), report.seconds, peak_resident_mib());
 }
 
 int remove(const std::vector<std::string>& files, const std::string& store,
@@ -68,14 +71,15 @@ int remove(const std::vector<std::string>& files, const std::string& store,
     std::string text;
     for (const RemovedModel& model : report.models) {
         models.push_back({{"file", model.file}, {"parts", model.parts}});
-        text += fmt::format("{}  {} parts removed\n", model.file, grouped(model.parts));
+        text += fmt::format("{}  {} parts removed\n", shown(model.file), grouped(model.parts));
     }
     if (common.json)
-        print(dump({{"store", store},
-                    {"removed", std::move(models)},
-                    {"removed_meshes", report.removed_meshes}}));
+        print_json(dump({{"store", store},
+                         {"removed", std::move(models)},
+                         {"removed_meshes", report.removed_meshes}}));
     else if (!common.quiet)
-        print(text + fmt::format("{}  {} meshes removed\n", store, grouped(report.removed_meshes)));
+        print_text(text + fmt::format("{}  {} meshes removed\n", shown(store),
+                                      grouped(report.removed_meshes)));
     return kExitDone;
 }
 
@@ -90,17 +94,20 @@ int run(const ImportArguments& arguments, const CommonOptions& common) {
     ImportReport report;
     {
         const InterruptScope scope(OnInterrupt::ask);
-        report = import_models(models, store,
+        report = import_models(parse_model_paths(models), store,
                                {.memory = parse_bytes("--memory", arguments.memory),
-                                .unit = arguments.unit,
+                                .unit = arguments.read.unit,
+                                .up = arguments.read.up,
+                                .spaces = arguments.read.spaces,
+                                .allow_outside_files = arguments.read.allow_outside_files,
                                 .progress = bar.progress()});
     }
     bar.finish();
     throw_if_interrupted();
     if (common.json)
-        print(dump(describe(report, store)));
+        print_json(dump(describe(report, store)));
     else if (!common.quiet)
-        print(table(report, store));
+        print_text(table(report, store));
     return kExitDone;
 }
 
@@ -108,16 +115,24 @@ int run(const ImportArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_import(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ImportArguments>();
-    CLI::App* app = add_subcommand(root, common, "import",
-                                   "Bring models into a store, for jobs on more than "
-                                   "fits into the memory");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"import",
+         kModels,
+         "Bring models into a store, for jobs on more than fits into the memory",
+         {{"abut import design.glb pipes.glb site.abut",
+           "makes the store, or brings it up to date with files that have changed"},
+          {"abut import --remove pipes.glb site.abut", "takes a model out of it again"}},
+         ""});
     app->add_option("FILES", arguments->files,
-                    "Models, and the store last: made if it is not there, else brought up to date")
+                    fmt::format("Models ({}), and the store last: made if it is not there, else "
+                                "brought up to date",
+                                kModelHelp))
         ->required();
     app->add_option("--memory", arguments->memory,
                     "Bytes to keep to, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
-    add_unit_option(*app, arguments->unit);
+    add_read_options(*app, arguments->read);
     app->add_flag("--remove", arguments->remove,
                   "Take the models out of the store; their files need not be there");
     return {app, [arguments, &common] { return run(*arguments, common); }};

@@ -20,7 +20,7 @@ struct InfoArguments {
     bool parts = false;
     bool verify = false;
     bool pieces = false; ///< also the convex pieces of each mesh
-    double unit = 0;
+    ReadOptions read;
 };
 
 /// A file's totals. Each instance counts, but for `meshes` and `stored_triangles`.
@@ -114,6 +114,8 @@ nlohmann::ordered_json describe_parts(const Scene& scene, const std::vector<Mesh
 nlohmann::ordered_json describe(const Scene& scene, const std::vector<MeshReport>& reports,
                                 const FileInfo& info, bool with_parts) {
     nlohmann::ordered_json file{{"file", scene.file},
+                                {"unit", scene.unit},
+                                {"up", abut::to_string(scene.up)},
                                 {"parts", scene.parts.size()},
                                 {"meshes", scene.meshes.size()},
                                 {"triangles", info.sum.triangles},
@@ -121,6 +123,7 @@ nlohmann::ordered_json describe(const Scene& scene, const std::vector<MeshReport
                                 {"closed_parts", info.closed_parts}};
     add_counts(file, info.sum);
     file["bounds"] = describe(info.sum.bounds);
+    file["notes"] = to_json(scene.notes);
     if (with_parts)
         file["part_list"] = describe_parts(scene, reports);
     return file;
@@ -128,32 +131,39 @@ nlohmann::ordered_json describe(const Scene& scene, const std::vector<MeshReport
 
 std::string table(const Scene& scene, const std::vector<MeshReport>& reports, const FileInfo& info,
                   bool with_parts) {
-    const Vec3& lower = info.sum.bounds.lower;
-    const Vec3& upper = info.sum.bounds.upper;
-    std::string text = fmt::format(
-        "{}\n"
-        "  parts       {:>12}  ({} closed), {} meshes\n"
-        "  triangles   {:>12}  ({} stored)\n"
-        "  degenerate  {:>12}  triangles of no area\n"
-        "  duplicate   {:>12}  triangles\n"
-        "  edges       {:>12}  boundary, {} non-manifold, {} flipped\n"
-        "  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n",
-        scene.file, grouped(scene.parts.size()), grouped(info.closed_parts),
-        grouped(scene.meshes.size()), grouped(info.sum.triangles), grouped(info.stored_triangles),
-        grouped(info.sum.degenerate_triangles), grouped(info.sum.duplicate_triangles),
-        grouped(info.sum.boundary_edges), grouped(info.sum.nonmanifold_edges),
-        grouped(info.sum.flipped_edges), lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
+    std::string text =
+        fmt::format("{}\n"
+                    "  frame       {:>12}  up; metres ({} in a unit of the file)\n"
+                    "  parts       {:>12}  ({} closed), {} meshes\n"
+                    "  triangles   {:>12}  ({} stored)\n"
+                    "  degenerate  {:>12}  triangles of no area\n"
+                    "  duplicate   {:>12}  triangles\n"
+                    "  edges       {:>12}  boundary, {} non-manifold, {} flipped\n"
+                    "  bounds      {} to {}\n",
+                    shown(scene.file), abut::to_string(scene.up), number(scene.unit),
+                    grouped(scene.parts.size()), grouped(info.closed_parts),
+                    grouped(scene.meshes.size()), grouped(info.sum.triangles),
+                    grouped(info.stored_triangles), grouped(info.sum.degenerate_triangles),
+                    grouped(info.sum.duplicate_triangles), grouped(info.sum.boundary_edges),
+                    grouped(info.sum.nonmanifold_edges), grouped(info.sum.flipped_edges),
+                    direction(info.sum.bounds.lower), point(info.sum.bounds.upper));
+    text += in_words(scene.notes, "  ");
     if (!with_parts)
         return text;
     text += fmt::format("\n  {:>9} {:>6} {:>10} {:>9} {:>8} {:>12} {:>7}  part\n", "triangles",
                         "closed", "degenerate", "duplicate", "boundary", "non-manifold", "flipped");
+    constexpr std::size_t kNumbers = 71; // columns before a part's name
+    const auto columns = static_cast<std::size_t>(columns_of(stdout));
     for (const Part& part : scene.parts) {
         const MeshReport& report = reports[part.mesh];
+        const std::string name =
+            shown(part.name) + (part.type.empty() ? "" : "  ") + shown(part.type);
+        const bool is_narrow = columns > 0 && columns < kNumbers + name.size();
         text +=
-            fmt::format("  {:>9} {:>6} {:>10} {:>9} {:>8} {:>12} {:>7}  {}{}{}\n", report.triangles,
+            fmt::format("  {:>9} {:>6} {:>10} {:>9} {:>8} {:>12} {:>7}{}{}\n", report.triangles,
                         report.closed ? "yes" : "no", report.degenerate_triangles,
                         report.duplicate_triangles, report.boundary_edges, report.nonmanifold_edges,
-                        report.flipped_edges, part.name, part.type.empty() ? "" : "  ", part.type);
+                        report.flipped_edges, is_narrow ? "\n      " : "  ", name);
     }
     return text;
 }
@@ -173,7 +183,7 @@ std::string pieces_table(const nlohmann::ordered_json& rows) {
         text +=
             row.contains("error")
                 ? fmt::format("  {:>9} {:>9} {:>9}  {}\n", "-", triangles, "-",
-                              row["error"].get<std::string>())
+                              shown(row["error"].get<std::string>()))
                 : fmt::format("  {:>9} {:>9} {:>9}\n", grouped(row["pieces"].get<std::uint64_t>()),
                               triangles, grouped(row["largest"].get<std::uint64_t>()));
     }
@@ -193,7 +203,9 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
     std::vector<Scene> scenes;
     {
         const InterruptScope scope(OnInterrupt::ask);
-        scenes = read_scenes(arguments.files, {.unit = arguments.unit, .progress = bar.progress()});
+        ReadOptions read = arguments.read;
+        read.progress = bar.progress();
+        scenes = read_scenes(parse_model_paths(arguments.files), read);
     }
     throw_if_interrupted();
     bar.finish();
@@ -216,9 +228,9 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
         }
     }
     if (common.json)
-        print(dump({{"files", std::move(files)}}));
+        print_json(dump({{"files", std::move(files)}}));
     else if (!common.quiet)
-        print(text);
+        print_text(text);
     return kExitDone;
 }
 
@@ -226,13 +238,21 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_info(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<InfoArguments>();
-    CLI::App* app = add_subcommand(root, common, "info",
-                                   "What models or stores hold: parts, triangles, bounds, defects");
-    app->add_option("MODEL", arguments->files, "Models, or stores, to look at")->required();
+    CLI::App* app =
+        add_subcommand(root, common,
+                       {"info",
+                        kModels,
+                        "What models or stores hold: parts, triangles, bounds, defects",
+                        {{"abut info model.glb --parts", "totals, and a row for each part"},
+                         {"abut info site.abut --verify", "is all of a store sound?"}},
+                        ""});
+    app->add_option("MODEL", arguments->files,
+                    fmt::format("Models ({}), or stores, to look at", kModelHelp))
+        ->required();
     app->add_flag("--parts", arguments->parts, "A row for each part");
     app->add_flag("--verify", arguments->verify, "Of stores: check every page, row and block");
     app->add_flag("--pieces", arguments->pieces, "Into how many convex pieces each mesh falls");
-    add_unit_option(*app, arguments->unit);
+    add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -12,6 +12,11 @@ namespace abut::command {
 
 namespace {
 
+nlohmann::ordered_json describe_frame(const StoreSummary& summary) {
+    return summary.models.empty() ? nlohmann::ordered_json()
+                                  : command::describe_frame(summary.up, summary.models[0].file);
+}
+
 nlohmann::ordered_json describe(const StoreSummary& summary, bool verified) {
     nlohmann::ordered_json models = nlohmann::ordered_json::array();
     for (const StoreSummary::Model& model : summary.models)
@@ -19,11 +24,15 @@ nlohmann::ordered_json describe(const StoreSummary& summary, bool verified) {
                           {"complete", model.complete},
                           {"parts", model.parts},
                           {"triangles", model.triangles},
-                          {"generation", model.generation}});
+                          {"generation", model.generation},
+                          {"unit", model.unit},
+                          {"up", abut::to_string(model.up)},
+                          {"notes", to_json(model.notes)}});
     nlohmann::ordered_json store{{"store", summary.path},
                                  {"version", summary.version},
                                  {"complete", summary.complete},
                                  {"generation", summary.generation},
+                                 {"frame", describe_frame(summary)},
                                  {"models", std::move(models)},
                                  {"parts", summary.parts},
                                  {"triangles", summary.triangles},
@@ -49,12 +58,16 @@ std::string table(const StoreSummary& summary, bool verified) {
     std::string text =
         fmt::format("{}\n"
                     "  store       {:>14}  version, generation {}, {}\n",
-                    summary.path, summary.version, summary.generation,
+                    shown(summary.path), summary.version, summary.generation,
                     summary.complete ? "complete" : "incomplete: import again to go on");
     for (const StoreSummary::Model& model : summary.models)
-        text += fmt::format("  model       {:>14}  parts, {} triangles, {}{}\n",
-                            grouped(model.parts), grouped(model.triangles), model.file,
-                            model.complete ? "" : " (import has not ended)");
+        text += fmt::format("  model       {:>14}  parts, {} triangles, {}, {} m a unit, {} up{}\n",
+                            grouped(model.parts), grouped(model.triangles), shown(model.file),
+                            number(model.unit), abut::to_string(model.up),
+                            model.complete ? "" : " (import has not ended)") +
+                in_words(model.notes, "    ");
+    if (!summary.models.empty())
+        text += fmt::format("  frame       {:>14}  up; metres\n", abut::to_string(summary.up));
     text += fmt::format("  parts       {:>14}  {} triangles\n"
                         "  meshes      {:>14}  {} triangles in {} blocks\n"
                         "  geometry    {:>14}  bytes, {} before compression\n"
@@ -67,8 +80,7 @@ std::string table(const StoreSummary& summary, bool verified) {
                         grouped(summary.file_bytes), grouped(summary.unused_bytes));
     const Vec3 &lower = summary.bounds.lower, &upper = summary.bounds.upper;
     if (lower.x <= upper.x)
-        text += fmt::format("  bounds      ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n",
-                            lower.x, lower.y, lower.z, upper.x, upper.y, upper.z);
+        text += fmt::format("  bounds      {} to {}\n", direction(lower), point(upper));
     return text + (verified ? "  verified    all pages, rows and blocks\n" : "");
 }
 
@@ -98,9 +110,9 @@ int describe_stores(const std::vector<std::string>& files, bool verify,
             text += (text.empty() ? "" : "\n") + table(found, verify);
     }
     if (common.json)
-        print(dump({{"stores", std::move(stores)}}));
+        print_json(dump({{"stores", std::move(stores)}}));
     else if (!common.quiet)
-        print(text);
+        print_text(text);
     return kExitDone;
 }
 

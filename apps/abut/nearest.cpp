@@ -26,6 +26,7 @@ int run(const NearestArguments& arguments, const CommonOptions& common) {
 
     if (common.json) {
         nlohmann::ordered_json answer{{"model", arguments.model.file},
+                                      {"frame", model.frame},
                                       {"points", nlohmann::ordered_json::array()}};
         for (std::size_t i = 0; i < points.size(); ++i)
             answer["points"].push_back({{"point", to_json(points[i])},
@@ -36,13 +37,13 @@ int run(const NearestArguments& arguments, const CommonOptions& common) {
                                         {"index", results[i].index},
                                         {"barycentric", results[i].barycentric}});
         answer["seconds"] = describe_seconds(model, seconds);
-        print(dump(answer));
+        print_json(dump(answer));
     } else if (!common.quiet) {
         std::string text;
         for (const Nearest& n : results)
-            text += fmt::format("distance {}, point ({}, {}, {}) on triangle {}\n", n.distance,
-                                n.point.x, n.point.y, n.point.z, n.triangle);
-        print(text);
+            text += fmt::format("distance {}, point {} on triangle {}\n", metres(n.distance),
+                                point(n.point), n.triangle);
+        print_text(text);
     }
     return kExitDone;
 }
@@ -51,8 +52,15 @@ int run(const NearestArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_nearest(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<NearestArguments>();
-    CLI::App* app = add_subcommand(root, common, "nearest",
-                                   "The points of a model's surface that are nearest to points");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"nearest",
+         kOneModel,
+         "The points of a model's surface that are nearest to points",
+         {{"abut nearest a.obj --point 1,2,3 --signed",
+           "the distance is negative if the point lies inside"},
+          {"abut nearest a.obj --points points.csv", "for each line x,y,z of a file"}},
+         ""});
     add_one_model(*app, arguments->model);
     add_points(*app, arguments->points);
     app->add_flag("--signed", arguments->with_sign,

@@ -4,21 +4,21 @@
 #include <abut/scene.h>
 
 #include "interrupt.h"
+#include "text_lines.h"
 #include "two_models.h"
 
 #include <fmt/format.h>
-#include <fstream>
 #include <utility>
 
 namespace abut::command {
 
 void add_one_model(CLI::App& app, OneModelOptions& options) {
-    app.add_option("MODEL", options.file, "Model")->required();
+    app.add_option("MODEL", options.file, fmt::format("Model: {}", kModelHelp))->required();
     app.add_option(
            "--pose", options.pose,
            "Pose of the model: translation and quaternion x,y,z,qw,qx,qy,qz (default: none)")
         ->check(not_empty("POSE"));
-    add_unit_option(app, options.unit);
+    add_read_options(app, options.read);
 }
 
 OneModel load(const OneModelOptions& options, const CommonOptions& common) {
@@ -27,16 +27,22 @@ OneModel load(const OneModelOptions& options, const CommonOptions& common) {
     ProgressBar bar(common.progress_style());
     const Stopwatch import_watch;
     Mesh mesh;
+    nlohmann::ordered_json frame;
     {
         const InterruptScope scope(OnInterrupt::ask);
-        mesh = read_mesh(options.file, {.unit = options.unit, .progress = bar.progress()});
+        ReadOptions read = options.read;
+        read.progress = bar.progress();
+        const Scene scene = read_scene(parse_model_path(options.file), read);
+        frame = describe_frame(scene.up, scene.file);
+        mesh = to_mesh(scene);
     }
     throw_if_interrupted();
     bar.finish();
     const double seconds_import = import_watch.seconds();
     const Stopwatch build_watch;
     Model model(std::move(mesh));
-    return {std::move(model), world_from_model, seconds_import, build_watch.seconds()};
+    return {std::move(model), world_from_model, seconds_import, build_watch.seconds(),
+            std::move(frame)};
 }
 
 nlohmann::ordered_json describe_seconds(const OneModel& model, double query) {
@@ -56,19 +62,11 @@ std::vector<Vec3> load(const PointsOptions& options) {
     for (const std::string& text : options.points)
         points.push_back(parse_point("--point", text));
     if (!options.file.empty()) {
-        std::ifstream file(options.file);
-        if (!file)
-            throw Error(ErrorCode::unreadable, options.file, "cannot be read");
-        std::string line;
-        for (std::size_t number = 1; std::getline(file, line); ++number) {
-            if (!line.empty() && line.back() == '\r')
-                line.pop_back();
+        for_each_line(options.file, [&](std::size_t number, const std::string& line) {
             if (!line.empty() && line.front() != '#')
                 points.push_back(
                     parse_point(fmt::format("{}: line {}", options.file, number), line));
-        }
-        if (file.bad())
-            throw Error(ErrorCode::unreadable, options.file, "cannot be read");
+        });
     }
     if (points.empty())
         throw Error(ErrorCode::bad_argument, "no point given: --point or --points is required");

@@ -14,7 +14,7 @@ namespace abut::command {
 struct OneModelOptions {
     std::string file;
     std::string pose; ///< as given; empty: identity
-    double unit = 0;
+    ReadOptions read;
 };
 
 /// A model ready for a query.
@@ -22,9 +22,10 @@ struct OneModel {
     Model model;
     Transform world_from_model;
     double seconds_import = 0, seconds_build = 0;
+    nlohmann::ordered_json frame; ///< as describe_frame has it
 };
 
-/// Declares MODEL, --pose and --unit.
+/// Declares MODEL, --pose and the options of reading.
 void add_one_model(CLI::App& app, OneModelOptions& options);
 
 /// Checks the pose, reads the file, builds the hierarchy.

@@ -3,10 +3,15 @@
 #include <abut/error.h>
 
 #include <cerrno>
+#include <cstddef>
+#include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace abut::command {
 
@@ -24,6 +29,33 @@ fs::path make_staging(const fs::path& folder, const fs::path& blame) {
     if (mkdtemp(name.data()) == nullptr)
         fail(blame, std::strerror(errno));
     return name;
+}
+
+/// A lock on a folder, which writers of files that belong together take. File systems without locks go
+/// without it.
+class FolderLock {
+public:
+    explicit FolderLock(const fs::path& folder)
+        : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        while (descriptor_ >= 0 && flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+    }
+    ~FolderLock() {
+        if (descriptor_ >= 0)
+            close(descriptor_);
+    }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+private:
+    int descriptor_;
+};
+
+/// Exchanges two files. False if one is missing or a folder, or if the file system cannot.
+bool exchange(const fs::path& a, const fs::path& b) {
+    std::error_code ignored;
+    return !fs::is_directory(a, ignored) && !fs::is_directory(b, ignored) &&
+           renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
 } // namespace
@@ -85,19 +117,35 @@ void OutputFiles::stage_text(const std::string& name, const std::string& text) {
 }
 
 void OutputFiles::commit() {
-    std::vector<fs::path> moved;
-    for (const std::string& name : names_) {
-        std::error_code fault;
-        fs::rename(staging_ / name, folder_ / name, fault);
-        if (fault) {
-            std::error_code ignored;
-            for (const fs::path& file : moved)
-                fs::remove(file, ignored);
-            fail(folder_ / name, fault.message());
-        }
-        moved.push_back(folder_ / name);
+    const FolderLock lock(folder_);
+    std::size_t moved = 0;
+    try {
+        for (; moved < names_.size(); ++moved)
+            move(names_[moved]);
+    } catch (const Error&) {
+        while (moved > 0)
+            move_back(names_[--moved]);
+        throw;
     }
     created_.clear();
+}
+
+/// A file of an earlier run is exchanged for the new one, and stays in the staging folder.
+void OutputFiles::move(const std::string& name) {
+    const fs::path staged = staging_ / name, place = folder_ / name;
+    if (exchange(staged, place))
+        return;
+    std::error_code fault;
+    fs::rename(staged, place, fault);
+    if (fault)
+        fail(place, fault.message());
+}
+
+void OutputFiles::move_back(const std::string& name) noexcept {
+    const fs::path staged = staging_ / name, place = folder_ / name;
+    std::error_code ignored;
+    if (!exchange(staged, place))
+        fs::rename(place, staged, ignored);
 }
 
 void OutputFiles::prepare() {

@@ -29,13 +29,15 @@ public:
 
     void stage_text(const std::string& name, const std::string& text);
 
-    /// Moves all staged files to their places.
+    /// Moves all staged files to their places, while no other process does so in this folder.
     ///
-    /// Errors      Error{cannot_write}, naming the file; those moved before are removed again.
+    /// Errors      Error{cannot_write}, naming the file; all files are again as they were before.
     void commit();
 
 private:
     void prepare();
+    void move(const std::string& name);
+    void move_back(const std::string& name) noexcept;
 
     std::filesystem::path folder_;
     std::vector<std::string> names_;

@@ -40,11 +40,12 @@ int run(const Query& query, const CommonOptions& common) {
     const double seconds = watch.seconds();
     if (common.json) {
         nlohmann::ordered_json json = query.question();
+        json["frame"] = describe_frame(query.models, models);
         query.add_answer(answer, json);
         json["seconds"] = describe_seconds(models, seconds);
-        print(dump(json));
+        print_json(dump(json));
     } else if (!common.quiet) {
-        print(query.in_words(answer));
+        print_text(query.in_words(answer));
     }
     return query.exit_status(query.is_problem(answer));
 }
@@ -59,16 +60,17 @@ int run_many(const Query& query, const CommonOptions& common) {
     const double seconds = watch.seconds();
     if (common.json) {
         nlohmann::ordered_json json = query.question();
+        json["frame"] = describe_frame(query.models, models);
         json["poses"] = nlohmann::ordered_json::array();
         for (const auto& answer : answers)
             query.add_answer(answer, json["poses"].emplace_back());
         json["seconds"] = describe_seconds(models, seconds);
-        print(dump(json));
+        print_json(dump(json));
     } else if (!common.quiet) {
         std::string text;
         for (const auto& answer : answers)
             text += query.in_a_line(answer);
-        print(text);
+        print_text(text);
     }
     return query.exit_status(std::any_of(answers.begin(), answers.end(), [&](const auto& answer) {
         return query.is_problem(answer);

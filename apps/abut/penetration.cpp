@@ -51,17 +51,17 @@ struct PenetrationQuery : PairQuery {
         if (depth.regions.empty())
             return "apart\n";
         const std::size_t count = depth.regions.size();
-        std::string text = depth.interpenetrate
-                               ? fmt::format("depth {} (at most {}), {} region{}\n", depth.depth,
-                                             depth.depth_at_most, count, count == 1 ? "" : "s")
-                               : "touching\n";
+        std::string text =
+            depth.interpenetrate
+                ? fmt::format("depth {} (at most {}), {} region{}\n", metres(depth.depth),
+                              metres(depth.depth_at_most), count, count == 1 ? "" : "s")
+                : "touching\n";
         for (const ContactRegion& r : depth.regions)
-            text += fmt::format("region: {} triangle pairs, area {}, depth {} at ({}, {}, {})\n",
-                                grouped(r.pairs.size()), r.area, r.depth, r.point_a.x, r.point_a.y,
-                                r.point_a.z);
-        const Vec3& s = depth.separation;
+            text += fmt::format("region: {} triangle pairs, area {} m^2, depth {} at {}\n",
+                                grouped(r.pairs.size()), number(r.area), metres(r.depth),
+                                point(r.point_a));
         if (options.separation)
-            text += fmt::format("separated when B moves by ({}, {}, {})\n", s.x, s.y, s.z);
+            text += fmt::format("separated when B moves by {}\n", point(depth.separation));
         return text;
     }
     static bool is_problem(const Depth& depth) { return depth.interpenetrate; }
@@ -72,8 +72,15 @@ struct PenetrationQuery : PairQuery {
 Subcommand add_penetration(CLI::App& root, CommonOptions& common) {
     auto query = std::make_shared<PenetrationQuery>();
     CLI::App* app =
-        add_subcommand(root, common, "penetration",
-                       "How deep do two models go into each other, where, and which way is out?");
+        add_subcommand(root, common,
+                       {"penetration",
+                        kTwoModels,
+                        "How deep do two models go into each other, where, and which way is out?",
+                        {{"abut penetration a.obj b.stl --pose-b 0.9,0.2,0.3,1,0,0,0",
+                          "depth, regions of contact, and a translation of B that separates them"},
+                         {"abut penetration a.obj b.stl --accuracy 0.001 --fail-on penetration",
+                          "the depth to a thousandth; exit status 1 if there is one"}},
+                        "one model goes into the other (with --fail-on penetration)"});
     add_two_models(*app, query->models);
     app->add_option("--accuracy", query->options.relative_accuracy,
                     "Relative accuracy of the depth (default: 0.01)")

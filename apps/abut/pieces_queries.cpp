@@ -97,22 +97,20 @@ void PiecesDistanceQuery::add_answer(const PiecesGap& gap, nlohmann::ordered_jso
 
 std::string PiecesDistanceQuery::in_words(const PiecesGap& gap) {
     if (is_beyond_bound(gap))
-        return fmt::format("distance at least {}\n", gap.at_least);
+        return fmt::format("distance at least {}\n", metres(gap.at_least));
     if (gap.distance == 0)
-        return fmt::format("the solids share the point ({}, {}, {})\n", gap.point_a.x,
-                           gap.point_a.y, gap.point_a.z);
+        return fmt::format("the solids share the point {}\n", point(gap.point_a));
     const std::string at_least =
-        gap.at_least < gap.distance ? fmt::format(" (at least {})", gap.at_least) : "";
+        gap.status == Status::exact ? "" : fmt::format(" (at least {})", metres(gap.at_least));
     return fmt::format("distance {}{}\n"
-                       "point on A ({}, {}, {}), triangle {} of piece {}\n"
-                       "point on B ({}, {}, {}), triangle {} of piece {}\n",
-                       gap.distance, at_least, gap.point_a.x, gap.point_a.y, gap.point_a.z,
-                       gap.triangle_a, gap.piece_a, gap.point_b.x, gap.point_b.y, gap.point_b.z,
-                       gap.triangle_b, gap.piece_b);
+                       "point on A {}, triangle {} of piece {}\n"
+                       "point on B {}, triangle {} of piece {}\n",
+                       metres(gap.distance), at_least, point(gap.point_a), gap.triangle_a,
+                       gap.piece_a, point(gap.point_b), gap.triangle_b, gap.piece_b);
 }
 
 std::string PiecesDistanceQuery::in_a_line(const PiecesGap& gap) {
-    return fmt::format("{}\n", gap.distance);
+    return metres(gap.distance) + "\n";
 }
 
 bool PiecesWithinQuery::ask(const TwoModels& m) const {
@@ -143,7 +141,7 @@ void PiecesWithinQuery::add_answer(bool near, nlohmann::ordered_json& json) {
 }
 
 std::string PiecesWithinQuery::in_words(bool near) const {
-    return fmt::format("{} {}\n", near ? "within" : "farther than", tolerance);
+    return fmt::format("{} {}\n", near ? "within" : "farther than", metres(tolerance));
 }
 
 std::string PiecesWithinQuery::in_a_line(bool near) {
@@ -220,11 +218,10 @@ void PiecesPenetrationQuery::add_answer(const PiecesDepth& depth,
 std::string PiecesPenetrationQuery::in_words(const PiecesDepth& depth) const {
     if (!depth.meet)
         return "apart\n";
-    std::string text =
-        fmt::format("depth {}{}\n", depth.status == Status::exact ? "" : "at least ", depth.depth);
+    std::string text = fmt::format("depth {}{}\n", depth.status == Status::exact ? "" : "at least ",
+                                   metres(depth.depth));
     if (options.separation)
-        text += fmt::format("separated when B moves by ({}, {}, {})\n", depth.separation.x,
-                            depth.separation.y, depth.separation.z);
+        text += fmt::format("separated when B moves by {}\n", point(depth.separation));
     return text;
 }
 

@@ -22,7 +22,7 @@ const char* to_string(HitSide side) {
 
 Ray parse_ray(const RayArguments& arguments) {
     Ray ray{parse_point("--origin", arguments.origin),
-            parse_point("--direction", arguments.direction)};
+            parse_direction("--direction", arguments.direction)};
     if (!arguments.range.empty()) {
         const std::vector<double> range = parse_numbers("--range", arguments.range, "t0,t1");
         ray.t_min = range[0], ray.t_max = range[1];
@@ -43,6 +43,7 @@ int run(const RayArguments& arguments, const CommonOptions& common) {
 
     if (common.json) {
         nlohmann::ordered_json answer{{"model", arguments.model.file},
+                                      {"frame", model.frame},
                                       {"origin", to_json(ray.origin)},
                                       {"direction", to_json(ray.direction)},
                                       {"all", arguments.all},
@@ -55,13 +56,13 @@ int run(const RayArguments& arguments, const CommonOptions& common) {
                                       {"barycentric", hit.barycentric},
                                       {"side", to_string(hit.side)}});
         answer["seconds"] = describe_seconds(model, seconds);
-        print(dump(answer));
+        print_json(dump(answer));
     } else if (!common.quiet) {
         std::string text = hits.empty() ? "no hit\n" : "";
         for (const RayHit& hit : hits)
-            text += fmt::format("t {}, point ({}, {}, {}) on triangle {}, {}\n", hit.t, hit.point.x,
-                                hit.point.y, hit.point.z, hit.triangle, to_string(hit.side));
-        print(text);
+            text += fmt::format("t {}, point {} on triangle {}, {}\n", number(hit.t),
+                                point(hit.point), hit.triangle, to_string(hit.side));
+        print_text(text);
     }
     return kExitDone;
 }
@@ -70,7 +71,16 @@ int run(const RayArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_ray(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<RayArguments>();
-    CLI::App* app = add_subcommand(root, common, "ray", "Where a ray meets a model's surface");
+    CLI::App* app =
+        add_subcommand(root, common,
+                       {"ray",
+                        kOneModel,
+                        "Where a ray meets a model's surface",
+                        {{"abut ray a.obj --origin 0.5,0.5,9 --direction 0,0,-1",
+                          "the first triangle below a point nine metres up"},
+                         {"abut ray a.obj --origin 0.5,0.5,9 --direction 0,0,-1 --range 0,20 --all",
+                          "every triangle in the next twenty lengths of the direction, in order"}},
+                        ""});
     add_one_model(*app, arguments->model);
     app->add_option("--origin", arguments->origin, "Where the ray begins")
         ->required()

@@ -49,26 +49,36 @@ std::vector<ClashStatus> parse_statuses(const std::string& text) {
 std::string name_of(const ListedClash& clash, std::size_t side) {
     const std::string& name = clash.name.at(side);
     const std::string& type = clash.type.at(side);
-    return (name.empty() ? clash.part.at(side) : name) + (type.empty() ? "" : " (" + type + ")");
+    return shown((name.empty() ? clash.part.at(side) : name) +
+                 (type.empty() ? "" : " (" + type + ")"));
+}
+
+/// A clash in one line, or in three on a terminal that is narrower than that.
+std::string row(const ListedClash& clash) {
+    const std::string head = fmt::format("  {}  {:<8}  {:<9}  {:>10} m", clash_id_text(clash.id),
+                                         abut::to_string(clash.status), abut::to_string(clash.kind),
+                                         number(clash.distance, 4));
+    const std::string a = name_of(clash, 0), b = name_of(clash, 1);
+    const auto columns = static_cast<std::size_t>(columns_of(stdout));
+    const bool is_narrow = columns > 0 && columns < head.size() + a.size() + b.size() + 7;
+    return head + (is_narrow ? "\n      " + a + "\n      " + b : "  " + a + "  |  " + b);
 }
 
 std::string table(const ClashReview& review) {
     std::string text =
-        fmt::format("clearance {} m, touch tolerance {} m{}{}\n ", review.clearance, review.touch,
-                    review.self ? ", self" : "",
+        fmt::format("clearance {}, touch tolerance {}{}{}\n ", metres(review.clearance),
+                    metres(review.touch), review.self ? ", self" : "",
                     review.rules == 0 ? "" : fmt::format(", {} rules", review.rules));
     for (const ClashStatus status : kClashStatuses)
         text += fmt::format(" {} {}{}", abut::to_string(status),
                             grouped(review.statuses.at(static_cast<std::size_t>(status))),
                             status == ClashStatus::resolved ? "\n" : ",");
     for (const ListedClash& clash : review.clashes) {
-        text += fmt::format("  {}  {:<8}  {:<9}  {:>10.4g} m  {}  |  {}", clash_id_text(clash.id),
-                            abut::to_string(clash.status), abut::to_string(clash.kind),
-                            clash.distance, name_of(clash, 0), name_of(clash, 1));
+        text += row(clash);
         if (clash.resolved != 0)
             text += fmt::format("  [since {:%Y-%m-%d %H:%M} UTC]",
                                 fmt::gmtime(static_cast<std::time_t>(clash.resolved)));
-        text += clash.note.empty() ? "\n" : "  \"" + clash.note + "\"\n";
+        text += clash.note.empty() ? "\n" : "  \"" + shown(clash.note) + "\"\n";
     }
     return text;
 }
@@ -85,11 +95,12 @@ void print_list(const std::string& path, const std::vector<ClashStatus>& wanted,
         text += (text.empty() ? "" : "\n") + table(review);
     }
     if (common.json)
-        print("{\"store\": " +
-              nlohmann::json(path).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
-              ",\n\"questions\": [" + json + "]}\n");
+        print_json(
+            "{\"store\": " +
+            nlohmann::json(path).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+            ",\n\"questions\": [" + json + "]}\n");
     else if (!common.quiet)
-        print(text.empty() ? path + ": no clash job has ended\n" : text);
+        print_text(text.empty() ? shown(path) + ": no clash job has ended\n" : text);
 }
 
 int run(const ReviewArguments& arguments, const CommonOptions& common) {
@@ -107,14 +118,14 @@ int run(const ReviewArguments& arguments, const CommonOptions& common) {
         const std::uint64_t forgotten = arguments.forget ? forget_resolved_clashes(store) : 0;
         if (!arguments.list && arguments.status.empty()) {
             if (common.json)
-                print(dump({{"store", arguments.store},
-                            {"marked", marked},
-                            {"cleared", changes.cleared.size()},
-                            {"forgotten", forgotten}}));
+                print_json(dump({{"store", arguments.store},
+                                 {"marked", marked},
+                                 {"cleared", changes.cleared.size()},
+                                 {"forgotten", forgotten}}));
             else if (!common.quiet)
-                print(fmt::format("{}: {} marked, {} cleared, {} forgotten\n", arguments.store,
-                                  grouped(marked), grouped(changes.cleared.size()),
-                                  grouped(forgotten)));
+                print_text(fmt::format("{}: {} marked, {} cleared, {} forgotten\n",
+                                       shown(arguments.store), grouped(marked),
+                                       grouped(changes.cleared.size()), grouped(forgotten)));
             return kExitDone;
         }
     }
@@ -126,8 +137,15 @@ int run(const ReviewArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_review(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ReviewArguments>();
-    CLI::App* app = add_subcommand(root, common, "review",
-                                   "Statuses of the clashes of a store: list them, mark clashes");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"review",
+         kClashes,
+         "Statuses of the clashes of a store: list them, mark clashes",
+         {{"abut review site.abut --status new,active", "those that nobody has looked at"},
+          {"abut review site.abut --approve 0123456789abcdef --note \"as built\"",
+           "a clash that may stay, by its id in a report"}},
+         ""});
     app->add_option("STORE", arguments->store, "A store (abut import)")
         ->required()
         ->check(not_empty("STORE"));

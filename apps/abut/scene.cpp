@@ -83,16 +83,26 @@ std::string scene_help() {
 
 Subcommand add_scene(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<SceneArguments>();
-    CLI::App* app = add_subcommand(root, common, "scene",
-                                   "Make a procedural scene: a plant and the truth that it holds, "
-                                   "or frames of a surface that deforms");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"scene",
+         kScenes,
+         "Make a procedural scene: a plant and the truth that it holds, or frames of a surface "
+         "that "
+         "deforms",
+         {{"abut scene plant --triangles 50000 --clashes 20 --out plant.glb",
+           "a power plant, and in plant.truth.json the clashes that were planted"},
+          {"abut scene twist --frames 5 --triangles 2000 --out frames",
+           "five frames of a tube that is twisted: frames/twist-0000.ply and so on"}},
+         ""});
     app->add_option("NAME", arguments->name, scene_help())
         ->required()
         ->check(CLI::IsMember(scene_names()));
     app->add_option("--out", arguments->out,
                     "plant: FILE.glb to write; the truth goes to FILE.truth.json. Frames: a folder "
                     "for NAME-0000.ply and so on, or FILE.ply for FILE-0000.ply and so on")
-        ->required();
+        ->required()
+        ->check(not_empty("FILE"));
     app->add_option("--triangles", arguments->triangles, "About how many triangles")
         ->check(whole_number(1, kMostTriangles));
     app->add_option("--frames", arguments->frames, "How many frames; all but plant")
@@ -102,9 +112,8 @@ Subcommand add_scene(CLI::App& root, CommonOptions& common) {
         ->check(whole_number(0, kMostClashes));
     app->add_option("--seed", arguments->seed, "Seed of everything random")
         ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
-    app->add_option("--clearance", arguments->clearance,
-                    "Up to this clearance, in metres, nothing but the planted pairs is near; plant")
-        ->check(not_negative());
+    add_length(*app, "--clearance", arguments->clearance,
+               "Up to this clearance nothing but the planted pairs is near; plant");
     app->add_flag("--distinct", arguments->distinct,
                   "Every part has a mesh of its own, none is shared; plant");
     return {app, [arguments, &common] { return run(*arguments, common); }};

@@ -59,11 +59,11 @@ int make_frame_files(const std::string& name, const std::string& out, std::uint6
     bar.finish();
     const Mesh& last = scene->mesh();
     if (common.json)
-        print(dump(summary(name, options.seed, last, paths)));
+        print_json(dump(summary(name, options.seed, last, paths)));
     else if (!common.quiet)
-        print(fmt::format("{} to {}  {} frames; in the last {} triangles, {} vertices\n",
-                          paths.front(), paths.back(), grouped(frames),
-                          grouped(last.triangles.size()), grouped(last.positions.size())));
+        print_text(fmt::format("{} to {}  {} frames; in the last {} triangles, {} vertices\n",
+                               shown(paths.front()), shown(paths.back()), grouped(frames),
+                               grouped(last.triangles.size()), grouped(last.positions.size())));
     return kExitDone;
 }
 

@@ -18,9 +18,9 @@ namespace {
 std::string summary(const Plant& plant, const std::string& scene_path,
                     const std::string& truth_path) {
     std::string text =
-        fmt::format("{}  {} parts, {} meshes, {} triangles\n{}  {} planted\n", scene_path,
+        fmt::format("{}  {} parts, {} meshes, {} triangles\n{}  {} planted\n", shown(scene_path),
                     grouped(plant.scene.parts.size()), grouped(plant.scene.meshes.size()),
-                    grouped(plant.triangles), truth_path, grouped(plant.truth.size()));
+                    grouped(plant.triangles), shown(truth_path), grouped(plant.truth.size()));
     for (const ClashKind kind : kClashKinds)
         text += fmt::format("  {:<10} {:>9}\n", abut::to_string(kind),
                             std::count_if(plant.truth.begin(), plant.truth.end(),
@@ -55,9 +55,9 @@ int make_plant_files(const std::string& out, const PlantOptions& options,
     }
     bar.finish();
     if (common.json)
-        print(truth);
+        print_json(truth);
     else if (!common.quiet)
-        print(summary(plant, outputs.path(scene_name), outputs.path(truth_name)));
+        print_text(summary(plant, outputs.path(scene_name), outputs.path(truth_name)));
     return kExitDone;
 }
 

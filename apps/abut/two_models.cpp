@@ -5,12 +5,11 @@
 
 #include "choice.h"
 #include "interrupt.h"
+#include "text_lines.h"
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -33,14 +32,16 @@ constexpr std::array<Named<Volume>, 10> kVolumes{{{"automatic", Volume::automati
 } // namespace
 
 void add_two_models(CLI::App& app, TwoModelsOptions& options) {
-    app.add_option("A", options.files[0], "First model")->required();
-    app.add_option("B", options.files[1], "Second model")->required();
+    app.add_option("A", options.files[0], fmt::format("First model: {}", kModelHelp))->required();
+    app.add_option("B", options.files[1],
+                   "Second model, likewise; it is turned into the frame of the first")
+        ->required();
     constexpr const char* kForm = "translation and quaternion x,y,z,qw,qx,qy,qz (default: none)";
     app.add_option("--pose-a", options.poses[0], fmt::format("Pose of A: {}", kForm))
         ->check(not_empty("POSE"));
     app.add_option("--pose-b", options.poses[1], fmt::format("Pose of B: {}", kForm))
         ->check(not_empty("POSE"));
-    add_unit_option(app, options.unit);
+    add_read_options(app, options.read);
 }
 
 void add_volume(CLI::App& app, TwoModelsOptions& options) {
@@ -49,7 +50,7 @@ void add_volume(CLI::App& app, TwoModelsOptions& options) {
 }
 
 Pose parse_pose(const std::string& option, const std::string& text) {
-    const std::vector<double> numbers = parse_numbers(option, text, "x,y,z,qw,qx,qy,qz");
+    const std::vector<double> numbers = parse_numbers(option, text, "x,y,z,qw,qx,qy,qz", 3);
     const Pose pose{{numbers[0], numbers[1], numbers[2]},
                     {numbers[3], numbers[4], numbers[5], numbers[6]}};
     if (std::all_of(pose.rotation.begin(), pose.rotation.end(), [](double q) { return q == 0; }))
@@ -69,11 +70,19 @@ TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
     ProgressBar bar(common.progress_style());
     const Stopwatch import_watch;
     std::array<Mesh, 2> meshes;
+    UpAxis up{};
     {
         const InterruptScope scope(OnInterrupt::ask);
-        const ReadOptions read{.unit = options.unit, .progress = bar.progress()};
-        for (std::size_t side = 0; side < 2; ++side)
-            meshes.at(side) = read_mesh(options.files.at(side), read);
+        ReadOptions read = options.read;
+        read.progress = bar.progress();
+        std::vector<Scene> scenes =
+            read_scenes(parse_model_paths({options.files[0], options.files[1]}), read);
+        into_one_frame(scenes);
+        up = scenes[0].up;
+        for (std::size_t side = 0; side < 2; ++side) {
+            meshes.at(side) = to_mesh(scenes.at(side));
+            scenes.at(side) = {};
+        }
     }
     throw_if_interrupted();
     bar.finish();
@@ -83,8 +92,13 @@ TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
     const ModelOptions build{.volume = options.volume};
     Model a(std::move(meshes[0]), build);
     Model b(std::move(meshes[1]), build);
-    return {std::move(a), std::move(b),   world_from_a,
-            world_from_b, seconds_import, build_watch.seconds()};
+    return {std::move(a),
+            std::move(b),
+            world_from_a,
+            world_from_b,
+            seconds_import,
+            build_watch.seconds(),
+            up};
 }
 
 void add_poses(CLI::App& app, PosesOption& option) {
@@ -95,24 +109,17 @@ void add_poses(CLI::App& app, PosesOption& option) {
 }
 
 std::vector<Pose> read_poses(const std::string& file) {
-    if (!std::filesystem::exists(file))
-        throw Error(ErrorCode::file_not_found, file, "no such file");
-    std::ifstream stream(file);
     std::vector<Pose> poses;
-    std::size_t row = 0;
-    for (std::string line; std::getline(stream, line);) {
-        ++row;
-        std::erase_if(line, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+    for_each_line(file, [&](std::size_t number, std::string line) {
+        std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
         if (line.empty() || line[0] == '#')
-            continue;
+            return;
         try {
-            poses.push_back(parse_pose(fmt::format("line {}", row), line));
+            poses.push_back(parse_pose(fmt::format("line {}", number), line));
         } catch (const Error& error) {
             throw Error(ErrorCode::malformed, file, error.what());
         }
-    }
-    if (row == 0 && (!stream.eof() || std::filesystem::is_directory(file)))
-        throw Error(ErrorCode::unreadable, file, "cannot be read");
+    });
     return poses;
 }
 
@@ -126,6 +133,10 @@ std::vector<Placement> placements(const TwoModels& models, const std::vector<Pos
 
 nlohmann::ordered_json describe(const TwoModelsOptions& options) {
     return {{"a", options.files[0]}, {"b", options.files[1]}};
+}
+
+nlohmann::ordered_json describe_frame(const TwoModelsOptions& options, const TwoModels& models) {
+    return describe_frame(models.up, parse_model_path(options.files[0]).path);
 }
 
 nlohmann::ordered_json describe(const Counters& counters) {

@@ -17,7 +17,7 @@ namespace abut::command {
 struct TwoModelsOptions {
     std::array<std::string, 2> files;
     std::array<std::string, 2> poses; ///< as given; empty: identity
-    double unit = 0;
+    ReadOptions read;
     Volume volume = Volume::automatic;
 };
 
@@ -39,9 +39,10 @@ struct TwoModels {
     Model a, b;
     Transform world_from_a, world_from_b;
     double seconds_import = 0, seconds_build = 0;
+    UpAxis up = UpAxis::z; ///< of the frame, which is A's
 };
 
-/// Declares A, B, --pose-a, --pose-b and --unit.
+/// Declares A, B, --pose-a, --pose-b and the options of reading.
 void add_two_models(CLI::App& app, TwoModelsOptions& options);
 
 /// Declares --volume: the kind of bounding volume that both models are built with.
@@ -52,7 +53,7 @@ void add_volume(CLI::App& app, TwoModelsOptions& options);
 /// Errors      Error{bad_argument} naming the option.
 Pose parse_pose(const std::string& option, const std::string& text);
 
-/// Checks the poses, reads the files, builds the hierarchies.
+/// Checks the poses, reads the files into the frame of A, builds the hierarchies.
 TwoModels load(const TwoModelsOptions& options, const CommonOptions& common);
 
 /// A under its pose, B under each of the poses.
@@ -60,6 +61,8 @@ std::vector<Placement> placements(const TwoModels& models, const std::vector<Pos
 
 /// {a, b}: the beginning of each JSON answer.
 nlohmann::ordered_json describe(const TwoModelsOptions& options);
+/// {up, unit, of}: after a and b.
+nlohmann::ordered_json describe_frame(const TwoModelsOptions& options, const TwoModels& models);
 nlohmann::ordered_json describe(const Counters& counters);
 /// [[a, b], ...]
 nlohmann::ordered_json to_json(const std::vector<TrianglePair>& pairs);

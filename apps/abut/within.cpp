@@ -28,7 +28,7 @@ struct WithinQuery : PairQuery {
     }
     static void add_answer(bool near, nlohmann::ordered_json& json) { json["within"] = near; }
     [[nodiscard]] std::string in_words(bool near) const {
-        return fmt::format("{} {}\n", near ? "within" : "farther than", tolerance);
+        return fmt::format("{} {}\n", near ? "within" : "farther than", metres(tolerance));
     }
     static std::string in_a_line(bool near) { return near ? "within\n" : "farther\n"; }
     static bool is_problem(bool near) { return near; }
@@ -38,14 +38,19 @@ struct WithinQuery : PairQuery {
 
 Subcommand add_within(CLI::App& root, CommonOptions& common) {
     auto query = std::make_shared<WithinQuery>();
-    CLI::App* app = add_subcommand(root, common, "within",
-                                   "Are two models at most a tolerance apart, or in contact?");
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"within",
+         kTwoModels,
+         "Are two models at most a tolerance apart, or in contact?",
+         {{"abut within a.obj b.stl --tolerance 5mm", "at most five millimetres apart?"},
+          {"abut within a.obj b.stl --tolerance 0.5 --pose-b 1.5,0,0,1,0,0,0 --fail-on within",
+           "with B moved by 1.5 m; exit status 1 if they are at most half a metre apart"}},
+         "the models are that near (with --fail-on within)"});
     add_two_models(*app, query->models);
     add_poses(*app, query->poses);
     add_volume(*app, query->models);
-    app->add_option("--tolerance", query->tolerance, "Distance in metres")
-        ->required()
-        ->check(not_negative());
+    add_length(*app, "--tolerance", query->tolerance, "Distance")->required();
     add_fail_on(*app, query->fail_on, "within");
     app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces")
         ->excludes(app->get_option("--volume"));

@@ -26,16 +26,16 @@ TEST(Arguments, BadUsageIsRefusedInOneLine) {
         std::string word;
     };
     const std::vector<Case> cases{
-        {{}, "subcommand"},
+        {{"--json"}, "no verb"},
         {{"explode", box}, "explode"},
         {{"info"}, "MODEL"},
         {{"clash"}, "MODEL"},
         {{"clash", box, "--cleerance", "1"}, "--cleerance"},
-        {{"clash", box, "--clearance"}, "--clearance"},
+        {{"clash", box, "--clearance"}, "--clearance needs a value: LENGTH"},
         {{"clash", box, "--clearance", "-0.1"}, "-0.1"},
         {{"clash", box, "--clearance", "nan"}, "nan"},
         {{"clash", box, "--clearance", "inf"}, "inf"},
-        {{"clash", box, "--clearance", "5cm"}, "5cm"},
+        {{"clash", box, "--clearance", "5cubits"}, "5cubits"},
         {{"clash", box, "--touch", "-1"}, "--touch"},
         {{"clash", box, "--unit", "0"}, "--unit"},
         {{"clash", box, "--unit", "-1"}, "--unit"},

@@ -148,7 +148,7 @@ TEST_F(BadInputTest, OutputThatCannotBeWritten) {
 }
 
 TEST_F(BadInputTest, AFileNameCannotForgeASecondLine) {
-    expect_refused(run_abut({"info", folder_ / "two\nlines.obj"}), {"two lines.obj"});
+    expect_refused(run_abut({"info", folder_ / "two\nlines.obj"}), {"two\\nlines.obj"});
 }
 
 } // namespace

@@ -120,8 +120,8 @@ TEST_F(CcdQueryCommand, ThicknessTakesThePlaceOfTheTruth) {
 
 TEST_F(CcdQueryCommand, BadFilesAreRefusedByLine) {
     const std::string good = falling("-1,2", ",1");
-    expect_file_refused("", {"no rows"});
-    expect_file_refused(good.substr(0, good.size() - 14), {"line 8", "7 of 8 rows"});
+    expect_file_refused("", {"is empty"});
+    expect_file_refused(good.substr(0, good.size() - 14), {"line 7", "7 of 8 rows"});
     expect_file_refused(good.substr(0, good.size() - 5), {"line 8", "columns"});
     expect_file_refused(falling("-1,0", ",1"), {"line 5", "denominator"});
     expect_file_refused(falling("nan,1", ",1"), {"line 5", "'nan'"});

@@ -3,6 +3,7 @@
 #include "store/sqlite.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
+#include "tests/support/paths.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 

@@ -6,6 +6,7 @@
 #include "store/store_writer.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
+#include "tests/support/paths.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/stores.h"
@@ -137,7 +138,12 @@ TEST(Import, SaysWhatIsWrongWithAStore) {
     }
     expect_both_refused(folder / "newer.abut", {"newer.abut", "version 7", "newer"});
     {
-        const StoreWriter writer(store, std::uint64_t{2} << 20);
+        Database older(folder / "newer.abut", OpenMode::read_write);
+        older.run("PRAGMA user_version = 1");
+    }
+    expect_both_refused(folder / "newer.abut", {"newer.abut", "version 1", "import the models"});
+    {
+        const StoreWriter writer(store, std::uint64_t{2} << 20, ExclusiveStore::IfMissing::fail);
         expect_both_refused(store, {"s.abut", "in use by another process"});
     }
     EXPECT_EQ(run_abut({"info", store, "--verify"}).status, 0);

@@ -1,5 +1,6 @@
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 

@@ -100,9 +100,9 @@ TEST_F(OneModelTest, FailOnTurnsAYesIntoStatusOne) {
 }
 
 TEST_F(OneModelTest, PeopleGetSentences) {
-    EXPECT_EQ(
-        ask("nearest", {"--point", "3,0.5,0.5"}).out.rfind("distance 2, point (1, 0.5, 0.5)", 0),
-        0U);
+    EXPECT_EQ(ask("nearest", {"--point", "3,0.5,0.5"})
+                  .out.rfind("distance 2 m, point (1, 0.5, 0.5) m", 0),
+              0U);
     EXPECT_EQ(ask("ray", {"--origin", "3,0,0", "--direction", "1,0,0"}).out, "no hit\n");
     EXPECT_EQ(ask("overlap", {"--sphere", "9,0,0,1"}).out, "no overlap\n");
     EXPECT_EQ(ask("contains", {"--point", "0.5,0.5,0.5"}).out, "inside\n");

@@ -1,5 +1,7 @@
 #include "tests/command/run_command.h"
 
+#include "tests/support/paths.h"
+
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -4,6 +4,7 @@
 
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
+#include "tests/support/paths.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 

@@ -48,12 +48,41 @@ TEST_F(TimeOfImpactCommand, AScrewGoesAnotherWay) {
     EXPECT_EQ(answer["time"], 1);
 }
 
+TEST_F(TimeOfImpactCommand, ALimitOnStepsTellsTheTimeThatIsFree) {
+    const std::vector<std::string> motion{"--pose-b", "3,0.5,0,1,0,0,0", "--end-b",
+                                          "-1,0.5,0,1,0,0.3,0"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = motion;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return ask("time-of-impact", arguments);
+    };
+    const auto whole = with({"--json"}).json();
+    EXPECT_EQ(whole["hit"], true);
+    EXPECT_EQ(whole["out_of_steps"], false);
+    EXPECT_GT(whole["steps"], 2);
+    const auto limited = with({"--json", "--max-steps", "2"}).json();
+    EXPECT_EQ(limited["hit"], true); // to be safe
+    EXPECT_EQ(limited["out_of_steps"], true);
+    EXPECT_EQ(limited["steps"], 2);
+    EXPECT_EQ(limited["status"], "bound_only");
+    EXPECT_GT(limited["time"], 0);
+    EXPECT_LE(limited["time"], whole["time"]);
+    for (const char* key : {"gap", "contact_time", "point_a", "triangle_a", "normal"})
+        EXPECT_FALSE(limited.contains(key)) << key;
+    const std::string text = with({"--max-steps", "2"}).out;
+    EXPECT_EQ(text.rfind("free up to 0.", 0), 0U) << text;
+    EXPECT_NE(text.find("; not decided after that: 2 steps were not enough\n"), std::string::npos)
+        << text;
+    EXPECT_EQ(with({"--max-steps", "2", "--quiet", "--fail-on", "impact"}).status, 1);
+    EXPECT_EQ(with({"--max-steps", "1000000", "--json"}).json()["time"], whole["time"]);
+}
+
 TEST_F(TimeOfImpactCommand, FailOnAndSentences) {
     EXPECT_EQ(ask("time-of-impact", {"--fail-on", "impact", "--quiet"}).status, 1);
     EXPECT_EQ(ask("time-of-impact", {"--fail-on", "impact", "--pose-b", "3,0,0,1,0,0,0"}).status,
               0);
     EXPECT_EQ(ask("time-of-impact", {"--pose-b", "3,0,0,1,0,0,0"}).out, "no impact\n");
-    EXPECT_EQ(ask("time-of-impact", {}).out.rfind("impact at 0, gap 0\n", 0), 0U);
+    EXPECT_EQ(ask("time-of-impact", {}).out.rfind("impact at 0, gap 0 m\n", 0), 0U);
 }
 
 TEST_F(TimeOfImpactCommand, BadUsageIsRefused) {
@@ -62,6 +91,8 @@ TEST_F(TimeOfImpactCommand, BadUsageIsRefused) {
                                               {"--end-b", "x,0,0,1,0,0,0", "--end-b"},
                                               {"--tolerance", "-1", "--tolerance"},
                                               {"--tolerance", "nan", "nan"},
+                                              {"--max-steps", "-1", "--max-steps"},
+                                              {"--max-steps", "few", "--max-steps"},
                                               {"--fail-on", "contact", "--fail-on"}})
         expect_refused(ask("time-of-impact", {option, value}), {word});
 }
@@ -79,11 +110,11 @@ TEST_F(TimeOfImpactCommand, ManyPosesInOneRun) {
     ASSERT_EQ(gaps["poses"].size(), 3U);
     EXPECT_EQ(gaps["poses"][0]["distance"], 2.0);
     EXPECT_EQ(gaps["poses"][1]["distance"], 0.0);
-    EXPECT_EQ(ask("distance", {"--poses", poses}).out, "2\n0\n0\n");
+    EXPECT_EQ(ask("distance", {"--poses", poses}).out, "2 m\n0 m\n0 m\n");
     // A's own pose counts.
-    EXPECT_EQ(
-        ask("distance", {"--poses", poses, "--pose-a", "-1,0,0,1,0,0,0"}).out.rfind("3\n1\n", 0),
-        0U);
+    EXPECT_EQ(ask("distance", {"--poses", poses, "--pose-a", "-1,0,0,1,0,0,0"})
+                  .out.rfind("3 m\n1 m\n", 0),
+              0U);
     EXPECT_EQ(ask("within", {"--poses", poses, "--tolerance", "1"}).out,
               "farther\nwithin\nwithin\n");
     EXPECT_EQ(ask("collide", {"--poses", poses}).out, "no contact\ncontact\ncontact\n");

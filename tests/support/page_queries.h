@@ -1,6 +1,7 @@
 #pragma once
 
 #include "store/sqlite.h"
+#include "tests/support/paths.h"
 
 #include <fstream>
 #include <gtest/gtest.h>

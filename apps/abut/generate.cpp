@@ -1,0 +1,51 @@
+#include "commands.h"
+#include "completion.h"
+#include "interrupt.h"
+#include "man_page.h"
+#include "output_files.h"
+
+#include <map>
+#include <memory>
+
+namespace abut::command {
+
+namespace {
+
+/// The files by their names in the folder: those of one kind in a folder of their own.
+std::map<std::string, std::map<std::string, std::string>> documents(const CLI::App& root) {
+    std::map<std::string, std::map<std::string, std::string>> folders;
+    folders["man1"]["abut.1"] = man_page(root);
+    for (const Verb* verb : verbs_of(root))
+        folders["man1"]["abut-" + verb->get_name() + ".1"] = man_page(*verb);
+    folders["bash"]["abut"] = bash_completion(root);
+    folders["zsh"]["_abut"] = zsh_completion(root);
+    return folders;
+}
+
+int run(const CLI::App& root, const std::string& out) {
+    const InterruptScope scope(OnInterrupt::defer);
+    for (const auto& [folder, files] : documents(root)) {
+        std::vector<std::string> names;
+        for (const auto& [name, text] : files)
+            names.push_back(name);
+        OutputFiles outputs(std::filesystem::path(out) / folder, names);
+        for (const auto& [name, text] : files)
+            outputs.stage_text(name, text);
+        outputs.commit();
+    }
+    return kExitDone;
+}
+
+} // namespace
+
+Subcommand add_generate(CLI::App& root, CommonOptions& common) {
+    auto out = std::make_shared<std::string>();
+    // It has no group: the build calls it, and no list of verbs has it.
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"generate", "", "Write manual pages and completion for shells: the build does", {}, ""});
+    app->add_option("FOLDER", *out, "Where man1, bash and zsh are made")->required();
+    return {app, [&root, out] { return run(root, *out); }};
+}
+
+} // namespace abut::command

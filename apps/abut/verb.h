@@ -1,0 +1,82 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+/// What the parser knows of the verbs and their options, as help, manual pages and completion need it.
+/// All three are made from here, so that none says what another does not.
+namespace abut::command {
+
+/// Groups of verbs, in the order of the list.
+inline constexpr const char* kModels = "Models and stores";
+inline constexpr const char* kTwoModels = "Two models";
+inline constexpr const char* kOneModel = "One model and a shape";
+inline constexpr const char* kClashes = "Clashes between the parts of models";
+inline constexpr const char* kDeforming = "Surfaces that deform";
+inline constexpr const char* kScenes = "Scenes to try";
+
+/// The group of the options that each verb has.
+inline constexpr const char* kCommonGroup = "Options of every verb";
+
+struct Example {
+    std::string line; ///< as typed
+    std::string says;
+};
+
+struct VerbHelp {
+    std::string name;
+    std::string group;
+    std::string says; ///< one sentence
+    std::vector<Example> examples;
+    std::string problem; ///< when the exit status is 1; empty: never
+};
+
+/// A subcommand that knows its help.
+class Verb : public CLI::App {
+public:
+    explicit Verb(VerbHelp help) : CLI::App(help.says, help.name), help_(std::move(help)) {
+        group(help_.group);
+    }
+    [[nodiscard]] const VerbHelp& help_of_verb() const { return help_; }
+
+private:
+    VerbHelp help_;
+};
+
+/// The verbs, in their order, without those that have no group.
+std::vector<const Verb*> verbs_of(const CLI::App& root);
+
+/// An option or an argument of a verb.
+struct OptionFacts {
+    std::vector<std::string> names; ///< "-h", "--help"; of an argument: its name in capitals
+    std::string value;              ///< what stands for its value ("FILE"); empty: a flag
+    std::vector<std::string> choices;
+    std::string brief; ///< one line
+    std::string says;  ///< with choices, default, and what it needs and excludes
+    bool is_argument = false;
+    bool required = false;
+    bool repeated = false;
+};
+
+struct OptionGroup {
+    std::string title;
+    std::vector<OptionFacts> options;
+};
+
+/// Arguments first, then the options by group, those of every verb last.
+std::vector<OptionGroup> options_of(const CLI::App& app);
+
+/// "abut collide [OPTIONS] A B"
+std::string usage_of(const CLI::App& app);
+
+struct ExitStatus {
+    std::string status, says;
+};
+/// problem: when it is 1; empty: never.
+std::vector<ExitStatus> exit_statuses(const std::string& problem);
+
+/// Examples of the command as a whole.
+const std::vector<Example>& general_examples();
+
+} // namespace abut::command
