@@ -22,7 +22,7 @@ constexpr int kSmoothings = 6;
 constexpr double kStandBack = 0.06;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-Index3 moved(Index3 index, std::size_t axis, int by) {
+Index3 neighbour(Index3 index, std::size_t axis, int by) {
     index[axis] += by;
     return index;
 }
@@ -64,12 +64,12 @@ template <class Visit>
 void for_each_side(const Index3& cell, Visit visit) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const int side : {0, 1}) {
-            const Index3 a = moved(cell, axis, side);
-            Index3 b = moved(a, (axis + 1) % 3, 1), d = moved(a, (axis + 2) % 3, 1);
-            const Index3 c = moved(b, (axis + 2) % 3, 1);
+            const Index3 a = neighbour(cell, axis, side);
+            Index3 b = neighbour(a, (axis + 1) % 3, 1), d = neighbour(a, (axis + 2) % 3, 1);
+            const Index3 c = neighbour(b, (axis + 2) % 3, 1);
             if (side == 0)
                 std::swap(b, d);
-            visit(moved(cell, axis, side == 0 ? -1 : 1), std::array<Index3, 4>{a, b, c, d});
+            visit(neighbour(cell, axis, side == 0 ? -1 : 1), std::array<Index3, 4>{a, b, c, d});
         }
 }
 
@@ -180,7 +180,7 @@ void FragmentedBall::smooth_cracks() {
             double parts = 1;
             for (std::size_t axis = 0; axis < 3; ++axis)
                 for (const int by : {-1, 1})
-                    if (const Index3 next = moved(point, axis, by);
+                    if (const Index3 next = neighbour(point, axis, by);
                         is_neighbour(next, on_surface[here])) {
                         total = add(total, points_[point_index(next)]);
                         ++parts;

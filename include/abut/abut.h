@@ -12,6 +12,8 @@
 #include <abut/elementary_impact.h>
 #include <abut/error.h>
 #include <abut/frame.h>
+#include <abut/helper_programs.h>
+#include <abut/make_mesh.h>
 #include <abut/mesh.h>
 #include <abut/model.h>
 #include <abut/motion.h>
