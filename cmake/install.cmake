@@ -2,12 +2,21 @@
 include(CMakePackageConfigHelpers)
 install(TARGETS abut EXPORT AbutTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS abut_command DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY ${PROJECT_BINARY_DIR}/documents/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${PROJECT_BINARY_DIR}/documents/bash/abut
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${PROJECT_BINARY_DIR}/documents/zsh/_abut DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(TARGETS abut_reader DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut)
 if(TARGET abut_mpi)
     install(TARGETS abut_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut)
 endif()
-install(FILES src/io/ifc/convert.mjs src/io/ifc/package.json src/io/ifc/package-lock.json
+install(FILES src/io/ifc/convert.mjs src/io/ifc/products.mjs src/io/ifc/surface.mjs src/io/ifc/zip.mjs src/io/ifc/package.json src/io/ifc/package-lock.json
         DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc)
+# What it runs on, where tools/install_dependencies has brought it: looked for when installing, not here.
+install(DIRECTORY src/io/ifc/node_modules DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc OPTIONAL)
+install(CODE "if(NOT EXISTS \"${PROJECT_SOURCE_DIR}/src/io/ifc/node_modules/web-ifc\")
+    message(STATUS \"Without web-ifc: IFC files will be refused. tools/install_dependencies build gets it.\")
+endif()")
 install(DIRECTORY include/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT AbutTargets NAMESPACE Abut:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Abut)
 configure_package_config_file(cmake/AbutConfig.cmake.in ${PROJECT_BINARY_DIR}/AbutConfig.cmake
