@@ -9,11 +9,6 @@ add_library(abut_compile INTERFACE)
 target_compile_features(abut_compile INTERFACE cxx_std_20)
 # Exactness: no fused operations but the explicit ones (docs/architecture.md, numerics).
 target_compile_options(abut_compile INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wno-psabi)
-# g++ 12.2 loses the rounding of `double(float(x))` where it vectorises several of them in straight-line code:
-# bounds that are rounded outward are then wrong. Loops are vectorised as before, kernels by Highway.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(abut_compile INTERFACE -fno-tree-slp-vectorize)
-endif()
 if(ABUT_WERROR)
     target_compile_options(abut_compile INTERFACE -Werror)
 endif()

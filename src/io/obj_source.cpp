@@ -3,6 +3,7 @@
 #include "io/obj_scan.h"
 #include "io/one_part_source.h"
 #include "io/triangulate.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <limits>
@@ -96,8 +97,7 @@ private:
             [&](const Vec3& p) {
                 if (vertices >= positions.size())
                     throw Fault(ErrorCode::unreadable, "has changed while it was read");
-                positions.set(vertices++, {static_cast<float>(p.x), static_cast<float>(p.y),
-                                           static_cast<float>(p.z)});
+                positions.set(vertices++, {to_float(p.x), to_float(p.y), to_float(p.z)});
             },
             [&](auto corners) {
                 polygon.clear();

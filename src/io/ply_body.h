@@ -5,6 +5,7 @@
 #include "io/fault.h"
 #include "io/ply_header.h"
 #include "io/text_scan.h"
+#include "math/rounding.h"
 
 #include <bit>
 #include <cstddef>
@@ -146,7 +147,7 @@ inline bool PlyBody::take(const PlyType& type, double& value) {
     const bool is_float = type.bytes == sizeof(float);
     if (is_text()) {
         const bool taken = take_word_as(value);
-        value = is_float ? static_cast<float>(value) : value;
+        value = is_float ? to_float(value) : value;
         return taken;
     }
     std::uint64_t bits = 0;

@@ -3,6 +3,7 @@
 #include "io/one_part_source.h"
 #include "io/ply_body.h"
 #include "io/triangulate.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <limits>
@@ -82,11 +83,10 @@ private:
                     return false;
             }
             // Narrowed to float, as read_scene gives it.
-            const Vec3 narrow{rounded_to_float(p.x), rounded_to_float(p.y), rounded_to_float(p.z)};
+            const Vec3 narrow{to_float(p.x), to_float(p.y), to_float(p.z)};
             if (positions)
                 positions->set(number++,
-                               {static_cast<float>(narrow.x), static_cast<float>(narrow.y),
-                                static_cast<float>(narrow.z)});
+                               {to_float(narrow.x), to_float(narrow.y), to_float(narrow.z)});
             piece.push_back(narrow);
             if (piece.size() == kPiece) {
                 sink.vertices(piece);

@@ -5,6 +5,7 @@
 #include "io/fault.h"
 #include "io/read_watch.h"
 #include "io/triangulate.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <limits>
@@ -42,8 +43,7 @@ void PolygonScene::require(std::uint64_t more_bytes) {
 
 void PolygonScene::vertex(const Vec3& p) {
     require_countable(pool_.size() + 1);
-    push(pool_,
-         FloatPosition{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    push(pool_, FloatPosition{to_float(p.x), to_float(p.y), to_float(p.z)});
 }
 
 std::size_t PolygonScene::add_part(std::string id) {

@@ -3,6 +3,7 @@
 #include "io/random_access_file.h"
 #include "io/stl_scan.h"
 #include "io/text_scan.h"
+#include "math/rounding.h"
 
 #include <cstring>
 #include <limits>
@@ -81,8 +82,7 @@ private:
                 ++vertices;
                 if (sink == nullptr)
                     return;
-                piece.push_back(
-                    {rounded_to_float(p.x), rounded_to_float(p.y), rounded_to_float(p.z)});
+                piece.push_back({to_float(p.x), to_float(p.y), to_float(p.z)});
                 if (piece.size() >= 3 * kPieceTriangles) {
                     sink->vertices(piece);
                     piece.clear();

@@ -111,10 +111,6 @@ std::optional<double> to_real(std::string_view word) {
     return minus ? -value : value;
 }
 
-[[gnu::noinline]] double rounded_to_float(double value) {
-    return static_cast<float>(value);
-}
-
 Vec3 take_position(std::string_view& rest, const LineScan& lines) {
     std::array<double, 3> xyz{};
     for (double& value : xyz) {

@@ -88,10 +88,6 @@ std::optional<Number> to_number(std::string_view word) {
 /// range of doubles it is infinite or zero.
 std::optional<double> to_real(std::string_view word);
 
-/// The nearest float, as a double. Not inline on purpose: of static_cast<float> on the members of a
-/// Vec3, g++ 12 drops two of three where it makes them one vector operation (-O2 and above).
-double rounded_to_float(double value);
-
 /// The three numbers that a vertex begins with.
 ///
 /// Errors      Fault malformed, naming the line and the word that is no number.

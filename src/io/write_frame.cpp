@@ -4,6 +4,7 @@
 #include "core/atomic_file.h"
 #include "io/frame_formats.h"
 #include "io/input_file.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@ void append_value(std::string& bytes, const Value& value) {
 }
 
 bool is_float(double value) {
-    return static_cast<double>(static_cast<float>(value)) == value;
+    return static_cast<double>(to_float(value)) == value;
 }
 
 std::string header_of(const Mesh& mesh, const std::string& real) {

@@ -3,6 +3,7 @@
 
 #include "core/atomic_file.h"
 #include "io/model_frame.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <array>
@@ -54,8 +55,7 @@ json mesh_accessors(const Scene& scene, std::string& binary) {
                              {"count", mesh.positions.size()},
                              {"type", "VEC3"}});
         for (const Vec3& p : mesh.positions) {
-            const std::array<float, 3> xyz{static_cast<float>(p.x), static_cast<float>(p.y),
-                                           static_cast<float>(p.z)};
+            const std::array<float, 3> xyz{to_float(p.x), to_float(p.y), to_float(p.z)};
             for (std::size_t k = 0; k < 3; ++k) {
                 lower[k] = std::min(lower[k], xyz[k]);
                 upper[k] = std::max(upper[k], xyz[k]);

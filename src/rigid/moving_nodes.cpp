@@ -1,5 +1,6 @@
 #include "rigid/moving_nodes.h"
 
+#include "math/rounding.h"
 #include "rigid/node_motion.h"
 
 #include <bit>
@@ -46,8 +47,7 @@ struct Meeting {
 /// Where the span begins, or before.
 HWY_INLINE float first_share(const TimeSpan& span) {
     const double length = span.end - span.moment.time;
-    return length > 0 ? static_cast<float>((1 - 0x1p-20) * (span.begin - span.moment.time) / length)
-                      : 0.0F;
+    return length > 0 ? to_float((1 - 0x1p-20) * (span.begin - span.moment.time) / length) : 0.0F;
 }
 
 /// The children of a node of a pair, in motion.
@@ -137,8 +137,8 @@ void find_meeting_children(const TimeSpan& span, const NodeChildren& a, const No
     const double duration = span.end - now.time;
     const NodeMotion in_p = motion_of(now.in_a, duration, a.node, b.node, nodes.p_from_q, kChild),
                      in_q = motion_of(now.in_b, duration, b.node, a.node, nodes.q_from_p, kChild);
-    nodes.p_from_q.margin += static_cast<float>(now.in_a.margin);
-    nodes.q_from_p.margin += static_cast<float>(now.in_b.margin);
+    nodes.p_from_q.margin += to_float(now.in_a.margin);
+    nodes.q_from_p.margin += to_float(now.in_b.margin);
     const MovingSiblings p(a.node, nodes.p_from_q, nodes.q_from_p, in_p, in_q),
         q(b.node, nodes.q_from_p, nodes.p_from_q, in_q, in_p);
     const float begin = first_share(span);
@@ -213,7 +213,7 @@ void find_meeting_triangles(const TimeSpan& span, const Node& node_a, const Tria
     const float begin = first_share(span);
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
     // The vertices are off by two margins together, and heights are rounded.
-    const auto margin = hn::Set(d, 3 * (a_from_b.margin + static_cast<float>(frame.margin)));
+    const auto margin = hn::Set(d, 3 * (a_from_b.margin + to_float(frame.margin)));
     result.pairs = 0;
     for (std::size_t lane = 0; lane < kPairs; lane += hn::Lanes(d)) {
         MovingTriangles<D> t;

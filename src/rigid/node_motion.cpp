@@ -1,6 +1,7 @@
 #include "rigid/node_motion.h"
 
 #include "rigid/motion_bounds.h"
+#include "volume/float_vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,7 @@ constexpr double kDiagonal = 1.75; ///< of a cube: more than the root of 3
 constexpr double kWorthwhile = 4;
 
 std::array<float, 3> in_node(const Node& node, const Vec3& v) {
-    return node.frame.vector_from_tree(
-        {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+    return node.frame.vector_from_tree(to_float(v));
 }
 
 /// |n x w| for each axis n, not less.
@@ -32,8 +32,7 @@ std::array<float, 3> across_axes(const std::array<float, 3>& w) {
     std::array<float, 3> result{};
     for (std::size_t i = 0; i < 3; ++i) {
         const float u = w[(i + 1) % 3], v = w[(i + 2) % 3];
-        result[i] = static_cast<float>(kMore) *
-                    std::sqrt(u * u + v * v + std::numeric_limits<float>::min());
+        result[i] = to_float(kMore) * std::sqrt(u * u + v * v + std::numeric_limits<float>::min());
     }
     return result;
 }
@@ -106,7 +105,7 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
     const Vec3 velocity = frame.velocity + turning_other - turning_own;
     NodeMotion m;
     m.velocity = in_node(own, duration * velocity);
-    m.own_from_other = static_cast<float>(kMore * frame.own_from_other);
+    m.own_from_other = to_float(kMore * frame.own_from_other);
     m.turns = frame.rate_own + frame.rate_other > 0;
     double rounding =
         kRounding * (std::abs(velocity.x) + std::abs(velocity.y) + std::abs(velocity.z)) +
@@ -143,10 +142,10 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
             // |n x spin| |spin x arm|
             const double bend_own = half * x.turning_own, bend_other = half * x.turning_other;
             for (std::size_t i = 0; i < 3; ++i)
-                m.spread[i] = static_cast<float>(
-                    kMore * (m.turn_own[i] * bend_own + m.turn_other[i] * bend_other));
-            m.spread_any = static_cast<float>(kMore * duration *
-                                              (x.rate_own * bend_own + x.rate_other * bend_other));
+                m.spread[i] =
+                    to_float(kMore * (m.turn_own[i] * bend_own + m.turn_other[i] * bend_other));
+            m.spread_any =
+                to_float(kMore * duration * (x.rate_own * bend_own + x.rate_other * bend_other));
         } else {
             const bool with_own = m.axes == AxesTurn::with_own;
             const double rate = with_own ? x.rate_own : x.rate_other;
@@ -160,16 +159,16 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
                 // The axes turn, the difference of the spins does not.
                 const double most_between =
                     across_between[i] + duration * x.rate_between * across_seen[i];
-                m.spread[i] = static_cast<float>(
-                    kMore * half * moving.bend(most_between, across_seen[i], x.of_centres));
+                m.spread[i] = to_float(kMore * half *
+                                       moving.bend(most_between, across_seen[i], x.of_centres));
             }
-            m.spread_any = static_cast<float>(kMore * duration * half *
-                                              moving.bend(x.rate_between, rate, x.of_centres));
+            m.spread_any =
+                to_float(kMore * duration * half * moving.bend(x.rate_between, rate, x.of_centres));
         }
     }
     rounding = kMore * (duration * rounding + kTooSmall);
-    const float more = rounding < kTooLarge ? static_cast<float>(rounding)
-                                            : std::numeric_limits<float>::infinity();
+    const float more =
+        rounding < kTooLarge ? to_float(rounding) : std::numeric_limits<float>::infinity();
     for (float& spread : m.spread)
         spread += more;
     m.spread_any += more;

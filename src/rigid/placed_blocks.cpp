@@ -81,7 +81,8 @@ PlacedBlocks::PlacedBlocks(const ModelBlocks& blocks, const Transform& world_fro
         reach_ = length(0.5 * box_.upper - 0.5 * box_.lower) * (1 + 0x1p-40);
     }
     const auto& m = world_.m;
-    mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
+    mirrored_ =
+        dot(cross(Vec3{m[0], m[1], m[2]}, Vec3{m[3], m[4], m[5]}), Vec3{m[6], m[7], m[8]}) < 0;
 }
 
 std::unique_ptr<WorldSolid> PlacedBlocks::seen_from(const Vec3& origin) const {

@@ -1,16 +1,13 @@
 #include "rigid/placed_model.h"
 
 #include "geometry/triangle_triangle_intersect.h"
+#include "volume/float_vector.h"
 
 #include <utility>
 
 namespace abut {
 
 namespace {
-
-std::array<float, 3> to_float(const Vec3& p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
 
 /// The range of s in [0, 1] in which p + s d may lie within `half` of the origin on every axis.
 std::pair<double, double> clip_to_cube(const Vec3& p, const Vec3& d, double half) {

@@ -2,6 +2,7 @@
 
 #include <abut/model.h>
 
+#include "math/rounding.h"
 #include "math/transform.h"
 #include "rigid/model_data.h"
 #include "tree/traverse_one.h"
@@ -172,10 +173,10 @@ void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit&
                 return;
         return;
     }
-    abut::for_each_near(
-        model().tree(), {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)},
-        round_up(margin(magnitude(point)) + 16 * 0x1p-24 * largest), tree_bound_sq(bound_sq),
-        [&](std::uint32_t slot) { return tree_bound_sq(visit(slot)); });
+    abut::for_each_near(model().tree(), {to_float(p.x), to_float(p.y), to_float(p.z)},
+                        round_up(margin(magnitude(point)) + 16 * 0x1p-24 * largest),
+                        tree_bound_sq(bound_sq),
+                        [&](std::uint32_t slot) { return tree_bound_sq(visit(slot)); });
 }
 
 } // namespace abut

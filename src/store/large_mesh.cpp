@@ -6,6 +6,7 @@
 #include "core/progress.h"
 #include "io/fault.h"
 #include "math/predicates.h"
+#include "math/rounding.h"
 #include "math/transform.h"
 #include "mesh/equal_positions.h"
 #include "store/cut_mesh.h"
@@ -55,8 +56,7 @@ public:
     void vertices(std::span<const Vec3> positions) override {
         check_stop(progress_);
         for (const Vec3& p : positions) {
-            const FloatPosition narrow{static_cast<float>(p.x), static_cast<float>(p.y),
-                                       static_cast<float>(p.z)};
+            const FloatPosition narrow{to_float(p.x), to_float(p.y), to_float(p.z)};
             by_position_.push(
                 {{detail::coordinate_bits(narrow.x), detail::coordinate_bits(narrow.y),
                   detail::coordinate_bits(narrow.z)},

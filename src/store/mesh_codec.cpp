@@ -1,6 +1,7 @@
 #include "store/mesh_codec.h"
 
 #include "io/fault.h"
+#include "math/rounding.h"
 #include "store/byte_planes.h"
 #include "store/zstd_frame.h"
 
@@ -24,8 +25,7 @@ void take_block_planes(std::span<const std::byte>& in, std::span<Word> words) {
 
 bool all_floats(const std::vector<Vec3>& positions) {
     const auto is_float = [](double v) {
-        return std::bit_cast<std::uint64_t>(double{static_cast<float>(v)}) ==
-               std::bit_cast<std::uint64_t>(v);
+        return std::bit_cast<std::uint64_t>(double{to_float(v)}) == std::bit_cast<std::uint64_t>(v);
     };
     return std::all_of(positions.begin(), positions.end(), [&](const Vec3& p) {
         return is_float(p.x) && is_float(p.y) && is_float(p.z);

@@ -1,4 +1,5 @@
 #include "core/parallel.h"
+#include "math/rounding.h"
 #include "math/vector.h"
 #include "tree/orient.h"
 #include "tree/tree.h"
@@ -417,8 +418,7 @@ Tree build_tree(const TreeMesh& mesh, bool own_axes) {
         Aabb box;
         for (const std::uint32_t v : mesh.triangles[i])
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const auto x =
-                    static_cast<float>(component(mesh.positions[v], static_cast<int>(axis)));
+                const auto x = to_float(component(mesh.positions[v], static_cast<int>(axis)));
                 box.lower[axis] = std::min(box.lower[axis], x);
                 box.upper[axis] = std::max(box.upper[axis], x);
             }

@@ -8,6 +8,7 @@
 #define ABUT_TREE_NODE_PAIR_INL_H
 #endif
 
+#include "math/rounding.h"
 #include "simd/simd.h"
 #include "tree/pair_frame.h"
 
@@ -62,7 +63,7 @@ HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& 
     }
     float between[3];
     for (std::size_t i = 0; i < 3; ++i)
-        between[i] = static_cast<float>(moved[i] - double{to.frame.origin[i]});
+        between[i] = to_float(moved[i] - double{to.frame.origin[i]});
     combine(turn[0].data(), turn[1].data(), turn[2].data(), between[0], between[1], between[2],
             nullptr, map.translation.data());
     const float size = to.reach + 2 * trees.row_sum * from.reach +

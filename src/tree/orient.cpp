@@ -1,6 +1,7 @@
 #include "tree/orient.h"
 
 #include "core/parallel.h"
+#include "math/rounding.h"
 #include "math/vector.h"
 
 #include <Eigen/Eigenvalues>
@@ -82,12 +83,10 @@ bool principal_frame(const Moments& m, NodeFrame& frame) {
     if (!(std::abs(length_sq(y) - 1) < 0x1p-40 && std::abs(length_sq(z) - 1) < 0x1p-40))
         return false;
     const auto column = [](double a, double b, double c) {
-        return std::array{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
-                          0.0F};
+        return std::array{to_float(a), to_float(b), to_float(c), 0.0F};
     };
     frame.turn = {column(x.x, y.x, z.x), column(x.y, y.y, z.y), column(x.z, y.z, z.z)};
-    frame.origin = {static_cast<float>(mean.x), static_cast<float>(mean.y),
-                    static_cast<float>(mean.z)};
+    frame.origin = {to_float(mean.x), to_float(mean.y), to_float(mean.z)};
     return frame.turn != NodeFrame().turn;
 }
 
@@ -273,9 +272,9 @@ private:
                 const auto& t = mesh_.triangles[tree_.order[child.first() + lane]];
                 for (std::size_t v = 0; v < 3; ++v) {
                     const Vec3 p = node.frame.point_from_tree(mesh_.positions[t[v]]);
-                    leaf.v[v][0][lane] = static_cast<float>(p.x);
-                    leaf.v[v][1][lane] = static_cast<float>(p.y);
-                    leaf.v[v][2][lane] = static_cast<float>(p.z);
+                    leaf.v[v][0][lane] = to_float(p.x);
+                    leaf.v[v][1][lane] = to_float(p.y);
+                    leaf.v[v][2][lane] = to_float(p.z);
                 }
             }
         }
@@ -299,7 +298,7 @@ void fill_leaves(Tree& tree, const TreeMesh& mesh) {
             for (std::size_t v = 0; v < 3; ++v)
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     leaf.v[v][axis][lane] =
-                        static_cast<float>(component(mesh.positions[t[v]], static_cast<int>(axis)));
+                        to_float(component(mesh.positions[t[v]], static_cast<int>(axis)));
         }
     });
 }

@@ -1,5 +1,7 @@
 #include "tree/pair_frame.h"
 
+#include "math/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +36,7 @@ TreeMap make_map(const Transform& to_from, const Transform& world_from_to, doubl
         for (std::size_t column = 0; column < 4; ++column)
             map.to_from[column][row] = to_from.m[3 * column + row];
         for (std::size_t column = 0; column < 3; ++column)
-            map.linear[row][column] = static_cast<float>(to_from.m[3 * column + row]);
+            map.linear[row][column] = to_float(to_from.m[3 * column + row]);
     }
     map.row_sum = round_up(largest_row_sum(to_from));
     // The composed transforms and the positions in the world and in the trees' frames, as if all

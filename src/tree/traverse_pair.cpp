@@ -1,5 +1,6 @@
 #include "tree/traverse_pair.h"
 
+#include "math/rounding.h"
 #include "tree/near_first_queue.h"
 
 #include <algorithm>
@@ -271,9 +272,8 @@ private:
             constexpr double kBelowOne = 1 - 0x1p-20;
             Covector seen{};
             for (std::size_t i = 0; i < 3; ++i)
-                seen[i] = static_cast<float>(
-                    kBelowOne *
-                    (n.x * world.m[3 * i] + n.y * world.m[3 * i + 1] + n.z * world.m[3 * i + 2]));
+                seen[i] = to_float(kBelowOne * (n.x * world.m[3 * i] + n.y * world.m[3 * i + 1] +
+                                                n.z * world.m[3 * i + 2]));
             return seen;
         };
         direction_a_ = seen_in(t_.frame.world_from_a);

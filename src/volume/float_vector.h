@@ -1,5 +1,6 @@
 #pragma once
 
+#include "math/rounding.h"
 #include "math/vector.h"
 #include "volume/relative_pose.h"
 
@@ -17,9 +18,9 @@ inline constexpr double kUnderflow = 0x1p-500;
 inline Vec3 to_double(const Float3& v) {
     return {v[0], v[1], v[2]};
 }
-/// Each coordinate to the nearest float. Out of line: where this and to_double are inlined, g++ 12
-/// at -O2 (-ftree-slp-vectorize) takes the double for the float, rounding left out.
-Float3 to_float(const Vec3& v);
+inline Float3 to_float(const Vec3& v) {
+    return {to_float(v.x), to_float(v.y), to_float(v.z)};
+}
 inline float dot(const Float3& a, const Float3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

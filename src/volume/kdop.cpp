@@ -1,5 +1,6 @@
 #include "volume/kdop.h"
 
+#include "math/rounding.h"
 #include "volume/aabb.h"
 #include "volume/float_vector.h"
 
@@ -111,8 +112,8 @@ KdopMap<k>::KdopMap(const RelativePose& pose) : margin(pose.margin) {
     const auto& normals = Kdop<k>::kNormals;
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const Normal& n = normals[i];
-        offset[i] = static_cast<float>(
-            along(n, {pose.translation[0], pose.translation[1], pose.translation[2]}));
+        offset[i] =
+            to_float(along(n, {pose.translation[0], pose.translation[1], pose.translation[2]}));
         std::array<double, 3> direction{};
         for (std::size_t column = 0; column < 3; ++column)
             direction[column] = along(n, {m[0][column], m[1][column], m[2][column]});
@@ -121,9 +122,8 @@ KdopMap<k>::KdopMap(const RelativePose& pose) : margin(pose.margin) {
             const Normal opposite{-cone.normals[j][0], -cone.normals[j][1], -cone.normals[j][2]};
             for (std::uint32_t slab = 0; slab < normals.size(); ++slab)
                 if (normals[slab] == cone.normals[j] || normals[slab] == opposite)
-                    terms[i][j] = {slab,
-                                   static_cast<float>(normals[slab] == opposite ? -cone.weights[j]
-                                                                                : cone.weights[j])};
+                    terms[i][j] = {slab, to_float(normals[slab] == opposite ? -cone.weights[j]
+                                                                            : cone.weights[j])};
         }
     }
 }

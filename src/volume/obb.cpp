@@ -1,5 +1,6 @@
 #include "volume/obb.h"
 
+#include "math/rounding.h"
 #include "volume/aabb.h"
 #include "volume/float_vector.h"
 

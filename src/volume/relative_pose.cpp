@@ -1,5 +1,6 @@
 #include "volume/relative_pose.h"
 
+#include "math/rounding.h"
 #include "volume/aabb.h"
 
 #include <cmath>
@@ -12,8 +13,8 @@ RelativePose make_relative_pose(const Transform& to_from, double reach_to, doubl
     RelativePose pose;
     for (std::size_t row = 0; row < 3; ++row) {
         for (std::size_t column = 0; column < 3; ++column)
-            pose.linear[row][column] = static_cast<float>(to_from.m[3 * column + row]);
-        pose.translation[row] = static_cast<float>(to_from.m[9 + row]);
+            pose.linear[row][column] = to_float(to_from.m[3 * column + row]);
+        pose.translation[row] = to_float(to_from.m[9 + row]);
     }
     const auto [least, most] = stretch_of(to_from);
     const double size =

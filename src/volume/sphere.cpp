@@ -1,5 +1,6 @@
 #include "volume/sphere.h"
 
+#include "math/rounding.h"
 #include "volume/aabb.h"
 #include "volume/float_vector.h"
 

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "volume/support_bound.cpp"
 #include "simd/foreach_target.h"
 #include "math/power_of_two.h"
+#include "math/rounding.h"
 #include "simd/simd.h"
 #include "volume/aabb.h"
 
@@ -78,9 +79,9 @@ void fill(PointBlock& block, std::span<const Vec3> points, const Vec3& middle,
           const PowerOfTwo& scale) {
     for (std::size_t lane = 0; lane < kPointsOfBlock; ++lane) {
         const Vec3 p = scale * (points[std::min(lane, points.size() - 1)] - middle);
-        block[0][lane] = static_cast<float>(p.x);
-        block[1][lane] = static_cast<float>(p.y);
-        block[2][lane] = static_cast<float>(p.z);
+        block[0][lane] = to_float(p.x);
+        block[1][lane] = to_float(p.y);
+        block[2][lane] = to_float(p.z);
     }
 }
 

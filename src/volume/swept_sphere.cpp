@@ -1,5 +1,6 @@
 #include "volume/swept_sphere.h"
 
+#include "math/rounding.h"
 #include "volume/aabb.h"
 #include "volume/float_vector.h"
 #include "volume/principal_axes.h"

@@ -2,6 +2,7 @@
 
 #include <abut/types.h>
 
+#include "math/rounding.h"
 #include "walk/box_tree.h"
 
 #include <array>
@@ -25,9 +26,9 @@ public:
             const double share =
                 static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(points_ - 1, 1));
             const Vec3 at = position + share * seconds * velocity;
-            x_[i] = static_cast<float>(at.x), y_[i] = static_cast<float>(at.y);
-            z_[i] = static_cast<float>(at.z);
-            cost_[i] = static_cast<float>(kShareOfWay * share * way);
+            x_[i] = to_float(at.x), y_[i] = to_float(at.y);
+            z_[i] = to_float(at.z);
+            cost_[i] = to_float(kShareOfWay * share * way);
         }
     }
 

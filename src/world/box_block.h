@@ -2,6 +2,7 @@
 
 #include <abut/types.h>
 
+#include "math/rounding.h"
 #include "volume/aabb.h"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ private:
     /// Finite, so that differences are numbers: only empty boxes have infinite bounds.
     static float narrow(double x) {
         constexpr double kMost = std::numeric_limits<float>::max();
-        return static_cast<float>(std::clamp(x, -kMost, kMost));
+        return to_float(std::clamp(x, -kMost, kMost));
     }
 
     Vec3 centre_;
