@@ -12,8 +12,8 @@ double& coordinate(Vec3& v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/// The least corner of the box along a direction of which only the signs matter; where they are
-/// zero, any. The greatest is that of the opposite direction.
+/// The least and the greatest corner of the box along a direction. Only the signs of the
+/// direction's components matter; on an axis where a component is zero, either end serves.
 struct Corners {
     Vec3 least, greatest;
 
@@ -24,8 +24,8 @@ struct Corners {
     }
 };
 
-/// Whether a plane along edge p q and a coordinate axis parts the box from the triangle: the third
-/// vertex r on one side (or on it), the box strictly on the other.
+/// Whether a plane through the edge p q, parallel to a coordinate axis, separates the box from the
+/// triangle: the third vertex r lies on it or on one side, the box strictly on the other.
 bool edge_separates(const Box3& box, const Vec3& p, const Vec3& q, const Vec3& r, int axis) {
     // orient2d(p, q, x) grows with x along (-(q - p)_v, (q - p)_u).
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -41,6 +41,7 @@ bool plane_separates(const Box3& box, const Triangle& t) {
     Corners corners(box);
     for (int axis = 0; axis < 3; ++axis)
         corners.turn(axis, orient2d(t[0], t[1], t[2], axis)); // the sign of the normal's component
+                                                              // along the axis
     return orient3d(t[0], t[1], t[2], corners.least) > 0 ||
            orient3d(t[0], t[1], t[2], corners.greatest) < 0;
 }

@@ -6,14 +6,14 @@ namespace abut {
 
 namespace {
 
-/// Divided by its largest coordinate: its square neither over- nor underflows.
+/// Divides a vector by its largest coordinate, so that its square neither overflows nor underflows.
 Vec3 scaled_down(const Vec3& v) {
     const double largest = max_abs(v);
     return largest > 0 ? Vec3{v.x / largest, v.y / largest, v.z / largest} : Vec3{};
 }
 
-/// An eighth, so that none of it overflows, of the velocity of the second feature's point of impact as
-/// seen from the first's.
+/// An eighth of the velocity of the second feature's point of impact relative to the first's. The
+/// factor prevents overflow.
 Vec3 relative_velocity(const ElementaryPair& pair, const std::array<double, 3>& b) {
     const auto way = [&](std::size_t i) { return 0.125 * pair.end[i] - 0.125 * pair.start[i]; };
     if (pair.kind == ElementaryKind::vertex_face)
@@ -36,7 +36,7 @@ std::array<double, 3> patch_barycentric(ElementaryKind kind, double x, double y)
 
 Vec3 impact_normal(const ElementaryPair& pair, const std::array<double, 3>& barycentric,
                    const Vec3& direction, const Vec3& line) {
-    // The second feature comes towards the first along the normal.
+    // The second feature approaches the first along the normal.
     const Vec3 velocity = scaled_down(relative_velocity(pair, barycentric));
     Vec3 n = normalized_or_zero(scaled_down(direction));
     if (n == Vec3{}) {

@@ -10,12 +10,12 @@ namespace abut {
 
 namespace {
 
-/// What a hit may be farther apart than the thickness: in parts of it, or in the scaled patch's
-/// units, far above rounding there.
+/// How much farther apart than the thickness a hit may be: relative to the thickness, or absolute
+/// in the scaled patch's units, where it is far above rounding.
 constexpr double kTolerance = 1e-6, kLeastTolerance = 0x1p-40;
-/// A step is tried that is at most so many times as long as the last.
+/// A step is tried with at most this many times the length of the last one.
 constexpr double kMostGrowth = 8;
-/// Then a step that is too long is halved.
+/// After this many secant steps, a step that is too long is at least halved.
 constexpr int kMostSecants = 4;
 
 /// The patch at one time.
@@ -30,7 +30,8 @@ struct Moment {
           nearest(nearest_on_patch(patch)) {}
 };
 
-/// All lengths are those of the scaled patch.
+/// Advances time while the pair is proven to be farther apart than the thickness. All lengths are
+/// in units of the scaled patch.
 class Advancement {
 public:
     Advancement(const ElementaryPair& pair, double thickness, double delta)
@@ -40,7 +41,7 @@ public:
         converged_ = (1 - 4 * kUnitRoundoff) * (thickness_ + tolerance);
         near_ = (1 - 4 * kUnitRoundoff) *
                 (thickness_ + std::max({tolerance, moving_.scaled(delta), kLeastTolerance}));
-        // A direction is longer than 1 by at most 6 eps, and the thickness may have lost digits to
+        // A direction's length exceeds 1 by at most 6 eps. The thickness may have lost digits to
         // underflow.
         clear_ = (1 + 10 * kUnitRoundoff) * thickness_ + 1.25 * kAlongOff;
         aim_ = 0.5 * (clear_ + near_);
@@ -54,7 +55,7 @@ public:
             const double sure = clear_until(now);
             if (sure >= 1)
                 return miss();
-            // Rounding may hide whether they are clear even now.
+            // Rounding may hide that the pair is clear even now.
             const std::optional<Moment> next = sure > now.t ? advance(now, sure) : std::nullopt;
             if (!next)
                 return hit(now);
@@ -64,11 +65,13 @@ public:
     }
 
 private:
-    /// Whether the patch is farther from the origin than the thickness at all times between two.
+    /// Whether the patch is farther from the origin than the thickness at all times between two
+    /// moments.
     ///
-    /// The direction is blended as time goes from n0 to n1, and so is never longer than both. How
-    /// far a corner is along it, beyond the thickness, is quadratic in time, with Bernstein
-    /// coefficients b0, b1, b2: positive if and only if b0 and b2 are, and b1 > -sqrt(b0 b2).
+    /// The direction is blended from n0 to n1 as time passes, so its length never exceeds the
+    /// larger of theirs. A corner's coordinate along it, less the thickness, is quadratic in time
+    /// with Bernstein coefficients b0, b1, b2. It is positive if and only if b0 and b2 are positive
+    /// and b1 > -sqrt(b0 b2).
     [[nodiscard]] bool is_clear(const Moment& from, const Vec3& n0, const Moment& to,
                                 const Vec3& n1) const {
         for (std::size_t i = 0; i < from.corners.size(); ++i) {
@@ -81,8 +84,8 @@ private:
         return true;
     }
 
-    /// Until when the direction of now's nearest point alone keeps the patch clear; not proven, but
-    /// for 1.
+    /// The time until which the direction of now's nearest point alone keeps the patch clear. Only
+    /// the answer 1 is proven.
     [[nodiscard]] double clear_until(const Moment& now) const {
         const Vec3& n = now.nearest.direction;
         const double safe = clear_ + 4 * kAlongOff;
@@ -97,7 +100,8 @@ private:
         return part >= 1 ? 1 : now.t + part * (1 - now.t);
     }
 
-    /// When the nearest point of now will be at the distance aimed at, if it goes on as it does.
+    /// The time at which the nearest point of `now` reaches the target distance at its present
+    /// velocity.
     [[nodiscard]] double time_of_aim(const Moment& now) const {
         const NearestOnPatch& p = now.nearest;
         const Vec3 velocity = (moving_.end.corner - moving_.start.corner) +
@@ -108,15 +112,15 @@ private:
         return std::min({time, now.t + longest_, 1.0});
     }
 
-    /// A later moment until which the patch is proven clear; none where rounding hides that it is
-    /// until `sure`, see clear_until.
+    /// A later moment until which the patch is proven clear. None if rounding hides that it is
+    /// clear until `sure`, the result of clear_until.
     [[nodiscard]] std::optional<Moment> advance(const Moment& now, double sure) const {
         int tries = 0;
         for (double t = time_of_aim(now); t > sure; ++tries) {
             Moment next(moving_, t);
             if (is_clear(now, now.nearest.direction, next, next.nearest.direction))
                 return next;
-            // Back to where the distance is about the one aimed at, if t is beyond it.
+            // Goes back to about the target distance if t is beyond it.
             const double here = now.nearest.distance - aim_, there = next.nearest.distance - aim_;
             const double part = there < 0 ? here / (here - there) : 0.5;
             t = now.t + (tries < kMostSecants ? part : std::min(part, 0.5)) * (t - now.t);
@@ -151,11 +155,11 @@ private:
     ScaledPatch moving_;
     std::array<Vec3, 4> end_corners_;
     double thickness_;
-    double near_;        ///< a pair that is certainly at most so far apart is a hit
-    double converged_;   ///< and has this status
-    double clear_;       ///< the patch is clear where it is so far along a direction
-    double aim_;         ///< distance at which to arrive: clear for certain, and near enough
-    double longest_ = 1; ///< step to be tried
+    double near_;        ///< a pair certainly at most this far apart is a hit
+    double converged_;   ///< a hit certainly at most this far apart has the status `converged`
+    double clear_;       ///< the patch is clear if it is this far away along a direction
+    double aim_;         ///< target distance of a step: certainly clear, and near enough
+    double longest_ = 1; ///< longest step to try
 };
 
 } // namespace

@@ -23,11 +23,11 @@ HWY_INLINE Lanes3<D> blend(hn::Vec<D> one_minus_t, hn::Vec<D> t, const Lanes3<D>
             blend<D>(one_minus_t, t, v[0].z, v[1].z)};
 }
 
-/// A cubic by its Bernstein coefficients over a part of [0, 1].
+/// A cubic over a part of [0, 1], by its Bernstein coefficients.
 template <class D>
 struct Cubic {
     hn::Vec<D> b[4];
-    hn::Vec<D> error; ///< of it, evaluated or not, at any time of the part
+    hn::Vec<D> error; ///< bounds that of a coefficient and of a value at any time of the part
 
     /// The coplanarity corner . (x x y) over [0, 1].
     static HWY_INLINE Cubic of(D d, const Patches<D>& p) {
@@ -39,9 +39,9 @@ struct Cubic {
         c.b[2] =
             hn::Mul(third, hn::Add(dot<D>(p.corner[1], p.area_1), dot<D>(p.corner[0], p.area_2)));
         c.b[3] = dot<D>(p.corner[1], p.area_2);
-        // Six products, 13 roundings at most; an evaluation is three blends of rounded weights, off
-        // by 4 eps each, of a half that is made by as many. Products near overflow leave nothing
-        // certain.
+        // A coefficient has six products with at most 13 roundings. An evaluation is three blends
+        // with rounded weights, each off by 4 eps, and so is the split that made a half. Near
+        // overflow, nothing is certain.
         const auto size = hn::Max(hn::Max(hn::Abs(c.b[0]), hn::Abs(c.b[1])),
                                   hn::Max(hn::Abs(c.b[2]), hn::Abs(c.b[3])));
         const auto size_xy = hn::Mul(p.size_x, p.size_y), product = hn::Mul(size_xy, p.size_c);
@@ -62,7 +62,7 @@ struct Cubic {
         for (auto& each : b)
             each = hn::IfThenElse(mask, hn::Neg(each), each);
     }
-    /// Over the part until t, and over that from t on.
+    /// The cubics over the part before t and over the part after it.
     struct Halves;
     [[nodiscard]] HWY_INLINE Halves split(D d, hn::Vec<D> t) const;
 
@@ -74,13 +74,13 @@ struct Cubic {
         const auto least = hn::Min(hn::Min(b[0], b[1]), hn::Min(b[2], b[3]));
         return hn::Gt(least, error);
     }
-    /// It begins certainly below zero and ends above.
+    /// The cubic certainly begins below zero and ends above it.
     [[nodiscard]] HWY_INLINE hn::Mask<D> rises() const {
         return hn::And(hn::Lt(b[0], hn::Neg(error)), hn::Gt(b[3], error));
     }
-    /// About where it is largest within the part, if it has a maximum there; any time if not.
+    /// The approximate time of the maximum within the part; any time if there is none.
     [[nodiscard]] HWY_INLINE hn::Vec<D> maximum(D d) const {
-        // b'(t) / 3 = c2 t^2 + 2 c1 t + c0; the root at which it falls.
+        // b'(t) / 3 = c2 t^2 + 2 c1 t + c0; takes the root at which b' changes from plus to minus.
         const auto c0 = hn::Sub(b[1], b[0]), c1 = hn::Sub(hn::Sub(b[2], b[1]), c0),
                    c2 = hn::Sub(hn::Sub(hn::Sub(b[3], b[2]), hn::Sub(b[2], b[1])), c1);
         const auto root = hn::Sqrt(hn::Max(hn::Zero(d), hn::Sub(hn::Mul(c1, c1), hn::Mul(c0, c2))));
@@ -93,7 +93,8 @@ struct Cubic {
     struct Root {
         hn::Vec<D> t, slope;
     };
-    /// Newton's method from the secant, kept between points of known sign. In: it rises.
+    /// Newton's method from the secant's root, kept between points of known sign. In: the cubic
+    /// rises.
     HWY_INLINE Root root(D d) const {
         const auto three = hn::Set(d, 3.0), half = hn::Set(d, 0.5);
         const auto c1 = hn::Mul(three, hn::Sub(b[1], b[0]));
@@ -102,7 +103,7 @@ struct Cubic {
         auto low = hn::Zero(d), high = hn::Set(d, 1.0), slope = c1;
         auto t = hn::Div(b[0], hn::Sub(b[0], b[3]));
         constexpr int kMostSteps = 9;
-        // A lane that has converged stays as it is: its answer must not depend on the others.
+        // A converged lane no longer changes: its answer must not depend on the other lanes.
         auto active = rises();
         for (int i = 0; i < kMostSteps && !hn::AllFalse(d, active); ++i) {
             const auto f = hn::MulAdd(t, hn::MulAdd(t, hn::MulAdd(t, c3, c2), c1), b[0]);
@@ -137,7 +138,7 @@ HWY_INLINE typename Cubic<D>::Halves Cubic<D>::split(D d, hn::Vec<D> t) const {
     return {{{b[0], b01, b012, here}, error}, {{here, b123, b23, b[3]}, error}};
 }
 
-/// Twice an area as seen along a direction, and what it may be off by.
+/// Twice an area projected along a direction, and a bound on its error.
 template <class D>
 struct Area {
     hn::Vec<D> value, error;
@@ -149,15 +150,16 @@ HWY_INLINE Area<D> sub(D d, const Area<D>& a, const Area<D>& b) {
     return {value, hn::Add(hn::Add(a.error, b.error), rounding)};
 }
 
-/// A vector in the middle of an interval of times.
+/// A vector at the middle of a time interval.
 template <class D>
 struct Middle {
     Lanes3<D> v;
-    hn::Vec<D> size, off; ///< of its coordinates; what they may be off by during the interval
+    hn::Vec<D> size, off; ///< largest coordinate; bound on a coordinate's error and change during
+                          ///< the interval
 };
 
-/// m . (u x v), m at most 1 in each coordinate: six products, each off by what its factors are off
-/// by, and by 8 roundings.
+/// m . (u x v), where no coordinate of m exceeds 1. It has six products. Each is off by its
+/// factors' errors and by 8 roundings.
 template <class D>
 HWY_INLINE Area<D> seen(D d, const Middle<D>& u, const Middle<D>& v, const Lanes3<D>& m) {
     const auto sizes = hn::Mul(hn::Set(d, 8 * kUnitRoundoff), hn::Mul(u.size, v.size));
@@ -165,21 +167,22 @@ HWY_INLINE Area<D> seen(D d, const Middle<D>& u, const Middle<D>& v, const Lanes
     return {dot<D>(m, cross<D>(u.v, v.v)), hn::MulAdd(hn::Set(d, 6.2), off, hn::Set(d, 0x1p-900))};
 }
 
-/// What is known of the time at which the cubic rises through zero.
+/// What is known about the time at which the cubic rises through zero.
 template <class D>
 struct Crossing {
     hn::Mask<D> meet, apart;
-    hn::Vec<D> time, x, y; ///< where they meet
+    hn::Vec<D> time, x, y; ///< valid where `meet` is set
     Lanes3<D> normal;
 };
 
-/// Where the patch holds the origin at the one root of a cubic that rises over [low, high].
+/// Decides whether the patch holds the origin at the only root of a cubic that rises over [low,
+/// high].
 template <bool faces, class D>
 HWY_INLINE Crossing<D> decide_root(D d, const Patches<D>& p, const Cubic<D>& cubic, hn::Vec<D> low,
                                    hn::Vec<D> high) {
     const auto one = hn::Set(d, 1.0), zero = hn::Zero(d), half = hn::Set(d, 0.5);
 
-    // An interval around the root, outside which there is no other.
+    // An interval around the root that certainly holds all roots.
     const auto [root, slope] = cubic.root(d);
     const auto width = hn::Add(hn::Div(hn::Add(cubic.error, cubic.error), hn::Abs(slope)),
                                hn::Set(d, 4 * kUnitRoundoff));
@@ -194,8 +197,8 @@ HWY_INLINE Crossing<D> decide_root(D d, const Patches<D>& p, const Cubic<D>& cub
     const auto enclosed =
         hn::And(hn::And(cubic.rises(), hn::Lt(length, hn::Set(d, 0.9e-9))), alone);
 
-    // Whether the patch holds the origin during it, or never: see OriginTest in
-    // elementary_interval.cpp.
+    // Decides whether the patch holds the origin throughout the interval, or never: see OriginTest
+    // in elementary_interval.cpp.
     const auto t = hn::Mul(half, hn::Add(start, end)), s = hn::Sub(one, t);
     const auto part = hn::MulAdd(hn::Set(d, 2.01), length, hn::Set(d, 8 * kUnitRoundoff));
     const auto middle = [&](const Lanes3<D>(&v)[2], hn::Vec<D> size) HWY_ATTR {
@@ -227,7 +230,7 @@ HWY_INLINE Crossing<D> decide_root(D d, const Patches<D>& p, const Cubic<D>& cub
             hn::Div(at_x.value, whole.value), hn::Div(at_y.value, whole.value), m};
 }
 
-/// Takes what b says where the mask is set.
+/// Copies b to a in the lanes of the mask.
 template <class D>
 HWY_INLINE void take_where(D /*d*/, hn::Mask<D> mask, const Crossing<D>& b, Crossing<D>& a) {
     a.meet = hn::Or(a.meet, hn::And(mask, b.meet));
@@ -243,12 +246,12 @@ HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, Cross
     const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
     const auto p = Patches<D>::template of<faces>(pairs);
     Cubic<D> cubic = Cubic<D>::of(d, p);
-    cubic.negate_where(hn::Gt(cubic.b[0], zero)); // so that it begins below
+    cubic.negate_where(hn::Gt(cubic.b[0], zero)); // so that it begins below zero
     const auto begins_below = hn::Lt(cubic.b[0], hn::Neg(cubic.error));
     const auto ends_below = hn::And(begins_below, hn::Lt(cubic.b[3], hn::Neg(cubic.error)));
 
-    // One that ends below too is cut where it is largest: it rises before, and falls after, or it
-    // has no root at all.
+    // A cubic that also ends below zero is cut at its maximum. Either it rises before the cut and
+    // falls after it, or it has no root.
     const auto cut = hn::IfThenElse(ends_below, cubic.maximum(d), one);
     auto [before, after] = cubic.split(d, cut);
     const auto rootless = hn::And(ends_below, hn::And(before.is_below(), after.is_below()));

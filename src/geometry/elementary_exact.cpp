@@ -15,7 +15,7 @@ namespace abut {
 
 namespace {
 
-/// Cells of roots this small, 2^-44, give the time.
+/// A root is enclosed in a cell of length 2^-44; the cell's start is the time of impact.
 constexpr unsigned kTimeLevel = 44;
 
 using PolynomialVec3 = std::array<IntegerPolynomial, 3>;
@@ -30,7 +30,7 @@ PolynomialVec3 sum(const PolynomialVec3& a, const PolynomialVec3& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-/// A pair's coordinates as integers over one power of two, on which no sign depends.
+/// A pair's coordinates as integers over one common power of two. No sign depends on that power.
 class IntegerPair {
 public:
     explicit IntegerPair(const ElementaryPair& pair) : coordinates_(coordinates(pair)) {}
@@ -61,11 +61,11 @@ private:
     Scaled<24> coordinates_;
 };
 
-/// Where the origin lies in the patch.
+/// The position of the origin in the patch.
 struct PatchPoint {
     double x = 0, y = 0;
-    Vec3 normal; ///< of the patch, of any length; zero if it is degenerate
-    Vec3 line;   ///< then, of the line in which it lies
+    Vec3 normal; ///< normal of the patch, of any length; zero if it is degenerate
+    Vec3 line;   ///< for a degenerate patch: the direction of the line that holds it
 };
 
 class ExactPatch {
@@ -86,9 +86,10 @@ public:
 
     [[nodiscard]] const IntegerPolynomial& coplanarity() const { return coplanarity_; }
 
-    /// Times of which the first contact is one (or it is 0), if the origin always lies in the plane
-    /// of the patch: what holds it is decided by the signs of these polynomials, and the times of
-    /// contact are a closed set. In order, but for those in the same cell of kTimeLevel.
+    /// Candidate times of the first contact if the origin always lies in the patch's plane. The
+    /// signs of the polynomials below decide whether the patch holds the origin, and the times of
+    /// contact are a closed set. So the first contact is at time 0 or at a root of one of them. The
+    /// roots are sorted, except among those in the same cell of kTimeLevel.
     [[nodiscard]] std::vector<UnitRoot> times_of_change() const {
         std::vector<UnitRoot> times;
         const auto add = [&](const PolynomialVec3& polynomials) {
@@ -118,15 +119,15 @@ public:
 private:
     [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < corners_ ? i + 1 : 0; }
 
-    /// A coordinate of corner x next corner.
+    /// A coordinate of the cross product of a corner and the next one.
     [[nodiscard]] IntegerPolynomial moment(std::size_t i, std::size_t axis) const {
         const auto &p = corner_[i], &q = corner_[next(i)];
         const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
         return p[y] * q[z] - p[z] * q[y];
     }
 
-    /// Projected along an axis that the patch's plane does not contain, the corners run around the
-    /// origin in one sense if and only if it lies within.
+    /// Decides after projection along an axis that the patch's plane does not contain: the origin
+    /// lies within the patch if and only if the corners run around it in one sense.
     [[nodiscard]] std::optional<PatchPoint> origin_in_plane(UnitRoot& time, std::size_t axis,
                                                             int side) const {
         std::array<IntegerPolynomial, 4> moments;
@@ -138,7 +139,7 @@ private:
         time.refine(kTimeLevel);
         const auto value = [&](const IntegerPolynomial& p) { return time.value_at_left(p, 2); };
         const auto area = common_scale<3>({value(area_[0]), value(area_[1]), value(area_[2])});
-        // Areas between the origin and two sides, as parts of the whole.
+        // Areas of the triangles of the origin and two sides, relative to the whole area.
         const auto parts =
             common_scale<3>({value(area_[axis]), value(moments[corners_ - 1]), value(moments[0])});
         PatchPoint point;
@@ -148,7 +149,7 @@ private:
         return point;
     }
 
-    /// A patch in a line is what its sides cover.
+    /// A patch that lies in a line is the union of its sides.
     [[nodiscard]] std::optional<PatchPoint> origin_in_line(UnitRoot& time) const {
         for (std::size_t i = 0; i < corners_; ++i) {
             bool holds = true;
@@ -187,7 +188,7 @@ private:
     ElementaryKind kind_;
     std::size_t corners_;
     std::array<PolynomialVec3, 4> corner_;
-    PolynomialVec3 area_; ///< side x side, not halved
+    PolynomialVec3 area_; ///< cross product of the sides, not halved
     IntegerPolynomial coplanarity_;
 };
 
@@ -201,7 +202,7 @@ ElementaryImpact impact_at(const ElementaryPair& pair, const UnitRoot& time,
     return impact;
 }
 
-/// Where the cell of kTimeLevel begins in which a time lies.
+/// The start of the kTimeLevel cell that contains a time.
 double cell_begin(double time) {
     return std::ldexp(std::floor(std::ldexp(time, kTimeLevel)), -int{kTimeLevel});
 }
@@ -223,7 +224,7 @@ ElementaryImpact elementary_impact_exact(const ElementaryPair& pair) {
         if (const auto point = patch.origin_at(time)) {
             time.refine(kTimeLevel);
             impact = impact_at(pair, time, *point);
-            // Another time of this cell may have been the first.
+            // A different time in the same cell may have been the first.
             if (patch.coplanarity().is_zero())
                 impact.time = cell_begin(impact.time);
             break;

@@ -12,7 +12,7 @@ namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace elementary; // NOLINT: within this target's namespace
 
-/// The coplanarity corner . (x x y) by its Bernstein coefficients, the inner ones tripled.
+/// The coplanarity corner . (x x y) by its Bernstein coefficients. The inner ones are tripled.
 template <class D>
 struct Coplanarity {
     hn::Vec<D> b0, b1_3, b2_3, b3;
@@ -24,11 +24,11 @@ struct Coplanarity {
           b3(dot<D>(p.corner[1], p.area_2)) {}
 };
 
-/// Where the four vertices lie in one plane at no time: the coefficients have one sign.
+/// Lanes in which the four vertices are coplanar at no time: the coefficients have one sign.
 ///
-/// With coordinates below C, X and Y, the inner coefficients, tripled, sum 18 products, each rounded
-/// 11 times at most: off by 18 * 11 eps C X Y; the outer ones are off by less. The last term covers
-/// underflow; products near overflow leave nothing certain.
+/// With coordinates below C, X and Y, each tripled inner coefficient sums 18 products, each rounded
+/// at most 11 times. Its error is at most 18 * 11 eps C X Y; that of the outer ones is smaller. The
+/// last term covers underflow. Near overflow, nothing is certain.
 template <class D>
 HWY_INLINE hn::Mask<D> never_coplanar(D d, const Patches<D>& p) {
     const Coplanarity<D> f(p);
@@ -42,14 +42,10 @@ HWY_INLINE hn::Mask<D> never_coplanar(D d, const Patches<D>& p) {
     return hn::And(in_range, hn::Or(hn::Gt(least, bound), hn::Lt(most, hn::Neg(bound))));
 }
 
-/// Where the patch's plane is farther than the thickness D from the origin at all times, and always
-/// on one side: the coplanarity exceeds D |area|.
+/// Lanes in which the patch's plane is farther than the thickness D from the origin at all times,
+/// always on one side: the coplanarity exceeds D |area|.
 ///
-/// |area| is at most the quadratic whose Bernstein coefficients are the lengths of its own; raised
-/// to degree 3, those of the bound are D times |a0|, (|a0| + 2 |a1|) / 3, (2 |a1| + |a2|) / 3, |a2|.
-/// A coordinate of a0 is off by 10 eps X Y at most, one of 2 a1 by twice as much; with lengths,
-/// sums and products that makes less than 120 eps D X Y, and the coplanarity's own error is
-/// as above. Sizes whose squares over- or underflow leave nothing certain.
+/// |area| is at most the quadratic whose Bernstein coefficients are the lengths of the area's own. Raised to degree 3, the bound's coefficients are D times |a0|, (|a0| + 2 |a1|) / 3, (2 |a1| + |a2|) / 3, |a2|. A coordinate of a0 is off by at most 10 eps X Y, one of 2 a1 by twice as much. Lengths, sums and products bring that to less than 120 eps D X Y. The coplanarity's own error is as above. If squares of sizes overflow or underflow, nothing is certain.
 template <class D>
 HWY_INLINE hn::Mask<D> never_near_plane(D d, const Patches<D>& p, hn::Vec<D> thickness) {
     const Coplanarity<D> f(p);
@@ -73,7 +69,7 @@ HWY_INLINE hn::Mask<D> never_near_plane(D d, const Patches<D>& p, hn::Vec<D> thi
     return hn::And(in_range, hn::Or(hn::Gt(above, bound), hn::Lt(below, hn::Neg(bound))));
 }
 
-/// How far features without thickness must be apart along a direction: not at all.
+/// The clearance test of features without thickness: any positive gap along a direction suffices.
 template <class D>
 struct Touching {
     HWY_INLINE hn::Mask<D> on_axis(hn::Vec<D> above, hn::Vec<D> below) const {
@@ -87,14 +83,14 @@ struct Touching {
     }
 };
 
-/// Farther than a thickness. Rounding is monotone: a difference that exceeds it after rounding
-/// once did before.
+/// The clearance test of features with a thickness: the gap must exceed it. Rounding is monotone,
+/// so a rounded difference above the thickness was above it before rounding.
 template <class D>
 struct Thick {
     hn::Vec<D> thickness, diagonal;
 
-    /// Along a diagonal of length sqrt(2), coordinates are sums, rounded by eps of twice the
-    /// largest coordinate each; the factor covers its own rounding. Sums near overflow leave nothing
+    /// A diagonal has length sqrt(2). Coordinates along it are sums, each off by eps times twice
+    /// the largest coordinate; the factor also covers its own rounding. Near overflow, nothing is
     /// certain.
     HWY_INLINE Thick(D d, const Pairs<D>& pairs, double thick) : thickness(hn::Set(d, thick)) {
         auto size = hn::Zero(d);
@@ -116,9 +112,10 @@ struct Thick {
     }
 };
 
-/// Where all of the first feature lies below all of the second along some direction, at both ends,
-/// or above, `far` enough. `along` gives a vertex's coordinate in that direction: rounded at most
-/// once, since then an order of rounded coordinates is that of the exact ones.
+/// Lanes in which, along some direction, all of the first feature lies below all of the second at
+/// both ends of the motion, or above, far enough for `far`. `along` gives a vertex's coordinate in
+/// that direction. It is rounded at most once, so that the order of rounded coordinates is the
+/// order of the exact ones.
 template <bool faces, class D, class Along, class Far>
 HWY_INLINE hn::Mask<D> apart(D /*d*/, const Pairs<D>& pairs, const Along& along, const Far& far) {
     hn::Mask<D> below[2], above[2];
@@ -215,7 +212,7 @@ HWY_INLINE std::uint32_t within_with(D d, const ElementaryBlock& block, bool fac
     });
 }
 
-// With a thickness apart: a test without one shall pay for no branch.
+// Separate functions, so that a test without a thickness has no branch for it.
 std::uint32_t touching_simd(const ElementaryBlock& block, bool faces) {
     return touching_with(BlockLanes(), block, faces);
 }

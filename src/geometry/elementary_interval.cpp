@@ -16,25 +16,26 @@ namespace abut {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Halvings of [0, 1] after which a cell counts as one possible root, and cells looked at in all.
+/// A cell halved kMostLevel times counts as one possible root. At most about kMostCells cells are
+/// examined.
 constexpr int kMostLevel = 12, kMostCells = 64;
-/// Newton's method takes some five steps, and one a bit at a double root.
+/// Newton's method takes about five steps; at a double root, one step per bit.
 constexpr int kMostSteps = 32;
-/// The time of an impact is not certain enough in a longer interval.
+/// A longer interval does not determine the time of impact well enough.
 constexpr double kLongestImpact = 1e-9;
 
-/// A cubic over one cell [start, start + length] of times, by Bernstein coefficients.
+/// A cubic over one time cell [start, start + length], by its Bernstein coefficients.
 struct CubicCell {
     std::array<double, 4> b;
     double start, length;
-    int level; ///< halvings of [0, 1]
+    int level; ///< how often [0, 1] was halved
 };
 
 /// corner . (side_x x side_y): zero where the origin lies in the patch's plane.
 struct Coplanarity {
     std::array<double, 4> b{};
-    double size;  ///< of the coefficients
-    double error; ///< of each coefficient
+    double size;  ///< of the largest coefficient
+    double error; ///< bound for each coefficient
 
     explicit Coplanarity(const RoundedPatch& p) {
         const Vec3 area_0 = cross(p.side_x.start, p.side_y.start),
@@ -46,25 +47,25 @@ struct Coplanarity {
              (dot(p.corner.end, area_1) + dot(p.corner.start, area_2)) / 3,
              dot(p.corner.end, area_2)};
         size = std::max({std::abs(b[0]), std::abs(b[1]), std::abs(b[2]), std::abs(b[3])});
-        // Six products of one coordinate each, 12 roundings at most: 6 * 12 eps of their size. The
-        // last term covers underflow; products near overflow leave nothing certain.
+        // Each coefficient has six products of one coordinate each, with at most 12 roundings: 6 *
+        // 12 eps of their size. The last term covers underflow. Near overflow, nothing is certain.
         const double product = p.side_x.size * p.side_y.size * p.corner.size;
         error = product < 0x1p1000 && p.side_x.size * p.side_y.size < 0x1p1000
                     ? 80 * kUnitRoundoff * product + 0x1p-1000 * (1 + p.corner.size)
                     : kInfinity;
     }
 
-    /// What the polynomial of a cell's coefficients, evaluated and made monotone or not, may be off
-    /// by: each halving is three means of means, an evaluation the like with rounded weights, and a
-    /// coefficient is raised by three slacks at most.
+    /// Bound on the error of a cell's polynomial, evaluated or not, made monotone or not. Each
+    /// halving takes three means of means, an evaluation the same with rounded weights, and a
+    /// coefficient is raised by at most three slacks.
     [[nodiscard]] double error_at(int level) const {
         return error + (8 * level + 16) * kUnitRoundoff * size + 3 * slack();
     }
-    /// A coefficient that falls by less counts as one that does not.
+    /// A coefficient that decreases by less than this counts as not decreasing.
     [[nodiscard]] double slack() const { return 8 * kUnitRoundoff * size; }
 };
 
-/// Value at u in [0, 1] of the cell.
+/// Value of the cell's polynomial at u in [0, 1].
 double value(const std::array<double, 4>& b, double u) {
     const double v = 1 - u;
     const double b01 = v * b[0] + u * b[1], b12 = v * b[1] + u * b[2], b23 = v * b[2] + u * b[3];
@@ -74,8 +75,8 @@ double value(const std::array<double, 4>& b, double u) {
 /// A time interval, and what is known of the coplanarity in it.
 struct RootInterval {
     double start, end;
-    std::optional<int> sign_start, sign_end; ///< at both ends; nothing where it is not certain
-    bool monotone;                           ///< for certain
+    std::optional<int> sign_start, sign_end; ///< signs at both ends; empty where not certain
+    bool monotone;                           ///< certainly monotone
 
     [[nodiscard]] bool has_root() const {
         return sign_start && sign_end && *sign_start * *sign_end <= 0;
@@ -85,8 +86,8 @@ struct RootInterval {
     }
 };
 
-/// Where f(u) = b0 + u (c1 + u (c2 + u c3)) has the value `level`, about: Newton's method, kept
-/// between points of known sign. In: f increases from below the level to above it.
+/// The approximate u at which f(u) = b0 + u (c1 + u (c2 + u c3)) equals `level`, by Newton's method
+/// kept between points of known sign. In: f increases from below the level to above it.
 struct PointOfLevel {
     double u, slope = 0;
 
@@ -116,7 +117,7 @@ RootInterval enclose_increasing(const CubicCell& cell, double error) {
     const bool below = b[0]<-error, above = b[3]> error;
     double start = 0, end = 1;
     if (below || above) {
-        // Where a zero may lie at an end, its neighbourhood ends where the sign becomes certain.
+        // If a zero may lie at an end, its neighbourhood extends until the sign becomes certain.
         const double level = below && above ? 0 : below ? -2 * error : 2 * error;
         const PointOfLevel point(b, level, error);
         const double step = 2 * error / std::abs(point.slope) + 4 * kUnitRoundoff;
@@ -135,7 +136,7 @@ RootInterval enclose_increasing(const CubicCell& cell, double error) {
             b[1] - b[0] > least && b[2] - b[1] > least && b[3] - b[2] > least};
 }
 
-/// In: the coefficients do not increase, or do not decrease, but for a slack.
+/// In: up to a slack, the coefficients do not increase, or do not decrease.
 RootInterval enclose_monotone(CubicCell cell, double error) {
     auto& b = cell.b;
     const bool increases = b[0] <= b[3];
@@ -170,31 +171,31 @@ std::array<CubicCell, 2> halves(const CubicCell& cell) {
             CubicCell{{middle, b123, b23, b[3]}, cell.start + length, length, cell.level + 1}};
 }
 
-/// What happens in an interval of times.
+/// Whether the features share a point in a time interval.
 enum class Meeting { apart, meet, unknown };
 
 struct Contact {
     Meeting meeting = Meeting::unknown;
-    double x = 0, y = 0; ///< of the origin, about; meaningless where the patch is degenerate
+    double x = 0, y = 0; ///< of the origin, approximate; meaningless if the patch is degenerate
     Vec3 normal;
 };
 
-/// Twice an area as seen along a direction, and what it may be off by.
+/// Twice an area projected along a direction, and a bound on its error.
 struct Area {
     double value, error;
 };
 
-/// Whether the patch holds the origin whenever both lie in one plane, or never does.
+/// Decides whether the patch holds the origin whenever the origin lies in its plane, or never does.
 ///
-/// Seen along any fixed direction m, the origin lies in a patch in whose plane it is only if the
-/// corners run around it in one sense (weakly), and if they do so strictly: so signs of
-/// m . (corner x next corner) tell, for whatever m; the patch's normal tells best.
+/// Projected along any fixed direction m, an origin in the plane lies in the patch only if the
+/// corners run around it in one sense (weakly), and certainly if they do so strictly. So the signs
+/// of m . (corner x next corner) decide, for any m. The patch's normal separates the signs best.
 class OriginTest {
 public:
     OriginTest(const RoundedPatch& patch, ElementaryKind kind, const RootInterval& interval)
         : kind_(kind) {
         const double middle = 0.5 * (interval.start + interval.end);
-        // Rounding of ends and interpolation, and the way moved within the interval.
+        // Covers the rounding of ends and interpolation, and the motion within the interval.
         const double part = 8 * kUnitRoundoff + 2.01 * (interval.end - interval.start);
         corner_ = patch.corner.at(middle);
         x_ = patch.side_x.at(middle);
@@ -207,7 +208,7 @@ public:
     [[nodiscard]] Contact decide() const {
         const Vec3 area = cross(x_, y_);
         const double scale = max_abs(area);
-        // Products that lost digits to underflow, or overflowed, are left to exact arithmetic.
+        // Where products overflow or lose digits to underflow, exact arithmetic decides.
         const double sizes = (max_abs(corner_) + off_corner_) + (max_abs(x_) + max_abs(y_));
         if (!(scale > 0x1p-900 && sizes < 0x1p450))
             return {};
@@ -225,18 +226,19 @@ public:
         return contact;
     }
 
-    /// At most this far from the origin is the patch's point (x, y), in [0, 1] both, at any time in
-    /// the interval.
+    /// Upper bound on the distance from the origin to the patch's point (x, y), x and y in [0, 1],
+    /// at any time in the interval.
     [[nodiscard]] double distance_at_most(double x, double y) const {
-        // Coordinates instead of a length: their squares may underflow.
+        // Uses the largest coordinate instead of the length, whose square may underflow.
         return 1.7321 * (max_abs(corner_ + x * x_ + y * y_) + 2 * (off_corner_ + off_x_ + off_y_));
     }
 
 private:
-    /// m . (u x v), |m| at most 1 in each coordinate, u and v off by `off_u` and `off_v` each.
+    /// m . (u x v), where no coordinate of m exceeds 1; u and v are off by at most `off_u` and
+    /// `off_v`.
     static Area seen(const Vec3& u, double off_u, const Vec3& v, double off_v, const Vec3& m) {
         const double size_u = max_abs(u), size_v = max_abs(v);
-        // Six products: each off by what its factors are off by, and by 8 roundings.
+        // Six products: each is off by its factors' errors and by 8 roundings.
         const double off =
             off_u * size_v + size_u * off_v + off_u * off_v + 8 * kUnitRoundoff * size_u * size_v;
         return {dot(m, cross(u, v)), 6.1 * off + 0x1p-900};
@@ -260,7 +262,8 @@ private:
 
     ElementaryKind kind_;
     Vec3 corner_, x_, y_;
-    double off_corner_, off_x_, off_y_; ///< what coordinates may be off by at any time in it
+    double off_corner_, off_x_, off_y_; ///< bound on a coordinate's error at any time in the
+                                        ///< interval
 };
 
 class Search {
@@ -268,7 +271,7 @@ public:
     Search(const ElementaryPair& pair, double delta)
         : pair_(pair), delta_(delta), patch_(pair), coplanarity_(patch_) {}
 
-    /// Cells of time from the earliest on; the first that may hold an impact ends the search.
+    /// Examines cells from the earliest time on. The first that may hold an impact ends the search.
     std::optional<ElementaryImpact> run() {
         if (!(coplanarity_.error < kInfinity))
             return std::nullopt;
@@ -299,7 +302,7 @@ public:
     }
 
 private:
-    /// False if it is not known what happens in the interval.
+    /// False if the interval could not be decided.
     bool examine(RootInterval interval) {
         const OriginTest test(patch_, pair_.kind, interval);
         const Contact contact = test.decide();
@@ -321,8 +324,8 @@ private:
         return true;
     }
 
-    /// Features that touch at the start or the end are common: an exact sign there spares the rest
-    /// of exact arithmetic.
+    /// Features often touch at the start or at the end. An exact sign there saves most of the exact
+    /// arithmetic.
     void add_signs_of_ends(RootInterval& interval) const {
         const auto sign = [](const std::array<Vec3, 4>& p) {
             return orient3d(p[0], p[1], p[2], p[3]);

@@ -1,4 +1,4 @@
-// Elementary pairs, lanes wide, and their patches: what the kernels on blocks of pairs share.
+// Elementary pairs and their patches, one per lane: shared by the kernels on batches of pairs.
 
 // Included once for each target.
 #if defined(ABUT_ELEMENTARY_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::elementary {
 
-/// The four vertices at both ends.
+/// The four vertices of each pair, at both ends of the motion.
 template <class D>
 struct Pairs {
     Lanes3<D> p[4][2];
@@ -28,7 +28,7 @@ struct Pairs {
                 p[i][end] = load3(d, block.v[i][end], lane);
             }
     }
-    /// The same pair in all lanes.
+    /// Sets all lanes to one pair.
     HWY_INLINE Pairs(D d, const ElementaryPair& pair) {
         const auto point = [&](const Vec3& v) HWY_ATTR {
             return Lanes3<D>{hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
@@ -38,12 +38,12 @@ struct Pairs {
     }
 };
 
-/// corner + x side_x + y side_y at both ends: see difference_patch.h.
+/// corner + x side_x + y side_y at both ends of the motion: see difference_patch.h.
 template <class D>
 struct Patches {
     Lanes3<D> corner[2], x[2], y[2];
-    hn::Vec<D> size_c, size_x, size_y; ///< of their coordinates
-    Lanes3<D> area_0, area_1, area_2; ///< x x y, its Bernstein coefficients, the middle one doubled
+    hn::Vec<D> size_c, size_x, size_y; ///< largest coordinates of corner, x and y
+    Lanes3<D> area_0, area_1, area_2;  ///< Bernstein coefficients of x x y, the middle one doubled
 
     template <bool faces>
     static HWY_INLINE Patches of(const Pairs<D>& pairs) {

@@ -10,10 +10,10 @@ namespace abut {
 
 namespace {
 
-/// Whether parts of two features are within a distance, exactly. Two features are if a vertex of one
-/// and a vertex of the other are, or a vertex and its foot inside an edge or the face, or the feet of
-/// two lines' common perpendicular inside both edges: the closest points are one of these pairs, and
-/// every such pair is of two points of the features.
+/// Decides exactly whether two features are within a distance. The closest points of two features
+/// are two vertices, or a vertex and its foot inside an edge or the face, or the feet of two lines'
+/// common perpendicular inside both edges. Each such pair consists of points of the features, so
+/// the features are within the distance if and only if one of these pairs is.
 class ExactWithin {
 public:
     ExactWithin(const std::array<Vec3, 4>& points, double distance)
@@ -38,7 +38,7 @@ private:
         const DyadicVec3 w = points_[i] - points_[j];
         return at_most(dot(w, w), distance_sq_);
     }
-    /// The vertex and the edge's ends, or its foot if that lies between them.
+    /// Tests the vertex against the edge's ends, and against its foot if that lies between them.
     [[nodiscard]] bool vertex_edge(std::size_t vertex, std::size_t from, std::size_t to) const {
         if (vertices(vertex, from) || vertices(vertex, to))
             return true;
@@ -76,7 +76,7 @@ private:
 FeatureDistance feature_distance(ElementaryKind kind, const std::array<Vec3, 4>& points) {
     const ScaledPatch patch({kind, points, points});
     const NearestOnPatch nearest = nearest_on_patch(patch.start);
-    // Scaling rounds where the result is denormal.
+    // Unscaling rounds where the result is denormal.
     constexpr double kLeast = std::numeric_limits<double>::denorm_min();
     FeatureDistance result;
     result.distance = patch.unscaled(nearest.distance);

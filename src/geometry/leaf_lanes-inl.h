@@ -1,4 +1,4 @@
-// The pairs of triangles of two leaves, side by side.
+// The triangle pairs of two leaves, one per lane.
 
 // Included once for each target.
 #if defined(ABUT_GEOMETRY_LEAF_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -16,7 +16,8 @@ namespace abut::HWY_NAMESPACE {
 
 constexpr std::size_t kPairs = TriangleLeaf::kLanes * TriangleLeaf::kLanes;
 
-/// The sixteen pairs of two leaves side by side: lane 4 i + j holds triangle i of a and j of b.
+/// Spreads the triangles of two leaves to the lanes of their sixteen pairs: lane 4 i + j holds
+/// triangle i of a and triangle j of b.
 template <class D>
 HWY_INLINE hn::Vec<D> spread_a(D d, const float (&v)[TriangleLeaf::kLanes], std::size_t lane) {
     if constexpr (hn::MaxLanes(D()) < TriangleLeaf::kLanes) {
@@ -35,7 +36,7 @@ HWY_INLINE hn::Vec<D> spread_b(D d, const float (&v)[TriangleLeaf::kLanes], std:
         return hn::LoadDup128(d, v);
 }
 
-/// b's triangles in a's frame.
+/// Transforms b's triangles to a's frame.
 HWY_INLINE void turn_leaf(const TriangleLeaf& b, const LeafPlacement& to_a, TriangleLeaf& turned) {
     for (std::size_t v = 0; v < 3; ++v)
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -46,7 +47,7 @@ HWY_INLINE void turn_leaf(const TriangleLeaf& b, const LeafPlacement& to_a, Tria
         }
 }
 
-/// The triangles of the pairs from `lane` on, both in one frame.
+/// Loads the triangles of the pairs from `lane` on, both in one frame.
 template <class D>
 HWY_INLINE void load_pairs(D d, const TriangleLeaf& leaf_a, const TriangleLeaf& leaf_b,
                            std::size_t lane, Lanes3<D> (&a)[3], Lanes3<D> (&b)[3]) {

@@ -4,11 +4,12 @@
 
 namespace abut {
 
-// All axes share the products of the boxes' own axes.
+// All axes share the scalar products of the boxes' own axes.
 LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
     using Kind = LeastOverlap::Kind;
     const Vec3 d = b.centre - a.centre;
-    double turn[3][3], way_a[3], way_b[3]; // b's axes and the way to b, in a's frame and in b's
+    double turn[3][3], way_a[3], way_b[3]; // b's axes in a's frame; the vector to b in a's frame
+                                           // and in b's
     for (std::size_t i = 0; i < 3; ++i) {
         way_a[i] = dot(d, a.axis[i]);
         way_b[i] = dot(d, b.axis[i]);
@@ -41,7 +42,7 @@ LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
             const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3,
                               k2 = (k + 2) % 3;
             const double sq = turn[i1][k] * turn[i1][k] + turn[i2][k] * turn[i2][k];
-            // Nearly parallel edges: what their product would tell, the faces' axes do.
+            // For nearly parallel edges, the face axes cover the cross product's axis.
             if (sq <= 0x1p-40)
                 continue;
             const double scale = 1 / std::sqrt(sq);

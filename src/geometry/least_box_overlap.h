@@ -7,14 +7,14 @@
 
 namespace abut {
 
-/// The axis along which two boxes overlap least, or are apart the farthest.
+/// The axis along which two boxes overlap least or, if they are apart, are farthest apart.
 struct LeastOverlap {
-    double overlap = std::numeric_limits<double>::infinity(); ///< negative: apart
+    double overlap = std::numeric_limits<double>::infinity(); ///< negative if they are apart
     Vec3 normal;                                              ///< from a to b
     enum class Kind : std::uint8_t { face_a, face_b, edges } kind = Kind::face_a;
 };
 
-/// Of the boxes without their radii, among the 15 axes that can part them.
+/// The least overlap of the boxes, without their radii, among the 15 axes that can separate them.
 ///
 /// Accuracy    a few roundings of the centres' differences.
 /// Source      separating axes [Gottschalk, Lin, Manocha 1996].

@@ -1,4 +1,5 @@
-// Feet on triangles and closest points of segments: of Vec3, and of Xyz where that is faster.
+// Foot of a point on a triangle, and closest points of segments. Templates: for Vec3, and for Xyz
+// (a vector in one register) where that is faster.
 
 // Included once for each target.
 #if defined(ABUT_GEOMETRY_NEAREST_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -22,24 +23,24 @@ HWY_INLINE Vec3 choose(bool first, const Vec3& a, const Vec3& b) {
     return first ? a : b;
 }
 
-/// Foot of a point on the plane of a triangle. Its weights, if it lies within: g and h of the two
-/// corners after `first`, the rest of that one.
+/// Foot of a point on the plane of a triangle. If it lies within the triangle, its weights are g
+/// and h at the two corners after `first`, and 1 - g - h at `first`.
 template <class V>
 struct Foot {
     bool within = false;
     std::size_t first = 0;
     double g = 0, h = 0;
     V point, gap;          ///< gap: from the foot to the point
-    double nn = 0, uu = 1; ///< squares of twice the triangle's area, and of its longest edge
+    double nn = 0, uu = 1; ///< squares of twice the triangle's area and of its longest edge
 
-    /// The square of the triangle's least height.
+    /// The square of the triangle's smallest height.
     [[nodiscard]] HWY_INLINE double height_sq() const { return nn / uu; }
 };
 
 /// See foot_within in geometry/point_triangle_distance.h.
 template <class V>
 HWY_INLINE Foot<V> foot_on(const V& p, const std::array<V, 3>& t) {
-    // Along the longest edge u, where a needle's foot is well determined whatever its width.
+    // Works along the longest edge u: there, a needle's foot is well determined whatever its width.
     const V e0 = t[1] - t[0], e1 = t[2] - t[1], e2 = t[0] - t[2];
     const double sq0 = length_sq(e0), sq1 = length_sq(e1), sq2 = length_sq(e2);
     const bool is_1 = sq1 > sq0;
@@ -54,7 +55,7 @@ HWY_INLINE Foot<V> foot_on(const V& p, const std::array<V, 3>& t) {
     Foot<V> foot;
     if (!(nn > 0 && along >= 0 && along <= nn))
         return foot;
-    // h = (u x w) . n / n.n, and the best g for that h: what h is off by, g makes up for.
+    // h = (u x w) . n / n.n, and the best g for that h: g compensates for the error of h.
     const double h = along / nn, g = dot(w - h * v, u) / uu;
     if (!(g >= 0 && g + h <= 1))
         return foot;
@@ -73,7 +74,8 @@ HWY_INLINE SegmentPoints nearest_on_segments(const V& u, const V& v, const V& r)
     const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
     const V n = cross(u, v);
     const double nn = length_sq(n);
-    // Lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s for that t.
+    // First s for the two lines: s = (r x v) . n / n.n. Then the best t for that s, and the best s
+    // for that t.
     double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
     const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
     s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;

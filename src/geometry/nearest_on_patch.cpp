@@ -11,11 +11,11 @@ namespace abut {
 
 namespace {
 
-/// The place of the nearest point, and the part of the patch within which it lies.
+/// The nearest point's position, and the part of the patch that holds it.
 struct Foot {
     double x = 0, y = 0;
     bool along_x = false, along_y = false; ///< neither: at a corner; both: inside
-    bool along_diagonal = false;           ///< of a triangle: between the ends of its sides
+    bool along_diagonal = false;           ///< of a triangle: on the side opposite to `corner`
 };
 
 Foot foot_of(const FlatPatch& patch) {
@@ -34,25 +34,26 @@ Foot foot_of(const FlatPatch& patch) {
             inside || (edge && n.index == 2), edge && n.index == 1};
 }
 
-/// The part of `v` across a line.
+/// The part of `v` perpendicular to a line.
 Vec3 across(const Vec3& v, const Vec3& line) {
     const double sq = length_sq(line);
     return sq > 0 ? v - (dot(v, line) / sq) * line : v;
 }
 
-/// The direction across two vectors, however small the angle between them: what the cross product's
-/// rounding, over that angle, leaves of it along them is taken off.
+/// The direction perpendicular to two vectors, however small the angle between them. The cross
+/// product's rounding error, divided by that angle, leaves a part along the vectors; that part is
+/// removed.
 Vec3 across(const Vec3& x, const Vec3& y, const Vec3& area) {
     const Vec3 n = normalized_or_zero(area), beside = across(across(y, x), x);
     const double xx = length_sq(x), bb = length_sq(beside);
     if (!(xx > 0 && bb > 0))
         return n;
-    // n - u x - v beside, with no part along x nor y.
+    // n - u x - v beside has no part along x or y.
     const double u = dot(n, x) / xx, v = (dot(n, y) - u * dot(x, y)) / bb;
     return n - u * x - v * beside;
 }
 
-/// What the patch's distance is at least, by how far its corners are along a direction.
+/// Lower bound on the patch's distance from how far its corners are along a direction.
 struct Bound {
     double lower = 0;
     Vec3 direction;
@@ -63,7 +64,7 @@ public:
     explicit Bounds(const FlatPatch& patch) : corners_(patch.corners()) {}
 
     void add(const Vec3& towards) {
-        // Of shorter ones, squares lose digits to underflow.
+        // Squares of shorter vectors lose digits to underflow.
         const double sq = length_sq(towards);
         if (!(sq > 0x1p-900))
             return;
@@ -71,12 +72,12 @@ public:
         double least = dot(n, corners_[0]);
         for (std::size_t i = 1; i < corners_.size(); ++i)
             least = std::min(least, dot(n, corners_[i]));
-        // n is longer than 1 by at most 6 eps.
+        // The length of n exceeds 1 by at most 6 eps.
         if (const double lower = (1 - 8 * kUnitRoundoff) * (least - kAlongOff); lower > best_.lower)
             best_ = {lower, n};
     }
-    /// All directions in which the nearest point of a convex patch may lie: that of a corner, across
-    /// a side, across the patch.
+    /// Adds all directions in which the nearest point of a convex patch may lie: to each corner,
+    /// perpendicular to each side, and perpendicular to the patch.
     void add_all(const FlatPatch& patch, const Vec3& area) {
         const Vec3 n = across(patch.side_x, patch.side_y, area);
         add(n), add(-n);
@@ -93,8 +94,9 @@ private:
     Bound best_;
 };
 
-/// The gap is off by roundings of the coordinates, which may be many of its own length; what is
-/// known of its direction is not.
+/// The direction from the origin to the nearest point. The gap itself is off by roundings of the
+/// coordinates, which may be many times its length. So the parts in which the direction is known
+/// are taken from the patch instead.
 Vec3 direction_of(const FlatPatch& patch, const Foot& foot, const Vec3& gap, const Vec3& area) {
     if (foot.along_x && foot.along_y)
         return dot(area, gap) < 0 ? -area : area;
@@ -119,14 +121,14 @@ NearestOnPatch nearest_on_patch(const FlatPatch& patch) {
     NearestOnPatch nearest;
     nearest.x = foot.x, nearest.y = foot.y;
     nearest.distance = length(gap);
-    // A coordinate of the gap is off by 4 eps for its vectors, 4 for products and sums, and 1 where
-    // rounded weights sum to more than 1: in all by 9 sqrt(3) eps.
+    // A coordinate of the gap is off by 4 eps for its vectors, 4 eps for products and sums, and 1
+    // eps where rounded weights sum to more than 1: in all by 9 sqrt(3) eps.
     nearest.upper = (1 + 4 * kUnitRoundoff) * nearest.distance + 18 * kUnitRoundoff;
 
     const Vec3 area = cross(patch.side_x, patch.side_y);
     Bounds bounds(patch);
     bounds.add(direction_of(patch, foot, gap, area));
-    // Needles and nearly parallel edges.
+    // Tries all directions for needles and nearly parallel edges.
     constexpr double kLoose = 1e-9;
     if (nearest.upper - bounds.best().lower > kLoose * nearest.upper + 4 * kAlongOff)
         bounds.add_all(patch, area);

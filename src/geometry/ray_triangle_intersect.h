@@ -12,8 +12,9 @@ namespace abut {
 /// Where a ray meets a triangle.
 struct RayTriangleHit {
     double t = 0; ///< of its range that lies in the triangle, the least
-    int side = 0; ///< +1: it comes from where the vertices run counter-clockwise; -1: from behind;
-                  ///< 0: it lies in the triangle's plane, or the triangle has no area
+    int side = 0; ///< +1: the ray comes from the side where the vertices run counter-clockwise;
+                  ///< -1: from the other side; 0: the ray lies in the triangle's plane, or the
+                  ///< triangle has no area
 };
 
 /// Whether a ray meets a triangle.
