@@ -45,7 +45,11 @@ HWY_INLINE hn::Mask<D> never_coplanar(D d, const Patches<D>& p) {
 /// Lanes in which the patch's plane is farther than the thickness D from the origin at all times,
 /// always on one side: the coplanarity exceeds D |area|.
 ///
-/// |area| is at most the quadratic whose Bernstein coefficients are the lengths of the area's own. Raised to degree 3, the bound's coefficients are D times |a0|, (|a0| + 2 |a1|) / 3, (2 |a1| + |a2|) / 3, |a2|. A coordinate of a0 is off by at most 10 eps X Y, one of 2 a1 by twice as much. Lengths, sums and products bring that to less than 120 eps D X Y. The coplanarity's own error is as above. If squares of sizes overflow or underflow, nothing is certain.
+/// The length |area| is at most the quadratic whose Bernstein coefficients are the lengths of the
+/// area's own. Raised to degree 3, the bound's coefficients are D times |a0|, (|a0| + 2 |a1|) / 3,
+/// (2 |a1| + |a2|) / 3, |a2|. A coordinate of a0 is off by at most 10 eps X Y, one of 2 a1 by twice
+/// as much. Lengths, sums and products bring that to less than 120 eps D X Y. The coplanarity's own
+/// error is as above. If squares of sizes overflow or underflow, nothing is certain.
 template <class D>
 HWY_INLINE hn::Mask<D> never_near_plane(D d, const Patches<D>& p, hn::Vec<D> thickness) {
     const Coplanarity<D> f(p);

@@ -8,7 +8,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// A vector from about the triangle's nearest point to the point; w: from the vertices to the point.
+/// A vector from approximately the triangle's nearest point to the query point. In: w, from each
+/// vertex to that point.
 template <class D>
 HWY_INLINE Lanes3<D> towards(D d, const Lanes3<D> (&w)[3], const Lanes3<D> (&edge)[3]) {
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
@@ -32,9 +33,9 @@ HWY_INLINE Lanes3<D> towards(D d, const Lanes3<D> (&w)[3], const Lanes3<D> (&edg
     return if_then_else(within, up, best);
 }
 
-// For any n, the triangle is at least min over its vertices of n . w / |n| away. So how n was found
-// needs no analysis: only that sum and quotient do, 8 roundings of the largest w, and the
-// coordinates, each off by the margin: at most sqrt(3) of it along n.
+// For any n, the triangle is at least min over its vertices of n . w / |n| away, so the way n was
+// found needs no error analysis. What is off are that scalar product and quotient, by 8 roundings
+// of the largest w, and each coordinate by the margin, which is at most sqrt(3) margins along n.
 template <class D>
 HWY_INLINE void distance_sq_lanes(D d, const TriangleLeaf& leaf, const std::array<float, 3>& point,
                                   float margin, std::size_t lane, float* lower_sq) {

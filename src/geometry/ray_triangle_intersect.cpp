@@ -12,10 +12,10 @@ namespace abut {
 
 namespace {
 
-/// t is this precise; what rounding leaves less precise is computed exactly.
+/// Relative precision of t. If rounding leaves t less precise, it is computed exactly.
 constexpr double kPrecision = 0x1p-40;
-/// Sums of three products of three factors, each a rounded difference, sum or product, are off by
-/// less than this times the sum of their magnitudes.
+/// Relative error bound of sums of three products of three factors, each a rounded difference, sum
+/// or product. It is relative to the sum of the products' magnitudes.
 constexpr double kRayRounding = 16 * 0x1p-53;
 constexpr double kUnderflow = 64 * std::numeric_limits<double>::denorm_min();
 
@@ -23,15 +23,15 @@ Vec3 magnitudes(const Vec3& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-/// A value and a bound of its rounding.
+/// A value and a bound on its rounding error.
 struct Rounded {
     double value = 0, bound = 0;
-    [[nodiscard]] int certain_sign() const { // overflow makes neither comparison true
+    [[nodiscard]] int certain_sign() const { // overflow makes both comparisons false
         return value > bound ? 1 : value < -bound ? -1 : 0;
     }
 };
 
-/// The normal of a triangle and the magnitudes that its components were summed from.
+/// The normal of a triangle, and the sums of the magnitudes of its components' terms.
 struct Normal {
     Vec3 value, terms;
 
@@ -41,7 +41,7 @@ struct Normal {
         value = cross(u, v);
         terms = {a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
     }
-    /// n . w, w rounded from magnitudes of sum `w_terms`.
+    /// n . w, where w was rounded from terms whose magnitudes sum to `w_terms`.
     [[nodiscard]] Rounded dot(const Vec3& w, const Vec3& w_terms) const {
         return {abut::dot(value, w), kRayRounding * abut::dot(terms, w_terms) +
                                          kUnderflow * (1 + w_terms.x + w_terms.y + w_terms.z)};
@@ -55,7 +55,7 @@ struct ExactTriangle {
     [[nodiscard]] DyadicVec3 normal() const { return cross(v[1] - v[0], v[2] - v[0]); }
 };
 
-/// numerator / denominator, the latter positive.
+/// numerator / denominator; the denominator is positive.
 struct Fraction {
     Dyadic numerator, denominator{1.0};
 };
@@ -63,7 +63,8 @@ int compare(const Fraction& a, const Fraction& b) {
     return (a.numerator * b.denominator - b.numerator * a.denominator).sign();
 }
 
-/// The line's parameter where it crosses the plane of a triangle. In: it does.
+/// The line's parameter where it crosses the plane of a triangle. In: the line is not parallel to
+/// the plane.
 Fraction exact_crossing(const Ray& ray, const Triangle& triangle) {
     const ExactTriangle t(triangle);
     const DyadicVec3 n = t.normal();
@@ -74,7 +75,7 @@ Fraction exact_crossing(const Ray& ray, const Triangle& triangle) {
                                   : Fraction{-numerator, -denominator};
 }
 
-/// Sign of t - s, t the parameter of exact_crossing, for a finite s.
+/// Sign of t - s, where t is the parameter of exact_crossing. In: s is finite.
 int compare_crossing(const Ray& ray, const Triangle& triangle, const Normal& n, int facing,
                      double s) {
     // n . (v_0 - o - s d) has the sign of t - s if n . d is positive.
@@ -83,13 +84,13 @@ int compare_crossing(const Ray& ray, const Triangle& triangle, const Normal& n, 
     return sign != 0 ? sign * facing : compare(exact_crossing(ray, triangle), {Dyadic(s)});
 }
 
-/// The parameters at which a line in the plane of a triangle (or of a segment) enters and leaves
-/// it.
+/// The parameters at which a line enters and leaves a triangle (or segment) whose plane holds the
+/// line.
 struct Interval {
     Fraction enter, leave;
 };
 
-/// In: the line lies in one plane with each edge.
+/// In: the line is coplanar with each edge.
 std::optional<Interval> interval_along(const Ray& ray, const Triangle& triangle) {
     const ExactTriangle t(triangle);
     const DyadicVec3 o(ray.origin), d(ray.direction);
@@ -98,7 +99,7 @@ std::optional<Interval> interval_along(const Ray& ray, const Triangle& triangle)
     std::array<Dyadic, 3> along;   // (v - o) . d
     for (std::size_t i = 0; i < 3; ++i)
         off[i] = cross(t.v[i] - o, d), along[i] = dot(t.v[i] - o, d);
-    // Any component that is not zero for all tells them apart.
+    // Any component that is nonzero for some vertex tells the multiples apart.
     const auto nonzero = [&](const Dyadic DyadicVec3::*c) {
         return std::any_of(off.begin(), off.end(),
                            [&](const DyadicVec3& v) { return (v.*c).sign() != 0; });
@@ -123,7 +124,7 @@ std::optional<Interval> interval_along(const Ray& ray, const Triangle& triangle)
         if (ci.sign() == 0)
             add({along[i], d_sq});
         else if (ci.sign() * cj.sign() < 0) {
-            // At v_i + (v_j - v_i) c_i / (c_i - c_j).
+            // The crossing is at v_i + (v_j - v_i) c_i / (c_i - c_j).
             const Dyadic numerator = ci * along[j] - cj * along[i], difference = ci - cj;
             add(difference.sign() > 0 ? Fraction{numerator, difference * d_sq}
                                       : Fraction{-numerator, -difference * d_sq});
@@ -132,7 +133,7 @@ std::optional<Interval> interval_along(const Ray& ray, const Triangle& triangle)
     return found;
 }
 
-/// Where a ray in the plane of a triangle first is in it.
+/// The parameter at which a ray in the plane of a triangle first is within the triangle.
 std::optional<Fraction> exact_entry(const Ray& ray, const Triangle& triangle) {
     std::optional<Interval> range = interval_along(ray, triangle);
     if (!range || ray.t_min > ray.t_max)
@@ -166,19 +167,19 @@ double crossing(const Ray& ray, const Triangle& triangle, const Normal& n) {
         return r.bound < kPrecision / 4 * std::abs(r.value);
     };
     const double t = numerator.value / denominator.value;
-    // Quotients near the least double are less precise than their terms.
+    // Quotients near the smallest double are less precise than their terms.
     return precise(numerator) && precise(denominator) && std::abs(t) > 1e-300
                ? t
                : rounded(exact_crossing(ray, triangle));
 }
 
-/// Where on the edge from q to r its point nearest to p is.
+/// The parameter, on the edge from q to r, of the point nearest to p.
 double fraction_along(const Vec3& p, const Vec3& q, const Vec3& r) {
     const double s = dot(p - q, r - q) / length_sq(r - q);
-    return s > 0 ? std::min(s, 1.0) : 0; // also where the edge's square is out of range
+    return s > 0 ? std::min(s, 1.0) : 0; // also if the edge's squared length is out of range
 }
 
-/// The sides of the edges across from each vertex, as seen along a ray.
+/// For each vertex, on which side of the opposite edge the ray passes.
 std::array<int, 3> edge_sides(const Ray& ray, const Triangle& t) {
     const Vec3 &o = ray.origin, &d = ray.direction;
     return {turn_around_line(o, d, t[1], t[2]), turn_around_line(o, d, t[2], t[0]),
@@ -192,8 +193,8 @@ std::optional<RayTriangleHit> ray_triangle_intersect(const Ray& ray, const Trian
     const auto [least, greatest] = std::minmax({sides[0], sides[1], sides[2]});
     if (least < 0 && greatest > 0)
         return std::nullopt;
-    // The three determinants sum up to n . d.
-    const int facing = least + greatest; // +-1, or +-2 as a sum of two signs
+    // The three determinants sum to n . d.
+    const int facing = least + greatest; // +-1, or +-2 as the sum of two signs
     if (facing == 0)
         return hit_along(ray, t);
     const Normal n(t);
@@ -218,7 +219,7 @@ std::array<double, 3> hit_weights(const Ray& ray, const Triangle& t, const RayTr
             if (sides[i] != 0)
                 continue;
             std::array<double, 3> weights{};
-            weights[k] = sides[j] == 0   ? 1 // on two edges: their vertex
+            weights[k] = sides[j] == 0   ? 1 // on two edges: at their common vertex
                          : sides[k] == 0 ? 0
                                          : fraction_along(p, t[j], t[k]);
             weights[j] = 1 - weights[k];

@@ -15,7 +15,7 @@ namespace {
 
 using Edge = std::pair<Vec3, Vec3>;
 
-/// The nearest point of the solid box.
+/// The point of the solid box nearest to p.
 Vec3 nearest_of_box(const RoundedBox& box, const Vec3& p) {
     const Vec3 d = p - box.centre;
     Vec3 nearest = box.centre;
@@ -25,7 +25,7 @@ Vec3 nearest_of_box(const RoundedBox& box, const Vec3& p) {
     return nearest;
 }
 
-/// Different ones only: of axes without extent, one end.
+/// The distinct vertices: an axis without extent does not double them.
 boost::container::static_vector<Vec3, 8> vertices_of(const RoundedBox& box) {
     boost::container::static_vector<Vec3, 8> vertices{box.centre};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -54,7 +54,7 @@ boost::container::static_vector<Edge, 12> edges_of(const RoundedBox& box) {
     return edges;
 }
 
-/// A pair of points, and the square of their distance.
+/// A pair of points, one of each box, and their squared distance.
 struct Candidate {
     double distance_sq = std::numeric_limits<double>::infinity();
     Vec3 a, b;
@@ -74,11 +74,11 @@ double reach(const RoundedBox& box, const Vec3& direction) {
     return sum;
 }
 
-/// Two boxes along a unit vector from a to b.
+/// The extents of two boxes along a unit vector from a to b.
 struct Slab {
     Vec3 origin, normal;
     double top_a, bottom_b;
-    double rounding; ///< of heights
+    double rounding; ///< error bound of a height
 
     Slab(const RoundedBox& a, const RoundedBox& b, const Vec3& along)
         : origin(a.centre), normal(along), top_a(reach(a, along)) {
@@ -88,13 +88,14 @@ struct Slab {
     }
     [[nodiscard]] double height(const Vec3& p) const { return dot(p - origin, normal); }
     [[nodiscard]] double gap() const { return bottom_b - top_a; }
-    /// Whether what is `low` and above may be nearer to what is `high` and below.
+    /// Whether something at height `low` or above may be within `distance` of something at height
+    /// `high` or below.
     [[nodiscard]] bool may_be_nearer(double high, double low, double distance) const {
         return low - high < distance - rounding;
     }
 };
 
-/// Of boxes that are apart: a vertex and a box.
+/// The closest vertex of one box and point of the other. In: the boxes are apart.
 Candidate nearest_vertex(const RoundedBox& a, const RoundedBox& b, const Slab& slab) {
     Candidate best;
     for (const Vec3& p : vertices_of(a))
@@ -106,7 +107,7 @@ Candidate nearest_vertex(const RoundedBox& a, const RoundedBox& b, const Slab& s
     return best;
 }
 
-/// Of boxes that are apart: two edges, if they are nearer than the best so far.
+/// Keeps the closest pair of edges if it is closer than the best so far. In: the boxes are apart.
 void take_nearer_edges(const RoundedBox& a, const RoundedBox& b, const Slab& slab,
                        Candidate& best) {
     const auto edges_b = edges_of(b);
@@ -124,10 +125,10 @@ void take_nearer_edges(const RoundedBox& a, const RoundedBox& b, const Slab& sla
     }
 }
 
-/// Of boxes that are apart: a vertex and a box, or two edges. What a plane keeps farther apart than
-/// the best so far is not looked at.
+/// The closest points of boxes that are apart: of a vertex and a box, or of two edges. Features
+/// that a plane proves to be farther apart than the best so far are skipped.
 ///
-/// In          normal: a unit vector from a to b; the better it separates, the less is looked at.
+/// In          normal: a unit vector from a to b. The better it separates, the more is skipped.
 Candidate nearest_features(const RoundedBox& a, const RoundedBox& b, const Vec3& normal) {
     Slab slab(a, b, normal);
     Candidate best = nearest_vertex(a, b, slab);
@@ -141,7 +142,8 @@ Candidate nearest_features(const RoundedBox& a, const RoundedBox& b, const Vec3&
     return best;
 }
 
-/// The farthest point along a direction; the middle of an edge or face at right angles to it.
+/// The farthest point along a direction. If the direction is perpendicular to an edge or face, its
+/// middle.
 Vec3 farthest(const RoundedBox& box, const Vec3& direction) {
     Vec3 p = box.centre;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -151,7 +153,7 @@ Vec3 farthest(const RoundedBox& box, const Vec3& direction) {
     return p;
 }
 
-/// Of boxes that overlap: points that moving b by the overlap brings together.
+/// The points of overlapping boxes that coincide after b has moved by the overlap.
 Candidate deepest_points(const RoundedBox& a, const RoundedBox& b, const LeastOverlap& least) {
     const Vec3 way = least.overlap * least.normal;
     Candidate points;
@@ -189,7 +191,7 @@ bool is_point(const RoundedBox& box) {
 SolidGap rounded_box_distance(const RoundedBox& a, const RoundedBox& b, double upper_bound) {
     const bool points = is_point(a) && is_point(b);
     const LeastOverlap least = points ? LeastOverlap() : least_overlap(a, b);
-    // Slightly less than the axis tells: it is rounded.
+    // Slightly less than the axis tells, because that is rounded.
     const double apart = -least.overlap * (1 - 0x1p-40) - a.radius - b.radius;
     if (!points && apart > upper_bound)
         return {apart, {}, {}, least.normal};

@@ -12,7 +12,7 @@ namespace abut {
 /// rounded once.
 struct LinearVec3 {
     Vec3 start, end;
-    double size; ///< no coordinate exceeds it
+    double size; ///< largest coordinate at both ends
 
     LinearVec3(const ElementaryPair& pair, const VertexDifference& d)
         : start(pair.start[d.to] - pair.start[d.from]), end(pair.end[d.to] - pair.end[d.from]),
@@ -21,7 +21,7 @@ struct LinearVec3 {
     [[nodiscard]] Vec3 at(double t) const { return (1 - t) * start + t * end; }
 };
 
-/// corner + x side_x + y side_y
+/// The moving patch corner + x side_x + y side_y.
 struct RoundedPatch {
     LinearVec3 corner, side_x, side_y;
 

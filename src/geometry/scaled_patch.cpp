@@ -25,7 +25,8 @@ ElementaryPair eighth_of(ElementaryPair pair) {
 ScaledPatch::ScaledPatch(const ElementaryPair& pair) {
     RoundedPatch patch(pair);
     int pair_exponent = 0;
-    // What an eighth of a coordinate loses to underflow is nothing beside a size that overflows.
+    // The digits that an eighth of a coordinate loses to underflow are negligible beside a size
+    // that overflows.
     if (!std::isfinite(size_of(patch))) {
         patch = RoundedPatch(eighth_of(pair));
         pair_exponent = 3;

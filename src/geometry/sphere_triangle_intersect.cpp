@@ -18,18 +18,20 @@ double largest_coordinate(const Vec3& p) {
 }
 
 Decision decide(const Vec3& centre, double radius, const Triangle& t) {
-    // Far above what sums of a few rounded terms lose, far below what matters; and for underflow.
+    // kRounding is far above the rounding of sums of a few terms, and far below any size that
+    // matters. kTiny covers underflow.
     constexpr double kRounding = 0x1p-46, kTiny = 1e-150;
     const NearestOnTriangle nearest = nearest_on_triangle(centre, t);
     const double distance = std::sqrt(nearest.distance_sq);
     double size = largest_coordinate(centre);
     for (const Vec3& p : t)
         size = std::max(size, largest_coordinate(p));
-    // The weights found are those of some point of the triangle, the nearest or not: it is no
-    // farther than this.
+    // The computed weights belong to some point of the triangle, whether or not it is the nearest.
+    // So the triangle is no farther away than this.
     if (distance + kRounding * size + kTiny < radius)
         return Decision::yes;
-    // A plane across the gap: no point of the triangle is nearer than the vertex nearest to it.
+    // A plane perpendicular to the gap: no point of the triangle is nearer to it than the nearest
+    // vertex.
     const Vec3 gap = centre - nearest.point;
     const double length_of_gap = length(gap);
     double least = HUGE_VAL, reach = 0;

@@ -10,11 +10,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// Determinants of three edges, and what each may be off by.
+/// Error bound of a determinant of three edges.
 ///
 /// With edges below U and W whose coordinates are off by e, a determinant of two U and one W has 6
-/// products, so it is off by 6 ((U + e)^2 (W + e) - U^2 W), and by 32 eps U^2 W from rounding. The
-/// last term covers underflow; products near overflow leave nothing certain.
+/// products. It is off by 6 ((U + e)^2 (W + e) - U^2 W), and by 32 eps U^2 W from rounding. The
+/// last term covers underflow. Near overflow, nothing is certain.
 template <class D>
 HWY_INLINE hn::Vec<D> determinant_bound(D d, hn::Vec<D> u, hn::Vec<D> w, hn::Vec<D> e) {
     const auto uuw = hn::Mul(hn::Mul(u, u), w);
@@ -29,7 +29,7 @@ HWY_INLINE hn::Vec<D> determinant_bound(D d, hn::Vec<D> u, hn::Vec<D> w, hn::Vec
                           hn::Set(d, std::numeric_limits<float>::infinity()));
 }
 
-/// Three vertices against a plane: n . (q - p), and what each may be off by.
+/// Three vertices q against a plane through p: the values n . (q - p), and a bound on their errors.
 template <class D>
 struct Sides {
     hn::Vec<D> s[3], bound;
@@ -40,7 +40,7 @@ struct Sides {
     }
 };
 
-/// A triangle's plane: its normal, a bound of its edges, and at most its squared length.
+/// A triangle's plane, and a bound on its edges' coordinates.
 template <class D>
 struct Plane {
     Lanes3<D> origin, n;
@@ -56,8 +56,8 @@ struct Plane {
         const auto reach = max3(max_abs(w0), max_abs(w1), max_abs(w2));
         return {{dot(n, w0), dot(n, w1), dot(n, w2)}, determinant_bound(d, edge, reach, e)};
     }
-    /// (|n| + |dn|)^2 <= 1.004 n.n + 257 dn.dn, each coordinate of dn below 2 e (2 U + e) + 8 eps
-    /// U^2.
+    /// Upper bound on the squared length of the exact normal: (|n| + |dn|)^2 <= 1.004 n.n + 257
+    /// dn.dn, where each coordinate of dn is below 2 e (2 U + e) + 8 eps U^2.
     HWY_INLINE hn::Vec<D> most_nn(D d, hn::Vec<D> e) const {
         const auto two = hn::Set(d, 2.0F);
         const auto dn = hn::MulAdd(hn::Mul(two, e), hn::MulAdd(two, edge, e),
@@ -68,16 +68,17 @@ struct Plane {
     }
 };
 
-/// A triangle whose vertices lie certainly off a plane, on both sides of it: its apex lies alone on
-/// one. In lanes where a side is not certain, no vertex is taken for anything.
+/// A triangle whose vertices certainly lie off a plane, on both sides of it. The apex is the vertex
+/// that is alone on its side. In lanes where a side is not certain, the members must not be used.
 template <class D>
 struct LaneCut {
-    Lanes3<D> apex, first, last; ///< the edges from the apex, as the line of both planes meets them
+    Lanes3<D> apex, first, last; ///< the edges' other ends, in the order in which the planes'
+                                 ///< common line meets the edges
     hn::Mask<D> apex_over, certain;
 };
 
-/// `forward`: whether the edge to the next vertex comes last if the apex is over the plane, as for
-/// the first triangle (see triangle_triangle_intersect).
+/// Finds the apex. `forward`: whether the edge to the next vertex comes last if the apex is above
+/// the plane, as for the first triangle (see triangle_triangle_intersect).
 template <class D>
 HWY_INLINE LaneCut<D> cut(D d, const Lanes3<D> (&t)[3], const Sides<D>& side, bool forward) {
     const auto zero = hn::Zero(d);
@@ -101,11 +102,12 @@ HWY_INLINE LaneCut<D> cut(D d, const Lanes3<D> (&t)[3], const Sides<D>& side, bo
     return c;
 }
 
-/// Lanes where each triangle straddles the other's plane, told by their intervals on the common
-/// line: the two signs of triangle_triangle_intersect, with a bound.
+/// Compares the two triangles' intervals on their planes' common line, in lanes where each triangle
+/// straddles the other's plane. The two signs are those of triangle_triangle_intersect, with an
+/// error bound.
 template <class D>
 struct Intervals {
-    hn::Mask<D> overlap, miss; ///< certainly
+    hn::Mask<D> overlap, miss; ///< both certain
 };
 
 template <class D>
@@ -139,7 +141,7 @@ HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const Triangl
     for (std::size_t lane = 0; lane < kPairs; lane += hn::Lanes(d)) {
         Lanes3<D> a[3], b[3];
         load_pairs(d, leaf_a, turned, lane, a, b);
-        // A gap is real beyond the margin.
+        // A gap certainly exists if it exceeds the margin.
         const auto gap = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
             const auto apart = hn::Max(hn::Sub(min3(p0, p1, p2), max3(q0, q1, q2)),
                                        hn::Sub(min3(q0, q1, q2), max3(p0, p1, p2)));
@@ -151,7 +153,7 @@ HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const Triangl
         auto meet = hn::Le(max3(g.x, g.y, g.z), zero);
         auto near = meet;
         if constexpr (with_near) {
-            // Squares, sums and products are rounded: by less than this together.
+            // The rounding of squares, sums and products is below this factor in total.
             const auto bound_sq = hn::Set(d, bound.bound_sq * (1 + 0x1p-18F));
             near = hn::Not(hn::Gt(dot(g, g), bound_sq));
             const Lanes3<D> n = set3(d, bound.direction);
@@ -172,7 +174,7 @@ HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const Triangl
         const auto b_certain = b_sides.certain(), a_certain = a_sides.certain();
         meet = hn::AndNot(hn::Or(hn::Gt(b_certain, zero), hn::Gt(a_certain, zero)), meet);
         if constexpr (with_near) {
-            // side / |n| is a distance to a plane.
+            // side / |n| is the distance to a plane.
             const auto bound_sq = hn::Set(d, bound.bound_sq * (1 + 0x1p-16F));
             const auto far = [&](auto side, auto nn) HWY_ATTR {
                 side = hn::Max(zero, side);

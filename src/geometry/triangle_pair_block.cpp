@@ -8,7 +8,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// Squared distance of the segments p + s u and q + t v, s and t in [0, 1]; uu = u.u, vv = v.v.
+/// Squared distance of the segments p + s u and q + t v, s and t in [0, 1]. In: uu = u.u, vv = v.v.
 template <class D>
 HWY_INLINE hn::Vec<D> segment_segment_sq(D d, const Lanes3<D>& p, const Lanes3<D>& u, hn::Vec<D> uu,
                                          const Lanes3<D>& q, const Lanes3<D>& v, hn::Vec<D> vv) {
@@ -20,7 +20,7 @@ HWY_INLINE hn::Vec<D> segment_segment_sq(D d, const Lanes3<D>& p, const Lanes3<D
     const Lanes3<D> r = sub(q, p);
     const Lanes3<D> n = cross(u, v);
     const auto nn = dot(n, n);
-    // Lines: s = (r x v) . n / n.n; parallel ones take s = 0.
+    // First s for the two lines: s = (r x v) . n / n.n. Parallel lines take s = 0.
     const auto safe_nn = hn::IfThenElse(hn::Gt(nn, zero), nn, one);
     const auto s0 =
         hn::IfThenElseZero(hn::Gt(nn, zero), clamp(hn::Div(dot(cross(r, v), n), safe_nn)));
@@ -32,8 +32,8 @@ HWY_INLINE hn::Vec<D> segment_segment_sq(D d, const Lanes3<D>& p, const Lanes3<D
     return dot(gap, gap);
 }
 
-/// A face from the start of its longest edge u: there, a needle's foot is well determined whatever
-/// its width.
+/// A face, given from the start of its longest edge u: there, a needle's foot is well determined
+/// whatever its width.
 template <class D>
 struct Face {
     Lanes3<D> origin, u, v, n;
@@ -58,21 +58,21 @@ HWY_INLINE Face<D> face(D d, const Lanes3<D> (&p)[3], const Lanes3<D> (&e)[3],
     const Lanes3<D> back = pick_each(e[2], e[0], e[1]);
     f.v = {hn::Neg(back.x), hn::Neg(back.y), hn::Neg(back.z)};
     f.n = cross(f.u, f.v);
-    // A face that is a point has uu = 0 and nn = 0, which keeps its feet from counting.
+    // A face that is a point has uu = 0 and nn = 0. The zero nn keeps its feet from counting.
     const auto uu = pick(ee[0], ee[1], ee[2]);
     f.uu = hn::IfThenElse(hn::Gt(uu, hn::Zero(d)), uu, hn::Set(d, 1.0));
     f.nn = dot(f.n, f.n);
     return f;
 }
 
-/// Squared distance of a point to a face if the foot lies within; else `other`, the edges being
-/// nearer.
+/// Squared distance of a point to a face if the foot lies within the face and is nearer than
+/// `other`; otherwise `other`.
 template <class D>
 HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Lanes3<D>& p, const Face<D>& f, hn::Vec<D> other) {
     const auto zero = hn::Zero(d);
     const Lanes3<D> w = sub(p, f.origin);
     const auto safe_nn = hn::IfThenElse(hn::Gt(f.nn, zero), f.nn, hn::Set(d, 1.0));
-    // h = (u x w) . n / n.n, and the best g for that h: what h is off by, g makes up for.
+    // h = (u x w) . n / n.n, and the best g for that h: g compensates for the error of h.
     const auto h = hn::Div(dot(cross(f.u, w), f.n), safe_nn);
     const Lanes3<D> rest = minus_scaled(w, h, f.v);
     const auto g = hn::Div(dot(rest, f.u), f.uu);

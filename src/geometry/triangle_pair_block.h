@@ -6,7 +6,7 @@
 
 namespace abut {
 
-/// Eight pairs of triangles, lane by lane: what one pass of the distance kernel reads.
+/// A batch of eight pairs of triangles, one per lane: the input of one pass of the distance kernel.
 struct alignas(64) TrianglePairBlock {
     static constexpr std::size_t kLanes = 8;
     double a[3][3][kLanes], b[3][3][kLanes]; ///< [vertex][axis][lane]
@@ -33,27 +33,28 @@ private:
     }
 };
 
-/// What a pair's distance, the root of what distance_sq computes, exceeds the true one by: at most
+/// Error bound of a pair's distance, the root of distance_sq's result. It exceeds the true distance
+/// by at most
 ///
 ///     kTrianglePairError (r + u + v) + kTrianglePairUnderflow
 ///
-/// where r, u, v are the largest differences of a vertex of a and one of b, and the longest edges.
-/// docs/distance.md has the argument; the largest that was found in trials is 2 % of it.
+/// where r is the largest difference of a vertex of a and one of b, and u and v are the longest
+/// edges. docs/distance.md has the proof. The largest error found in trials is 2 % of the bound.
 constexpr double kTrianglePairError = 32 * 0x1p-53, kTrianglePairUnderflow = 0x1p-240;
 
-/// Squared distance of the pair in each lane; 0 may come out as a rounding residue where they
-/// cross.
+/// Squared distance of the pair in each lane. For a crossing pair, a rounding residue may be
+/// returned instead of 0.
 ///
 /// Degenerate  zero-area triangles act as segments or points.
-/// Accuracy    of the distance: a few roundings of the coordinates' differences; crossing triangles
-///             are not recognised (their distance is that of their boundaries): test for
+/// Accuracy    of the distance: a few roundings of the coordinates' differences. Crossing triangles
+///             are not recognised, their distance is that of their boundaries: test for
 ///             intersection first.
 /// Source      minimum over 9 edge pairs and 6 vertex-face pairs, as [Larsen et al. 1999]. Differs:
-///             closest points of lines by cross products, so that almost parallel edges lose
-///             nothing.
+///             closest points of lines by cross products, so that almost parallel edges lose no
+///             precision.
 void distance_sq(const TrianglePairBlock& pairs, double (&result)[TrianglePairBlock::kLanes]);
 
-/// The same with one lane: the reference for every SIMD target.
+/// distance_sq with one lane: the reference for every SIMD target.
 void distance_sq_reference(const TrianglePairBlock& pairs,
                            double (&result)[TrianglePairBlock::kLanes]);
 

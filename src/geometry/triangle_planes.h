@@ -8,14 +8,14 @@
 #include <cmath>
 #include <tuple>
 
-/// How two triangles lie to each other's planes: what their intersection test and their common
-/// segment begin with.
+/// Positions of two triangles relative to each other's planes. The intersection test and the common
+/// segment both begin with them.
 namespace abut::triangle_planes {
 
 using Signs = std::array<int, 3>;
 
-/// Sides of the plane of `plane` that the vertices of t lie on. One normal serves all three
-/// filters.
+/// The side of the plane of `plane` on which each vertex of t lies. One normal serves the filters
+/// of all three.
 inline Signs plane_sides(const Triangle& plane, const Triangle& t) {
     const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0];
     const Vec3 n = cross(u, v);
@@ -50,12 +50,12 @@ inline bool straddles(const Signs& s) {
 /// A triangle cut by a plane: both edges from the apex meet the plane.
 struct Cut {
     const Vec3 *apex, *left, *right; ///< in the triangle's own cyclic order
-    int side;                        ///< of the apex as seen from the base: +1 or -1
+    int side;                        ///< of the apex, seen from the plane's triangle: +1 or -1
 };
 
 /// In: signs that are neither all equal nor all zero.
 inline Cut cut(const Triangle& t, const Signs& s) {
-    // The apex is a vertex whose sign the others lack, they not being on opposite sides themselves.
+    // The apex is a vertex whose sign differs from the others', which are not on opposite sides.
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
         if (s[i] != s[j] && s[i] != s[k] && s[j] * s[k] >= 0)
@@ -71,8 +71,9 @@ struct LineIntervals {
     const Vec3 *b_apex, *b_first, *b_last;
     int sides;
 
-    /// Which of two ends comes first on the line, one on an edge from a's apex and one on an edge
-    /// from b's: +1 if a's, 0 if they coincide. Exact: the sign of
+    /// Compares two interval ends on the line, one on an edge from a's apex, one on an edge from
+    /// b's: +1 if a's comes first, 0 if they coincide, otherwise -1. Exact: the sign of
+    ///
     ///     side_a side_b orient3d(apex_a, end_a, apex_b, end_b)
     [[nodiscard]] int before(const Vec3* end_a, const Vec3* end_b) const {
         return sides * orient3d(*a_apex, *end_a, *b_apex, *end_b);
@@ -89,7 +90,7 @@ inline LineIntervals line_intervals(const Triangle& a, const Signs& a_sides, con
             ca.side * cb.side};
 }
 
-/// A collinear triangle's end points: of points on one line, the least and the greatest.
+/// The end points of a collinear triangle: the lexicographically least and greatest vertex.
 inline std::array<Vec3, 2> end_points(const Triangle& t) {
     const auto less = [](const Vec3& p, const Vec3& q) {
         return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);

@@ -28,17 +28,17 @@ TriangleFeature vertex(std::size_t i) {
 TriangleFeature edge(std::size_t i) {
     return {Feature::edge, static_cast<std::uint8_t>(i)};
 }
-/// At parameter s of the edge from vertex i.
+/// The feature at parameter s of the edge from vertex i.
 TriangleFeature on_edge(std::size_t i, double s) {
     return s <= 0 ? vertex(i) : s >= 1 ? vertex((i + 1) % 3) : edge(i);
 }
 
-/// Its ends are met exactly.
+/// The point at parameter s, exact at both ends.
 Vec3 point_of_segment(const Vec3& p, const Vec3& q, double s) {
     return s >= 1 ? q : p + s * (q - p);
 }
 
-/// Of edge i of a and j of b.
+/// Closest points of edge i of a and edge j of b.
 ClosestPoints edge_edge_distance(const Triangle& a, std::size_t i, const Triangle& b,
                                  std::size_t j) {
     const Vec3 &p0 = a[i], &p1 = a[(i + 1) % 3], &q0 = b[j], &q1 = b[(j + 1) % 3];
@@ -47,7 +47,7 @@ ClosestPoints edge_edge_distance(const Triangle& a, std::size_t i, const Triangl
             on_edge(i, c.s), on_edge(j, c.t)};
 }
 
-/// Where the segment p q pierces t, if its ends lie on both sides.
+/// Whether the segment p q pierces t, its ends lying strictly on different sides. Out: where.
 bool pierce(const Vec3& p, const Vec3& q, const Triangle& t, Vec3& point) {
     const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
     const double sp = dot(n, p - t[0]), sq = dot(n, q - t[0]);
@@ -78,7 +78,7 @@ ClosestPoints triangle_triangle_distance(const Triangle& a, const Triangle& b) {
         if (const TriangleFoot foot = foot_within(b[i], a); foot.within)
             keep_nearer(best, swapped({length_sq(foot.gap), b[i], foot.point, vertex(i), {}}));
     }
-    // Rounded signs alone would let needles cross that are apart.
+    // Rounded signs alone would report needles as crossing that are apart.
     if (best.distance_sq == 0 || triangle_triangle_intersect(a, b) == TriangleContact::none)
         return best;
     Vec3 point;

@@ -5,7 +5,7 @@
 
 namespace abut {
 
-/// Closest points of two segments by their parameters.
+/// Closest points of two segments, by their parameters.
 struct SegmentPoints {
     double s = 0, t = 0, distance_sq = 0;
 };
@@ -17,12 +17,12 @@ struct SegmentPoints {
 ///             which keeps almost parallel segments exact to rounding.
 SegmentPoints nearest_on_segments(const Vec3& u, const Vec3& v, const Vec3& r);
 
-/// The same of the segments from p0 to p1 and from q0 to q1, as points.
+/// Closest points of the segments from p0 to p1 and from q0 to q1.
 ClosestPoints segment_segment_distance(const Vec3& p0, const Vec3& p1, const Vec3& q0,
                                        const Vec3& q1);
 
-/// Closest points of two triangles. Where an edge of one pierces the other, the piercing point,
-/// distance 0.
+/// Closest points of two triangles. If an edge of one pierces the other, both are the piercing
+/// point and the distance is 0.
 ///
 /// Degenerate  zero-area triangles act as segments or points.
 /// Accuracy    a few roundings of the coordinates' differences.

@@ -28,8 +28,8 @@ bool contains_2d(const Triangle& t, const Vec3& p, int axis) {
     return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/// Whether an edge of `a` has all of `b` strictly on its outer side; `winding` is the sign of a's
-/// projection.
+/// Whether an edge of `a` has all of `b` strictly on its outer side. `winding` is the sign of a's
+/// projected area.
 bool edge_separates_2d(const Triangle& a, int winding, const Triangle& b, int axis) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &p = a[i], &q = a[(i + 1) % 3];
@@ -64,7 +64,8 @@ int projection_axis(const Triangle& t) {
 bool segment_segment_intersect(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
     if (orient3d(p, q, r, s) != 0)
         return false;
-    // One plane holds all four. Project along an axis on which that plane does not become a line.
+    // One plane holds all four points. Project along an axis on which that plane does not become a
+    // line.
     for (const Triangle& t :
          {Triangle{p, q, r}, Triangle{p, q, s}, Triangle{r, s, p}, Triangle{r, s, q}})
         if (const int axis = projection_axis(t); axis >= 0)
@@ -83,8 +84,8 @@ bool segment_triangle_intersect(const Vec3& p, const Vec3& q, const Triangle& t)
                segments_intersect_2d(p, q, t[1], t[2], axis) ||
                segments_intersect_2d(p, q, t[2], t[0], axis);
     }
-    // The line meets the plane in one point: it lies within if the edges all turn the same way
-    // around the line.
+    // The line meets the plane in one point. It lies within the triangle if all edges turn the same
+    // way around the line.
     const int u = orient3d(p, q, t[0], t[1]), v = orient3d(p, q, t[1], t[2]),
               w = orient3d(p, q, t[2], t[0]);
     return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);

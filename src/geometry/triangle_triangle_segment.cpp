@@ -17,7 +17,8 @@ namespace {
 
 using namespace triangle_planes;
 
-/// Exact for determinants of doubles within 2^100 of each other, and far below any rounding beyond.
+/// Exact for determinants of doubles within 2^100 of each other; beyond that, its error is far
+/// below any rounding of doubles.
 using Wide = boost::multiprecision::number<
     boost::multiprecision::cpp_bin_float<512, boost::multiprecision::digit_base_2>,
     boost::multiprecision::et_off>;
@@ -30,8 +31,8 @@ struct Vector {
     }
 };
 
-/// A plane through a triangle, or the line through p and q as seen along an axis: what an edge is
-/// cut by.
+/// Something that an edge is cut by: the plane of a triangle, or, in a projection along an axis,
+/// the line through p and q.
 class Cutter {
 public:
     explicit Cutter(const Triangle& plane) : p_(plane[0]), q_(plane[1]), r_(plane[2]) {}
@@ -52,7 +53,7 @@ public:
                (u.x * v.y - u.y * v.x) * w.z;
     }
 
-    /// What side<double>(point) is off by, at most. Underflow included.
+    /// Upper bound on the error of side<double>(point), underflow included.
     [[nodiscard]] double side_error(const Vec3& point) const {
         const auto largest = [](const Vec3& d) {
             return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
@@ -68,17 +69,18 @@ public:
 
 private:
     Vec3 p_, q_, r_;
-    int axis_ = -1; ///< -1: a plane
+    int axis_ = -1; ///< -1: the plane through p, q, r
 };
 
-/// Where the segment p q meets the cutter. In: p and q on different sides, or one of them on it.
+/// The point where the segment p q meets the cutter. In: p and q on different sides, or one of them
+/// on it.
 Vec3 cut_point(Vec3 p, Vec3 q, const Cutter& cutter) {
-    // In one order, so that both triangles at an edge get the same point.
+    // A fixed order, so that both triangles at an edge get the same point.
     if (std::tie(q.x, q.y, q.z) < std::tie(p.x, p.y, p.z))
         std::swap(p, q);
     auto side_p = cutter.side<double>(p), side_q = cutter.side<double>(q);
     const double error = cutter.side_error(p) + cutter.side_error(q);
-    // False also for what over- or underflows.
+    // False also if something overflows or underflows.
     const bool certain = error <= 0x1p-37 * std::abs(side_p - side_q) && side_p * side_q <= 0 &&
                          std::isfinite(side_p - side_q);
     if (!certain) {
@@ -99,7 +101,7 @@ void add(Intersection& result, const Vec3& p) {
         result.corners[result.count++] = p;
 }
 
-/// The corners of a triangle: two or one if it has no area.
+/// The distinct corners of a triangle: two or one if it has no area.
 using Corners = boost::container::static_vector<Vec3, 3>;
 
 Corners corners_of(const Triangle& t) {
@@ -109,7 +111,8 @@ Corners corners_of(const Triangle& t) {
     return p == q ? Corners{p} : Corners{p, q};
 }
 
-/// In: all in one plane, which keeps its area along the axis.
+/// Whether the corners' convex hull holds p. In: all points lie in one plane, whose projection
+/// along the axis keeps its area.
 bool holds(const Corners& c, const Vec3& p, int axis) {
     if (c.size() == 1)
         return p == c[0];
@@ -123,7 +126,7 @@ bool holds(const Corners& c, const Vec3& p, int axis) {
     return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-/// Of an axis along which the plane of all points keeps its area; any if they lie on one line.
+/// An axis along which the plane of all points keeps its area; any axis if they lie on one line.
 int common_axis(const Corners& a, const Corners& b) {
     boost::container::static_vector<Vec3, 6> p(a.begin(), a.end());
     p.insert(p.end(), b.begin(), b.end());
@@ -135,7 +138,8 @@ int common_axis(const Corners& a, const Corners& b) {
     return 0;
 }
 
-/// Around their middle, counter-clockwise as the axis sees it, or (turn = -1) clockwise.
+/// Sorts the corners around their mean: counter-clockwise as seen from the axis, or clockwise if
+/// turn is -1.
 void sort_around(Intersection& result, int axis, int turn) {
     Vec3 middle;
     for (std::uint32_t i = 0; i < result.count; ++i)
@@ -151,8 +155,8 @@ void sort_around(Intersection& result, int axis, int turn) {
     }
 }
 
-/// Every corner of the common polygon is a corner of one in the other, or a proper crossing of two
-/// edges.
+/// The common polygon of coplanar triangles. Each of its corners is a corner of one triangle within
+/// the other, or a proper crossing of two edges.
 Intersection coplanar_polygon(const Triangle& ta, const Triangle& tb) {
     const Corners a = corners_of(ta), b = corners_of(tb);
     Intersection result;
@@ -181,7 +185,7 @@ Intersection coplanar_polygon(const Triangle& ta, const Triangle& tb) {
     return result;
 }
 
-/// In: p q is not coplanar with t, which has an area.
+/// The point that the segment p q shares with t. In: p q is not coplanar with t, which has an area.
 Intersection segment_point(const Vec3& p, const Vec3& q, const Triangle& t) {
     Intersection result;
     if (!segment_triangle_intersect(p, q, t))
