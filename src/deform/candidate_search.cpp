@@ -10,10 +10,11 @@ namespace abut {
 
 namespace {
 
-/// Enough that the longest does not keep others waiting.
+/// Enough tasks that the longest one does not keep the other threads waiting.
 constexpr std::size_t kTasks = 512;
 
-/// What boxes are widened by. Never more than lets all of them overlap, so that bounds stay finite.
+/// The margin by which boxes are widened. It is at most the value at which all boxes overlap, so
+/// that bounds stay finite.
 float margin_of(double distance) {
     return round_up(std::min(distance, 4 * kLargestCoordinate));
 }

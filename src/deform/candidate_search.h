@@ -17,16 +17,17 @@
 
 namespace abut {
 
-/// Finds the features of two surfaces that may come within a distance of each other, or of one
-/// surface, in the way that a scheme and a culling say. Divided into tasks, to be run in any order
-/// and from any thread.
+/// Finds the feature pairs of two surfaces, or of one surface with itself, that may come within a
+/// distance of each other. The surfaces' scheme and culling determine how. The search is divided
+/// into tasks, which may run in any order and on any thread.
 class CandidateSearch {
 public:
-    /// By the boxes of `swept_a` and `swept_b`, which may be others than the surfaces' own; they
-    /// must outlive this. One surface against itself if both are the same objects.
+    /// Searches with the hierarchies `swept_a` and `swept_b`, which may differ from the surfaces'
+    /// own and must outlive this object. If a and b are the same object, finds that surface's pairs
+    /// with itself.
     CandidateSearch(const DeformableData& a, const SweptTree& swept_a, const DeformableData& b,
                     const SweptTree& swept_b, double distance);
-    /// As the surfaces' options say.
+    /// Searches as the surfaces' options say.
     ///
     /// Errors      Error{bad_argument} if their schemes or cullings differ.
     CandidateSearch(const DeformableData& a, const DeformableData& b, double distance);
@@ -34,13 +35,13 @@ public:
     [[nodiscard]] std::size_t tasks() const {
         return culling_ ? culling_->tasks() : starts_.size();
     }
-    /// Hands the candidates of a task to a sink (see FeaturePairs), until that is done; counts
-    /// them, and the pairs of triangles, if there is where.
+    /// Hands the candidates of a task to a sink (see FeaturePairs) until the sink is done. Adds the
+    /// numbers of candidates and triangle pairs to `counters`, unless it is null.
     template <typename Sink>
     void run(std::size_t task, Sink& sink, DeformableCounters* counters = nullptr) const;
 
 private:
-    /// Where a task begins, in which hierarchies.
+    /// Which hierarchies a task traverses.
     enum class Between : std::uint8_t { triangles, edges, vertices_faces, faces_vertices };
     struct Start {
         Between between = Between::triangles;
@@ -63,7 +64,8 @@ private:
     float margin_;
     Scheme scheme_ = Scheme::representative;
     std::vector<Start> starts_;
-    std::unique_ptr<const TriangleCulling> culling_; ///< where triangles are not found by hierarchy
+    std::unique_ptr<const TriangleCulling> culling_; ///< finds triangle pairs if no hierarchy does;
+                                                     ///< else null
     std::unique_ptr<ConcurrentSet> tested_;          ///< for Scheme::database
 };
 

@@ -15,7 +15,7 @@ namespace abut {
 
 namespace {
 
-/// The hierarchy is built anew once its boxes are this much looser than when it was built.
+/// The hierarchy is rebuilt once its looseness has grown by this factor since it was built.
 constexpr double kMostLooseness = 1.3;
 /// Vertices or triangles that a thread takes at once.
 constexpr std::size_t kGrain = 4096;
@@ -45,7 +45,7 @@ std::vector<Aabb> swept_boxes(std::span<const IndexTriangle> triangles,
     return boxes;
 }
 
-/// Around where vertices are at a time.
+/// The vertices' boxes at one time.
 std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, double time) {
     std::vector<Aabb> boxes(vertices.size());
     parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
@@ -55,7 +55,7 @@ std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, double ti
             boxes[i] = Aabb(Box3{p, p});
             return;
         }
-        // Off by 3 roundings of the larger end at most.
+        // Interpolation is off by at most 3 roundings of the larger end.
         const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end)),
                    p = (1 - time) * v.start + time * v.end;
         boxes[i] = Aabb(Box3{p, p}, 0x1p-50 * std::max({size.x, size.y, size.z}));
@@ -88,7 +88,7 @@ void DeformableData::find_edges_of_triangles() {
         features = make_surface_features(vertices.size(), triangles);
 }
 
-/// Makes room before it takes some: no more is needed on the way than in the end.
+/// Releases memory before it allocates, so that the peak is no higher than the final size.
 void DeformableData::build() {
     swept = SweptTree();
     flat_regions = FlatRegions();
@@ -137,9 +137,9 @@ void DeformableData::refit() {
         build();
 }
 
-/// How much larger a node's box is than the boxes in it are together, and a leaf's than those of its
-/// triangles: the mean of all. A ratio each, so that neither motion nor a few large triangles
-/// outweigh what the shape of the hierarchy does.
+/// The mean ratio of a node's box to the boxes of its children, and of a leaf's box to those of its
+/// triangles. Each ratio counts the same, so that neither motion nor a few large triangles outweigh
+/// the shape of the hierarchy.
 double DeformableData::looseness() const {
     double sum = 0;
     std::size_t count = 0;
@@ -198,7 +198,7 @@ void Deformable::set_mesh(Mesh mesh) {
     d.vertices.resize(mesh.positions.size());
     for (std::size_t i = 0; i < d.vertices.size(); ++i)
         d.vertices[i] = {mesh.positions[i], mesh.positions[i]};
-    mesh = Mesh(); // what it needs no more goes before the hierarchy comes
+    mesh = Mesh(); // frees the memory of the mesh before the hierarchy is built
     d.build();
 }
 

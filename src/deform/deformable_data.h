@@ -30,24 +30,25 @@ public:
 
     DeformableOptions options;
     std::vector<IndexTriangle> triangles;
-    SurfaceFeatures features;             ///< edges_of only where spawning from triangles needs it
-    std::vector<Represented> represented; ///< by each triangle
+    SurfaceFeatures features;             ///< edges_of is empty unless feature pairs are spawned
+                                          ///< from triangle pairs
+    std::vector<Represented> represented; ///< one for each triangle
     std::vector<MovingVertex> vertices;
     SweptTree swept;
-    FlatRegions flat_regions;                    ///< nodes of `swept`
+    FlatRegions flat_regions;                    ///< of the nodes of `swept`
     std::unique_ptr<FeatureTrees> feature_trees; ///< for Scheme::features
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
     /// Whether no vertex moves in this step.
     [[nodiscard]] bool is_at_rest() const;
 
-    /// Makes `features.edges_of`, if it is not there.
+    /// Fills `features.edges_of` if it is empty.
     void find_edges_of_triangles();
-    /// Builds the hierarchy anew.
+    /// Builds the hierarchy from scratch.
     void build();
-    /// The next step's motion, without its boxes. Errors as Deformable::advance.
+    /// Sets the next step's motion, but not its boxes. Errors as Deformable::advance.
     void move_on(std::span<const Vec3> end);
-    /// Fits all boxes to the motion; builds the hierarchy anew where that is worth it.
+    /// Fits all boxes to the motion. Rebuilds the hierarchy if its boxes have become too loose.
     void refit();
 
 private:
@@ -57,7 +58,7 @@ private:
     double looseness_when_built_ = 0;
 };
 
-/// Fits all boxes to what moves until time `until`, in [0, 1].
+/// Fits all boxes to the motion until time `until`, in [0, 1].
 void refit(SweptTree& swept, const DeformableData& data, double until);
 
 } // namespace abut

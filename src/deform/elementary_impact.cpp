@@ -15,7 +15,7 @@ namespace abut {
 
 namespace {
 
-/// Pairs that one task takes.
+/// Pairs per task.
 constexpr std::size_t kPairsOfTask = 1024;
 
 bool is_finite(const ElementaryPair& pair) {
@@ -24,7 +24,7 @@ bool is_finite(const ElementaryPair& pair) {
            std::all_of(pair.end.begin(), pair.end.end(), finite);
 }
 
-/// The pairs of a list, by their indices.
+/// The pairs of a list, addressed by their indices. A source for ElementaryStages.
 struct ListedPairs {
     std::span<const ElementaryPair> pairs;
     std::span<ElementaryImpact> impacts;

@@ -13,14 +13,15 @@
 
 namespace abut {
 
-/// Errors      Error{bad_argument} as `elementary_impact` for its options.
+/// Throws Error{bad_argument} if the options are not valid, as `elementary_impact` does.
 void require_valid(const ElementaryOptions& options);
 
-/// The answer for a lane that `decide_crossings` has decided.
+/// The result for a lane that `decide_crossings` has decided.
 ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBlock& crossings,
                                     std::size_t lane);
 
-/// The answer for a pair that the filter has left, and the crossings, if there is no thickness.
+/// The result for a pair that the filter and, if there is no thickness, decide_crossings have left
+/// undecided.
 ElementaryImpact decide_singly(const ElementaryPair& pair, const ElementaryOptions& options);
 
 template <typename Visit>
@@ -29,20 +30,21 @@ void for_each_bit(std::uint32_t bits, const Visit& visit) {
         visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-/// Takes pairs of one kind through the stages, eight at once: those that one stage has left wait
-/// for the next.
+/// Takes pairs of one kind through the stages, in batches of eight. The pairs that a stage leaves
+/// undecided wait for the next stage until they fill a batch.
 ///
-/// In          Source names pairs by an Item of its own and has
+/// In          Source identifies a pair by an Item of its own type and has
 ///                 void write(const Item&, ElementaryBlock&, std::size_t lane) const;
 ///                 ElementaryPair pair(const Item&) const;
-///                 void take(const Item&, const ElementaryImpact&);   // not of what the filter decides
+///                 void take(const Item&, const ElementaryImpact&);   // not called for pairs that the filter rejects
 template <typename Item, typename Source>
 class ElementaryStages {
 public:
     ElementaryStages(ElementaryKind kind, const ElementaryOptions& options, Source& source)
         : kind_(kind), options_(options), source_(source) {}
 
-    /// Nothing, if the pair is not wanted: without a branch, where that is hard to foretell.
+    /// Adds a pair, unless `wanted` is false. The code has no branch on `wanted`, which is often
+    /// hard to predict.
     void add(const Item& item, bool wanted = true) {
         if (candidates_.add(item, source_, wanted))
             filter();
@@ -60,14 +62,14 @@ private:
         std::array<Item, ElementaryBlock::kLanes> items{};
         std::size_t count = 0;
 
-        /// True if it is full now.
+        /// Returns true if the batch is full now.
         bool add(const Item& item, const Source& source, bool wanted) {
             source.write(item, block, count);
             items[count] = item;
             count += wanted ? 1 : 0;
             return count == ElementaryBlock::kLanes;
         }
-        /// Lanes beyond are left from earlier passes.
+        /// A mask of the lanes in use. The others hold pairs of earlier passes.
         [[nodiscard]] std::uint32_t used() const { return (1U << count) - 1; }
     };
 
@@ -77,7 +79,7 @@ private:
                      [&](std::size_t lane) { pass(candidates_.items[lane]); });
         candidates_.count = 0;
     }
-    /// What the filter has left.
+    /// Takes a pair that the filter has left undecided to the next stage.
     void pass(const Item& item) {
         if (options_.thickness > 0)
             source_.take(item, decide_singly(source_.pair(item), options_));

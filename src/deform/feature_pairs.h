@@ -14,12 +14,13 @@
 
 namespace abut {
 
-/// Two features: vertex and triangle, or two edges.
+/// Two features: a vertex and a triangle, or two edges.
 struct FeatureIds {
     std::uint32_t a = 0, b = 0;
 };
 
-/// The order of what a query lists, FeatureImpact or FeaturePair: no two of a list are equal in it.
+/// The sort key of a query's list, of FeatureImpact or FeaturePair. No two entries of a list have
+/// equal keys.
 template <typename Found>
 auto list_key(const Found& found) {
     return std::tuple(found.kind, found.face_first, found.a, found.b);
@@ -36,7 +37,7 @@ inline ElementaryPair pair_of(ElementaryKind kind, const PairVertices& vertices)
     return pair;
 }
 
-/// The vertices of pairs of features of one kind, of two surfaces or of one.
+/// The vertices of feature pairs of one kind, of two surfaces or of one.
 template <ElementaryKind kind>
 class PairGeometry {
 public:
@@ -58,8 +59,8 @@ public:
         for (std::size_t i = 0; i < 4; ++i)
             block.set_vertex(lane, i, v[i]->start, v[i]->end);
     }
-    /// Whether features of one surface share a vertex. Without branches: of neighbouring leaves,
-    /// as many do as do not.
+    /// Whether two features of one surface share a vertex. Without branches: of the pairs of
+    /// neighbouring leaves, about half do, which a processor cannot predict.
     [[nodiscard]] bool are_neighbours(FeatureIds ids) const {
         if constexpr (kind == ElementaryKind::edge_edge) {
             const auto &e = a_.features.edges[ids.a], &f = b_.features.edges[ids.b];
@@ -73,27 +74,27 @@ public:
     }
 
 private:
-    const DeformableData& a_; ///< of the first feature
+    const DeformableData& a_; ///< the first feature's surface
     const DeformableData& b_;
 };
 
-/// Whether the boxes of both features, at both ends of the motion, show them farther apart than a
-/// margin on some axis, always.
+/// Whether, on some axis, the boxes of both features are farther apart than a margin at both ends
+/// of the motion, on the same side. They then are so throughout.
 bool boxes_apart(ElementaryKind kind, const PairVertices& vertices, double margin);
 
-/// Which kind of pair of features two surfaces a and b have.
+/// The kinds of feature pairs between two surfaces a and b.
 enum class PairKind : std::uint8_t {
     edges,       ///< an edge of each
     vertex_face, ///< a vertex of a and a face of b
-    face_vertex, ///< a face of a and a vertex of b; not of one surface, where it is vertex_face
+    face_vertex, ///< a face of a and a vertex of b; within one surface, vertex_face is used instead
 };
 
-/// Hands pairs of features that are no neighbours, by their ids, to a sink:
+/// Hands pairs of features that share no vertex, by their ids, to a sink:
 ///
-///     void Sink::add(PairKind, FeatureIds, bool wanted);  // nothing, if not wanted
-///     bool Sink::is_done() const;                          // no more, please
+///     void Sink::add(PairKind, FeatureIds, bool wanted);  // does nothing if not wanted
+///     bool Sink::is_done() const;                          // true: the search may stop
 ///
-/// One surface against itself if both are the same object.
+/// If both surfaces are the same object, the pairs are those of one surface with itself.
 template <typename Sink>
 class FeaturePairs {
 public:
@@ -107,7 +108,7 @@ public:
     struct AdmitAll {
         bool operator()(PairKind, FeatureIds) const { return true; }
     };
-    /// In: whether a pair that is no neighbours is wanted.
+    /// Two edges. In: admits, which tells whether to test a pair whose features share no vertex.
     template <typename Admits = AdmitAll>
     void edges(std::uint32_t a, std::uint32_t b, const Admits& admits = {}) {
         const FeatureIds ids =

@@ -8,7 +8,7 @@ namespace abut {
 
 namespace {
 
-/// Calls visit(tree, box_of(id)) for each kind.
+/// Calls visit(tree, box_of(id)) for each kind of feature.
 template <typename Visit>
 void for_each_kind(FeatureTrees& trees, const SurfaceView& surface,
                    std::span<const Aabb> vertex_boxes, const Visit& visit) {

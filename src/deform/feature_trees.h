@@ -17,14 +17,14 @@ struct FeatureTree {
     [[nodiscard]] std::size_t bytes() const { return tree.bytes() + runs.bytes(); }
 };
 
-/// Hierarchies over a surface's faces, edges and vertices: what needs no representatives, and three
-/// times the memory.
+/// Hierarchies over a surface's faces, edges and vertices. They need no representative triangles,
+/// but three times the memory.
 struct FeatureTrees {
     FeatureTree faces, edges, vertices;
 
-    /// By the vertices' swept boxes; all boxes are to be fitted.
+    /// Builds the hierarchies from the vertices' swept boxes. Call fit() for both ends before use.
     FeatureTrees(const SurfaceView& surface, std::span<const Aabb> vertex_boxes);
-    /// Sets the boxes at one end to those of the vertices there.
+    /// Sets the boxes at one end of the step from those of the vertices there.
     void fit(const SurfaceView& surface, StepEnd end, std::span<const Aabb> vertex_boxes);
 
     [[nodiscard]] std::size_t bytes() const {
@@ -32,8 +32,8 @@ struct FeatureTrees {
     }
 };
 
-/// Visits the overlaps of features in leaves of two such hierarchies: calls visit(id of a, id of
-/// b), each once.
+/// Visits the overlaps of features in the leaves of two hierarchies: calls visit(id of a, id of b)
+/// once for each pair.
 template <typename Visit>
 class FeatureLeafPairs final : public OverlapVisitor {
 public:

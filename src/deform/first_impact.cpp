@@ -13,10 +13,10 @@ namespace abut {
 
 namespace {
 
-/// Ends of the windows of time that are searched one after the other.
+/// End times of the windows that are searched one after the other. Each begins at 0.
 constexpr std::array<double, 3> kWindows{0x1p-6, 0x1p-2, 1};
-/// More than exact times are below the first contact: what is found later in a window than this
-/// before its end may not be the earliest.
+/// Bounds how far a computed time may be below the first contact. An impact that is found within
+/// this margin of a window's end may not be the earliest one.
 constexpr double kTimeError = 0x1p-29;
 
 struct EarliestImpact {
@@ -30,8 +30,8 @@ struct EarliestImpact {
     static bool is_done() { return false; }
 };
 
-/// The earliest impact among those whose features share a place until some time: of all that happen
-/// by then.
+/// The earliest impact among the candidates of a search whose boxes cover the motion until some
+/// time. All impacts up to that time are among them.
 std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableData& b,
                                       const CandidateSearch& search,
                                       const ElementaryOptions& options) {
@@ -68,7 +68,7 @@ std::optional<FeatureImpact> find_first(const DeformableData& a, const Deformabl
     return first;
 }
 
-/// Whether anyone has found an impact.
+/// Whether any task has found an impact.
 struct AnyImpact {
     std::atomic<bool>& found;
 

@@ -13,19 +13,18 @@ namespace abut {
 
 namespace {
 
-/// Leaves below a node that is looked at: more of them have long borders, and are rarely flat.
+/// Nodes with more leaves than this are not examined: they have long borders and are rarely flat.
 constexpr std::uint32_t kMostLeaves = 64;
 
-/// What is nearer to zero than this part of the sizes that it is made of is taken for zero. Rounding
-/// is a millionth of that.
+/// A value below this fraction of its terms' size counts as zero. Rounding is a millionth of that.
 constexpr double kLeastPart = 0x1p-32;
 
-/// A plane to look at, by two directions in it, and the direction from which it is looked at.
+/// A projection: the plane's two directions, and the direction towards the viewer.
 struct View {
     Vec3 u, v, towards;
 };
 
-/// From where most of the triangles' area is seen, over the whole step.
+/// The direction from which the most triangle area faces the viewer, over the whole step.
 View best_view(std::span<const std::uint32_t> faces, std::span<const IndexTriangle> triangles,
                std::span<const MovingVertex> vertices) {
     Vec3 sum;
@@ -41,8 +40,8 @@ View best_view(std::span<const std::uint32_t> faces, std::span<const IndexTriang
     return {u, v, cross(u, v)};
 }
 
-/// Whether all triangles show their front to the view, always: the normal, (b - a) x (c - a), is
-/// quadratic in time, and its Bernstein coefficients do.
+/// Whether all triangles face the viewer throughout the step. The normal, (b - a) x (c - a), is
+/// quadratic in time; its Bernstein coefficients are tested.
 bool shows_all(const View& view, std::span<const std::uint32_t> faces,
                std::span<const IndexTriangle> triangles, std::span<const MovingVertex> vertices) {
     return std::all_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
@@ -70,7 +69,7 @@ Vec2 operator-(const Vec2& a, const Vec2& b) {
     return {a.x - b.x, a.y - b.y};
 }
 
-/// A border as seen in a view.
+/// A border as projected by a view.
 class Border {
 public:
     Border(const View& view, std::span<const std::uint32_t> loop,
@@ -87,7 +86,7 @@ public:
         least_gap_ = kLeastPart * size;
     }
 
-    /// Whether it does not touch itself at any time.
+    /// Whether the border does not touch itself at any time.
     [[nodiscard]] bool is_simple() const {
         const std::size_t n = points_.size();
         for (std::size_t i = 0; i < n; ++i) {
@@ -101,12 +100,12 @@ public:
     }
 
 private:
-    using Moving = std::array<Vec2, 2>; ///< at the start and at the end
+    using Moving = std::array<Vec2, 2>; ///< position at the start and at the end
 
     [[nodiscard]] const Moving& point(std::size_t i) const { return points_[i % points_.size()]; }
 
-    /// Whether the sides before and after a point may lie on each other at some time: their cross
-    /// product may be zero where their dot product may be above. Both are quadratic in time.
+    /// Whether the sides before and after a point may lie on each other at some time: there their
+    /// cross product is zero and their dot product positive. Both are quadratic in time.
     [[nodiscard]] bool folds_at(std::size_t i) const {
         const Moving &here = point(i), &before = point(i + points_.size() - 1),
                      &after = point(i + 1);
@@ -121,7 +120,8 @@ private:
         return !(std::max({dot(p0, q0), dot(p0, q1) + dot(p1, q0), dot(p1, q1)}) < -least);
     }
 
-    /// Whether a line parts two sides at both ends of the step, the same way, and so always.
+    /// Whether a line separates two sides, in the same order, at both ends of the step. It then
+    /// does so throughout the step, because the motion is linear.
     [[nodiscard]] bool are_apart(std::size_t i, std::size_t k) const {
         const auto parts = [&](const Vec2& n) {
             bool below = true, above = true;
@@ -152,8 +152,8 @@ private:
 FlatRegions::FlatRegions(const MovingTree& tree, const FeatureRuns& faces,
                          const SurfaceView& surface)
     : flat_(tree.nodes.size()) {
-    // Leaves below each node: a node comes after the one above it, and leaves are numbered in the
-    // order of the nodes.
+    // The range of leaves below each node. A node comes after its parent, and leaves are numbered
+    // in the order of the nodes.
     struct Leaves {
         std::uint32_t first = ~0U, last = 0;
     };
@@ -197,7 +197,7 @@ void FlatRegions::fit(const FeatureRuns& faces, std::span<const IndexTriangle> t
     };
     parallel_for(outer_.size(), 8, [&](std::size_t k) {
         const std::size_t end = k + 1 < outer_.size() ? outer_[k + 1] : regions_.size();
-        std::uint32_t flat_until = 0; // those within a flat one need no look
+        std::uint32_t flat_until = 0; // regions within a flat one are skipped
         for (std::size_t i = outer_[k]; i < end; ++i) {
             const Region& region = regions_[i];
             const bool flat = region.first_leaf >= flat_until && is_flat(region);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kCellsOfTask = 1024;
 
-/// Cells of one size, at most about as many as boxes.
+/// A uniform grid with at most about as many cells as boxes.
 class Cells {
 public:
     using Index = std::array<std::size_t, 3>;
@@ -28,7 +28,8 @@ public:
         }
         if (boxes.empty())
             return;
-        // Twice the boxes' mean size; larger, where that would make more cells than boxes.
+        // The cell size is twice the boxes' mean size, or larger if that would make more cells than
+        // boxes.
         const auto count = static_cast<double>(boxes.size());
         double size = std::max(2 * extent / (3 * count), std::numeric_limits<double>::min());
         for (double cells = 2 * count; cells > count; size *= 1.25) {
@@ -118,7 +119,7 @@ private:
     std::vector<TriangleBox> boxes_;
     bool is_self_;
     Cells cells_;
-    std::vector<std::size_t> begin_; ///< cell -> its first entry
+    std::vector<std::size_t> begin_; ///< index of each cell's first entry
     std::vector<std::uint32_t> entries_;
 };
 

@@ -10,7 +10,8 @@
 
 namespace abut {
 
-/// What impacts of one kind of pair are made of and go to.
+/// Tests pairs of one kind and hands their impacts to a keeper. The source of the elementary
+/// stages.
 template <ElementaryKind kind, typename Keeper>
 class PairTests {
 public:
@@ -18,7 +19,7 @@ public:
               const ElementaryOptions& options, Keeper& keeper)
         : geometry_(a, b), face_first_(face_first), keeper_(keeper), stages_(kind, options, *this) {
     }
-    PairTests(const PairTests&) = delete; // the stages know where this is
+    PairTests(const PairTests&) = delete; // the stages hold a reference to this
     PairTests& operator=(const PairTests&) = delete;
 
     void add(FeatureIds ids, bool wanted) { stages_.add(ids, wanted); }
@@ -26,7 +27,7 @@ public:
     [[nodiscard]] std::uint64_t tests() const { return tests_; }
     [[nodiscard]] std::uint64_t exact_fallbacks() const { return exact_fallbacks_; }
 
-    // What the stages ask for.
+    // The interface that ElementaryStages requires of its source.
     void write(FeatureIds ids, ElementaryBlock& block, std::size_t lane) const {
         geometry_.write(ids, block, lane);
     }
@@ -47,15 +48,15 @@ private:
     ElementaryStages<FeatureIds, PairTests> stages_;
 };
 
-/// A sink of pairs (see FeaturePairs) that takes them through the elementary tests and hands impacts
-/// to a keeper:
+/// A sink of pairs (see FeaturePairs) that runs the elementary tests and hands the impacts to a
+/// keeper:
 ///
 ///     void Keeper::keep(const FeatureImpact&);
-///     bool Keeper::is_done() const;  // no more, please
+///     bool Keeper::is_done() const;  // true: the search may stop
 template <typename Keeper>
 class ImpactCollector {
 public:
-    /// In: what lives as long as this.
+    /// In: all arguments must outlive this.
     ImpactCollector(const DeformableData& a, const DeformableData& b,
                     const ElementaryOptions& options, Keeper& keeper)
         : keeper_(keeper), edges_(a, b, false, options, keeper),
@@ -68,7 +69,7 @@ public:
             (kind == PairKind::vertex_face ? vertex_face_ : face_vertex_).add(ids, wanted);
     }
     [[nodiscard]] bool is_done() const { return keeper_.is_done(); }
-    /// Tests what still waits for others.
+    /// Tests the pairs that still wait for a full batch.
     void finish() {
         edges_.finish();
         vertex_face_.finish();

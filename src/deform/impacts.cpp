@@ -34,7 +34,7 @@ void sort(std::vector<FeatureImpact>& list) {
     std::sort(list.begin(), list.end(), [](const FeatureImpact& a, const FeatureImpact& b) {
         return list_key(a) < list_key(b);
     });
-    // Schemes without representatives find some several times.
+    // Schemes without representatives find some impacts several times.
     const auto last =
         std::unique(list.begin(), list.end(), [](const FeatureImpact& a, const FeatureImpact& b) {
             return list_key(a) == list_key(b);
@@ -61,7 +61,8 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
     impacts.list.reserve(count);
     for (Impacts& part : parts) {
         add(impacts, part);
-        part.list = std::vector<FeatureImpact>(); // so that there is room for one list, not for two
+        part.list = std::vector<FeatureImpact>(); // frees this part, so that there is room for one
+                                                  // list, not for two
     }
     sort(impacts.list);
     return impacts;

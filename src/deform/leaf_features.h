@@ -15,7 +15,7 @@ namespace abut {
 
 static_assert(3 * TriangleLeaf::kLanes <= MovingBoxRun::kMost, "a leaf's edges are one run");
 
-/// Features of one kind, leaf by leaf, and boxes of them.
+/// Features of one kind and their boxes, leaf by leaf.
 class FeatureRuns {
 public:
     void reserve(std::size_t leaves, std::size_t features) {
@@ -23,7 +23,7 @@ public:
         ids_.reserve(features);
     }
     void add(std::uint32_t id) { ids_.push_back(id); }
-    /// What was added since the last end belongs to the next leaf.
+    /// Ends a leaf: the features added since the previous call belong to it.
     void end_leaf() { begin_.push_back(static_cast<std::uint32_t>(ids_.size())); }
     void allocate_boxes() {
         rows_.assign(MovingBoxRun::kRows * ids_.size() + MovingBoxRun::kPadding, 0.0F);
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const std::uint32_t* ids(std::uint32_t leaf) const {
         return ids_.data() + begin_[leaf];
     }
-    /// Of all leaves from `first` on, before `last`.
+    /// The features of the leaves from `first` on, before `last`.
     [[nodiscard]] std::span<const std::uint32_t> ids(std::uint32_t first,
                                                      std::uint32_t last) const {
         return std::span(ids_).subspan(begin_[first], begin_[last] - begin_[first]);
@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> begin_{0}; ///< leaf -> its first feature
+    std::vector<std::uint32_t> begin_{0}; ///< index of each leaf's first feature
     std::vector<std::uint32_t> ids_;
     std::vector<float> rows_; ///< a MovingBoxRun for each leaf
 };
@@ -70,7 +70,7 @@ struct LeafFeatures {
     FeatureRuns faces, edges, vertices;
 
     LeafFeatures() = default;
-    /// Without boxes.
+    /// Lists the features. Their boxes are not allocated yet.
     LeafFeatures(const Tree& tree, const SurfaceView& surface,
                  std::span<const Represented> represented);
 
@@ -80,7 +80,7 @@ struct LeafFeatures {
     }
 };
 
-/// The leaves of a tree, by their numbers.
+/// The leaves of a tree, in the order of their numbers.
 std::vector<NodeRef> leaves_of(const Tree& tree);
 
 /// The box of some vertices.
@@ -92,7 +92,8 @@ Aabb box_of(const std::array<std::uint32_t, n>& vertices, std::span<const Aabb> 
     return box;
 }
 
-/// Gives each feature of a leaf the box at one end that `box_of(id)` returns; returns that of all.
+/// Gives each feature of a leaf the box that `box_of(id)` returns, at one end of the step. Returns
+/// the box of all of them.
 template <typename BoxOf>
 Aabb fit_run(FeatureRuns& runs, std::uint32_t leaf, StepEnd end, const BoxOf& box_of) {
     Aabb all;
@@ -104,8 +105,8 @@ Aabb fit_run(FeatureRuns& runs, std::uint32_t leaf, StepEnd end, const BoxOf& bo
     return all;
 }
 
-/// Sets the boxes of a leaf's features at one end to those of their vertices there; returns that of
-/// its triangles.
+/// Sets the boxes of a leaf's features at one end of the step from those of their vertices there.
+/// Returns the box of the leaf's triangles.
 Aabb fit_leaf(LeafFeatures& leaves, std::uint32_t leaf, StepEnd end, const SurfaceView& surface,
               std::span<const Aabb> vertex_boxes);
 

@@ -13,13 +13,13 @@
 
 namespace abut {
 
-/// What leaves make of each other: candidates, straight away. A feature's boxes lie in those of the
-/// triangle that represents it, so that pairs of triangles need no look of their own: they are
-/// looked for only to be counted.
+/// Turns a pair of overlapping leaves into candidate feature pairs. A feature's box lies within
+/// that of the triangle that represents it, so the triangle pairs themselves need no test. They are
+/// found only to be counted.
 template <typename Sink>
 class RepresentativePairs final : public OverlapVisitor {
 public:
-    /// In: a counter of pairs of triangles, or none.
+    /// In: a counter of triangle pairs, or null.
     RepresentativePairs(const LeafFeatures& a, const LeafFeatures& b, float margin,
                         FeaturePairs<Sink>& pairs, std::uint64_t* triangle_pairs)
         : a_(a), b_(b), margin_(margin), pairs_(pairs), triangle_pairs_(triangle_pairs) {}
@@ -54,7 +54,7 @@ private:
     std::array<RunOverlaps, 4> overlaps_;
 };
 
-/// The pairs of triangles of leaves.
+/// Visits the triangle pairs of overlapping leaves.
 class LeafTrianglePairs final : public OverlapVisitor {
 public:
     LeafTrianglePairs(const LeafFeatures& a, const LeafFeatures& b, float margin,

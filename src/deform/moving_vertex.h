@@ -4,7 +4,7 @@
 
 namespace abut {
 
-/// Where a vertex is at the start and at the end of a step.
+/// The position of a vertex at the start and at the end of a step.
 struct MovingVertex {
     Vec3 start, end;
 };

@@ -13,7 +13,8 @@ namespace abut {
 
 namespace {
 
-/// A sink of pairs (see FeaturePairs) that keeps those that are near each other at the start.
+/// A sink of pairs (see FeaturePairs) that keeps those within a distance of each other at the
+/// start.
 class NearPairs {
 public:
     NearPairs(const DeformableData& a, const DeformableData& b, double distance,

@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    /// By the variance of the boxes' middles.
+    /// The axis on which the boxes' centres have the largest variance.
     [[nodiscard]] std::size_t widest_axis() const {
         std::array<double, 3> sum{}, sum_sq{};
         for (const TriangleBox& each : boxes_)

@@ -10,14 +10,15 @@
 
 namespace abut {
 
-/// A triangle's swept box.
+/// The swept box of a triangle.
 struct TriangleBox {
     Aabb box;
     std::uint32_t triangle = 0;
-    bool second = false; ///< of the second of two surfaces
+    bool second = false; ///< the triangle belongs to the second of two surfaces
 };
 
-/// Those of both surfaces, the first ones widened by `margin`; of one only, if they are the same.
+/// The boxes of both surfaces' triangles, those of the first widened by `margin`; of one surface
+/// only, if a and b are the same.
 inline std::vector<TriangleBox> triangle_boxes(const DeformableData& a, const DeformableData& b,
                                                float margin) {
     std::vector<TriangleBox> boxes;
@@ -44,7 +45,8 @@ inline bool overlap(const Aabb& a, const Aabb& b) {
     return true;
 }
 
-/// Visits two triangles if they are a pair: of one surface, or of different ones. False: enough.
+/// Visits two triangles if they are of different surfaces, or if there is only one surface. Returns
+/// false to stop the search.
 inline bool visit_pair(const TriangleBox& a, const TriangleBox& b, bool is_self,
                        TrianglePairVisitor& visitor) {
     if (is_self)

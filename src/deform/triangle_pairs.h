@@ -8,8 +8,8 @@
 
 namespace abut {
 
-/// Who takes pairs of triangles whose boxes overlap: of two surfaces, or of one, each once and none
-/// with itself. False: enough.
+/// Receives each pair of triangles whose boxes overlap once, of two surfaces or of one; never a
+/// triangle with itself. visit() returns false to stop the search.
 class TrianglePairVisitor {
 public:
     TrianglePairVisitor() = default;
@@ -20,15 +20,16 @@ public:
     virtual bool visit(std::uint32_t a, std::uint32_t b) = 0;
 };
 
-/// What becomes of a pair of triangles: which of their 15 feature pairs are candidates.
+/// Which of the 15 feature pairs of a triangle pair are candidates.
 struct SpawnRules {
-    bool represented = false;        ///< only of features that the triangles represent
-    bool boxes = false;              ///< only where the features' boxes overlap
+    bool represented = false;        ///< only features that the triangles represent
+    bool boxes = false;              ///< only if the features' boxes overlap
     float margin = 0;                ///< widens these boxes
-    ConcurrentSet* tested = nullptr; ///< only what is not in here; it goes in
+    ConcurrentSet* tested = nullptr; ///< if not null: only pairs not in this set, to which they are
+                                     ///< added
 };
 
-/// Spawns the feature pairs of triangle pairs.
+/// Turns triangle pairs into candidate feature pairs.
 template <typename Sink>
 class TrianglePairs final : public TrianglePairVisitor {
 public:
@@ -57,7 +58,7 @@ public:
     }
 
 private:
-    /// Whether a pair keeps to the rules of boxes and of tested pairs.
+    /// Whether a pair satisfies the rules on boxes and on tested pairs.
     [[nodiscard]] bool admits(PairKind kind, FeatureIds ids) const {
         if (rules_.boxes && are_apart(kind, ids))
             return false;
