@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-/// Lists of integers as bytes that compress well: all lowest bytes, then all second ones, and so on.
+/// Lists of integers as bytes that compress well: the lowest byte of each, then the second byte of
+/// each, and so on.
 namespace abut {
 
 template <typename Word>
@@ -20,7 +21,8 @@ void append_planes(std::vector<std::byte>& out, std::span<const Word> words) {
     }
 }
 
-/// From the beginning of `in`, which loses them; false if it is too short.
+/// Takes the words from the beginning of `in` and removes them there. Returns false if `in` is too
+/// short.
 template <typename Word>
 [[nodiscard]] bool take_planes(std::span<const std::byte>& in, std::span<Word> words) {
     if (in.size() < words.size_bytes())
@@ -35,7 +37,7 @@ template <typename Word>
     return true;
 }
 
-/// Small differences of either sign become small numbers.
+/// Maps small differences of either sign to small numbers.
 constexpr std::uint32_t zigzag(std::uint32_t difference) {
     return difference << 1 ^ (0 - (difference >> 31));
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kAxisBits = 21;
 
-/// The bits of a number, two apart.
+/// Spreads the bits of a number: two zero bits follow each.
 std::uint64_t spread(std::uint64_t v) {
     v = (v | v << 32) & 0x001f00000000ffff;
     v = (v | v << 16) & 0x001f0000ff0000ff;
@@ -19,19 +19,20 @@ std::uint64_t spread(std::uint64_t v) {
     return (v | v << 2) & 0x1249249249249249;
 }
 
-/// A third of the sum of three coordinates as a step along an axis. The order of triangles is all
-/// that hangs on it: rounding does no harm.
+/// The mean of three coordinates, given by their sum, as a step along an axis. It only affects the
+/// order of triangles, so rounding does no harm.
 std::uint64_t step(double lower, double extent, double sum) {
     constexpr double kSteps = (1 << kAxisBits) - 1;
     const double share = extent > 0 ? (sum / 3 - lower) / extent : 0;
-    return share > 0 ? static_cast<std::uint64_t>(std::min(share, 1.0) * kSteps) : 0; // NaN too
+    return share > 0 ? static_cast<std::uint64_t>(std::min(share, 1.0) * kSteps) : 0; // also
+                                                                                      // catches NaN
 }
 
 } // namespace
 
 std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3& l = bounds.lower;
-    // One scale for all axes: pieces of a long mesh are short, not thin.
+    // One scale for all axes, so that pieces of a long mesh are short rather than thin.
     const double extent = max_abs(bounds.upper - l);
     return spread(step(l.x, extent, a.x + b.x + c.x)) |
            spread(step(l.y, extent, a.y + b.y + c.y)) << 1 |
@@ -58,7 +59,7 @@ void PieceCutter::finish() {
 }
 
 void PieceCutter::emit_triangles() {
-    // By their numbers, which are kept as differences.
+    // Sorted by number, because numbers are stored as differences.
     std::sort(triangles_.begin(), triangles_.end(),
               [](const PieceTriangle& a, const PieceTriangle& b) { return a.id < b.id; });
     MeshBlock block;

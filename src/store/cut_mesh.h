@@ -12,11 +12,13 @@
 
 namespace abut {
 
-/// Meshes up to here lie whole in one block; larger ones are cut into pieces of half the size.
+/// Meshes up to this number of vertices and triangles lie in one block. Larger ones are cut into
+/// pieces of half the size.
 inline constexpr std::uint64_t kLargestWhole = 65536;
 inline constexpr std::uint64_t kPieceTriangles = 32768;
 
-/// A triangle on its way into a piece: sorted by these, neighbours come after each other.
+/// A triangle to be put into a piece. In sorted order, triangles that are close to each other
+/// follow each other.
 struct PieceTriangle {
     std::uint64_t key = 0;
     std::uint32_t id = 0;
@@ -26,22 +28,24 @@ struct PieceTriangle {
     }
 };
 
-/// Where a triangle's centre lies on a curve through the box that keeps near what is near.
+/// Position of a triangle's centre on a space-filling curve through the box, which keeps close
+/// points close.
 ///
 /// Source      [Morton 1966], 21 bits an axis.
 std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Makes pieces of triangles that come in the order of their keys: the pieces are the same for a
-/// mesh in memory and for one on the disk.
+/// Makes pieces of triangles, which must be added in the order of their keys. A mesh in memory and
+/// the same mesh on disk give the same pieces.
 class PieceCutter {
 public:
-    /// In          position: of a vertex by its number; emit: takes each piece; most: triangles of one.
+    /// In          position: returns a vertex by its number; emit: receives each piece; most:
+    ///             triangles per piece.
     PieceCutter(std::function<Vec3(std::uint32_t)> position,
                 std::function<void(const MeshBlock&)> emit, std::uint64_t most = kPieceTriangles)
         : position_(std::move(position)), emit_(std::move(emit)), most_(most) {}
 
     void add(const PieceTriangle& triangle);
-    /// After all triangles: vertices that none of them uses, ascending.
+    /// Adds a vertex that no triangle uses. Call it after all triangles, with ascending numbers.
     void add_unused(std::uint32_t vertex);
     void finish();
 
@@ -56,14 +60,14 @@ private:
     std::vector<std::uint32_t> unused_;
 };
 
-/// Whether a mesh lies whole in one block.
+/// Whether a mesh lies in one block.
 inline bool is_whole(std::uint64_t vertices, std::uint64_t triangles) {
     return std::max(vertices, triangles) <= kLargestWhole;
 }
 
 /// Cuts a mesh in memory, or passes it on whole if it is small.
 void cut_mesh(const Mesh& mesh, const std::function<void(const MeshBlock&)>& emit);
-/// Cuts a mesh however small it is; most: triangles of a piece.
+/// Cuts a mesh whatever its size. In: most, the triangles per piece.
 void cut_into_pieces(const Mesh& mesh, std::uint64_t most,
                      const std::function<void(const MeshBlock&)>& emit);
 

@@ -14,20 +14,21 @@ namespace abut {
 
 namespace {
 
-/// How often a store may be removed by another process while this one waits for its lock.
+/// How often another process may remove the store while this one waits for its lock.
 constexpr int kAttempts = 100;
 
-/// True if the file was not there. Errors of the file system are left to SQLite, which names them.
+/// Returns true if the file did not exist. File system errors are left to SQLite, which names them.
 bool create_empty_file(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     if (file < 0)
         return false;
-    // No connection of this process has the file open, whose locks this would release.
+    // close() releases all locks that this process holds on the file. None of its connections has
+    // the file open here.
     close(file);
     return true;
 }
 
-/// True if the path of a connection names no file any more, or another file than the connection has.
+/// Whether the path of a connection no longer names the file that the connection has open.
 bool has_moved(Database& database) {
     int moved = 0;
     if (sqlite3_file_control(database.handle(), "main", SQLITE_FCNTL_HAS_MOVED, &moved) !=
@@ -50,11 +51,11 @@ bool ExclusiveStore::open(const std::string& path, std::uint64_t cache, IfMissin
     database_ = std::make_unique<Database>(
         path, if_missing == IfMissing::create ? OpenMode::create : OpenMode::read_write);
     database_->run(("PRAGMA cache_size = -" + std::to_string(cache >> 10)).c_str());
-    // Blocks are large and pages chained: large pages are read in fewer steps. A file that has pages keeps
-    // their size.
+    // Blocks are large and lie in chains of pages, so large pages need fewer reads. A file that
+    // already has pages keeps their size.
     database_->run("PRAGMA page_size = 8192; PRAGMA synchronous = FULL");
-    // The lock comes before the locking mode: in exclusive mode a process that waits would keep its
-    // shared lock, and two processes that wait for each other would both fail.
+    // The lock must come before the locking mode. In exclusive mode a waiting process would keep
+    // its shared lock, and two processes that wait for each other would both fail.
     database_->run("BEGIN EXCLUSIVE");
     if (has_moved(*database_)) {
         database_.reset();
@@ -84,8 +85,8 @@ void ExclusiveStore::undo_creation() noexcept {
     try {
         if (sqlite3_get_autocommit(database_->handle()) == 0)
             database_->run("ROLLBACK");
-        // SQLite lets its journal go without removing it by name later on, when another process may have
-        // a journal of that name.
+        // With the journal in memory, SQLite releases its journal file now. It would otherwise
+        // remove it later by name, when another process may own a journal of that name.
         database_->run("PRAGMA journal_mode = MEMORY");
         const std::string path = database_->path();
         if (!has_moved(*database_)) {

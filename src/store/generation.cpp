@@ -4,7 +4,8 @@
 
 namespace abut {
 
-// SQLite keeps its own counters in this table, which the tables of a store have anyway.
+// The number is kept in sqlite_sequence, SQLite's own table of counters. It exists because some
+// tables of a store use AUTOINCREMENT.
 
 std::uint64_t last_generation(Database& database) {
     return static_cast<std::uint64_t>(

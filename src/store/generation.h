@@ -6,11 +6,11 @@
 
 namespace abut {
 
-/// The last import that changed something, in a model that may be gone since. Numbers are never used
-/// again: what is older than a job is what the job has seen.
+/// The number of the last import that changed something, even if its model has been removed since.
+/// Numbers are never reused: a job has seen everything with a number up to that of its own start.
 std::uint64_t last_generation(Database& database);
 
-/// Keeps that number whatever becomes of the models.
+/// Stores that number, so that it survives the removal of models.
 void keep_generation(Database& database);
 
 } // namespace abut

@@ -30,7 +30,8 @@ std::vector<std::byte> encode_hierarchy(const ModelOutline& outline) {
 
 std::optional<ModelOutline> decode_hierarchy(std::span<const std::byte> data,
                                              std::uint64_t triangles) {
-    // A node has two children at least: the length is checked before memory is taken for it.
+    // A node has at least two children, which bounds the number of nodes. The length is checked
+    // before memory is allocated for it.
     const std::uint64_t raw_bytes = content_bytes(data);
     if (raw_bytes < sizeof(Header) || raw_bytes > sizeof(Header) + 4 * (2 * triangles + 1))
         return std::nullopt;

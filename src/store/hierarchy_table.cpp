@@ -17,7 +17,7 @@ constexpr std::string_view kTable = R"(CREATE TABLE hierarchy(
   checksum INTEGER NOT NULL,
   data BLOB NOT NULL))";
 
-/// Also another one.
+/// True also for a foreign table of that name.
 bool has_table_of_the_name(Database& database) {
     return database.number("SELECT count(*) FROM sqlite_schema WHERE name = 'hierarchy'") > 0;
 }
@@ -34,7 +34,7 @@ std::uint64_t HierarchyRow::checksum() const {
 }
 
 bool has_hierarchies(Database& database) {
-    // SQLite keeps the text.
+    // Compares the table's definition, whose text SQLite stores unchanged.
     Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = 'hierarchy'");
     find.bind(kTable);
     return find.step() && find.integer(0) != 0;
@@ -47,7 +47,7 @@ void keep_hierarchies(Database& database, const std::vector<HierarchyRow>& rows)
         Statement(database, kTable).run();
     if (!has_hierarchies(database))
         return;
-    // No INSERT OR REPLACE: SQLite keeps a journal for each.
+    // INSERT OR REPLACE is not used: SQLite keeps a statement journal for each one.
     Statement remove(database, "DELETE FROM hierarchy WHERE block = ?");
     Statement add(database, "INSERT INTO hierarchy VALUES (?,?,?,?,?)");
     for (const HierarchyRow& row : rows) {

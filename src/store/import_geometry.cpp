@@ -23,9 +23,10 @@ namespace abut {
 
 namespace {
 
-/// Parts by the mesh that they show.
+/// The parts of a model file, grouped by mesh.
 struct PartsOfMeshes {
-    std::vector<std::uint64_t> first; ///< by mesh, and one past the last
+    std::vector<std::uint64_t> first; ///< index in `parts` of each mesh's first part; one more
+                                      ///< entry at the end
     std::vector<std::uint32_t> parts;
 
     explicit PartsOfMeshes(const SceneSource& source)
@@ -46,7 +47,7 @@ struct PartsOfMeshes {
     }
 };
 
-/// Some meshes on their way through the pipeline.
+/// Some meshes that go through the pipeline together.
 struct Batch {
     struct Item {
         std::uint32_t mesh = 0;
@@ -96,7 +97,7 @@ private:
         return source_.streams() && loading_bytes(source_.size(mesh)) > memory_ / tokens_;
     }
 
-    /// Faults of a mesh name the first part that shows it.
+    /// Adds to a mesh's fault the file and the first part that shows the mesh.
     template <typename Work>
     void naming_part(std::uint32_t mesh, const Work& work) const {
         try {
@@ -135,8 +136,8 @@ private:
         meter_.advance(source_.size(mesh).triangles);
     }
 
-    /// Read and check in parallel, look up in order, pack in parallel, write in order: so that the
-    /// numbers in the store do not depend on the threads.
+    /// Reads and checks batches in parallel, and writes them in order. The numbers in the store
+    /// therefore do not depend on the threads.
     void import_others() {
         parallel_pipeline<BatchPointer>(
             tokens_, [&] { return next_batch(); },
@@ -150,7 +151,7 @@ private:
             });
     }
 
-    /// Null after the last.
+    /// Returns null after the last batch.
     BatchPointer next_batch() {
         auto batch = std::make_shared<Batch>();
         const std::uint64_t most = std::min<std::uint64_t>(memory_ / tokens_, kBatchBytes);

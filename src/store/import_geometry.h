@@ -12,19 +12,21 @@
 
 namespace abut {
 
-/// The meshes of a model in the store, and the boxes of its parts on the disk.
+/// The meshes of a model file as they are in the store, and the boxes of its parts, in a temporary
+/// file.
 class ImportedGeometry {
 public:
     explicit ImportedGeometry(const std::string& folder) : boxes_(folder) {}
 
-    std::vector<std::int64_t> meshes; ///< their numbers in the store, by their numbers in the model
-    std::vector<std::uint32_t> triangles; ///< of each
+    std::vector<std::int64_t> meshes;     ///< each mesh's number in the store, by its number in the
+                                          ///< file
+    std::vector<std::uint32_t> triangles; ///< of each mesh
 
-    /// From any thread.
+    /// May be called from any thread.
     void set_box(std::uint64_t part, const Box3& box) {
         boxes_.write(part * sizeof box, std::as_bytes(std::span(&box, 1)));
     }
-    /// The box of a part: of one after the other.
+    /// Reads the boxes of parts, fastest in ascending order.
     class BoxCursor {
     public:
         explicit BoxCursor(const ImportedGeometry& geometry) : reader_(geometry.boxes_) {}
@@ -42,9 +44,10 @@ private:
     TemporaryFile boxes_;
 };
 
-/// Brings all meshes of a model into the store, each once, and finds the boxes of its parts.
+/// Imports all meshes of a model file into the store, each once, and computes the boxes of its
+/// parts.
 ///
-/// In/out      memory: bytes to keep to; file: for errors.
+/// In/out      memory: bytes that may be used; file: named in errors.
 /// Errors      Error, naming the file and the part: bad_mesh as read_scene, and for coordinates
 ///             beyond 1e18; those of the store; Error{interrupted}.
 void import_geometry(const SceneSource& source, const std::string& file, std::uint64_t memory,

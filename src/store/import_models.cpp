@@ -30,12 +30,13 @@ std::string folder_of(const std::string& path) {
     return folder.empty() ? "." : folder;
 }
 
-/// Other files belong to such a model: its own size and time say nothing of those.
+/// Whether the model file refers to other files. Its own size and time then do not tell whether it
+/// has changed.
 bool refers_to_files(const std::string& file) {
     return lower_extension(file) == ".gltf";
 }
 
-/// All that can be refused before the store is touched.
+/// Checks all that can be refused before the store is touched.
 std::vector<ModelFile> check_files(const std::vector<ModelPath>& files, const std::string& store) {
     std::error_code missing;
     std::vector<ModelFile> found;
@@ -74,7 +75,8 @@ public:
         generation_ = last_generation(writer_.database()) + 1;
         for (std::size_t i = 0; i < files.size(); ++i)
             report.models.push_back(import(files[i], found[i]));
-        // While an import is to be continued, its meshes wait for their parts.
+        // While an interrupted import can still be resumed, meshes without parts must stay: they
+        // are what it has stored so far.
         const bool is_complete =
             writer_.database().number("SELECT count(*) FROM model WHERE importing") == 0;
         if (is_complete && may_have_unused_)
@@ -84,14 +86,14 @@ public:
         return report;
     }
 
-    /// Models that were brought in.
+    /// How many model files have been imported.
     [[nodiscard]] std::size_t complete() const noexcept { return complete_; }
 
     /// As StoreWriter::undo_creation.
     void undo_creation() noexcept { writer_.undo_creation(); }
 
 private:
-    /// Of the memory, what SQLite may use.
+    /// SQLite's share of the memory.
     static std::uint64_t page_cache(std::uint64_t memory) {
         return std::clamp<std::uint64_t>(memory / 8, std::uint64_t{2} << 20,
                                          std::uint64_t{64} << 20);
@@ -106,7 +108,7 @@ private:
         return read_model_row(find, store_);
     }
 
-    /// The axes of the world; none in a store without parts.
+    /// The up axis of the world; none if the store has no parts.
     std::optional<UpAxis> world_up() {
         Statement first(writer_.database(), std::string("SELECT ") + kModelColumns +
                                                 " FROM model WHERE parts > 0 LIMIT 1");
@@ -181,7 +183,7 @@ private:
         result.seconds = watch.seconds();
     }
 
-    /// Until its parts are merged, a model stays as it was, but says that an import is under way.
+    /// Marks a model as being imported. Its parts stay as they were until the new ones are merged.
     void mark_as_importing(const std::optional<ModelRow>& known, ModelRow& model) {
         ModelRow row = known.value_or(model);
         if (!known)
@@ -190,7 +192,8 @@ private:
         put_model(row, writer_.database());
     }
 
-    /// The file is at fault, or the disk: the next import need not go on with it.
+    /// Clears the mark after an error of the file or the disk: the next import has nothing to
+    /// resume.
     void take_mark_back(const std::optional<ModelRow>& known, const ModelRow& model) {
         try {
             writer_.commit();
@@ -275,7 +278,7 @@ ImportReport import_models(const std::vector<ModelPath>& files, const std::strin
     try {
         return import.run(files, found);
     } catch (const Error& error) {
-        // Without a model, and nothing to resume, a new store is of no use.
+        // No model was imported and there is nothing to resume: remove the store if it is new.
         if (import.complete() == 0 && error.code() != ErrorCode::interrupted)
             import.undo_creation();
         throw;

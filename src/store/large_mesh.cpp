@@ -23,7 +23,7 @@ struct FloatPosition {
     [[nodiscard]] Vec3 exact() const { return {x, y, z}; }
 };
 
-/// A vertex by its position: those at equal positions come after each other, the first one first.
+/// Sorts vertices by position, and those at equal positions by number.
 struct VertexByPosition {
     std::array<std::uint32_t, 3> bits{};
     std::uint32_t number = 0;
@@ -32,7 +32,7 @@ struct VertexByPosition {
     }
 };
 
-/// A vertex and the first one at the same position.
+/// A vertex, and the first vertex at the same position.
 struct VertexAndFirst {
     std::uint32_t number = 0, first = 0;
     friend bool operator<(const VertexAndFirst& a, const VertexAndFirst& b) {
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    /// Gives the vertices the numbers that they have once equal positions are joined.
+    /// Joins vertices at equal positions and gives the joined vertices their numbers.
     void join() {
         raw_writer_->flush();
         ExternalSort<VertexAndFirst> by_number(folder_, memory_ / 3);
@@ -178,7 +178,7 @@ private:
         flush();
     }
 
-    /// Few triangles are left once the vertices are joined.
+    /// Emits the mesh as one block, if few triangles and vertices are left after joining.
     void emit_whole() {
         MeshBlock block;
         block.mesh.triangles.resize(triangles_);
@@ -230,7 +230,7 @@ private:
     const Progress& progress_;
     StoreWriter& writer_;
 
-    std::optional<TemporaryFile> raw_; ///< all vertices as the file has them
+    std::optional<TemporaryFile> raw_; ///< all vertices in the order of the file
     std::optional<TemporaryWriter> raw_writer_;
     ExternalSort<VertexByPosition> by_position_;
     std::optional<PagedArray<std::uint32_t>> number_; ///< of a vertex after joining
@@ -239,7 +239,7 @@ private:
     std::vector<bool> used_;
     std::uint64_t vertices_ = 0, joined_ = 0, triangles_ = 0;
     Box3 all_; ///< of all vertices
-    Box3 box_; ///< of those that triangles use
+    Box3 box_; ///< of the vertices that triangles use
     Hasher positions_hash_, corners_hash_;
     bool is_known_ = false;
     std::vector<MeshBlock> pieces_;

@@ -14,7 +14,7 @@ namespace abut {
 
 namespace {
 
-/// -0 differs from 0: a store gives back what the file has.
+/// Distinguishes -0 from 0, because a store returns exactly what the file holds.
 bool same_bits(const Transform& a, const Transform& b) {
     return std::equal(a.m.begin(), a.m.end(), b.m.begin(), [](double x, double y) {
         return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
@@ -29,7 +29,7 @@ public:
           generation_(generation), progress_(progress), model_(model), database_(database),
           find_(database,
                 std::string("SELECT ") + kPartColumns + " FROM part WHERE model = ? AND id = ?"),
-          // No OR REPLACE: for each of those SQLite would keep a journal of its own.
+          // OR REPLACE is not used: SQLite keeps a statement journal for each one.
           add_(database, "INSERT INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
           add_box_(database, "INSERT OR FAIL INTO part_box VALUES (?,?,?,?,?,?,?)"),
           remove_(database, "DELETE FROM part WHERE part = ?"),

@@ -8,25 +8,25 @@
 
 namespace abut {
 
-/// How the parts of a model differ from those that the store had.
+/// How the parts of a model differ from those in the store.
 struct PartChanges {
     std::uint64_t added = 0, changed = 0, removed = 0;
     [[nodiscard]] bool any() const { return added + changed + removed > 0; }
 };
 
-/// Makes the parts of a model those of a source, and its row say so, in one transaction: whoever
-/// opens the store sees the model as it was or as it is now.
+/// Replaces the parts of a model by those of a source, and updates the model's row, in one
+/// transaction. Whoever opens the store sees the model either as it was or as it is now.
 ///
-/// A part is known by its id. One whose mesh, place, box, name or type differs gets the generation
-/// of this import; the others keep theirs.
+/// A part is identified by its id. A part whose mesh, transform, box, name or type has changed gets
+/// the generation of this import; the others keep theirs.
 ///
-/// In/out      model: its row with all that is known of the file; parts, triangles, parts_sum and
-///             importing are filled here, generation if anything changed.
+/// In/out      model: its row with all that is known of the file. Sets parts, triangles, parts_sum
+///             and importing, and generation if anything changed.
 PartChanges merge_parts(const SceneSource& source, const ImportedGeometry& geometry,
                         std::uint64_t generation, const Progress& progress, ModelRow& model,
                         Database& database);
 
-/// Writes the row, of a new model or one that is there.
+/// Writes the row of a model, new or existing.
 void put_model(const ModelRow& model, Database& database);
 
 } // namespace abut

@@ -81,7 +81,7 @@ std::vector<std::uint32_t> take_ids(std::span<const std::byte>& in, std::size_t 
 
 void append_corners(std::vector<std::byte>& out, const Mesh& mesh) {
     std::vector<std::uint32_t> words(3 * mesh.triangles.size());
-    std::uint32_t next = 0; // one more than the largest so far
+    std::uint32_t next = 0; // one more than the largest corner so far
     std::size_t i = 0;
     for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t corner : triangle) {
@@ -132,7 +132,7 @@ EncodedBlock encode_block(const MeshBlock& block) {
 }
 
 MeshBlock decode_block(std::span<const std::byte> data, std::uint64_t raw_bytes) {
-    // Checked before memory is taken for it.
+    // The length is checked before memory is allocated for it.
     if (raw_bytes < kHeaderBytes || raw_bytes > kLargestBlockBytes ||
         content_bytes(data) != raw_bytes)
         malformed("a block's length is wrong");

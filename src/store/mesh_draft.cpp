@@ -66,7 +66,7 @@ bool is_closed_joined(const Mesh& mesh) {
     edges.reserve(3 * mesh.triangles.size());
     for (const auto& [a, b, c] : mesh.triangles) {
         if (a == b || b == c || c == a)
-            continue; // such a triangle has no edges
+            continue; // a degenerate triangle has no edges
         for (const auto& [v, w] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
             edges.push_back(std::uint64_t{std::min(v, w)} << 32 | std::max(v, w));
     }

@@ -14,13 +14,13 @@
 
 namespace abut {
 
-/// A block before it has a number in the store.
+/// A block that has no number in the store yet.
 struct BlockDraft {
     BlockRow row;
     std::vector<std::byte> data;
 };
 
-/// A mesh as read_scene gives it, and what the store says of it.
+/// A mesh as read_scene gives it, with the data of its row in the store.
 struct MeshDraft {
     Mesh mesh;
     Hash128 hash;
@@ -28,33 +28,33 @@ struct MeshDraft {
     Box3 box;
 };
 
-/// The hash of a mesh from those of its positions (as doubles) and its triangles, which a mesh on
-/// the disk has one after the other.
+/// The hash of a mesh, from the hashes of its positions (as doubles) and of its triangles. A mesh
+/// on disk yields these one after the other.
 Hash128 mesh_hash(std::uint64_t vertices, const Hash128& positions, std::uint64_t triangles,
                   const Hash128& corners);
 
-/// Reads a mesh, joins its vertices, checks it.
+/// Reads a mesh, joins its vertices and checks it.
 ///
-/// Errors      Fault bad_mesh, also for what Error{bad_mesh} of require_valid says; as
+/// Errors      Fault bad_mesh, also where require_valid throws Error{bad_mesh}; as
 ///             SceneSource::read.
 MeshDraft load_mesh(const SceneSource& source, std::uint32_t mesh);
 
-/// How much memory load_mesh and encode_mesh take at most, some 20 % more or less.
+/// The memory that load_mesh and encode_mesh take at most, to within some 20 %.
 std::uint64_t loading_bytes(const SceneSource::Size& size);
 
-/// Packs a block; its box is that of the vertices that its triangles use.
+/// Packs a block. Its box is that of the vertices that its triangles use.
 BlockDraft encode_draft(const MeshBlock& block);
 
-/// The blocks of a mesh in memory.
+/// Packs the blocks of a mesh in memory.
 std::vector<BlockDraft> encode_mesh(const Mesh& mesh);
 
-/// Whether every edge is used by exactly two triangles, and there is an edge; as is_closed of its
-/// topology, in a third of the memory.
+/// Whether every edge is used by exactly two triangles, and there is an edge. Gives the same answer
+/// as is_closed of the mesh's topology, in a third of the memory.
 ///
 /// In          a mesh without two vertices at equal positions.
 bool is_closed_joined(const Mesh& mesh);
 
-/// Throws a Fault if a coordinate is beyond what queries take.
+/// Throws a Fault if a coordinate is beyond the range of queries.
 void check_coordinate(const Vec3& position, std::uint64_t vertex);
 
 } // namespace abut

@@ -13,17 +13,17 @@
 
 namespace abut {
 
-/// Models of a store's meshes and blocks: with the hierarchies that are kept there, or with hierarchies
-/// that are built, which wait here to be kept. From any thread.
+/// Creates Models of a store's meshes and blocks. It uses the hierarchies in the store; missing
+/// ones are built, and wait here to be stored. May be used from any thread.
 ///
-/// A hierarchy can always be built: one that is damaged, of another format or of another content is as
-/// none, and makes room for the one that is built.
+/// A hierarchy can always be rebuilt. One that is damaged, of another format or of other content
+/// counts as missing, and is replaced by the one that is built.
 ///
 /// Errors      of all members: those of the store.
 class ModelReader {
 public:
-    /// In          room: bytes of hierarchies that may wait to be kept; 0 if none is to be. What has no
-    ///             room is not kept. The store must outlive the reader.
+    /// In          room: bytes of built hierarchies that may wait; those beyond are discarded; 0 if
+    ///             none is to be stored. The store must outlive the reader.
     ModelReader(StoreFile& store, std::uint64_t room);
 
     [[nodiscard]] StoreFile& store() const { return store_; }
@@ -31,10 +31,11 @@ public:
     Model read_mesh(std::int64_t mesh);
     ModelBlock read_block(std::int64_t block);
 
-    /// What was built since the last call. From now on it is looked for in the store.
+    /// Returns the hierarchies built since the last call. The reader then expects the caller to
+    /// store them, and looks for hierarchies in the store.
     std::vector<HierarchyRow> take_built();
 
-    /// How many hierarchies were in the store.
+    /// How many hierarchies were found in the store.
     [[nodiscard]] std::uint64_t found() const { return found_; }
 
 private:
@@ -42,9 +43,9 @@ private:
 
     StoreFile& store_;
     std::uint64_t room_;
-    std::atomic<bool> are_kept_; ///< some, in the store
+    std::atomic<bool> are_kept_; ///< whether the store has any hierarchies
     std::atomic<std::uint64_t> found_{0};
-    std::mutex mutex_; ///< of what follows
+    std::mutex mutex_; ///< guards the members below
     std::vector<HierarchyRow> built_;
     std::uint64_t built_bytes_ = 0;
 };

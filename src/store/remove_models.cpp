@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kPageCache = std::uint64_t{8} << 20;
 
-/// The models of a store that have these files.
+/// The models of a store that belong to these files.
 std::vector<ModelRow> find_models(Database& database, const std::vector<std::string>& files) {
     std::vector<ModelRow> found;
     for (const std::string& file : files) {
@@ -37,7 +37,7 @@ std::vector<ModelRow> find_models(Database& database, const std::vector<std::str
 } // namespace
 
 RemovalReport remove_models(const std::vector<std::string>& files, const std::string& store) {
-    (void)open_store(store); // is there, and is one
+    (void)open_store(store); // throws if the file does not exist or is no store
     StoreWriter writer(store, kPageCache, ExclusiveStore::IfMissing::fail);
     Database& database = writer.database();
     RemovalReport report;
@@ -53,7 +53,8 @@ RemovalReport remove_models(const std::vector<std::string>& files, const std::st
         }
         transaction.commit();
     }
-    // While an import is to be continued, its meshes wait for their parts.
+    // While an interrupted import can still be resumed, meshes without parts must stay: they are
+    // what it has stored so far.
     if (database.number("SELECT count(*) FROM model WHERE importing") == 0)
         report.removed_meshes = writer.remove_unused_meshes();
     return report;

@@ -11,8 +11,8 @@
 
 namespace abut {
 
-/// Hashes the columns of a row one after the other; texts with their lengths, so that none runs into
-/// the next.
+/// Hashes the columns of a row one after the other. Texts are hashed with their lengths, so that
+/// moving bytes from one text to the next changes the hash.
 class RowHash {
 public:
     template <typename Value>

@@ -35,7 +35,7 @@ std::uint64_t unsigned_of(const Statement& row, int column) {
     return static_cast<std::uint64_t>(row.integer(column));
 }
 
-/// An unknown word gives z: the checksum of its row does not fit then, and the row is refused.
+/// An unknown word gives z. The row is refused then, because its checksum does not match.
 UpAxis up_of(const std::string& word) {
     return word == "x" ? UpAxis::x : word == "y" ? UpAxis::y : UpAxis::z;
 }

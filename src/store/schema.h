@@ -12,10 +12,10 @@
 namespace abut {
 
 inline constexpr int kStoreVersion = 2;
-/// Of the file's header, for `file` and the like: "Abut".
+/// Stored in the file's header, so that `file` and similar tools recognise a store: "Abut".
 inline constexpr std::int64_t kApplicationId = 0x41627574;
 
-/// Rows of the tables, with the checksum that each carries. docs/store.md says what columns mean.
+/// Rows of the tables, each with its checksum. docs/store.md explains the columns.
 struct ModelRow {
     std::int64_t model = 0;
     std::string file, path;
@@ -25,11 +25,11 @@ struct ModelRow {
     double unit = 1; ///< metres per unit of the file
     bool importing = false;
     std::uint64_t parts = 0, triangles = 0, generation = 0;
-    std::uint64_t parts_sum = 0; ///< of the checksums of its parts, modulo 2^64
-    UpAxis up = UpAxis::y;       ///< of the file
-    UpAxis world_up = UpAxis::y; ///< of the world that its parts are in: the same in all rows
-    std::string asked;           ///< the options of the import that decide how the file is read
-    std::string notes;           ///< as note_text has them
+    std::uint64_t parts_sum = 0; ///< sum of its parts' checksums, modulo 2^64
+    UpAxis up = UpAxis::y;       ///< up axis of the file
+    UpAxis world_up = UpAxis::y; ///< up axis of the parts' world: the same in all rows
+    std::string asked;           ///< the import options that decide how the file is read
+    std::string notes;           ///< as written by note_text
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
@@ -69,7 +69,7 @@ struct PartRow {
     [[nodiscard]] std::uint64_t checksum() const;
 };
 
-/// Columns in the order that the read_… functions and the writer's statements have them.
+/// Columns in the order that the read_… functions and the writer's statements use.
 inline constexpr const char* kModelColumns =
     "model, file, path, bytes, modified, hash, unit, importing, parts, triangles, generation, "
     "parts_sum, up, world_up, asked, notes, checksum";
@@ -79,31 +79,33 @@ inline constexpr const char* kMeshColumns =
 inline constexpr const char* kBlockColumns =
     "block, mesh, vertices, triangles, raw_bytes, x0, y0, z0, x1, y1, z1, data_checksum, checksum, "
     "data";
-/// The same without the data.
+/// The columns of a block without its data.
 inline constexpr const char* kBlockRowColumns =
     "block, mesh, vertices, triangles, raw_bytes, x0, y0, z0, x1, y1, z1, data_checksum, checksum";
 inline constexpr const char* kPartColumns =
     "part, model, number, mesh, id, name, type, x0, y0, z0, x1, y1, z1, world_from_mesh, "
     "generation, checksum";
 
-/// The row that a statement stands on; its columns are those above.
+/// Reads the row that a statement stands on. Its columns are those above.
 ///
-/// Errors      Error{malformed}, naming the store and the row, if it is not what its checksum says.
+/// Errors      Error{malformed}, naming the store and the row, if the checksum does not match.
 ModelRow read_model_row(const Statement& row, const std::string& store);
 MeshRow read_mesh_row(const Statement& row, const std::string& store);
 PartRow read_part_row(const Statement& row, const std::string& store);
 BlockRow read_block_row(const Statement& row, const std::string& store);
-/// The compressed bytes of the block; valid until the statement's next step.
+/// The compressed bytes of the block, valid until the statement's next step.
 std::span<const std::byte> read_block_data(const Statement& row, const BlockRow& block,
                                            const std::string& store);
 
-/// Makes the tables of an empty file.
+/// Creates the tables in an empty file.
 void create_schema(Database& database);
 
-/// Errors      Error: malformed if the file is no store; unsupported if a newer version wrote it.
+/// Checks that the file is a store of this version.
+///
+/// Errors      Error: malformed if the file is no store; unsupported if another version wrote it.
 void check_schema(Database& database);
 
-/// -0 becomes 0, since SQLite keeps no sign of zero.
+/// Replaces -0 by 0, since SQLite does not keep the sign of zero.
 Box3 without_negative_zero(const Box3& box);
 
 } // namespace abut

@@ -53,9 +53,9 @@ Verdict verdict_of(int status) {
     }
 }
 
-/// https://www.sqlite.org/uri.html
+/// A URI that opens a file as immutable, see https://www.sqlite.org/uri.html.
 std::string immutable_uri(const std::string& path) {
-    // An authority that is empty keeps a path's first slashes from being taken for one.
+    // With an empty authority, the first slashes of a path are not taken for one.
     std::string uri = path.starts_with('/') ? "file://" : "file:";
     for (const char c : path) {
         constexpr std::string_view kSpecial = "%?#";
@@ -93,7 +93,7 @@ Database::Database(std::string path, OpenMode mode) : path_(std::move(path)) {
         const Verdict verdict = verdict_of(status);
         throw Error(verdict.code, path_, verdict.text);
     }
-    // A job holds the store for moments only, to record a piece of its work.
+    // Waits: a job locks the store only for moments, to record its progress.
     sqlite3_busy_timeout(handle_, 1000);
 }
 
@@ -210,7 +210,7 @@ void Transaction::commit() {
         try {
             database_.run("COMMIT");
         } catch (...) {
-            open_ = true; // to be rolled back
+            open_ = true; // so that the destructor rolls back
             throw;
         }
     }

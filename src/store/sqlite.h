@@ -15,19 +15,19 @@ namespace abut {
 
 enum class OpenMode : std::uint8_t {
     read_only,
-    /// read_only without locks: what is read must not change meanwhile, though the rest of the file may.
+    /// read_only without locks: the pages that are read must not change meanwhile; others may.
     immutable,
     read_write,
-    create, ///< read_write, and made if it is not there
+    create, ///< read_write; creates the file if it does not exist
 };
 
-/// A text of SQLite's as a part of one line.
+/// A text of SQLite's, made fit for one line: control characters become spaces.
 std::string one_line(std::string text);
 
-/// A connection to an SQLite file. One thread at a time.
+/// A connection to an SQLite file. One thread at a time may use it.
 ///
 /// Errors      of all members: Error, naming the file: malformed if it is damaged, unreadable if
-///             another process has it, cannot_write if it is read-only or the disk is full.
+///             another process has locked it, cannot_write if it is read-only or the disk is full.
 class Database {
 public:
     Database(std::string path, OpenMode mode);
@@ -35,9 +35,9 @@ public:
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
 
-    /// Runs statements that give no rows, or whose rows do not matter.
+    /// Runs statements whose rows, if any, are ignored.
     void run(const char* sql);
-    /// The first column of the first row of a statement.
+    /// The first column of the first row of a statement; 0 if there is no row.
     std::int64_t number(const char* sql);
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -50,7 +50,8 @@ private:
     sqlite3* handle_ = nullptr;
 };
 
-/// A prepared statement, run again and again: bind values in order, then step through its rows.
+/// A prepared statement that can be run repeatedly: bind values in order, then step through its
+/// rows.
 class Statement {
 public:
     Statement(Database& database, std::string_view sql);
@@ -58,7 +59,7 @@ public:
     Statement(const Statement&) = delete;
     Statement& operator=(const Statement&) = delete;
 
-    /// Binds all parameters anew; text and bytes must live until the last step.
+    /// Binds all parameters anew. Texts and bytes must outlive the last step.
     template <typename... Values>
     Statement& bind(const Values&... values) {
         reset();
@@ -66,9 +67,9 @@ public:
         (bind_one(++at, values), ...);
         return *this;
     }
-    /// False after the last row.
+    /// Returns false after the last row.
     bool step();
-    /// Runs it to its end.
+    /// Runs the statement to its end.
     void run() {
         while (step()) {
         }
@@ -102,8 +103,8 @@ private:
     sqlite3_stmt* handle_ = nullptr;
 };
 
-/// What is done within it is kept as a whole, after commit(), or not at all. Within another one it is a
-/// part of that.
+/// Changes within a transaction take effect together, on commit(), or not at all. A transaction
+/// within another one is a part of the outer one.
 class Transaction {
 public:
     explicit Transaction(Database& database);
@@ -115,7 +116,7 @@ public:
 
 private:
     Database& database_;
-    bool open_; ///< and to be ended by this one
+    bool open_; ///< this object has begun the transaction, and must end it
 };
 
 } // namespace abut

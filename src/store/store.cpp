@@ -26,7 +26,7 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view kMagic = "SQLite format 3\0"sv;
 
-/// What SQLite itself can tell of its pages and indices.
+/// Runs SQLite's own checks of pages and indices.
 void check_pages(StoreFile& file) {
     file.with_connection([&](Database& database) {
         Statement check(database, "PRAGMA integrity_check(1)");
@@ -40,7 +40,7 @@ void check_pages(StoreFile& file) {
     });
 }
 
-/// The mesh of a row once more, against the hash that it is known by.
+/// Reads a mesh and compares it with the hash in its row.
 void check_mesh(StoreFile& file, const MeshRow& row) {
     const Mesh mesh = file.read_mesh(row.mesh);
     const Hash128 hash = mesh_hash(
@@ -52,7 +52,8 @@ void check_mesh(StoreFile& file, const MeshRow& row) {
                     "is damaged: mesh " + std::to_string(row.mesh) + " is not what its hash says");
 }
 
-/// Hierarchies of this format are those of their blocks. Jobs build damaged ones anew.
+/// Checks that each hierarchy of the current format can be decoded and fits its block. Jobs rebuild
+/// damaged ones.
 void check_hierarchies(StoreFile& file) {
     std::vector<std::int64_t> blocks;
     file.with_connection([&](Database& database) {
@@ -74,7 +75,7 @@ void check_hierarchies(StoreFile& file) {
     }
 }
 
-/// Boxes in the index are those of the parts, rounded outwards.
+/// Checks that the boxes in the index enclose those of the parts.
 void check_boxes(StoreFile& file) {
     file.with_connection([&](Database& database) {
         const std::int64_t wrong = database.number(
@@ -89,8 +90,9 @@ void check_boxes(StoreFile& file) {
     });
 }
 
-/// SQLite alone opens a store: to close another descriptor of the file releases the locks that other
-/// connections of this process hold (POSIX, fcntl).
+/// Refuses whatever is not a readable, regular file, without opening it. Only SQLite may open a
+/// store: closing another descriptor of the file would release the locks that other connections of
+/// this process hold (POSIX, fcntl).
 void require_regular_file(const std::string& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0) {
@@ -114,11 +116,12 @@ void require_regular_file(const std::string& path) {
 
 bool is_store(const std::string& path) {
     try {
-        // No other way to open it: a named pipe would wait for a writer.
+        // ByteStream checks the kind of file first: a plain open() of a named pipe would wait for a
+        // writer.
         ByteStream content = ByteStream::open(path);
         return content.has(kMagic.size()) && content.ahead().starts_with(kMagic);
     } catch (const Fault&) {
-        return false; // who reads it as a model tells why
+        return false; // the attempt to read it as a model reports why
     }
 }
 

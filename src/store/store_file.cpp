@@ -13,7 +13,8 @@ namespace abut {
 
 namespace {
 
-/// A killed import may have left a transaction half done, which only a writer can roll back.
+/// Rolls back a transaction that a killed import has left half done. Only a connection that may
+/// write can do that.
 void mend(const std::string& path) {
     if (!std::filesystem::exists(path + "-journal"))
         return;
@@ -28,7 +29,7 @@ void mend(const std::string& path) {
     }
 }
 
-/// That its blocks have numbers: their sum does not overflow.
+/// Throws if first_block is negative, or if first_block + blocks overflows int64.
 void require_numbers(const MeshRow& mesh, const std::string& store) {
     constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
     if (mesh.first_block < 0 || mesh.blocks > kMost - static_cast<std::uint64_t>(mesh.first_block))
@@ -48,7 +49,7 @@ StoreFile::Connection::Connection(const std::string& path, OpenMode mode)
       block_row(database, select(kBlockRowColumns, "block WHERE block = ?")),
       mesh(database, select(kMeshColumns, "mesh WHERE mesh = ?")),
       part(database, select(kPartColumns, "part WHERE part = ?")) {
-    // Blocks are read once and kept by whoever asked for them: no second copy in a cache of pages.
+    // A small page cache: callers keep the blocks that they read, so pages are not read twice.
     database.run("PRAGMA cache_size = -512");
 }
 
@@ -114,7 +115,7 @@ void StoreFile::for_each_part(const ModelRow& model,
             sum += part.checksum();
             take(part);
         }
-        // What a damaged page hides is missed here.
+        // Detects rows that a damaged page hides.
         if (count != model.parts || sum != model.parts_sum)
             throw Error(ErrorCode::malformed, path_,
                         "is damaged: parts of model " + model.file + " are missing");
@@ -195,7 +196,7 @@ std::optional<HierarchyRow> StoreFile::find_hierarchy(const BlockRow& block) {
         if (row->bind(block.block).step())
             found = read_hierarchy_row(*row, block.data_checksum);
     } catch (const Error&) {
-        return std::nullopt; // what comes of it shows where it matters
+        return std::nullopt; // none: the caller builds it
     }
     if (found)
         bytes_read_ += found->data.size();
@@ -204,7 +205,7 @@ std::optional<HierarchyRow> StoreFile::find_hierarchy(const BlockRow& block) {
 
 namespace {
 
-/// Puts the pieces of a mesh together.
+/// Assembles a mesh from its pieces.
 class MeshAssembly {
 public:
     explicit MeshAssembly(const MeshRow& row)
@@ -213,7 +214,7 @@ public:
         mesh_.triangles.resize(row.triangles);
     }
 
-    /// False if the piece does not belong to the mesh.
+    /// Returns false if the piece does not belong to the mesh.
     bool add(const MeshBlock& piece) {
         const std::vector<std::uint32_t>& ids = piece.vertex_ids;
         if ((!ids.empty() && ids.back() >= mesh_.positions.size()) ||
@@ -267,7 +268,7 @@ Mesh StoreFile::read_mesh(std::int64_t mesh) {
     const MeshRow row = this->mesh(mesh);
     if (row.blocks == 1)
         return whole_mesh(row, read_block(row.first_block));
-    // Memory is taken for no more than its blocks have.
+    // The blocks' sizes are checked first, so that a damaged row allocates no more than they hold.
     std::uint64_t vertices = 0, triangles = 0;
     for (const BlockRow& block : blocks(row)) {
         if (std::max(block.vertices, block.triangles) > kLargestBlockBytes)

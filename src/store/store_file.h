@@ -26,10 +26,10 @@ struct StoredBlockData {
     MeshBlock block;
 };
 
-/// A store that is read: what jobs that do not fit into the memory work on. Every row and block is
-/// checked against its checksum when it is read.
+/// A store opened for reading: the input of jobs on models that do not fit into memory. Every row
+/// and block is compared with its checksum when it is read.
 ///
-/// All members may be called from any thread; each call takes a connection of its own from a pool.
+/// All members may be called from any thread. Each call takes a connection of its own from a pool.
 ///
 /// Errors      of all members: Error, naming the store: malformed for damage, unreadable while
 ///             another process writes, bad_argument for a number that is not in the store.
@@ -37,7 +37,8 @@ class StoreFile {
 public:
     StoreFile(std::string path, bool read_only)
         : StoreFile(std::move(path), read_only ? OpenMode::read_only : OpenMode::read_write) {}
-    /// immutable: reads what an import wrote, while a job of this program records what it finds.
+    /// In: immutable, to read what an import wrote while a job of this program records its results
+    /// in the same file.
     StoreFile(std::string path, OpenMode mode);
     ~StoreFile();
     StoreFile(const StoreFile&) = delete;
@@ -45,11 +46,11 @@ public:
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
-    /// In the order of their numbers, which is that of their first import.
+    /// All models by number, which is the order of their first import.
     std::vector<ModelRow> models();
 
-    /// All parts of complete models: by model, then in the order of its file. Checks that none is
-    /// missing.
+    /// Visits the parts of all models, or of one, in the order of the file. A model that is being
+    /// imported still has its former parts. Checks that no part is missing.
     void for_each_part(const std::function<void(const PartRow&)>& take);
     void for_each_part(const ModelRow& model, const std::function<void(const PartRow&)>& take);
     PartRow part(std::int64_t part);
@@ -57,23 +58,23 @@ public:
     void for_each_mesh(const std::function<void(const MeshRow&)>& take);
     MeshRow mesh(std::int64_t mesh);
 
-    /// All of a mesh, bit for bit as it was imported.
+    /// The whole mesh, bit for bit as it was imported.
     Mesh read_mesh(std::int64_t mesh);
 
-    /// What is known of the blocks of a mesh without reading their data: their boxes above all.
+    /// The rows of a mesh's blocks, without their data. Mainly used for the boxes.
     std::vector<BlockRow> blocks(const MeshRow& mesh);
-    /// One block: of a mesh that was cut, a piece with the numbers that its vertices and triangles
-    /// have in the whole.
+    /// One block. Of a mesh that was cut, this is a piece, with the numbers that its vertices and
+    /// triangles have in the whole mesh.
     MeshBlock read_block(std::int64_t block) { return read_block_and_row(block).block; }
     StoredBlockData read_block_and_row(std::int64_t block);
     /// The mesh that lies in one block.
     Mesh whole_mesh(const MeshRow& row, MeshBlock block) const;
 
-    /// The hierarchy that is kept for a block. None if there is none of this format, or if it cannot be
-    /// read: it can be built.
+    /// The stored hierarchy of a block. None if there is none of this format, or if it cannot be
+    /// read: the caller can build it.
     std::optional<HierarchyRow> find_hierarchy(const BlockRow& block);
 
-    /// Since the store was opened: compressed bytes of blocks and hierarchies; how many blocks.
+    /// Counts since the store was opened: compressed bytes of blocks and hierarchies, and blocks.
     [[nodiscard]] std::uint64_t bytes_read() const noexcept { return bytes_read_; }
     [[nodiscard]] std::uint64_t blocks_read() const noexcept { return blocks_read_; }
 
@@ -89,7 +90,7 @@ private:
         Connection(const std::string& path, OpenMode mode);
         Database database;
         Statement block, block_row, mesh, part;
-        std::optional<Statement> hierarchy; ///< once there is the table
+        std::optional<Statement> hierarchy; ///< prepared once the table exists
     };
     struct Lease {
         explicit Lease(StoreFile& file);

@@ -11,7 +11,8 @@ namespace abut {
 
 namespace {
 
-/// What a killed import loses at most, and what one transaction may have to roll back.
+/// Bytes after which a transaction is committed. They bound what a killed import loses, and what
+/// may have to be rolled back.
 constexpr std::uint64_t kTransactionBytes = std::uint64_t{16} << 20;
 
 constexpr const char* kAddMesh = "INSERT INTO mesh VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
@@ -27,11 +28,11 @@ StoreWriter::StoreWriter(const std::string& path, std::uint64_t cache,
                          ExclusiveStore::IfMissing if_missing)
     : store_(path, cache, if_missing) {
     Database& database = store_.database();
-    // The number of a mesh or a part that was removed never comes again.
+    // Numbers of removed meshes and parts are never reused.
     next_mesh_ = database.number("SELECT seq FROM sqlite_sequence WHERE name = 'mesh'") + 1;
     next_block_ = database.number("SELECT max(first_block + blocks) FROM mesh");
     next_block_ = std::max<std::int64_t>(next_block_, 1);
-    // Of a mesh whose import was killed.
+    // Removes the blocks of a mesh whose import was killed.
     if (database.number("SELECT max(block) FROM block") >= next_block_) {
         Statement remove(database, "DELETE FROM block WHERE block >= ?");
         remove.bind(next_block_).run();

@@ -10,7 +10,7 @@ namespace abut {
 
 namespace {
 
-/// Enough of the gain at a speed that keeps up with a disk.
+/// Most of the possible gain, and fast enough to keep up with a disk.
 constexpr int kLevel = 3;
 
 struct FreeContext {
