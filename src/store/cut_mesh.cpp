@@ -24,8 +24,7 @@ std::uint64_t spread(std::uint64_t v) {
 std::uint64_t step(double lower, double extent, double sum) {
     constexpr double kSteps = (1 << kAxisBits) - 1;
     const double share = extent > 0 ? (sum / 3 - lower) / extent : 0;
-    return share > 0 ? static_cast<std::uint64_t>(std::min(share, 1.0) * kSteps) : 0; // also
-                                                                                      // catches NaN
+    return share > 0 ? static_cast<std::uint64_t>(std::min(share, 1.0) * kSteps) : 0; // 0 for NaN
 }
 
 } // namespace

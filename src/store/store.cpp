@@ -116,8 +116,7 @@ void require_regular_file(const std::string& path) {
 
 bool is_store(const std::string& path) {
     try {
-        // ByteStream checks the kind of file first: a plain open() of a named pipe would wait for a
-        // writer.
+        // ByteStream opens without blocking: a plain open() of a named pipe waits for a writer.
         ByteStream content = ByteStream::open(path);
         return content.has(kMagic.size()) && content.ahead().starts_with(kMagic);
     } catch (const Fault&) {
