@@ -56,7 +56,8 @@ Shape bolt(double length, double radius, bool plain) {
 Shape railing(double length, double height) {
     constexpr double kThick = 0.046875;
     Shape whole;
-    // Thinner than the rail that it carries: a common edge would be used by four triangles.
+    // The posts are thinner than the rail that they carry. With a common edge, four triangles would
+    // share it.
     constexpr double kPost = 0.75 * kThick;
     const Shape post = block(kPost, height - kThick, kPost);
     const int spans = std::max(1, static_cast<int>(length / 1.5));

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// A sum of waves in space; each shorter one is lower.
+/// A sum of waves in space. Shorter waves are lower.
 class Waves {
 public:
     explicit Waves(std::uint64_t seed) {
@@ -44,7 +44,7 @@ private:
     std::array<Wave, 10> waves_;
 };
 
-/// Vertices of the divided octahedron by their integer coordinates, |x| + |y| + |z| = n.
+/// Vertices of a subdivided octahedron, by their integer coordinates: |x| + |y| + |z| = n.
 class Lattice {
 public:
     explicit Lattice(Mesh& mesh) : mesh_(mesh) {}
@@ -99,7 +99,8 @@ Mesh boulder(std::uint32_t triangles, std::uint64_t seed) {
 }
 
 Mesh knot(std::uint32_t triangles) {
-    // Quads along and around in the ratio of the tube's length to its circumference.
+    // The numbers of quads along and around have the ratio of the tube's length to its
+    // circumference.
     const int around = std::max(3, static_cast<int>(std::lround(std::sqrt(triangles / 2.0 / 10))));
     const int along =
         std::max(3, static_cast<int>(std::lround(triangles / 2.0 / static_cast<double>(around))));

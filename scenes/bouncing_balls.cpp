@@ -12,9 +12,10 @@ namespace abut::scenes {
 
 namespace {
 
-constexpr double kHalf = 1; ///< of the box's side
+constexpr double kHalf = 1; ///< half the side of the box
 
-/// Closed, its outside inside. It turns, so that the balls never come to rest.
+/// The box that holds the balls: closed, with its triangles facing inward. It turns, so that the
+/// balls never come to rest.
 RigidBody box_around() {
     RigidBody body;
     body.spin = {0, 0, 1};
@@ -25,7 +26,7 @@ RigidBody box_around() {
 }
 
 std::vector<RigidBody> box_of_balls(const DeformingOptions& options) {
-    constexpr double kBalls = 42, kFill = 0.36; // radius: part of a ball's room
+    constexpr double kBalls = 42, kFill = 0.36; // ratio of a ball's radius to the width of its cell
     std::vector<RigidBody> bodies{box_around()};
     const double wanted = static_cast<double>(options.triangles - bodies[0].shape.triangles.size());
     const double fineness = std::max(2.0, std::round(std::sqrt(wanted / (8 * kBalls))));

@@ -13,9 +13,10 @@ namespace abut::scenes {
 namespace {
 
 constexpr double kRadius = 0.5, kDrop = 0.6;
-/// The cracks run, slowly enough to be seen, from where the ball hits the floor.
+/// Cracks spread from where the ball hits the floor, slowly enough to be seen.
 constexpr double kCrackSpeed = 1.2;
-/// A piece that comes off leaves its parent's centre at this rate: metres a second for each metre.
+/// Speed at which a new piece leaves its parent's centre: metres per second for each metre of
+/// distance.
 constexpr double kBurst = 1.5;
 
 RigidBody floor_slab() {
@@ -62,7 +63,7 @@ private:
         return body;
     }
 
-    /// Every new group goes on as its part of the body it was in.
+    /// Turns each new group into a body, which continues the motion of the body it was part of.
     void split(std::vector<std::uint32_t> group) {
         std::vector<RigidBody> bodies{bodies_.bodies()[0]};
         std::vector<Vec3> centres{{}};

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 /// The planted clashes. Where a distance is given, sizes are multiples of 1/1024 m and poses are
-/// turned by quarters only, so that contacts and gaps are exact in double arithmetic and survive a
-/// file of floats.
+/// quarter turns. Contacts and gaps are then exact in double arithmetic, and survive a file of
+/// floats.
 namespace abut::scenes {
 namespace {
 
@@ -43,8 +43,7 @@ Draft pipe_through_web(PlantBuilder& b) {
 }
 
 Draft duct_grazes_column(PlantBuilder& b) {
-    constexpr double kDepth =
-        48 * kGrid; // all of the duct's sheet that is in the column is this deep, or less
+    constexpr double kDepth = 48 * kGrid; // no part of the duct's sheet within the column is deeper
     const ShapeId duct_shape = b.shape("planted duct", [] { return duct(1.5, 0.5, 0.75); });
     return {duct_shape,        planted_block(b, 0.25, 2, 0.25),
             at({-0.75, 1, 0}), at({0, 0, 0.375 + 0.125 - kDepth}),
@@ -143,7 +142,7 @@ Draft pipes_end_to_end(PlantBuilder& b) {
 
 Draft ridges_cross(PlantBuilder& b) {
     const ShapeId ridge = b.shape("planted wedge", [] { return wedge(0.75, 0.5, 0.5); });
-    // The lower one is turned over: its ridge is up.
+    // The lower wedge is turned over: its ridge is up.
     return {ridge,
             ridge,
             at({-0.375, 0.5, 0}),
@@ -171,7 +170,7 @@ Draft bolt_in_tank(PlantBuilder& b) {
 }
 
 Draft box_in_box(PlantBuilder& b) {
-    const double gap = on_grid(std::max(0.3125, b.gap)); // the least of the six: below
+    const double gap = on_grid(std::max(0.3125, b.gap)); // gap below, the smallest of the six gaps
     return {planted_block(b, 0.25, 0.25, 0.25),
             planted_block(b, 1.25, 1.25, 1.25),
             at({0.0625, gap, -0.0625}),
@@ -211,8 +210,8 @@ Draft tray_twice(PlantBuilder& b) {
     return twice(shell, at({-0.75, 0, 0}), "IfcCableCarrierSegment", "open shell placed twice");
 }
 
-/// The same triangles in another order, from another first corner: another mesh of the same
-/// surface.
+/// The second mesh has the same triangles in reverse order, each starting at a different corner: a
+/// different mesh of the same surface.
 Draft block_reordered(PlantBuilder& b) {
     const ShapeId first = planted_block(b, 1, 0.5, 0.75);
     const ShapeId second = b.shape("planted block reordered", [&] {
@@ -235,7 +234,7 @@ Draft block_reordered(PlantBuilder& b) {
 
 // ---- clearance
 
-/// A known gap: a fifth, two or four fifths of the clearance.
+/// A known gap of this many fifths of the clearance, rounded down to the grid.
 double known_gap(const PlantBuilder& b, int fifths) {
     return std::max(1.0, std::floor(b.options.clearance / 5 * fifths / kGrid)) * kGrid;
 }

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-/// What is planted: pairs of parts whose relation is known.
+/// The planted clashes: pairs of parts whose relation is known.
 namespace abut::scenes {
 
 inline constexpr double kBore = 0.125; ///< radius of planted pipes
 
-/// Two parts around the origin, on y >= 0 and within some two metres; placed as one.
+/// Two parts near the origin, with y >= 0 and within some two metres. They are placed together.
 struct Draft {
     ShapeId a, b;
     Transform pose_a, pose_b;
@@ -28,7 +28,7 @@ struct ClashRecipes {
 /// The recipes of every kind, in the order of kClashKinds.
 const std::vector<ClashRecipes>& clash_recipes();
 
-/// An upright pipe (along x) that is put through a slab of the plant.
+/// A pipe (along x) that is planted upright through a slab of the plant.
 ShapeId planted_riser(PlantBuilder& b);
 
 } // namespace abut::scenes

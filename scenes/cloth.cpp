@@ -16,12 +16,12 @@ constexpr int kSubsteps = 6;
 constexpr int kIterations = 3;
 constexpr int kImpactRounds = 8;
 constexpr int kImpactSweeps = 3;
-/// Of what is nearer than the thickness, the part that one frame makes up for: all of it would fling
-/// the cloth away.
+/// The part of a missing distance that one frame restores. Restoring all of it would fling the
+/// cloth away.
 constexpr double kRecovery = 0.25;
-/// How far a tether gives, of its length.
+/// Length to which a tether stretches, relative to its length at rest.
 constexpr double kTether = 1.03;
-/// A driven vertex weighs infinitely much.
+/// Inverse mass of a driven vertex: it is infinitely heavy.
 constexpr double kDriven = 0;
 
 } // namespace
@@ -46,7 +46,8 @@ void Cloth::add_length(std::uint32_t a, std::uint32_t b, double stiffness) {
         lengths_.push_back({a, b, norm(subtract(positions_[a], positions_[b])), stiffness});
 }
 
-/// Every edge keeps its length, and across every edge the two opposite vertices resist folding.
+/// Makes every edge keep its length, and makes the two vertices opposite to each edge resist
+/// folding.
 void Cloth::add_lengths() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> opposite;
     for (const auto& t : mesh_.triangles)
@@ -61,8 +62,9 @@ void Cloth::add_lengths() {
         }
 }
 
-/// The iterations of one step do not carry the weight of cloth that hangs from row to row: so each
-/// vertex keeps near the driven one that is the fewest edges away, and of those the nearest.
+/// Ties each vertex to the driven vertex that is the fewest edges away, and of those to the
+/// nearest. Without tethers, the few iterations of a step cannot carry the weight of hanging cloth
+/// from row to row.
 void Cloth::add_tethers() {
     constexpr std::uint32_t kNone = ~std::uint32_t{0};
     const std::size_t count = positions_.size();
@@ -118,7 +120,8 @@ void Cloth::find_near() {
     }
 }
 
-/// `share`: of the way that the driven vertices have yet to go in this frame.
+/// In: share, the part of the driven vertices' remaining way in this frame that this substep
+/// covers.
 void Cloth::substep(std::span<const Vec3> driven_to, double share) {
     constexpr double kSeconds = kFrameSeconds / kSubsteps;
     previous_ = positions_;
@@ -173,7 +176,7 @@ void Cloth::keep_spacing() {
     }
 }
 
-/// Makes the contact at least so wide along its normal; returns by how much it was widened.
+/// Widens the contact to at least `least` along its normal. Returns by how much it was widened.
 double Cloth::push(const Contact& contact, double least) {
     const double missing = least - dot(contact.normal, contact.offset(positions_));
     if (missing <= 0)
@@ -182,7 +185,7 @@ double Cloth::push(const Contact& contact, double least) {
     return missing;
 }
 
-/// Friction: takes back how far the features have slid in this substep, as far as the push allows.
+/// Friction: undoes the features' sliding in this substep, as far as the push allows.
 void Cloth::rub(const Contact& contact, double push) {
     const Vec3 moved = subtract(contact.offset(positions_), contact.offset(previous_));
     const Vec3 slid = subtract(moved, scaled(contact.normal, dot(contact.normal, moved)));
@@ -191,7 +194,7 @@ void Cloth::rub(const Contact& contact, double push) {
         shift(contact, scaled(slid, -std::min(1.0, settings_.friction * push / length)));
 }
 
-/// Moves the vertices, the lighter the farther, until the contact's offset has changed by `by`.
+/// Moves the vertices, lighter ones farther, until the contact's offset has changed by `by`.
 void Cloth::shift(const Contact& contact, const Vec3& by) {
     double mobility = 0;
     for (std::size_t i = 0; i < 4; ++i)

@@ -15,51 +15,52 @@ namespace abut::scenes {
 /// Units: metres and seconds.
 struct ClothSettings {
     Vec3 gravity{0, -9.81, 0};
-    double thickness =
-        0.005;             ///< features nearer than this are pushed apart; below half an edge, or
-                           ///< the cloth would push against its own next triangle
-    double friction = 0.3; ///< Coulomb's coefficient
-    double drag = 0.5;     ///< part of the velocity that the air takes, per second
-    double bending = 0.02; ///< part of a fold that one iteration takes back, in [0, 1]
-    bool hangs = false;    ///< by its driven vertices: tethers to them hold its weight
+    double thickness = 0.005; ///< features nearer than this are pushed apart; must be below half an
+                              ///< edge, or the cloth pushes against its own next triangle
+    double friction = 0.3;    ///< Coulomb's coefficient
+    double drag = 0.5;        ///< part of the velocity lost to the air per second
+    double bending = 0.02;    ///< part of a fold that one iteration removes, in [0, 1]
+    bool hangs = false;       ///< tethers to the driven vertices hold the cloth's weight
 };
 
-/// Cloth, and bodies that it meets, in one mesh: vertices that move as told (driven), and vertices
-/// of equal mass held together by the lengths of their edges.
+/// Cloth, and bodies that it meets, in one mesh. Driven vertices move as told. The other vertices
+/// have equal mass and are held together by the lengths of their edges.
 ///
-/// What is near at the start of a frame is kept apart during it. What still meets is pushed back,
-/// round by round, before the next frame; but a frame shows where the cloth has got to before that.
-/// So frames hold impacts and shallow penetration, as a simulator's steps do when it asks for
-/// impacts, and yet the cloth does not get entangled.
+/// Features that are near each other at the start of a frame are kept apart during it. Features
+/// that still meet are pushed back, round by round, before the next frame, but a frame shows the
+/// cloth before that. So frames contain impacts and shallow penetrations, as do the steps of a
+/// simulator when it asks for impacts, and yet the cloth does not get entangled.
 ///
-/// Source      position-based dynamics [Mueller et al. 2007] in small steps [Macklin et al. 2019], with
-///             long-range attachments [Kim, Chentanez, Mueller 2012]; contacts in the manner of [Bridson, Fedkiw, Anderson 2002].
+/// Source      position-based dynamics [Mueller et al. 2007] in small steps [Macklin et al. 2019],
+///             with long-range attachments [Kim, Chentanez, Mueller 2012]; contacts in the manner
+///             of [Bridson, Fedkiw, Anderson 2002].
 class Cloth {
 public:
-    /// In          the mesh at rest; by vertex, whether it is driven.
+    /// In          the mesh at rest; for each vertex, whether it is driven.
     Cloth(Mesh mesh, const std::vector<bool>& driven, const ClothSettings& settings);
 
-    /// As it is now; positions are exact as floats.
+    /// The current frame. Its positions are exact as floats.
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
-    /// One frame on.
+    /// Advances by one frame.
     ///
-    /// In          by vertex, where it is at the end of the frame; read for driven vertices only.
+    /// In          driven_to: for each vertex, its position at the end of the frame; only read for
+    ///             driven vertices.
     void step(std::span<const Vec3> driven_to);
 
 private:
-    /// Keeps two vertices `rest` apart.
+    /// Keeps two vertices at the distance `rest`.
     struct Length {
         std::uint32_t a = 0, b = 0;
         double rest = 0, stiffness = 1;
     };
-    /// Keeps a vertex at most so far from a driven one.
+    /// Keeps a vertex within the distance `most` of a driven one.
     struct Tether {
         std::uint32_t vertex = 0, holder = 0;
         double most = 0;
     };
     struct Spacing {
         Contact contact;
-        double least = 0; ///< the distance along the normal that is wanted
+        double least = 0; ///< the smallest allowed distance along the normal
     };
 
     void add_lengths();
@@ -78,7 +79,7 @@ private:
 
     Mesh mesh_; ///< as shown
     ClothSettings settings_;
-    std::vector<Vec3> positions_; ///< after what met has been pushed back
+    std::vector<Vec3> positions_; ///< after features that met were pushed back
     std::vector<double> inverse_mass_;
     std::vector<Vec3> velocities_;
     std::vector<Vec3> start_;    ///< positions at the start of the frame

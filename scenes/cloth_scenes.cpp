@@ -13,7 +13,7 @@ namespace abut::scenes {
 
 namespace {
 
-/// The thickest that cloth of triangles of this size can be without pushing against itself.
+/// The largest thickness at which cloth with triangles of this size does not push against itself.
 double thickness_of(double size) {
     return std::min(0.3 * size, 0.006);
 }
@@ -28,7 +28,8 @@ void move_to(std::span<Vec3> positions, const Mesh& mesh, const Transform& world
 ClothModel cloth_on_ball(const DeformingOptions& options) {
     constexpr double kRadius = 0.5, kSide = 2.2, kDrop = 0.1;
     const auto ball_of = [](double size) {
-        // Twice as coarse as the cloth, whose squares are size^2.
+        // The ball's triangles are twice as coarse as the cloth, whose squares have the area
+        // size^2.
         const double area = 4 * std::numbers::pi * kRadius * kRadius;
         Mesh ball = sphere(static_cast<std::uint32_t>(2 * area / (4 * size * size)));
         for (Vec3& p : ball.positions)
@@ -54,7 +55,7 @@ ClothModel cloth_on_ball(const DeformingOptions& options) {
     model.settings.thickness = thickness_of(size);
     model.settings.friction = 0.6;
     model.drive = [ball](double seconds, std::span<Vec3> positions) {
-        // Slowly round, and to and fro on the way, once the cloth has come down.
+        // The ball turns slowly, back and forth on the way, once the cloth has come down.
         const double t = std::max(0.0, seconds - 1.5);
         const double turns = smooth_step(t) * (0.25 * t + 0.1 * on_circle(0.8 * t).v);
         move_to(positions, ball, turned_about_y(turns));

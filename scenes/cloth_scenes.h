@@ -9,24 +9,24 @@
 #include <span>
 #include <vector>
 
-/// The scenes of cloth: what they start with, and how their bodies move.
+/// The cloth scenes: their initial meshes, and the motion of their bodies.
 namespace abut::scenes {
 
 struct ClothModel {
     Mesh mesh;                ///< cloth and bodies
-    std::vector<bool> driven; ///< by vertex
+    std::vector<bool> driven; ///< for each vertex
     ClothSettings settings;
-    /// Writes where the driven vertices are, so many seconds after the start.
+    /// Writes the positions of the driven vertices at a time in seconds after the start.
     std::function<void(double, std::span<Vec3>)> drive;
 };
 
-/// A square of cloth falls on a ball, which then turns and takes it round.
+/// A square of cloth falls on a ball, which then turns and takes it along.
 ClothModel cloth_on_ball(const DeformingOptions& options);
-/// A tube whose ends are turned against each other and brought together.
+/// A tube whose ends are twisted against each other and brought together.
 ClothModel twisted_tube(const DeformingOptions& options);
 /// A dancing figure in seven skirts, one over the other.
 ClothModel dancer(const DeformingOptions& options);
-/// A long wide skirt on a figure that steps and turns.
+/// A long, wide skirt on a figure that steps and turns.
 ClothModel skirt(const DeformingOptions& options);
 
 } // namespace abut::scenes

@@ -6,7 +6,7 @@ namespace abut::scenes {
 
 namespace {
 
-/// Of a FeaturePair or a FeatureImpact; the normal is left to the caller.
+/// The contact of a FeaturePair or a FeatureImpact, without the normal.
 template <class Pair>
 Contact without_normal(const Deformable& surface, const Pair& pair) {
     Contact contact;

@@ -11,14 +11,14 @@ namespace abut::scenes {
 
 namespace {
 
-/// A cone that hangs from a ring about the torso.
+/// A cone that hangs from a ring around the torso.
 struct Skirt {
     double waist = Figure::kWaist; ///< height of the ring
     double length = 0;             ///< along the cloth
-    double flare = 0;              ///< turns between cloth and vertical at rest
+    double flare = 0;              ///< angle between cloth and vertical at rest, in turns
 };
 
-/// Its triangles are as fine as `size`; those of the figure are coarser.
+/// Ratio of the size of the figure's triangles to that of the skirts'.
 constexpr double kFigureSize = 1.6;
 constexpr double kWaistRadius = Figure::kTorsoRadius + 0.012;
 
@@ -30,7 +30,7 @@ Mesh cone(const Skirt& skirt, double size) {
         size);
 }
 
-/// A figure in skirts that moves as stance(seconds) says.
+/// A figure in skirts. Its pose at a time is stance(seconds).
 ClothModel dressed(std::uint64_t triangles, const std::vector<Skirt>& skirts, Random& random,
                    std::function<Stance(double)> stance) {
     const auto mesh_of = [&](double size) {
@@ -62,7 +62,7 @@ ClothModel dressed(std::uint64_t triangles, const std::vector<Skirt>& skirts, Ra
     return model;
 }
 
-/// sin of so many turns
+/// The sine of an angle in turns.
 double wave(double turns) {
     return on_circle(turns).v;
 }
@@ -106,7 +106,8 @@ ClothModel skirt(const DeformingOptions& options) {
                        0.05};
         stance.right = {-0.09 * step, 0.04 * wakes * (1 + wave(0.7 * t + 0.25)), 0.2, 0.06 * step,
                         0.05};
-        // Half a turn one way, then back: the cloth swings on and winds about the legs.
+        // The figure makes half a turn one way, then back: the cloth swings on and winds around the
+        // legs.
         const double turn = way * 0.5 * wakes * wave(0.22 * t);
         stance.world_from_figure =
             after(at({0, 0.02 * wakes * wave(1.4 * t), 0.2 * wakes * wave(0.15 * t)}),

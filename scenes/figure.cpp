@@ -7,11 +7,11 @@ namespace abut::scenes {
 
 namespace {
 
-/// Between one limb and the next.
+/// Gap between one limb and the next.
 constexpr double kGap = 0.01;
 
-/// A capsule that begins in its joint, at the centre of its hemisphere. The lower limb of a pair
-/// turns about its joint; the upper one ends where it leaves room for that.
+/// A capsule that begins at its joint, with the joint at the centre of its hemisphere. The lower
+/// limb of a pair turns about its joint; the upper one ends early enough to leave room for that.
 struct Limb {
     double length = 0, radius = 0;
 };
@@ -20,14 +20,14 @@ constexpr double kToKnee = 0.38, kToElbow = 0.28;
 constexpr Limb kShank{0.36, 0.05}, kForearm{0.25, 0.038};
 constexpr Limb kThigh{kToKnee - 0.075 - kShank.radius - kGap, 0.075};
 constexpr Limb kUpperArm{kToElbow - 0.045 - kForearm.radius - kGap, 0.045};
-/// In the order in which limb_frames has their frames.
+/// The limbs, in the order of limb_frames.
 constexpr std::array kLimb{kTorso, kHead,     kThigh,   kShank,    kThigh,
                            kShank, kUpperArm, kForearm, kUpperArm, kForearm};
 
 constexpr Vec3 kTorsoFoot{0, 0.99, 0}, kHeadFoot{0, 1.61, 0};
 constexpr Vec3 kHip{0.09, 0.78, 0}, kShoulder{0.24, 1.34, 0}; // of the left side
 
-/// A limb along +x, hanging down or standing up.
+/// Frames in which a limb along +x hangs down or stands up.
 Transform hanging(const Vec3& from) {
     return turned({0, -1, 0}, kZ, from);
 }

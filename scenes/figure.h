@@ -5,10 +5,10 @@
 #include <array>
 #include <span>
 
-/// A figure of capsules that do not touch each other: what clothes hang on.
+/// A figure of capsules that do not touch each other. Clothes hang on it.
 namespace abut::scenes {
 
-/// How a figure stands. Angles in turns; all 0: upright, arms hanging.
+/// The pose of a figure. Angles are in turns; if all are 0, it stands upright with arms hanging.
 struct Stance {
     struct Side {
         double hip = 0;    ///< thigh forward
@@ -21,18 +21,19 @@ struct Stance {
     Transform world_from_figure;
 };
 
-/// Its own frame: metres, y up, its feet on the ground, facing +z, its left at +x.
+/// A figure. Its own frame: metres, y up, feet on the ground, facing +z, its left at +x.
 class Figure {
 public:
     static constexpr double kTorsoRadius = 0.14;
-    static constexpr double kWaist = 1.06; ///< height of it; the torso is round up to 0.25 above
+    static constexpr double kWaist = 1.06; ///< height of the waist; the torso is a cylinder up to
+                                           ///< 0.25 above
 
-    /// In          the size of its triangles.
+    /// In          size: of its triangles.
     explicit Figure(double size);
 
-    /// Upright.
+    /// The figure standing upright.
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
-    /// Writes the positions of its vertices.
+    /// Writes the positions of its vertices in a pose.
     void place(const Stance& stance, std::span<Vec3> positions) const;
 
 private:

@@ -18,7 +18,8 @@ using Index3 = std::array<int, 3>;
 constexpr int kMostFragments = 48;
 constexpr int kTrianglesAFragment = 250; ///< at least
 constexpr int kSmoothings = 6;
-/// Of the way from a crack to the middle of the cells behind it.
+/// How far vertices on a crack move back from it, relative to the way to the middle of the cells
+/// behind it.
 constexpr double kStandBack = 0.06;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
@@ -38,7 +39,7 @@ bool is_in(const Index3& index, const Index3& count) {
     return true;
 }
 
-/// In the order of for_each_index.
+/// The number of an index in the order of for_each_index.
 std::size_t number_of(const Index3& index, const Index3& count) {
     const auto along = [](int k) { return static_cast<std::size_t>(k); };
     return (along(index[2]) * along(count[1]) + along(index[1])) * along(count[0]) +
@@ -58,8 +59,9 @@ void for_each_index(const Index3& count, Visit visit) {
                 visit(at);
 }
 
-/// The six sides of a cell: its neighbour there, and the corners of the face between, outward.
-/// Faces of the same place start at the same corner, so that both are cut along the same diagonal.
+/// Visits the six sides of a cell: the neighbour on that side, and the corners of the face between,
+/// seen from outside. Both cells of a face start at the same corner, so that they cut the face
+/// along the same diagonal.
 template <class Visit>
 void for_each_side(const Index3& cell, Visit visit) {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -94,7 +96,7 @@ void FragmentedBall::choose_cells(std::uint64_t triangles) {
     constexpr double kNear = 0.02;
     const auto wanted = static_cast<double>(triangles);
     int n = 8;
-    for (int i = 0; i < 3; ++i) // the triangles grow about as the square
+    for (int i = 0; i < 3; ++i) // the number of triangles grows about with n^2
         n = std::max(2, static_cast<int>(std::lround(n * std::sqrt(wanted / divide({n, n, n})))));
     Index3 best{};
     double least = 1e300;
@@ -112,7 +114,7 @@ void FragmentedBall::choose_cells(std::uint64_t triangles) {
     static_cast<void>(divide(best));
 }
 
-/// Gives each cell to a fragment; returns how many triangles bound the fragments.
+/// Assigns each cell to a fragment. Returns how many triangles bound the fragments.
 double FragmentedBall::divide(const Index3& cells) {
     cells_ = cells;
     fragment_.clear();
@@ -153,7 +155,7 @@ void FragmentedBall::place_points() {
                    [&](const Index3& point) { points_.push_back(bent(vector_of(point))); });
 }
 
-/// Evens out the steps that cells make along cracks; what is on the ball's surface stays on it.
+/// Smooths the steps that cells make along cracks. Vertices on the ball's surface stay on it.
 void FragmentedBall::smooth_cracks() {
     std::vector<bool> on_crack(points_.size(), false), on_surface(points_.size(), false);
     for_each_index(cells_, [&](const Index3& cell) {
@@ -204,7 +206,7 @@ std::vector<std::uint32_t> FragmentedBall::groups(const Vec3& from, double reach
         if (low != high && reach < bond.toughness * norm(subtract(bond.at, from)))
             std::ranges::replace(group, std::uint32_t{high}, std::uint32_t{low});
     }
-    std::uint32_t next = 0; // numbers without gaps
+    std::uint32_t next = 0; // renumbers the groups without gaps
     for (std::uint32_t f = 0; f < group.size(); ++f)
         if (std::ranges::find(group, f) != group.end())
             std::ranges::replace(group, f, next++);
@@ -256,8 +258,8 @@ Piece FragmentedBall::piece(std::span<const std::uint32_t> group, std::uint32_t 
         });
     });
     piece.centre = scaled(piece.centre, 1 / piece.mass);
-    // The trace of the inertia tensor is twice the sum of squares about the centre; a cell's own
-    // inertia keeps a single cell's from being none.
+    // The trace of the inertia tensor is twice the sum of squares about the centre. The cells' own
+    // inertia is added, so that a single cell has some.
     const double spread = moment - piece.mass * dot(piece.centre, piece.centre);
     piece.inertia = 2.0 / 3 * spread + piece.mass * cell_size() * cell_size() / 6;
     for (Vec3& p : piece.shape.positions)
@@ -275,7 +277,7 @@ std::size_t FragmentedBall::point_index(const Index3& point) const {
     return number_of(point, sum(cells_, {1, 1, 1}));
 }
 
-/// From the lattice, where a cell is a unit cube, to the ball.
+/// Maps the lattice, where a cell is a unit cube, to the ball.
 Vec3 FragmentedBall::bent(const Vec3& lattice) const {
     const double x = 2 * lattice.x / cells_[0] - 1, y = 2 * lattice.y / cells_[1] - 1,
                  z = 2 * lattice.z / cells_[2] - 1;

@@ -11,36 +11,36 @@ namespace abut::scenes {
 
 /// A part of a solid: some of its fragments, still joined.
 struct Piece {
-    Mesh shape;                   ///< closed, outward; about its centre
-    Vec3 centre;                  ///< of mass, in the solid's frame
+    Mesh shape;                   ///< closed, facing outward, about its centre
+    Vec3 centre;                  ///< centre of mass, in the solid's frame
     double mass = 0, inertia = 0; ///< inertia: the mean over all axes
 };
 
-/// A solid ball of cells, a lattice of cubes bent to a ball. Each cell belongs to the fragment whose
-/// seed is nearest; between fragments it can crack.
+/// A solid ball of cells: a lattice of cubes, bent to a ball. Each cell belongs to the fragment
+/// with the nearest seed. The ball can crack between fragments.
 class FragmentedBall {
 public:
-    /// In          triangles: of all fragments, each on its own.
+    /// In          triangles: of all fragments together, each as a separate piece.
     FragmentedBall(double radius, std::uint64_t triangles, std::uint64_t seed);
 
     [[nodiscard]] std::size_t fragments() const { return seeds_.size(); }
-    /// About.
+    /// The approximate size of a cell.
     [[nodiscard]] double cell_size() const;
-    /// The group of each fragment, numbered from 0, after cracks have reached so far from a point:
-    /// fragments stay together where no crack has come between them.
+    /// The group of each fragment, numbered from 0, after cracks have spread from a point to a
+    /// distance of `reach`. Fragments between which no crack has run stay in one group.
     [[nodiscard]] std::vector<std::uint32_t> groups(const Vec3& from, double reach) const;
-    /// The fragments f with group[f] == g. Its vertices on cracks stand back a little from them, so
-    /// that pieces do not touch.
+    /// The piece made of the fragments f with group[f] == g. Its vertices on cracks are moved back
+    /// a little, so that pieces do not touch.
     [[nodiscard]] Piece piece(std::span<const std::uint32_t> group, std::uint32_t g) const;
 
 private:
-    using Index3 = std::array<int, 3>; ///< of a cell, or of a point: the cell's lowest corner
+    using Index3 = std::array<int, 3>; ///< of a cell, or of a lattice point, by its position
 
-    /// What holds two fragments together.
+    /// The bond between two fragments.
     struct Bond {
         std::uint32_t a = 0, b = 0;
         Vec3 at;
-        double toughness = 1; ///< a crack comes through as if from so many times as far
+        double toughness = 1; ///< factor on the distance at which a crack breaks the bond
     };
 
     void choose_cells(std::uint64_t triangles);
@@ -48,7 +48,7 @@ private:
     void find_bonds(std::uint64_t seed);
     void place_points();
     void smooth_cracks();
-    /// Fragment of a cell; a number of its own outside the ball.
+    /// The fragment of a cell; kNone outside the ball.
     [[nodiscard]] std::uint32_t fragment_at(const Index3& cell) const;
     [[nodiscard]] std::size_t point_index(const Index3& point) const;
     [[nodiscard]] Vec3 bent(const Vec3& lattice) const;
@@ -56,10 +56,10 @@ private:
 
     double radius_ = 0;
     std::vector<Vec3> seeds_;
-    Index3 cells_{};                      ///< how many along x, y and z
+    Index3 cells_{};                      ///< number along x, y and z
     std::vector<std::uint32_t> fragment_; ///< of each cell, x fastest
     std::vector<Bond> bonds_;
-    std::vector<Vec3> points_; ///< of the lattice, x fastest
+    std::vector<Vec3> points_; ///< lattice points, x fastest
 };
 
 } // namespace abut::scenes

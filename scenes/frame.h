@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-/// The little vector algebra that scenes need, and the grid that their coordinates lie on.
+/// The vector algebra that scenes need, and the grid on which their coordinates lie.
 namespace abut::scenes {
 
 constexpr Vec3 add(const Vec3& a, const Vec3& b) {
@@ -37,7 +37,7 @@ inline constexpr Vec3 kX{1, 0, 0};
 inline constexpr Vec3 kY{0, 1, 0};
 inline constexpr Vec3 kZ{0, 0, 1};
 
-/// Positions of parts are multiples of this, so that they, and sums of them, are exact as floats.
+/// Positions of parts are multiples of this, so that they and their sums are exact as floats.
 inline constexpr double kGrid = 1.0 / 1024;
 inline double on_grid(double v) {
     return std::floor(v / kGrid + 0.5) * kGrid;
@@ -46,18 +46,18 @@ inline double on_grid_above(double v) {
     return std::ceil(v / kGrid) * kGrid;
 }
 
-/// Moves without turning.
+/// A translation.
 inline Transform at(const Vec3& origin) {
     return Transform({1, 0, 0, 0, 1, 0, 0, 0, 1, origin.x, origin.y, origin.z});
 }
 
-/// Takes the mesh's x and y axes to the given orthogonal unit vectors, its origin to `origin`.
+/// Maps the mesh's x and y axes to the given orthogonal unit vectors, and its origin to `origin`.
 inline Transform turned(const Vec3& x, const Vec3& y, const Vec3& origin) {
     const Vec3 z = cross(x, y);
     return Transform({x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z, origin.x, origin.y, origin.z});
 }
 
-/// Takes the mesh's x axis, along which members and pipes lie, to `direction`, a signed axis.
+/// Maps the mesh's x axis, along which members and pipes lie, to `direction`, a signed axis.
 inline Transform along(const Vec3& direction, const Vec3& origin) {
     if (direction.y != 0) {
         return turned(direction, {-direction.y, 0, 0}, origin);
@@ -78,7 +78,7 @@ inline Vec3 turn(const Transform& t, const Vec3& v) {
             m[2] * v.x + m[5] * v.y + m[8] * v.z};
 }
 
-/// First `inner`, then `outer`.
+/// Applies `inner` first, then `outer`.
 inline Transform after(const Transform& outer, const Transform& inner) {
     const auto& m = inner.m;
     const Vec3 x = turn(outer, {m[0], m[1], m[2]});

@@ -15,7 +15,8 @@ namespace {
 
 using namespace scenes;
 
-/// How large a plant is: one step more is some 25 % more triangles, then one unit more.
+/// The size of a plant. Each step adds some 25 % more triangles; beyond the last step, each adds
+/// one more unit.
 struct Size {
     int bays_x, bays_z, floors, wall_tubes, storage_tanks;
     double rack_length, stack_height;
@@ -36,7 +37,7 @@ std::vector<Unit> lay_out(int step, Random& random) {
     for (int n = 0; n < count; ++n) {
         Unit unit;
         unit.number = n + 1;
-        // Rows of four along x, as far apart as the largest unit is.
+        // Rows of four along x, spaced for the largest unit.
         const int column = n % 4, row = n / 4;
         unit.origin = {170.0 * column, 0, 110.0 * row};
         unit.bays_x = size.bays_x;
@@ -51,7 +52,7 @@ std::vector<Unit> lay_out(int step, Random& random) {
             const int draw = random.below(10);
             unit.use.push_back(draw < 5 ? BayUse::open : draw < 8 ? BayUse::shaft : BayUse::vessel);
         }
-        unit.use[0] = BayUse::stairs; // front left: seen from the road
+        unit.use[0] = BayUse::stairs; // front left: visible from the road
         if (unit.bays_x >= 5) {
             unit.use[static_cast<std::size_t>(bays - unit.bays_z)] = BayUse::stairs;
         }
@@ -60,7 +61,7 @@ std::vector<Unit> lay_out(int step, Random& random) {
     return units;
 }
 
-/// Everything but the pipe runs, which take the room and the triangles that are left.
+/// Builds everything except the pipe runs, which use the room and the triangles that are left.
 void build_base(PlantBuilder& b, const std::vector<Unit>& units) {
     for (const Unit& unit : units) {
         build_steel(b, unit);
@@ -81,7 +82,8 @@ void build_base(PlantBuilder& b, const std::vector<Unit>& units) {
     b.place(b.shape("ground", [&] { return box(ground); }), at({}), "IfcSlab", "Ground");
 }
 
-/// Pipe runs until the triangles are reached; false if the plant has no more room for them.
+/// Adds pipe runs until the number of triangles is reached. Returns false if the plant has no more
+/// room for them.
 bool fill_with_pipes(PlantBuilder& b, const std::vector<Unit>& units) {
     const std::uint64_t target = b.options.triangles;
     int failures = 0, number = 1;
@@ -125,7 +127,7 @@ Plant make_plant(const PlantOptions& options) {
         build_base(*b, units);
         return std::pair(std::move(b), std::move(units));
     };
-    // The largest plant whose base leaves room for pipes in the given number of triangles.
+    // The largest plant whose base leaves enough of the given triangles for pipes.
     const double share = 0.6 * static_cast<double>(options.triangles);
     int step = 0;
     auto plant = build(step);
@@ -138,7 +140,8 @@ Plant make_plant(const PlantOptions& options) {
         plant = std::move(larger);
         step = next;
         next = step + 1;
-        if (step >= kLargest) { // from here on plants grow by whole units: go there at once
+        if (step >= kLargest) { // from here on plants grow by whole units: jump to the number that
+                                // fits
             const double units = step - kLargest + 1;
             const double fit = share * units / static_cast<double>(plant.first->triangles());
             next = std::max(next, kLargest - 1 + static_cast<int>(fit));

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kTube = 0.03125; // radius
 
-/// One wall of vertical tubes with its headers; `right` is the direction along the wall.
+/// One wall of vertical tubes with its headers. `right` is the direction along the wall.
 void build_tube_wall(PlantBuilder& b, const Unit& unit, const Vec3& corner, const Vec3& right,
                      double pitch, char wall) {
     const double height = unit.boiler_height(), low = 2;
@@ -56,7 +56,7 @@ void build_boiler_frame(PlantBuilder& b, const Unit& unit, const Vec3& corner, d
         b.place(cross_girder, along(kZ, add(corner, {x, height + 0.625 + g, -reach + 0.25 + g})),
                 "IfcBeam", fmt::format("Boiler {} cross girder", unit.number));
     }
-    // Tie beams between the columns, and a walkway on them, every ten metres.
+    // Tie beams between the columns at every storey.
     const double tie_length = span - 0.625 - 2 * g;
     const ShapeId tie = b.shape(fmt::format("boiler tie {}", tie_length), [&] {
         return i_section(tie_length, 0.375, 0.1875, 0.015625, 0.0234375);
@@ -112,8 +112,7 @@ void build_boiler(PlantBuilder& b, const Unit& unit) {
     const double width = unit.wall_tubes * pitch;
     const double z = on_grid((unit.bays_z * kBay - width) / 2);
     const Vec3 corner = add(unit.origin, {unit.boiler_x() + 2, 0, z});
-    const double inset =
-        on_grid_above(0.15625 + b.gap); // walls stand clear of each other's headers
+    const double inset = on_grid_above(0.15625 + b.gap); // walls stay clear of each other's headers
     build_tube_wall(b, unit, add(corner, {0, 0, -inset}), kX, pitch, 'A');
     build_tube_wall(b, unit, add(corner, {0, 0, width + inset}), kX, pitch, 'B');
     build_tube_wall(b, unit, add(corner, {-inset, 0, 0}), kZ, pitch, 'C');

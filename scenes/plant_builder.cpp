@@ -5,8 +5,8 @@
 namespace abut::scenes {
 namespace {
 
-/// 22 characters of the alphabet of IFC's GlobalIds. The mixed index makes ids of one plant
-/// distinct, the seed those of two plants different.
+/// 22 characters of the alphabet of IFC's GlobalIds. The mixed index makes ids within a plant
+/// distinct; the seed makes ids of two plants different.
 std::string global_id(std::uint64_t seed, std::uint64_t index) {
     constexpr std::string_view kAlphabet =
         "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$";

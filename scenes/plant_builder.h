@@ -17,14 +17,13 @@ namespace abut::scenes {
 /// The index of a shared shape.
 using ShapeId = std::uint32_t;
 
-/// Places parts where there is room for them, and counts their triangles. Every part of a plant
-/// goes through `place` or `plant`: that is what keeps the plant free of clashes that nobody
-/// planted.
+/// Places parts where there is room for them, and counts their triangles. Every part of a plant is
+/// added by `place` or `plant`. This keeps the plant free of clashes other than the planted ones.
 class PlantBuilder {
 public:
     PlantBuilder(const PlantOptions& options, int sides);
 
-    /// The shape of this key, made at its first use.
+    /// The shape with this key. It is created at its first use.
     template <class Make>
     ShapeId shape(const std::string& key, Make make) {
         const auto [entry, is_new] =
@@ -36,18 +35,19 @@ public:
     }
     [[nodiscard]] const Shape& shape(ShapeId id) const { return shapes_[id]; }
 
-    /// Whether the shape keeps the gap to all parts but `except`.
+    /// Whether the shape keeps the gap to all parts other than `except`.
     [[nodiscard]] bool free(ShapeId id, const Transform& pose,
                             std::uint32_t except = Space::kNobody) const;
-    /// Adds a part if there is room for it.
+    /// Adds a part if there is room for it. Returns whether there was.
     bool place(ShapeId id, const Transform& pose, std::string_view type, std::string name);
-    /// Adds a part of a planted clash: the caller has looked for room. Returns its index.
+    /// Adds a part of a planted clash, for which the caller has checked the room. Returns its
+    /// index.
     std::uint32_t plant(ShapeId id, const Transform& pose, std::string_view type, std::string name);
     /// Records a planted pair.
     void record(ClashKind kind, std::uint32_t a, std::uint32_t b, std::optional<double> distance,
                 std::string what);
 
-    /// To try something: remember the state, and go back to it.
+    /// A state to which go_back() can return after an unsuccessful attempt.
     struct Mark {
         std::size_t parts, boxes;
         std::uint64_t triangles;
@@ -57,15 +57,15 @@ public:
 
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
     [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
-    /// Box of all parts.
+    /// The box of all parts.
     [[nodiscard]] Box3 bounds() const;
 
-    /// Hands over the scene: ids given, unused meshes dropped.
+    /// Returns the plant: parts get their ids, unused meshes are dropped.
     Plant finish();
 
     const PlantOptions options;
-    const double gap; ///< between parts: above the clearance, on the grid
-    const int sides;  ///< of round things; 8, 12, 16, ...
+    const double gap; ///< between parts: larger than the clearance, on the grid
+    const int sides;  ///< of round shapes; 8, 12, 16, ...
     Random random;
 
 private:

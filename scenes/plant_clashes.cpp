@@ -17,7 +17,7 @@ void plant_at(PlantBuilder& b, const Draft& draft, const Transform& site, ClashK
     b.record(kind, first, second, draft.distance, draft.what);
 }
 
-/// A random spot in a random storey, turned by quarters.
+/// A random spot in a random storey, turned by a random quarter turn.
 Transform random_site(PlantBuilder& b, const Unit& unit) {
     constexpr std::array<Vec3, 4> kTurns{Vec3{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
     const int i = b.random.below(unit.bays_x), k = b.random.below(unit.bays_z);
@@ -28,8 +28,8 @@ Transform random_site(PlantBuilder& b, const Unit& unit) {
     return turned(b.random.pick(kTurns), kY, spot);
 }
 
-/// A pipe upright through an existing slab: the only planted kind whose partner is part of the
-/// plant itself.
+/// Plants an upright pipe through an existing slab. This is the only planted kind whose partner
+/// belongs to the plant itself.
 bool plant_pipe_through_slab(PlantBuilder& b, const Unit& unit, int number) {
     const ShapeId riser = planted_riser(b);
     for (int attempt = 0; attempt < 64; ++attempt) {
@@ -37,7 +37,7 @@ bool plant_pipe_through_slab(PlantBuilder& b, const Unit& unit, int number) {
             static_cast<std::uint32_t>(b.random.below(static_cast<int>(b.parts().size())));
         const Part& part = b.parts()[slab];
         if (part.type != "IfcSlab" || part.world_from_mesh.m[10] <= unit.origin.y) {
-            continue; // no floor of a storey
+            continue; // not the floor of a storey
         }
         const std::vector<Box3>& cover = b.shape(part.mesh).cover;
         const Box3 area =
@@ -85,8 +85,8 @@ void plant_clashes(PlantBuilder& b, const std::vector<Unit>& units, const Vec3& 
                 planted = true;
             }
         }
-        // A full building, many clashes: the rest lies in rows beside the plant, where there is
-        // always room.
+        // If the building is too full for all clashes, the rest lies in rows beside the plant,
+        // where there is always room.
         if (!planted) {
             const int column = outside % 32, row = outside / 32;
             const Vec3 spot = add(laydown, {3.0 * column, b.gap, -3.0 * row});

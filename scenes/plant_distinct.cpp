@@ -9,8 +9,8 @@ namespace abut::scenes {
 
 namespace {
 
-/// The list begins elsewhere and each triangle at another of its corners: no two parts draw alike,
-/// but for very small meshes.
+/// Rotates the list of triangles and the corners of each by random amounts, so that no two parts
+/// get the same mesh, except for very small meshes.
 Mesh in_another_order(const Mesh& mesh, std::uint64_t seed) {
     Mesh result = mesh;
     Random random(seed);

@@ -6,7 +6,7 @@
 namespace abut::scenes {
 namespace {
 
-/// Base, motor, coupling and casing in a row: separate parts, as a model from a plant has them.
+/// Base, motor, coupling and casing in a row: separate parts, as in a model of a real plant.
 void build_pump(PlantBuilder& b, const Vec3& foot, int size, const std::string& name) {
     const double s = size == 0 ? 0.75 : 1.25, g = b.gap;
     const auto key = [&](const char* what) { return fmt::format("pump {} {}", what, s); };
@@ -153,7 +153,7 @@ void furnish(PlantBuilder& b, const Unit& unit, int i, int k, int f) {
         build_cabinets(b, unit, i, k, f, 4.75);
         break;
     default:
-        break; // free floor: room for pipes
+        break; // an empty floor, with room for pipes
     }
 }
 

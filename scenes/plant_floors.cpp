@@ -24,7 +24,7 @@ std::vector<Opening> openings(BayUse use, int f) {
     case BayUse::shaft:
         return {{0.75, 0.75, 2.25, 1.75}, {5.75, 0.75, 7.25, 2.25}, {3.25, 6, 4.75, 7}};
     case BayUse::stairs: {
-        const double x = flight_x(f - 1); // of the flight that arrives
+        const double x = flight_x(f - 1); // x of the flight that arrives
         return {{x - 0.84375, 0.75, x + 0.84375, 7.25}};
     }
     case BayUse::vessel:
@@ -35,7 +35,8 @@ std::vector<Opening> openings(BayUse use, int f) {
 
 namespace {
 
-/// A bay's slab: notched at the columns, with its openings. Neighbours keep the gap.
+/// The slab of a bay, notched at the columns, with its openings. Slabs of neighbouring bays keep
+/// the gap.
 Shape slab(const PlantBuilder& b, BayUse use, int f) {
     const double g = b.gap, edge = on_grid_above(g / 2);
     const double notch = on_grid_above((f == 0 ? 0.625 : kColumn / 2) + g);
@@ -57,7 +58,7 @@ Shape slab(const PlantBuilder& b, BayUse use, int f) {
     });
 }
 
-/// Railings along the four edges of a storey's floor, a bay each.
+/// Railings along the four edges of a storey's floor, one for each bay.
 void build_railings(PlantBuilder& b, const Unit& unit, int f) {
     const double g = b.gap, inset = 0.4375, start = 0.75;
     const ShapeId rail = b.shape("railing", [&] { return railing(kBay - 2 * start, 1.09375); });
@@ -73,7 +74,7 @@ void build_railings(PlantBuilder& b, const Unit& unit, int f) {
     }
 }
 
-/// A sloping stringer in the plane of x and y, vertical at its ends.
+/// A sloping stringer in the plane of x and y, cut vertically at its ends.
 Shape stringer(double run, double rise, double depth, double thick) {
     const Shape upright = prism(thick, {{0, 0}, {depth, 0}, {rise + depth, run}, {rise, run}});
     Shape shape;
@@ -93,7 +94,7 @@ void build_flight(PlantBuilder& b, const Unit& unit, int i, int k, int f) {
     constexpr double kWidth = 1, kGoing = 0.25, kThick = 0.046875, kBoard = 0.03125, kDepth = 0.25;
     const double g = b.gap, rise = kStorey / (kSteps + 1);
     const double run = kSteps * kGoing, climb = on_grid(kSteps * rise);
-    // Steps in the plane of (x, y) rise along x: the flight is turned to z.
+    // Built in the plane of x and y, rising along x; the pose turns the flight to z.
     const Vec3 foot = unit.in_bay(i, k, f, flight_x(f), 0, 0.875);
     const auto pose = [&](double x, double y, double z) {
         return turned(kZ, kY, add(foot, {-z, y, x}));

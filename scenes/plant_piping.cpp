@@ -11,14 +11,14 @@ namespace {
 
 struct Bore {
     int dn;        ///< nominal diameter, mm
-    double radius; ///< outer
+    double radius; ///< outer radius
     double flange; ///< radius of its flanges
 };
 constexpr std::array kBores{Bore{50, 0.03125, 0.078125},    Bore{80, 0.046875, 0.1015625},
                             Bore{100, 0.0546875, 0.109375}, Bore{150, 0.0859375, 0.140625},
                             Bore{200, 0.109375, 0.171875},  Bore{300, 0.1640625, 0.2265625}};
 
-/// Lays a run leg by leg; every piece is placed at once if there is room.
+/// Lays a pipe run leg by leg. Each piece is placed as soon as there is room for it.
 class Run {
 public:
     Run(PlantBuilder& builder, const Unit& unit, int number, std::uint64_t limit)
@@ -28,8 +28,8 @@ public:
                                   unit.bays_z * kBay - 0.25})),
           name_(fmt::format("Pipe DN{} run {}", bore_.dn, number)) {}
 
-    /// A straight leg of about `length` from `start`; false (and nothing placed) if there is no
-    /// room.
+    /// Lays a straight leg of about `length` from `start`. Returns false, with nothing placed, if
+    /// there is no room.
     bool leg(const Vec3& start, const Vec3& direction, double length) {
         if (!inside(start) || !inside(add(start, scaled(direction, length)))) {
             return false;
@@ -69,7 +69,7 @@ public:
         return true;
     }
 
-    /// A bend from the end of the last leg, and the leg after it.
+    /// Lays a bend at the end of the last leg, and the leg after it.
     bool turn_and_leg(const Vec3& from, const Vec3& to, double length) {
         const PlantBuilder::Mark mark = b_.mark();
         const double bend = on_grid(3 * bore_.radius);
@@ -87,13 +87,13 @@ public:
     }
 
 private:
-    /// Runs stay in the building, or just outside it.
+    /// Runs stay within the building or just outside it.
     [[nodiscard]] bool inside(const Vec3& p) const {
         return p.x >= low_.x && p.y >= low_.y && p.z >= low_.z && p.x <= high_.x &&
                p.y <= high_.y && p.z <= high_.z;
     }
 
-    /// Studs between two flanges; returns the distance of the flanges.
+    /// Places studs between two flanges. Returns the distance between the flanges.
     double joint(const Vec3& p, const Vec3& direction) {
         constexpr double kLength = 0.0625, kRadius = 0.01171875;
         const double circle = bore_.flange - 0.015625;
@@ -135,7 +135,7 @@ Vec3 start_point(PlantBuilder& b, const Unit& unit, Vec3& direction) {
     }
     direction = b.random.chance(0.5) ? (b.random.chance(0.5) ? kX : scaled(kX, -1))
                                      : (b.random.chance(0.5) ? kZ : scaled(kZ, -1));
-    // Most pipes hang in the upper third of a storey; coarse steps make them lie in tiers.
+    // Most pipes hang in the upper third of a storey. Coarse steps in height arrange them in tiers.
     const double y =
         b.random.chance(0.8) ? 2.5 + 0.25 * b.random.below(8) : 0.5 + 0.25 * b.random.below(6);
     const Vec3 p{b.random.uniform(0.5, 7.5), y, b.random.uniform(0.5, 7.5)};

@@ -66,7 +66,7 @@ void build_floor_beams(PlantBuilder& b, const Unit& unit, int f) {
     }
 }
 
-/// One diagonal in a face of the frame. Its pose is a true rotation: no multiple of 90 degrees.
+/// A diagonal in a face of the frame. Its rotation is not a multiple of 90 degrees.
 void build_brace(PlantBuilder& b, const Unit& unit, int f, const Vec3& foot, bool along_x,
                  bool rising) {
     const double run = kBay - 1.5, rise = kStorey - 1.75;

@@ -13,7 +13,7 @@ std::string plant_truth_json(const Plant& plant) {
     ordered_json clashes = ordered_json::array();
     for (const PlantedClash& clash : plant.truth) {
         counts[to_string(clash.kind)] = counts[to_string(clash.kind)].get<int>() + 1;
-        ordered_json distance; // null where it is not known exactly
+        ordered_json distance; // null if it is not known exactly
         if (clash.distance) {
             distance = *clash.distance;
         }

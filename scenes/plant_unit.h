@@ -28,16 +28,16 @@ struct Unit {
     int number = 1;
     Vec3 origin;
     int bays_x = 1, bays_z = 1, floors = 1;
-    int wall_tubes = 8; ///< of the boiler, a wall
+    int wall_tubes = 8; ///< per wall of the boiler
     int storage_tanks = 1;
     double rack_length = 12;
     double stack_height = 20;
-    std::vector<BayUse> use; ///< by bay: bays_z * i + k
+    std::vector<BayUse> use; ///< of bay (i, k) at index bays_z * i + k
 
     [[nodiscard]] BayUse use_of(int i, int k) const {
         return use[static_cast<std::size_t>(i * bays_z + k)];
     }
-    /// A point given from the corner of bay (i, k), at a height above floor `f`.
+    /// A point relative to the corner of bay (i, k), with y as the height above floor `f`.
     [[nodiscard]] Vec3 in_bay(int i, int k, int f, double x, double y, double z) const {
         return add(origin, {i * kBay + x, f * kStorey + y, k * kBay + z});
     }
@@ -48,11 +48,11 @@ struct Unit {
     [[nodiscard]] double boiler_height() const { return floors * kStorey + 5; }
 };
 
-/// An opening in the slabs of a bay, from the bay's corner.
+/// An opening in the slabs of a bay, relative to the bay's corner.
 struct Opening {
     double x0, z0, x1, z1;
 };
-/// The openings of a bay's slab at floor `f`; none at the ground.
+/// The openings of a bay's slab at floor `f`; none on the ground floor.
 std::vector<Opening> openings(BayUse use, int f);
 
 inline double ground_level(const PlantBuilder& b) {
@@ -69,14 +69,14 @@ void build_equipment(PlantBuilder& b, const Unit& unit);
 void build_services(PlantBuilder& b, const Unit& unit);
 void build_cladding(PlantBuilder& b, const Unit& unit);
 
-/// Lays one pipe run through what room is left; stops at `limit` triangles. False if there was no
-/// room.
+/// Lays one pipe run through the room that is left. Stops at `limit` triangles. Returns false if
+/// there was no room.
 bool lay_pipe_run(PlantBuilder& b, const Unit& unit, int number, std::uint64_t limit);
-/// Stores loose pipes and bolts in the laydown yard, until `limit` triangles are reached exactly or
+/// Stores loose pipes and bolts in the laydown yard until `limit` triangles are reached, exactly or
 /// nearly.
 void fill_laydown_yard(PlantBuilder& b, double x, double z, std::uint64_t limit);
 
-/// Plants the clashes of the options, in the building as long as it has room, else in a row at
+/// Plants the clashes of the options: in the building as long as it has room, else in rows at
 /// `laydown`.
 void plant_clashes(PlantBuilder& b, const std::vector<Unit>& units, const Vec3& laydown);
 

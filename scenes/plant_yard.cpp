@@ -7,7 +7,7 @@
 namespace abut::scenes {
 namespace {
 
-constexpr double kFrame = 6;           // from one frame of the rack to the next
+constexpr double kFrame = 6;           // distance from one frame of the rack to the next
 constexpr std::array kTiers{5.0, 7.5}; // heights of the rack's beams
 
 void build_rack_steel(PlantBuilder& b, const Unit& unit, double z) {
@@ -27,7 +27,7 @@ void build_rack_steel(PlantBuilder& b, const Unit& unit, double z) {
                     fmt::format("Rack {} beam", unit.number));
         }
     }
-    // One piece from end to end: the longest parts of the plant.
+    // One piece from end to end. These girders are the longest parts of the plant.
     const ShapeId girder = b.shape(fmt::format("rack girder {}", unit.rack_length), [&] {
         return i_section(unit.rack_length, 0.375, 0.25, 0.015625, 0.0234375);
     });

@@ -6,7 +6,7 @@
 
 namespace abut::scenes {
 
-/// Mixes the bits of x; a bijection, so distinct numbers stay distinct.
+/// Mixes the bits of x. It is a bijection, so distinct numbers stay distinct.
 ///
 /// Source      SplitMix64 [Steele, Lea, Flood 2014].
 constexpr std::uint64_t mix(std::uint64_t x) {
@@ -15,21 +15,21 @@ constexpr std::uint64_t mix(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// Random numbers that are the same on every machine: the distributions of the C++ library are not.
-/// Nor is the order in which a call's arguments are evaluated: draw one number a statement, or in
-/// braces.
+/// Random numbers that are the same on every machine; those of the C++ library's distributions are
+/// not. The order in which a call's arguments are evaluated is not fixed either: draw one number
+/// per statement, or draw within braces.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
 
     std::uint64_t next() { return mix(state_ += 0x9e3779b97f4a7c15U); }
-    /// In [0, n); n > 0.
+    /// A number in [0, n). In: n > 0.
     int below(int n) {
         return static_cast<int>(((next() >> 32) * static_cast<std::uint64_t>(n)) >> 32);
     }
-    /// In [low, high], both included.
+    /// A number in [low, high], both ends included.
     int between(int low, int high) { return low + below(high - low + 1); }
-    /// In [low, high), a multiple of 1/1024.
+    /// A number in [low, high), a multiple of 1/1024.
     double uniform(double low, double high) {
         const auto first = static_cast<std::int64_t>(low * 1024);
         const auto last = static_cast<std::int64_t>(high * 1024);

@@ -12,9 +12,9 @@ namespace abut::scenes {
 namespace {
 
 constexpr int kIterations = 12;
-/// Of a penetration, the part that one frame makes up for.
+/// The part of a penetration that one frame removes.
 constexpr double kRecovery = 0.2;
-/// Metres a second: what meets more slowly does not bounce, so that piles come to rest.
+/// Metres per second. Slower contacts do not bounce, so that piles come to rest.
 constexpr double kSlow = 0.3;
 
 /// The rotation after `seconds` of spin, to first order.
@@ -89,7 +89,7 @@ void RigidBodies::bounce() {
     solve(touches);
 }
 
-/// Nothing if the contact is one body's with itself, or of two that nothing moves.
+/// Returns nothing if both features belong to one body, or if neither body can move.
 std::optional<RigidBodies::Touch> RigidBodies::touch_of(const Contact& contact,
                                                         std::span<const Vec3> positions) const {
     Touch touch;
@@ -99,8 +99,8 @@ std::optional<RigidBodies::Touch> RigidBodies::touch_of(const Contact& contact,
     if (touch.a == touch.b || a.inverse_mass + b.inverse_mass == 0)
         return std::nullopt;
     touch.normal = contact.normal;
-    // Features that have passed each other point the wrong way: a face's outside tells, or, between
-    // two edges, the bodies' centres.
+    // For features that have passed each other, the normal points the wrong way. A face's outside
+    // corrects it or, for two edges, the direction between the bodies' centres.
     const bool to_face = contact.kind == ElementaryKind::vertex_face;
     const auto& [p, q, r, s] = contact.vertices;
     const Vec3 outward =
@@ -125,7 +125,7 @@ Vec3 RigidBodies::relative_velocity(const Touch& touch) const {
                     add(b.velocity, cross(b.spin, touch.arm_b)));
 }
 
-/// The change of speed that a unit impulse makes along its direction.
+/// The change of speed that a unit impulse causes along its direction.
 double RigidBodies::mobility(const Touch& touch, const Vec3& direction) const {
     const auto of = [&](const RigidBody& body, const Vec3& arm) {
         const Vec3 lever = cross(arm, direction);

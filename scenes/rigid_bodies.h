@@ -14,45 +14,46 @@ namespace abut::scenes {
 
 /// Units: metres and seconds.
 struct RigidBody {
-    Mesh shape; ///< closed, outward; about the centre of mass
+    Mesh shape; ///< closed, facing outward, about the centre of mass
     Pose pose;
     Vec3 velocity;
-    Vec3 spin;                  ///< radians a second about an axis
-    double inverse_mass = 0;    ///< 0: nothing moves it
+    Vec3 spin;                  ///< radians per second about an axis
+    double inverse_mass = 0;    ///< 0: the body is never pushed
     double inverse_inertia = 0; ///< the same about every axis
 };
 
 struct RigidSettings {
     Vec3 gravity{0, -9.81, 0};
-    double thickness = 0.005; ///< features nearer than this lie on each other
-    double restitution = 0.5; ///< part of the speed that a bounce gives back
+    double thickness = 0.005; ///< features closer than this rest on each other
+    double restitution = 0.5; ///< part of the speed that a bounce returns
     double friction = 0.3;    ///< Coulomb's coefficient
 };
 
-/// Rigid bodies in one mesh, in the order given. A body that meets another in a frame goes on to the
-/// end of it, and bounces in the next: such frames hold impacts, and shallow penetration.
+/// Rigid bodies in one mesh, in the given order. A body that meets another in a frame moves on to
+/// the end of that frame and bounces in the next. So frames contain impacts and shallow
+/// penetrations.
 ///
-/// Source      sequential impulses on the features that a query finds; those near each other at
+/// Source      sequential impulses on the features that a query finds. Features near each other at
 ///             the start of a frame may not approach by more than their gap.
 class RigidBodies {
 public:
     RigidBodies(std::vector<RigidBody> bodies, const RigidSettings& settings);
 
-    /// As they are now; positions are exact as floats.
+    /// The current frame. Its positions are exact as floats.
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const std::vector<RigidBody>& bodies() const { return bodies_; }
-    /// One frame on.
+    /// Advances by one frame.
     void step();
-    /// Takes other bodies.
+    /// Replaces the bodies.
     void replace(std::vector<RigidBody> bodies);
 
 private:
-    /// Two bodies where they are near each other or have met.
+    /// Two bodies at a place where they are near each other or have met.
     struct Touch {
         std::uint32_t a = 0, b = 0;
         Vec3 normal;            ///< from b towards a
         Vec3 arm_a, arm_b;      ///< from the centres to the points
-        double least_speed = 0; ///< along the normal, that is wanted
+        double least_speed = 0; ///< smallest allowed speed along the normal
     };
 
     std::optional<Touch> touch_of(const Contact& contact, std::span<const Vec3> positions) const;
@@ -67,7 +68,7 @@ private:
 
     std::vector<RigidBody> bodies_;
     RigidSettings settings_;
-    Mesh mesh_; ///< as it is now
+    Mesh mesh_; ///< the current frame
     std::vector<std::uint32_t> body_of_;
     std::vector<Vec3> start_; ///< positions at the start of the frame
     Deformable surface_;

@@ -13,7 +13,7 @@ namespace {
 using Index = std::uint32_t;
 
 Index vertex(Shape& shape, double x, double y, double z) {
-    // Multiples of 2^-16 m are exact as floats up to 256 m, and so are their sums in double.
+    // Multiples of 2^-16 m are exact as floats up to 256 m, and their sums are exact as doubles.
     const auto exact = [](double v) { return std::floor(v * 0x1p16 + 0.5) * 0x1p-16; };
     shape.mesh.positions.push_back({exact(x), exact(y), exact(z)});
     return static_cast<Index>(shape.mesh.positions.size() - 1);
@@ -23,7 +23,7 @@ void triangle(Shape& shape, Index a, Index b, Index c) {
     shape.mesh.triangles.push_back({a, b, c});
 }
 
-/// Its corners come in braces: corners that are made on the way are then made in their order.
+/// The corners come in braces, so that corners created in the argument are created in their order.
 void quad(Shape& shape, const std::array<Index, 4>& corner) {
     triangle(shape, corner[0], corner[1], corner[2]);
     triangle(shape, corner[0], corner[2], corner[3]);
@@ -43,7 +43,7 @@ double area2(const Point2& a, const Point2& b, const Point2& c) {
     return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-/// Ear clipping; sections have a dozen corners.
+/// Ear clipping. Sections have only a dozen corners.
 std::vector<std::array<Index, 3>> triangulate(const std::vector<Point2>& polygon) {
     std::vector<Index> left(polygon.size());
     for (Index i = 0; i < left.size(); ++i) {
@@ -72,7 +72,7 @@ std::vector<std::array<Index, 3>> triangulate(const std::vector<Point2>& polygon
     return result;
 }
 
-/// A ring of vertices of one turned or bent section.
+/// A ring of vertices around the x axis.
 Index ring_of(Shape& shape, double x, double radius, int sides) {
     const auto first = static_cast<Index>(shape.mesh.positions.size());
     for (int k = 0; k < sides; ++k) {
@@ -106,7 +106,7 @@ void pole(Shape& shape, Index tip, Index ring, int sides, bool faces_forward) {
     }
 }
 
-/// Profile strips along x, open at both ends: sheet metal.
+/// Sheet metal: strips along x for the segments of a profile, open at both ends.
 Shape sheet(double length, const std::vector<Point2>& profile, bool round) {
     Shape shape;
     shape.closed = false;
@@ -125,8 +125,8 @@ Shape sheet(double length, const std::vector<Point2>& profile, bool round) {
 } // namespace
 
 Point2 on_circle(int k, int n) {
-    // The library's sine may differ in the last place from machine to machine: Taylor's series does
-    // not.
+    // Uses Taylor's series: the library's sine may differ in the last digit from machine to
+    // machine.
     const int eighths = 8 * (((k % n) + n) % n); // turn = eighths / (8 n)
     const int quadrant = eighths / (2 * n);
     const double angle = (eighths - quadrant * 2 * n) * (std::numbers::pi / 4) / n; // [0, pi/2)
@@ -240,7 +240,7 @@ Shape hollow_section(double length, double depth, double width, double wall) {
         join_rings(shape, ring[k], ring[(k + 1) % 4], 4);
     }
     boxed(shape);
-    // Braces lie askew: short boxes cover them better than one.
+    // Braces lie askew: several short boxes cover them more tightly than one.
     const int pieces = std::max(1, static_cast<int>(length / 0.25));
     const Box3 whole = shape.cover[0];
     shape.cover.clear();

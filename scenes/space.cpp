@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kCell = 2;
 
-/// Calls `visit(key)` for each cell that the box meets; stops when it returns false.
+/// Calls `visit(key)` for each cell that the box meets. Stops when it returns false.
 template <class Visit>
 bool for_cells(const Box3& box, double margin, Visit visit) {
     const auto cell = [](double v) { return static_cast<std::int64_t>(std::floor(v / kCell)); };
@@ -66,7 +66,7 @@ void Space::reserve(const Box3& box, std::uint32_t owner) {
 void Space::release_to(std::size_t count) {
     while (boxes_.size() > count) {
         for_cells(boxes_.back().box, 0, [&](std::uint64_t key) {
-            cells_[key].pop_back(); // the latest reservation is the last of each of its cells
+            cells_[key].pop_back(); // the latest reservation is the last entry of each of its cells
             return true;
         });
         boxes_.pop_back();

@@ -8,19 +8,18 @@
 
 namespace abut::scenes {
 
-/// The volume that is taken, as axis-aligned boxes in a hash grid. What makes a scene free of
-/// clashes: a part is only placed where its boxes keep the gap, on at least one axis, to all that
-/// were placed before.
+/// The occupied volume, as axis-aligned boxes in a hash grid. It keeps a scene free of clashes: a
+/// part is placed only if its boxes keep the gap, on at least one axis, to all boxes placed before.
 class Space {
 public:
     static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
 
     explicit Space(double gap) : gap_(gap) {}
 
-    /// Whether a box keeps the gap to all reserved ones, but those of the owner `except`.
+    /// Whether a box keeps the gap to all reserved boxes other than those of the owner `except`.
     [[nodiscard]] bool free(const Box3& box, std::uint32_t except = kNobody) const;
     void reserve(const Box3& box, std::uint32_t owner);
-    /// Takes reservations back, the latest first, until `count` are left.
+    /// Removes reservations, the latest first, until `count` are left.
     void release_to(std::size_t count);
     [[nodiscard]] std::size_t size() const { return boxes_.size(); }
 

@@ -17,7 +17,8 @@ int pieces_of(double length, double size) {
     return std::max(1, static_cast<int>(std::floor(length / size + 0.5)));
 }
 
-/// Vertices first, first + 1, ... around the axis; those of every other ring stand half a step on.
+/// A ring of vertices first, first + 1, ... around the axis. Every other ring is offset by half a
+/// step.
 struct Ring {
     std::uint32_t first = 0;
     int count = 1;
@@ -28,7 +29,7 @@ struct Ring {
     }
 };
 
-/// Joins two rings by triangles; goes on along the one whose next vertex comes first.
+/// Joins two rings by triangles. Each triangle advances on the ring whose next vertex comes first.
 void join(Mesh& mesh, const Ring& a, const Ring& b) {
     const int last_a = a.count > 1 ? a.count : 0, last_b = b.count > 1 ? b.count : 0;
     for (int i = 0, j = 0; i < last_a || j < last_b;)
@@ -81,7 +82,7 @@ Mesh turned_surface(const std::vector<Point2>& profile, double size) {
 }
 
 std::vector<Point2> straight_profile(const Point2& from, const Point2& to, double size) {
-    constexpr double kHeight = 0.87; // of a triangle with equal edges
+    constexpr double kHeight = 0.87; // of an equilateral triangle with side 1
     const double length = norm({to.u - from.u, to.v - from.v, 0});
     const int pieces = pieces_of(length, kHeight * size);
     std::vector<Point2> profile;
@@ -107,7 +108,7 @@ Mesh capsule(double length, double radius, double size) {
 }
 
 double size_for(std::uint64_t triangles, const std::function<Mesh(double)>& make) {
-    // Triangles are as size^-2, but for rounding.
+    // The number of triangles is proportional to size^-2, up to rounding.
     double size = 0.1, best = size, least_miss = 1e300;
     for (int i = 0; i < 8; ++i) {
         const double ratio =
