@@ -13,16 +13,17 @@ constexpr std::size_t kBoxesOfPile = 20;
 constexpr std::size_t kManySpanning = 100;
 /// Steps from one burst to the next.
 constexpr std::size_t kBurst = 5;
-/// One of so many boxes takes part in it.
+/// In a burst, one of this many boxes is replaced.
 constexpr std::size_t kBurstShare = 10;
 
-/// Sides vary between half of the mean and one and a half: (a + b)^3 of two of them is about 8.3 on
-/// the average, in mean sides, and (a + b)^2 4.2.
+/// Sides vary between half and one and a half times the mean. On average, (a + b)^3 of two sides is
+/// about 8.3 and (a + b)^2 about 4.2, in units of the mean side.
 double mean_side(BoxLayout layout, std::size_t count) {
     const auto n = static_cast<double>(count);
     if (layout == BoxLayout::planes)
         return std::sqrt(kPartners * kFloors / 4.2 / n);
-    // Two of the own pile, and those of three levels of each pile that is met.
+    // Two partners are in the box's own pile; the others are in three levels of each pile that it
+    // meets.
     if (layout == BoxLayout::piles)
         return std::sqrt((kPartners - 2) / 3 * kBoxesOfPile / 4.2 / n);
     return std::cbrt(kPartners / 8.3 / n);
@@ -83,7 +84,8 @@ Vec3 BoxScene::draw_point(std::size_t index) {
 Box3 BoxScene::draw_box(std::size_t index) {
     const Vec3 p = draw_point(index);
     double side = side_;
-    if (layout_ == BoxLayout::clustered) // a thousand boxes' partners, at a deviation of side_
+    if (layout_ == BoxLayout::clustered) // gives the usual number of partners among a thousand
+                                         // boxes with a deviation of side_
         side *= 0.38;
     if (layout_ == BoxLayout::sizes)
         side *= 0.1 * std::pow(1000.0, 0.6 * draw(0, 1) * draw(0, 1));

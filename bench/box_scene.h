@@ -10,26 +10,27 @@
 
 namespace abut::bench {
 
-/// Where the boxes of a case lie.
+/// How the boxes of a case are placed.
 enum class BoxLayout : std::uint8_t {
     uniform,   ///< anywhere in the unit cube
     clustered, ///< a thousand to a cluster, clusters anywhere
     spanned,   ///< uniform, and one box around the world
     crossed,   ///< uniform, and a hundred boxes around the world
-    planes,    ///< standing on ten floors: equal coordinates
-    sizes,     ///< uniform, sides from a tenth of the mean to six times it
-    piles, ///< twenty on each other, piles anywhere: each touches the next, at equal coordinates
+    planes,    ///< standing on ten floors, so that coordinates are equal
+    sizes,     ///< uniform, with sides from a tenth of the mean to six times the mean
+    piles,     ///< piles of twenty, anywhere; each box touches the next, at equal coordinates
 };
 
-/// What boxes do from step to step.
+/// How boxes move from step to step.
 enum class BoxMotion : std::uint8_t {
-    coherent, ///< each moves in its own direction, by about 2 % of the mean side, and turns at walls
-    teleport, ///< all go elsewhere
-    bursts,   ///< coherent, and in every fifth step a tenth goes elsewhere: removed and added
-    resets,   ///< coherent, and in every fifth step all go elsewhere
+    coherent, ///< each moves in its own direction, by about 2 % of the mean side, and turns at
+              ///< walls
+    teleport, ///< all boxes jump to other places
+    bursts,   ///< coherent, and in every fifth step a tenth of the boxes jumps to other places
+    resets,   ///< coherent, and in every fifth step all boxes jump to other places
 };
 
-/// Boxes in motion, about ten partners each.
+/// Boxes in motion, each with about ten partners.
 class BoxScene {
 public:
     BoxScene(BoxLayout layout, std::size_t count, std::uint64_t seed);
@@ -39,7 +40,7 @@ public:
 
 private:
     void drift();
-    /// The boxes from one index on, `stride` apart.
+    /// Replaces the boxes from index `first` on, `stride` apart.
     void teleport(std::size_t first, std::size_t stride);
     double draw(double low, double high);
     Vec3 draw_point(std::size_t index);

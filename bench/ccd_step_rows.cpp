@@ -38,7 +38,7 @@ void add_counters(Row& row, const Impacts& impacts, const Deformable& surface) {
         static_cast<double>(surface.bytes()) / static_cast<double>(surface.triangles().size());
 }
 
-/// A whole step: the motion is set, the hierarchy fitted, all impacts are found.
+/// A whole step: sets the motion, fits the hierarchy, finds all impacts.
 Impacts do_step(Deformable& surface, const CcdStep& step) {
     surface.set_motion(step.start.positions, step.end);
     return self_impacts(surface);
@@ -142,7 +142,7 @@ std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds) {
 
 namespace {
 
-/// A scheme on the sampled frames of a scene.
+/// One scheme, with its sums over the sampled frames of a scene.
 struct SchemeSum {
     std::string name;
     DeformableOptions options;

@@ -16,16 +16,17 @@ struct CcdStep {
     std::vector<Vec3> end;
 };
 
-/// Rows of a step: all impacts and the earliest, on one thread and on two; then every scheme beside
-/// representative triangles.
+/// Rows of a step: all impacts on one thread and on two, the earliest impact, then each other
+/// scheme, assignment and culling, compared with representative triangles.
 std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds);
 
-/// Rows of a deforming scene: means over some of its frames, every scheme beside representative
-/// triangles.
+/// Rows of a deforming scene: means over some of its frames; each other scheme compared with
+/// representative triangles.
+///
 /// Errors      Error{bad_argument} if there is no such scene.
 std::vector<Row> ccd_scene_rows(const std::string& scene, int samples, int rounds);
 
-/// The build of a million triangles by Embree, which tells how fast the machine is.
+/// Our build of a million triangles and Embree's, which tells how fast the machine is.
 std::vector<Row> calibration_rows(int rounds);
 
 } // namespace abut::bench

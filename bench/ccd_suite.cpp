@@ -22,7 +22,7 @@ struct Case {
     std::string name;
     std::vector<ElementaryPair> pairs;
     std::vector<bool> truth;
-    double thickness = 0; ///< above 0: without a peer
+    double thickness = 0; ///< above 0: FCL is not measured
 };
 
 Vec3 plus(const Vec3& a, const Vec3& b) {
@@ -37,7 +37,7 @@ class PairMaker {
 public:
     explicit PairMaker(std::uint64_t seed) : engine_(seed) {}
 
-    /// Anywhere within reach of each other.
+    /// Features at random places near each other.
     ElementaryPair near(ElementaryKind kind) {
         ElementaryPair pair{kind, {}, {}};
         for (std::size_t i = 0; i < 4; ++i) {
@@ -46,7 +46,7 @@ public:
         }
         return pair;
     }
-    /// They meet within both, at a time within [0, 1].
+    /// Features that meet in the interior of both, at a time within [0, 1].
     ElementaryPair meeting(ElementaryKind kind) {
         ElementaryPair pair = near(kind);
         const bool face = kind == ElementaryKind::vertex_face;
@@ -95,10 +95,10 @@ const char* name_of(ElementaryKind kind) {
     return kind == ElementaryKind::vertex_face ? "vertex-face" : "edge-edge";
 }
 
-/// Of features of size 1.
+/// For features of size 1.
 constexpr double kThickness = 1e-3;
 
-/// Contacts, and the same with a thickness.
+/// Pairs that meet, tested without and with a thickness.
 std::vector<Case> generated_cases(const CcdSuiteOptions& options) {
     std::vector<Case> cases;
     PairMaker maker(options.seed);
@@ -116,7 +116,7 @@ std::vector<Case> generated_cases(const CcdSuiteOptions& options) {
     return cases;
 }
 
-/// The queries of all files, by kind and truth, and the contacts of both kinds.
+/// The queries of all files, by kind and truth, and all contacts of both kinds together.
 std::vector<Case> file_cases(const std::vector<std::string>& files) {
     std::array<Case, 4> cases;
     Case contacts{"queries, all contacts", {}, {}};
@@ -145,7 +145,8 @@ std::vector<Case> file_cases(const std::vector<std::string>& files) {
     return result;
 }
 
-/// A test takes less than a clock can tell: the median of rounds of several tests of one pair.
+/// Nanoseconds of one test: the median over rounds of several tests of one pair, because a single
+/// test is too short for the clock.
 template <typename Test>
 double nanoseconds_of(int rounds, const Test& test) {
     constexpr int kTests = 16;
@@ -208,7 +209,7 @@ Row measure_single(const Case& c, const CcdSuiteOptions& options) {
     return row;
 }
 
-/// Pairs whose swept boxes overlap, as a traversal hands them on.
+/// Many tests at once, on pairs whose swept boxes overlap, as a traversal would find them.
 Row measure_many(ElementaryKind kind, double thickness, const CcdSuiteOptions& options) {
     const ElementaryOptions test{.thickness = thickness};
     PairMaker maker(options.seed + 1);

@@ -18,7 +18,7 @@ bool overlap(const Box3& a, const Box3& b) {
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-/// Cubes around the part's middle that hold it however it is turned.
+/// Cubes around the parts' centres that hold the part in any rotation.
 std::vector<Box3> rotation_boxes(const ClashScene& scene) {
     double radius = 0;
     for (const Vec3& p : scene.part.positions)
@@ -73,7 +73,7 @@ ClashScene make_clash_scene(const ClashSceneOptions& options, Mesh part) {
     normalise(part);
     ClashScene scene{std::move(part), {}, {}};
     scenes::Random random(options.seed);
-    // The smallest cube of cells that holds all.
+    // The smallest cube of cells that holds all instances.
     std::size_t side = 1;
     while (side * side * side < options.instances)
         ++side;

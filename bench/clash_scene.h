@@ -10,35 +10,35 @@
 
 namespace abut::bench {
 
-/// Whose overlap makes two instances a candidate pair.
+/// The boxes whose overlap makes two instances a candidate pair.
 enum class CandidateBoxes : std::uint8_t {
-    any_rotation, ///< cubes that hold the part however it is turned, as FCL's own broad phase has
-    tight,        ///< boxes of the placed vertices, as the clash job has
+    any_rotation, ///< cubes that hold the part in any rotation, as in FCL's own broad phase
+    tight,        ///< boxes of the placed vertices, as in the clash job
 };
 
 struct ClashSceneOptions {
     std::size_t instances = 2000;
     double spacing = 0.268; ///< of the grid, in diagonals of the part
-    double bend = 1.6;      ///< of the part, radians
+    double bend = 1.6;      ///< of the part, in radians
     double tube = 0.23;     ///< mean radius of the part's tube, in radii of the bend
     CandidateBoxes boxes = CandidateBoxes::any_rotation;
     std::uint64_t seed = 1;
 };
 
-/// Many instances of one part on a jittered grid, each turned at random.
+/// Many instances of one part on a jittered grid, each rotated at random.
 struct ClashScene {
     Mesh part;
     std::vector<Transform> placements;
-    /// Pairs of instances whose boxes overlap as the options say, sorted.
+    /// Pairs of instances whose boxes overlap, as the options define them; sorted.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> candidates;
 };
 
 /// A closed bent pipe with flanges, ribs and dents: 20,000 triangles, bend of radius 1.
 Mesh flanged_elbow(double bend, double tube_radius);
 
-/// The same scene for the same options on every machine with IEEE arithmetic.
+/// Creates a scene. The same options give the same scene on every machine with IEEE arithmetic.
 ClashScene make_clash_scene(const ClashSceneOptions& options);
-/// The same with another part, scaled to a diagonal of 1.
+/// Creates a scene with another part, scaled to diagonal 1.
 ClashScene make_clash_scene(const ClashSceneOptions& options, Mesh part);
 
 } // namespace abut::bench

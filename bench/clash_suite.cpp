@@ -22,13 +22,13 @@ namespace abut::bench {
 
 namespace {
 
-constexpr std::size_t kBlock =
-    2048;                           ///< candidates that one side does before the other has its turn
-constexpr std::size_t kListed = 10; ///< disagreements that are listed
+constexpr std::size_t kBlock = 2048; ///< candidates that one side processes before the other's turn
+constexpr std::size_t kListed = 10;  ///< number of disagreements listed in the notes
 
-/// What one pass over the candidates found->
+/// The result of one pass over the candidates.
 struct Answers {
-    std::vector<double> distance; ///< 0: they meet; only meeting or not for an intersection
+    std::vector<double> distance; ///< 0 if they meet; for an intersection, any other value means
+                                  ///< that they do not
     Counters counters;
 };
 
@@ -106,7 +106,7 @@ private:
 
     [[nodiscard]] double pairs() const { return static_cast<double>(scene_.candidates.size()); }
 
-    /// Both sides on one thread; then ours on one and on several.
+    /// Measures both sides on one thread, then ours on one thread and on several.
     Row& compare(const std::string& name, const Work& ours, const Work& theirs,
                  const std::string& peer) {
         const double microseconds = 1e6 / pairs();
@@ -147,13 +147,13 @@ private:
                  "us/pair",
                  options_.threads,
                  {}};
-        // Fewer than the threads: other processes had the rest.
+        // If this is less than the number of threads, other processes used the rest.
         many.counters["cores that the machine gave"] = median(cores);
         report_.rows.push_back(many);
         return report_.rows[index];
     }
 
-    /// Counts the pairs that the two sides see differently; FCL is not exact, so some may differ.
+    /// Counts the pairs for which the two sides disagree. FCL is not exact, so some may.
     void count_disagreements(Row& row, double tolerance) {
         if (!fcl_)
             return;
@@ -255,7 +255,7 @@ private:
     Model model_;
     std::unique_ptr<FclInstances> fcl_;
     Report report_;
-    /// Per candidate. Intersection: 0 if they meet, else 1; clearance: the bounded distance.
+    /// For each candidate. Intersection: 0 if they meet, else 1. Clearance: the bounded distance.
     std::vector<double> ours_, theirs_;
     std::vector<Counters> counters_;
 };

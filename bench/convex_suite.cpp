@@ -24,7 +24,7 @@ Vec3 combined(double s, const Vec3& a, double t, const Vec3& b) {
     return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
 
-/// Turned by one degree about an axis.
+/// Rotates q by one degree about an axis.
 Quaternion turned(const Quaternion& q, const Vec3& axis) {
     const double half = 0.5 * std::numbers::pi / 180, c = std::cos(half), s = std::sin(half);
     return {c * q[0] - s * (axis.x * q[1] + axis.y * q[2] + axis.z * q[3]),
@@ -33,7 +33,7 @@ Quaternion turned(const Quaternion& q, const Vec3& axis) {
             c * q[3] + s * (axis.z * q[0] + axis.x * q[2] - axis.y * q[1])};
 }
 
-/// Points on an ellipsoid with half axes 1, 0.7, 0.5.
+/// The hull of random points on an ellipsoid with half axes 1, 0.7, 0.5.
 Convex ellipsoid(std::size_t vertices, scenes::Random& random) {
     std::vector<Vec3> points;
     while (points.size() < vertices) {
@@ -43,7 +43,7 @@ Convex ellipsoid(std::size_t vertices, scenes::Random& random) {
     return Convex(points);
 }
 
-/// Half diagonal 1, so that the reach is about that of an ellipsoid.
+/// The hull of a model, scaled to half diagonal 1, so that its reach is about that of an ellipsoid.
 Convex hull_of(const std::string& file) {
     Mesh mesh = read_mesh(file);
     normalise(mesh);
@@ -74,7 +74,8 @@ public:
     }
 
 private:
-    /// A turned at random, b too and at most `reach` away; both apart, or both meeting.
+    /// Random poses: both bodies are rotated at random, and b is at most `reach` away. The pairs
+    /// are all apart, or all meeting.
     std::vector<PosedPair> random_poses(const Convex& a, const Convex& b, bool apart) {
         std::vector<PosedPair> poses;
         while (poses.size() < options_.poses) {
@@ -88,7 +89,8 @@ private:
         return poses;
     }
 
-    /// Paths of 250 steps: b turns by one degree a step, and moves by 0.01 on a circle about a.
+    /// Paths of 250 steps: b rotates by one degree per step, and moves by 0.01 on a circle around
+    /// a.
     std::vector<PosedPair> path_poses(double radius) {
         std::vector<PosedPair> poses;
         while (poses.size() < options_.poses) {
@@ -155,7 +157,7 @@ private:
         }
     }
 
-    /// Against the triangles of the bodies, on some of the poses.
+    /// Compares with the distance of the bodies' triangles, on some of the poses.
     static double largest_error(const Convex& a, const Convex& b,
                                 const std::vector<PosedPair>& poses) {
         const Model model_a(a.mesh()), model_b(b.mesh());

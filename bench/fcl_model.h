@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-/// Meshes and transforms as FCL takes them. Only where FCL is installed.
+/// Meshes and transforms in FCL's types. Requires FCL.
 namespace abut::bench {
 
 template <class BoundingVolume>

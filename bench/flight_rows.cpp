@@ -17,7 +17,7 @@ constexpr double kStep = 1.0 / 240;
 constexpr int kSteps = 480;
 constexpr double kGravity = 9.81;
 
-/// Balls, capsules and bricks of about 0.2 in a box whose side leaves each a cubic metre.
+/// Balls, capsules and bricks about 0.2 across, in a box with a cubic metre for each.
 class Flights {
 public:
     Flights(int count, std::uint64_t seed)

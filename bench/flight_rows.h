@@ -6,8 +6,9 @@
 
 namespace abut::bench {
 
-/// Bodies of several kinds in flight, bouncing in a box: distance queries of a schedule, against one a
-/// pair a step; and the time of its steps, beside that of all pairs that touch.
+/// Adds a row for bodies of several kinds that fly and bounce in a box: how many distance queries
+/// the schedule makes, compared with one per pair and step, and the time of its steps, compared
+/// with an update that finds all touching pairs.
 void add_flight_rows(Report& report, int bodies, std::uint64_t seed);
 
 } // namespace abut::bench

@@ -19,7 +19,7 @@ namespace abut::bench {
 
 namespace {
 
-/// The mesh about the origin, its bounding box of diagonal 1.
+/// Moves the mesh to the origin, and scales it so that its bounding box has diagonal 1.
 Mesh unit_diagonal(Mesh mesh) {
     const Box3 box = inspect(mesh).bounds;
     const Vec3 size{box.upper.x - box.lower.x, box.upper.y - box.lower.y,
@@ -36,8 +36,8 @@ struct Ends {
     Pose from_a, to_a, from_b, to_b;
 };
 
-/// Both start a diagonal from the middle of the other side's way, pass it at up to a quarter of a
-/// diagonal, and turn by `turn` each.
+/// Random motions. Both bodies move by one diagonal, in opposite directions. At the end, b is
+/// within a quarter of a diagonal of a along each axis. Each turns by `turn`.
 class MotionMaker {
 public:
     MotionMaker(std::uint64_t seed, double turn) : engine_(seed), turn_(turn) {}
@@ -85,7 +85,7 @@ struct Pair {
     Mesh mesh_a, mesh_b;
 };
 
-/// Ours on every motion; FCL on as many as its time allows.
+/// Measures our query on every motion, and FCL's on as many as its time limit allows.
 Row measure(const Pair& pair, const std::string& kind, double turn,
             const ImpactSuiteOptions& options) {
     const Model a(pair.mesh_a), b(pair.mesh_b);
@@ -116,7 +116,7 @@ Row measure(const Pair& pair, const std::string& kind, double turn,
         const auto time = fcl->time_of_impact(ends.from_a, ends.to_a, ends.from_b, ends.to_b);
         theirs.push_back(thread_seconds() - start);
         their_time += theirs.back();
-        // What is proven: a contact no later than contact_time.
+        // What is proven is a contact no later than contact_time.
         if (impact.hit && impact.status == Status::exact) {
             common += 1;
             missed += time ? 0 : 1;

@@ -18,7 +18,8 @@ namespace abut::bench {
 
 namespace {
 
-/// As far as the file's reading goes, what `read_scene` gives, taken from Assimp without isolation.
+/// Reads a file with Assimp in this process, without isolation and checks. Returns what
+/// `read_scene` would, as far as reading the file goes.
 class InProcessReader {
 public:
     Scene read(const std::string& file) {
@@ -35,7 +36,7 @@ public:
         return std::move(scene_);
     }
 
-    std::vector<double> assimp_seconds; ///< Assimp's share of each reading
+    std::vector<double> assimp_seconds; ///< Assimp's part of the time, for each file read
 
 private:
     void take_node(const aiScene& source, const aiNode& node,

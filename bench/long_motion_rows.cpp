@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// nu x nv squares of two triangles; u and v in [0, 1].
+/// A grid of nu x nv squares of two triangles each. In: point(u, v), with u and v in [0, 1].
 template <typename Point>
 Mesh surface(std::uint32_t nu, std::uint32_t nv, const Point& point) {
     Mesh mesh;

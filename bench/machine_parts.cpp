@@ -11,7 +11,7 @@ namespace {
 
 using scenes::Point2;
 
-/// A prism whose outline goes to and fro between two radii.
+/// A prism whose outline alternates between two radii.
 Mesh toothed(double length, int teeth, int points, double inner, double outer) {
     std::vector<Point2> outline;
     for (int i = 0; i < teeth * points; ++i) {
@@ -22,7 +22,7 @@ Mesh toothed(double length, int teeth, int points, double inner, double outer) {
     return scenes::prism(length, outline).mesh;
 }
 
-/// Boxes that lie on a circle and do not touch.
+/// Boxes on a circle that do not touch each other.
 Mesh ring_of_boxes(int count) {
     scenes::Shape ring;
     for (int i = 0; i < count; ++i) {

@@ -12,7 +12,7 @@ struct NamedMesh {
     Mesh mesh;
 };
 
-/// Closed solids as machines have them: made of few convex pieces.
+/// Closed solids like parts of machines. They consist of few convex pieces.
 std::vector<NamedMesh> machine_parts();
 
 } // namespace abut::bench

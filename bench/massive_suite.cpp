@@ -20,7 +20,8 @@ namespace abut::bench {
 
 namespace {
 
-/// A wavy sheet as binary STL: every triangle with three vertices of its own, to be joined.
+/// Writes a wavy sheet as binary STL. Each triangle has three vertices of its own, which the import
+/// must join.
 void write_sheet(const std::string& path, std::uint64_t triangles) {
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 2));
     const auto at = [](std::uint32_t i, std::uint32_t k) {
@@ -77,8 +78,8 @@ Row import_row(const std::string& name, const ScratchFolder& folder, const std::
     return row;
 }
 
-/// The clash job of a store against the one in core, import and reading left out. In order and at
-/// random: what the partition saves.
+/// Compares the clash job on a store with the job in core. Import and reading are not measured. The
+/// units run in order and at random, which shows what the partition saves.
 void add_clash_rows(const std::string& name, const std::string& store, const std::string& model,
                     const std::vector<double>& clearances, const MassiveSuiteOptions& options,
                     Report& report) {
@@ -128,8 +129,9 @@ void add_clash_rows(const std::string& name, const std::string& store, const std
             }
 }
 
-/// What kept hierarchies cost the job that builds them, and save one that asks something else: of two
-/// copies of the store, one keeps them. Nothing else that a job leaves is used by the next.
+/// Measures what stored hierarchies cost the job that builds them, and what they save a job with
+/// another question. Only one of two copies of the store keeps them; the jobs leave nothing else
+/// that a later one uses.
 void add_hierarchy_rows(const std::string& name, const ScratchFolder& folder,
                         const std::string& store, double clearance,
                         const MassiveSuiteOptions& options, Report& report) {
@@ -172,7 +174,8 @@ void add_hierarchy_rows(const std::string& name, const ScratchFolder& folder,
     report.rows.push_back(row);
 }
 
-/// A large sheet, and small parts all over it: each needs a little of it. No two are the same mesh.
+/// A large sheet, with small parts all over it. Each part needs only a little of the sheet. No two
+/// parts have the same mesh.
 Scene sheet_and_parts(std::uint64_t triangles, int parts) {
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 2));
     const double size = 0.01 * side;
@@ -192,7 +195,8 @@ Scene sheet_and_parts(std::uint64_t triangles, int parts) {
         }
     scene.parts.push_back({"sheet", "", "", 0, {}});
     for (int i = 0; i < parts; ++i) {
-        // The golden ratio and its like spread them evenly, and next to each other in no order.
+        // Multiples of the inverse plastic number and of its square (the R2 sequence) spread the
+        // parts evenly, and neighbours in the list do not lie next to each other.
         const double x = std::fmod(0.7548776662466927 * (i + 1), 1) * (size - 1) + 0.5,
                      z = std::fmod(0.5698402909980532 * (i + 1), 1) * (size - 1) + 0.5;
         Mesh ball;

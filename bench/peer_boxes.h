@@ -10,7 +10,8 @@
 
 namespace abut::bench {
 
-/// Somebody else's way to find the overlapping pairs of boxes, step by step, on one thread.
+/// Another library's broad phase: finds the overlapping pairs of boxes, step by step, on one
+/// thread.
 class BoxPeer {
 public:
     BoxPeer() = default;
@@ -22,7 +23,7 @@ public:
     virtual std::size_t step(std::span<const Box3> boxes) = 0;
 };
 
-/// How to make each of the peers that are installed, with the boxes of the first step.
+/// Creates a peer from the boxes of the first step. The functions below list the installed peers.
 using MakeBoxPeer = std::unique_ptr<BoxPeer> (*)(std::span<const Box3>);
 std::vector<MakeBoxPeer> bullet_box_peers();
 std::vector<MakeBoxPeer> cgal_box_peers();

@@ -12,7 +12,7 @@ namespace abut::bench {
 
 namespace {
 
-/// One over the mean side: Bullet's margins are lengths for bodies of about 1.
+/// The inverse of the mean side: Bullet's margins are lengths, made for bodies of size about 1.
 double scale_of(std::span<const Box3> boxes) {
     double sum = 0;
     for (const Box3& box : boxes)
@@ -25,7 +25,8 @@ btVector3 scaled(const Vec3& p, double scale) {
             static_cast<btScalar>(scale * p.z)};
 }
 
-/// Its pairs are those of larger boxes, or of earlier ones; a caller has to look at them again.
+/// Bullet's broad phases. Their pairs are those of enlarged boxes or of earlier ones, so step()
+/// tests the boxes of each pair again.
 template <typename Interface>
 class BulletBoxes : public BoxPeer {
 public:
@@ -67,7 +68,7 @@ private:
 };
 
 std::unique_ptr<BoxPeer> make_sweep(std::span<const Box3> boxes) {
-    // The world must be known beforehand: bounds are quantised within it.
+    // The world's bounds must be known beforehand: coordinates are quantised within them.
     const double scale = scale_of(boxes);
     return std::make_unique<BulletBoxes<bt32BitAxisSweep3>>(
         "Bullet sweep and prune", boxes, scaled({-2, -2, -2}, scale), scaled({3, 3, 3}, scale),

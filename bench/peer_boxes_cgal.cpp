@@ -11,7 +11,7 @@ namespace abut::bench {
 
 namespace {
 
-/// Streamed segment trees [Zomorodian, Edelsbrunner 2000]; nothing is kept between steps.
+/// Streamed segment trees [Zomorodian, Edelsbrunner 2000]. Nothing is kept between steps.
 class CgalBoxes : public BoxPeer {
 public:
     [[nodiscard]] std::string name() const override { return "CGAL box_self_intersection_d"; }

@@ -10,8 +10,8 @@ namespace abut::bench {
 
 namespace {
 
-/// A scene of boxes, built anew each step and collided with itself; bounds as floats, not rounded
-/// outward, and what it finds is not looked at again.
+/// A scene of boxes that is rebuilt each step and collided with itself. The tree's bounds are
+/// floats, not rounded outward.
 class EmbreeBoxes : public BoxPeer {
 public:
     EmbreeBoxes(const char* name, RTCBuildQuality quality, std::span<const Box3> boxes)
@@ -49,7 +49,8 @@ private:
         to.lower_y = static_cast<float>(box.lower.y), to.upper_y = static_cast<float>(box.upper.y);
         to.lower_z = static_cast<float>(box.lower.z), to.upper_z = static_cast<float>(box.upper.z);
     }
-    /// Of candidates: pairs of leaves. Both orders come, and each box with itself.
+    /// Receives candidate pairs of leaves. Each pair comes in both orders, and each box with
+    /// itself.
     static void collect(void* user, RTCCollision* collisions, unsigned count) {
         auto& self = *static_cast<EmbreeBoxes*>(user);
         for (unsigned i = 0; i < count; ++i) {

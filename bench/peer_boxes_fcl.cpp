@@ -10,7 +10,7 @@ namespace abut::bench {
 
 namespace {
 
-/// A shape whose bounds can be set from outside.
+/// A collision object whose bounds can be set directly.
 class Boundary : public fcl::CollisionObjectd {
 public:
     Boundary() : fcl::CollisionObjectd(std::make_shared<fcl::Boxd>(1, 1, 1)) {}

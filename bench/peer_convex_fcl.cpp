@@ -16,7 +16,7 @@ std::shared_ptr<fcl::Convexd> fcl_convex(const Convex& body) {
     auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
     for (const Vec3& p : body.vertices())
         vertices->emplace_back(p.x, p.y, p.z);
-    // Each face as its number of vertices, then these.
+    // Each face is its number of vertices, followed by their indices.
     auto faces = std::make_shared<std::vector<int>>();
     for (std::size_t f = 0; f < body.face_count(); ++f) {
         faces->push_back(static_cast<int>(body.face(f).size()));
@@ -44,7 +44,7 @@ public:
         return std::max(0.0, result.min_distance); // -1 if they meet
     }
     double penetration(std::size_t pose) override {
-        // The expanding polytope of libccd: fcl::collide gives a depth that is not the least.
+        // Uses libccd's expanding polytope: fcl::collide returns a depth that is not the smallest.
         const auto& [a, b] = poses_[pose];
         fcl::DistanceResultd result;
         fcl::distance(a_.get(), a, b_.get(), b, fcl::DistanceRequestd(true, true), result);

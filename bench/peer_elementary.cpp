@@ -18,7 +18,7 @@ std::optional<double> fcl_elementary_impact(const ElementaryPair& pair) {
     const auto &s = pair.start, &e = pair.end;
     double time = 0;
     FclPoint place;
-    // The vertex comes last there.
+    // FCL takes the vertex last.
     const bool hit =
         pair.kind == ElementaryKind::vertex_face
             ? fcl::detail::Intersect<double>::intersect_VF(point(s[1]), point(s[2]), point(s[3]),

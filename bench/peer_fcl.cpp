@@ -69,7 +69,7 @@ private:
         return fmt::format("FCL {}, {}", FCL_VERSION, volume.name);
     }
 
-    /// Tries pairs that are spread over all candidates.
+    /// Measures pairs spread over all candidates.
     template <class Query>
     static double seconds_a_pair(const ClashScene& scene, std::size_t pairs, const Query& query) {
         pairs = std::min(pairs, scene.candidates.size());
@@ -91,7 +91,7 @@ private:
         Volume fastest;
         for (const Volume& volume : volumes) {
             chosen = volume;
-            // A few pairs show which volumes are far behind; the others are tried on many.
+            // A few pairs show which volumes are far slower; only the others are measured on many.
             double seconds = seconds_a_pair(scene, 10, query);
             if (fastest.name.empty() || seconds < 3 * best)
                 seconds = seconds_a_pair(scene, 4000, query);

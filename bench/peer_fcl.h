@@ -8,20 +8,21 @@
 
 namespace abut::bench {
 
-/// FCL on the instances of one part. Without FCL nothing can be made.
+/// FCL on the instances of one part.
 class FclInstances {
 public:
     virtual ~FclInstances() = default;
 
-    /// Boolean first contact of two instances.
+    /// Whether two instances are in contact. Stops at the first contact.
     [[nodiscard]] virtual bool collide(std::uint32_t a, std::uint32_t b) const = 0;
-    /// The distance if it is below `upper_bound`, else that bound: the search starts with it.
+    /// The distance if it is below `upper_bound`, else that bound. The search starts with the
+    /// bound.
     [[nodiscard]] virtual double distance(std::uint32_t a, std::uint32_t b,
                                           double upper_bound) const = 0;
     /// "FCL 0.7.0, RSS": the volume that was fastest for the query on a sample.
     [[nodiscard]] virtual std::string collide_name() const = 0;
     [[nodiscard]] virtual std::string distance_name() const = 0;
-    /// Microseconds a pair of each volume on the sample, one line a query.
+    /// Microseconds per pair on the sample for each volume, one line for each query.
     [[nodiscard]] virtual std::vector<std::string> choice() const = 0;
 
 protected:
@@ -30,8 +31,8 @@ protected:
     FclInstances& operator=(const FclInstances&) = default;
 };
 
-/// Builds FCL's hierarchy with each of its volumes and keeps the fastest for each query, tried on a
-/// sample of the candidates. Null where this program is built without FCL.
+/// Builds FCL's hierarchy with each of its volumes, and keeps the fastest for each query on a
+/// sample of the candidates. Null if this program is built without FCL.
 std::unique_ptr<FclInstances> make_fcl_instances(const ClashScene& scene, double clearance);
 
 } // namespace abut::bench

@@ -8,12 +8,13 @@
 
 namespace abut::bench {
 
-/// FCL's continuous collision of two meshes. Without FCL nothing can be made.
+/// FCL's continuous collision of two meshes.
 class FclImpact {
 public:
     virtual ~FclImpact() = default;
 
-    /// The time of contact that it reports, each body moving from its first pose to its second.
+    /// The reported time of contact, if there is one. Each body moves from its first pose to its
+    /// second.
     [[nodiscard]] virtual std::optional<double> time_of_impact(const Pose& from_a, const Pose& to_a,
                                                                const Pose& from_b,
                                                                const Pose& to_b) const = 0;
@@ -24,8 +25,8 @@ protected:
     FclImpact& operator=(const FclImpact&) = default;
 };
 
-/// Conservative advancement, the one solver of FCL's that is not sampled and turns too, on OBBRSS,
-/// to a time error of 1e-4. Null where this program is built without FCL.
+/// Conservative advancement on OBBRSS, to a time error of 1e-4. Of FCL's solvers, only this one
+/// handles rotation without sampling. Null if this program is built without FCL.
 std::unique_ptr<FclImpact> make_fcl_impact(const Mesh& a, const Mesh& b);
 
 } // namespace abut::bench

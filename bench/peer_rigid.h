@@ -18,9 +18,10 @@ public:
 
     [[nodiscard]] virtual const std::string& name() const = 0;
     [[nodiscard]] virtual bool answers(RigidQuery query) const = 0;
-    /// Called once a pose, untimed: what the library must prepare when a model moves.
+    /// Called once for each pose, untimed: prepares what the library needs after a model has moved.
     virtual void place(const PosedPair& /*poses*/) {}
-    /// Number of contacts (1 at most for the first), the distance, or 1 if within `tolerance`.
+    /// Returns the number of contacts (at most 1 for first_contact), the distance, or 1 if within
+    /// `tolerance`.
     virtual double run(RigidQuery query, const PosedPair& poses, double tolerance) = 0;
 
 protected:
@@ -29,18 +30,17 @@ protected:
     RigidPeer& operator=(const RigidPeer&) = default;
 };
 
-/// FCL with each of its volumes; empty where this program is built without FCL.
+/// FCL with each of its volumes. Empty if this program is built without FCL.
 std::vector<std::unique_ptr<RigidPeer>> make_fcl_peers(const Mesh& a, const Mesh& b);
-/// CGAL's trees of triangles with exact predicates; null where built without CGAL, or for a mesh
-/// that is no polygon mesh.
+/// CGAL's trees of triangles with exact predicates. Null if built without CGAL.
 std::unique_ptr<RigidPeer> make_cgal_peer(const Mesh& a, const Mesh& b);
-/// Embree's collision of two scenes: pairs of leaf boxes, without testing the triangles in them.
-/// Null where built without Embree.
+/// Embree's collision of two scenes: pairs of leaf boxes, without tests of the triangles in them.
+/// Null if built without Embree.
 std::unique_ptr<RigidPeer> make_embree_peer(const Mesh& a, const Mesh& b);
 
 /// Seconds that Embree takes to build a triangle tree of medium quality on one thread.
 std::optional<double> embree_build_seconds(const Mesh& mesh);
-/// Seconds that FCL takes to build its OBBRSS tree, and its bytes.
+/// Seconds that FCL takes to build its OBBRSS tree, and the tree's bytes.
 struct FclBuild {
     double seconds = 0, bytes = 0;
 };

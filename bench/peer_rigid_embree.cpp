@@ -19,7 +19,7 @@ Vec3 placed(const Transform& t, const Vec3& p) {
             m[2] * p.x + m[5] * p.y + m[8] * p.z + m[11]};
 }
 
-/// A mesh as user geometry, as rtcCollide asks for.
+/// A mesh as user geometry, which rtcCollide requires.
 class EmbreeModel {
 public:
     EmbreeModel(RTCDevice device, const Mesh& mesh)

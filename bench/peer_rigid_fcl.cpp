@@ -38,7 +38,7 @@ public:
             return static_cast<double>(result.numContacts());
         }
         const fcl::DistanceRequestd request(false);
-        // A search that starts with the tolerance leaves out all that is farther.
+        // A search that starts at the tolerance skips everything farther away.
         fcl::DistanceResultd result(
             query == RigidQuery::within ? tolerance : std::numeric_limits<double>::max());
         fcl::distance(a_.get(), world_from_a_, b_.get(), world_from_b_, request, result);

@@ -7,7 +7,7 @@
 
 namespace abut::bench {
 
-/// A peer that answers for one mesh.
+/// A peer that answers ray queries on one mesh.
 class RayPeer {
 public:
     virtual ~RayPeer() = default;
@@ -31,11 +31,11 @@ protected:
     NearestPeer& operator=(const NearestPeer&) = default;
 };
 
-/// Embree in single precision, its robust mode. Null where this program is built without it.
+/// Embree in single precision, in its robust mode. Null if this program is built without Embree.
 std::unique_ptr<RayPeer> make_embree_rays(const Mesh& mesh);
 
-/// CGAL's AABB tree in double precision, built with its search tree for closest points. Null where
-/// this program is built without it.
+/// CGAL's AABB tree in double precision, with its search tree for closest points. Null if this
+/// program is built without CGAL.
 std::unique_ptr<NearestPeer> make_cgal_nearest(const Mesh& mesh);
 
 } // namespace abut::bench

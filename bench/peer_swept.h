@@ -7,9 +7,9 @@
 
 namespace abut::bench {
 
-/// Pairs of triangles of one mesh whose swept boxes overlap: Embree builds its tree and collides it
-/// with itself, on one thread. Less than half of continuous collision detection: no elementary test
-/// is made. Nothing where built without Embree.
+/// The number of triangle pairs of one mesh whose swept boxes overlap. Embree builds its tree and
+/// collides it with itself, on one thread. This is less than half of continuous collision
+/// detection: no elementary tests are made. Nothing if built without Embree.
 std::optional<std::size_t> embree_swept_pairs(const CcdStep& step);
 
 } // namespace abut::bench

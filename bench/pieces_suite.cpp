@@ -50,7 +50,7 @@ constexpr std::array kCases{
 };
 constexpr double kTolerance = 0.1;
 
-/// A tenth of a degree about an axis.
+/// Rotates q by a tenth of a degree about an axis.
 std::array<double, 4> turned(const std::array<double, 4>& q, const Vec3& axis) {
     const double half = 0.05 * std::numbers::pi / 180, c = std::cos(half), s = std::sin(half);
     return {c * q[0] - s * (axis.x * q[1] + axis.y * q[2] + axis.z * q[3]),
@@ -59,8 +59,8 @@ std::array<double, 4> turned(const std::array<double, 4>& q, const Vec3& axis) {
             c * q[3] + s * (axis.z * q[0] + axis.x * q[2] - axis.y * q[1])};
 }
 
-/// Paths as a simulation takes them: 50 steps of 0.1 degrees and 0.0005, from 0.02 to 0.2 outside
-/// of the balls' touch on.
+/// Paths as in a simulation: 50 steps of 0.1 degrees and 0.0005. They start at the separated poses,
+/// where b is 0.05 to 0.5 farther away than at its first touch.
 std::vector<PosedPair> small_steps(const RigidScene& scene, std::size_t count,
                                    scenes::Random& random) {
     std::vector<PosedPair> poses;
@@ -70,7 +70,7 @@ std::vector<PosedPair> small_steps(const RigidScene& scene, std::size_t count,
         const Vec3 axis = random_direction(random), step = random_direction(random);
         Pose moved;
         for (std::size_t i = 0; i < kPathSteps && poses.size() < count; ++i) {
-            // b's pose, then the step's in front of it.
+            // The pose of b, followed by the step's motion.
             const Transform by = moved;
             Transform b;
             for (std::size_t c = 0; c < 4; ++c)
@@ -119,7 +119,7 @@ void add_build_row(const std::string& name, const Mesh& mesh, int rounds, Report
           {"the tree's bytes a triangle", static_cast<double>(model.bytes()) / triangles}}});
 }
 
-/// A sphere with one shallow dent: nearly all of it is one patch.
+/// A sphere with one shallow dent. Nearly all of its surface is one convex patch.
 Mesh dented_sphere(std::uint32_t triangles) {
     Mesh mesh = scenes::sphere(triangles);
     for (Vec3& p : mesh.positions)
@@ -238,7 +238,8 @@ private:
                 {}};
         if (c.ask == Ask::distance)
             row.counters["hull pairs"] = hull_pairs / count / options_.rounds;
-        if (c.ask == Ask::penetration) { // both bound the way out from below, by other means
+        if (c.ask == Ask::penetration) { // both are lower bounds of the depth, found in different
+                                         // ways
             const double sum = std::accumulate(our_answers.begin(), our_answers.end(), 0.0);
             row.counters["depth, of theirs"] =
                 sum / std::accumulate(their_answers.begin(), their_answers.end(), 0.0);

@@ -30,7 +30,8 @@ double unit(scenes::Random& random) {
     return static_cast<double>(random.next() >> 11) * 0x1p-53;
 }
 
-/// Uniform over all rotations.
+/// A random rotation, uniform over all rotations.
+///
 /// Source      [Shoemake 1992].
 std::array<double, 4> random_rotation(scenes::Random& random) {
     const double u = unit(random), v = kTurn * unit(random), w = kTurn * unit(random);
@@ -51,7 +52,7 @@ Box3 box_of(const Mesh& mesh, const Transform& placement) {
     return box;
 }
 
-/// Moves the middle of the box to the origin and scales its diagonal to 1.
+/// Moves the middle of the mesh's box to the origin, and scales the diagonal to 1.
 void normalise(Mesh& mesh) {
     const Box3 box = box_of(mesh, {});
     const Vec3 size{box.upper.x - box.lower.x, box.upper.y - box.lower.y,

@@ -9,20 +9,21 @@
 
 namespace abut::bench {
 
-/// In [0, 1).
+/// A number in [0, 1).
 double unit(scenes::Random& random);
 
-/// Uniform over all rotations.
+/// A random rotation, uniform over all rotations.
+///
 /// Source      [Shoemake 1992].
 std::array<double, 4> random_rotation(scenes::Random& random);
 
-/// Uniform over the unit sphere.
+/// A random direction, uniform over the unit sphere.
 Vec3 random_direction(scenes::Random& random);
 
-/// Box of the placed vertices.
+/// The box of the placed vertices.
 Box3 box_of(const Mesh& mesh, const Transform& placement);
 
-/// Moves the middle of the box to the origin and scales its diagonal to 1.
+/// Moves the middle of the mesh's box to the origin, and scales the diagonal to 1.
 void normalise(Mesh& mesh);
 
 } // namespace abut::bench

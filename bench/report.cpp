@@ -18,7 +18,7 @@ std::string processor() {
     return "unknown processor";
 }
 
-/// The widest instruction set that the kernels can use here; they are chosen at run time.
+/// The widest instruction set that the kernels can use here. They select it at run time.
 const char* instruction_set() {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512bw"))

@@ -66,7 +66,7 @@ public:
         for (std::size_t i = 0; i < kPathSteps; ++i) {
             Transform b = Pose{at, turn_b};
             if (!(distance(a_, a, b_, b).distance > 0.01)) {
-                // Turn back before they meet.
+                // Reverse the direction before they meet.
                 step = scaled(step, -1);
                 at = add(at, scaled(step, 2));
                 b = Pose{at, turn_b};
@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    /// Comes in from far away, never further than the distance, until that is next to nothing.
+    /// Moves b in from far away, each time by the distance that is left, until almost none is left.
     template <class At>
     double first_touch(const Transform& a, const At& b_at) {
         double offset = 1.1;

@@ -11,11 +11,11 @@
 
 namespace abut::bench {
 
-/// Where two models of diagonal 1 stand to each other.
+/// The relative position of two models of diagonal 1.
 enum class Regime : std::uint8_t {
     deep,      ///< middles at most 0.2 apart
-    graze_in,  ///< at most 0.01 further in than where they first touch
-    graze_out, ///< at most 0.01 further out
+    graze_in,  ///< at most 0.01 further in than their first touch
+    graze_out, ///< at most 0.01 further out than their first touch
     separated, ///< 0.05 to 0.5 further out
     path,      ///< paths of 50 steps of 1 degree and 0.005, starting 0.1 further out; no contact
 };
@@ -39,8 +39,8 @@ struct RigidScene {
     }
 };
 
-/// The same poses for the same meshes and seed on every machine, but for rounding in where they
-/// first touch.
+/// Creates the poses. The same meshes and seed give the same poses on every machine, up to rounding
+/// of the distance at which they first touch.
 RigidScene make_rigid_scene(std::string name, Mesh a, Mesh b, std::size_t poses,
                             std::uint64_t seed);
 

@@ -20,7 +20,7 @@ namespace abut::bench {
 namespace {
 
 constexpr double kNear = 0.005, kFar = 0.1; ///< tolerances, in diagonals
-/// For each of FCL's volumes, to find the best: some take seconds a pose.
+/// Time to try each of FCL's volumes for a case: with some, a pose takes seconds.
 constexpr double kSampleSeconds = 2;
 
 double sum(const std::vector<double>& values) {
@@ -47,7 +47,7 @@ constexpr std::array kCases{
     Case{"within 0.1, separated", RigidQuery::within, Regime::separated, kFar},
 };
 
-/// Seconds of each pose, the median over the rounds.
+/// The times of each pose, and their median over the rounds.
 class PoseTimes {
 public:
     explicit PoseTimes(std::size_t poses) : seconds_(poses) {}
@@ -70,7 +70,7 @@ struct Answer {
 
 class RigidSuite {
 public:
-    /// Without peers where one kind of volume is to be compared with the others.
+    /// In: alone, to leave out the peers when kinds of volumes are compared with each other.
     RigidSuite(const RigidSuiteOptions& options, const RigidScene& scene, Report& report,
                Volume volume, bool alone)
         : options_(options), scene_(scene), report_(report), volume_(volume),
@@ -111,7 +111,7 @@ private:
         }
     }
 
-    /// FCL's fastest volume for the case on a sample of the poses.
+    /// FCL's fastest volume for the case, on a sample of the poses.
     RigidPeer* best_fcl(const Case& c) {
         RigidPeer* best = nullptr;
         double least = 0;
@@ -158,7 +158,8 @@ private:
         PoseTimes our_times(poses.size()), their_times(poses.size());
         std::vector<Answer> our_answers(poses.size());
         std::vector<double> their_answers(poses.size());
-        // In turn, some poses each: either finds its own data in the caches, as its user would.
+        // Takes turns, some poses each. Either side then has its own data in the caches, as a user
+        // would.
         constexpr std::size_t kBlock = kPathSteps;
         for (int round = 0; round < options_.rounds; ++round)
             for (std::size_t first = 0; first < poses.size(); first += kBlock) {
@@ -198,7 +199,8 @@ private:
         report_.rows.push_back(row);
     }
 
-    /// FCL is not exact: contacts may differ where triangles all but touch. Distances should not.
+    /// Counts disagreements. FCL is not exact: contacts may differ if triangles almost touch.
+    /// Distances should not differ.
     static std::size_t count_disagreements(const Case& c, const std::vector<Answer>& ours,
                                            const std::vector<double>& theirs) {
         std::size_t count = 0;
@@ -214,12 +216,12 @@ private:
     Volume volume_;
     Model a_, b_;
     std::vector<std::unique_ptr<RigidPeer>> peers_;
-    /// Taken off each time: the shortest queries take no longer.
+    /// Subtracted from each time: the shortest queries take no longer than reading the clock.
     double clock_ = clock_seconds();
-    std::size_t fcl_ = 0; ///< the first so many peers are FCL
+    std::size_t fcl_ = 0; ///< the number of peers that are FCL; they come first
 };
 
-/// Against the peers where the volume is ours to choose.
+/// Measures the build. Compares it with the peers only if the volume is chosen automatically.
 void run_build(const std::string& name, const Mesh& mesh, int rounds, Volume volume,
                Report& report) {
     const bool alone = volume != Volume::automatic;

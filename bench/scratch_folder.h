@@ -9,7 +9,7 @@
 
 namespace abut::bench {
 
-/// Gone with all that it holds.
+/// A temporary folder. The destructor removes it with all its content.
 class ScratchFolder {
 public:
     ScratchFolder() {

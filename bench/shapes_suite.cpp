@@ -15,7 +15,7 @@ namespace abut::bench {
 
 namespace {
 
-/// A torus with waves on it, closed, of about so many triangles.
+/// A closed torus with waves on it, of about this many triangles.
 Mesh wavy_torus(std::uint32_t triangles) {
     const auto n = static_cast<std::uint32_t>(std::sqrt(triangles / 4.0));
     const std::uint32_t columns = 2 * n;
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    /// In the model's box, grown about its middle.
+    /// A random point in the model's box, scaled by `grown` about its centre.
     Vec3 point(double grown) {
         const auto along = [&](double low, double high) {
             const double middle = 0.5 * (low + high), half = 0.5 * grown * (high - low);
@@ -69,7 +69,8 @@ private:
         return {x, y, z};
     }
 
-    /// Ours and theirs for every query, each returning a number; these should agree to `tolerance`.
+    /// Measures ours and theirs on every query. Each returns a number; the numbers should agree to
+    /// `tolerance`.
     template <typename Ours, typename Theirs>
     void compare(const std::string& name, const Ours& ours, const Theirs* theirs,
                  const std::string& peer, double tolerance) {

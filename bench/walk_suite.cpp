@@ -24,12 +24,12 @@ constexpr double kFrame = 1.0 / 60;
 /// A person: 1.8 m tall, y up.
 const Capsule kPerson{{{0, -0.6, 0}, {0, 0.6, 0}}, 0.3};
 
-/// What is asked of a walk.
+/// The settings of one walk.
 struct WalkCase {
     std::string name;
     double speed = 1.4;    ///< m/s
     double jump_every = 0; ///< seconds between jumps to another place; 0: none
-    int moving_parts = 0;  ///< parts of the store that are moved in every frame
+    int moving_parts = 0;  ///< number of parts of the store that are moved in every frame
     bool prefetch = true;
 };
 
@@ -40,8 +40,8 @@ double dot(const Vec3& a, const Vec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Places in the thick of the plant, each beside a part with others around it. The next lies within 20 m, or
-/// anywhere.
+/// Crowded places of the plant, each next to a part with others around it. Each lies within 20 m of
+/// the previous one, or anywhere.
 std::vector<Vec3> make_places(const Store& store, bool anywhere, int count, std::uint64_t seed) {
     Walk guide(store, {.memory = std::uint64_t{16} << 20, .prefetch = false});
     const Probe point(Sphere{{}, 0});
@@ -52,7 +52,7 @@ std::vector<Vec3> make_places(const Store& store, bool anywhere, int count, std:
     };
     std::vector<Vec3> places;
     for (int tries = 0; static_cast<int>(places.size()) < count && tries < 100 * count; ++tries) {
-        constexpr double kHighest = 45; // floors end there
+        constexpr double kHighest = 45; // the height at which floors end
         Vec3 at{draw(bounds.lower.x, bounds.upper.x), draw(bounds.lower.y, kHighest),
                 draw(bounds.lower.z, bounds.upper.z)};
         if (!anywhere && !places.empty())
@@ -67,7 +67,7 @@ std::vector<Vec3> make_places(const Store& store, bool anywhere, int count, std:
     return places;
 }
 
-/// A straight way from one place to the next, and so on. Where it would go into a part it slides along it.
+/// Walks straight from each place to the next. Where a part is in the way, it slides along it.
 class Wanderer {
 public:
     Wanderer(std::vector<Vec3> places, double speed)
@@ -110,7 +110,8 @@ private:
     double way_ = 0;
 };
 
-/// Wall time of so much work that asks for nothing: what the machine's other work adds.
+/// The wall time of a loop that computes for this long and queries nothing. It shows what the
+/// machine's other load adds.
 double spin(double seconds) {
     const double start = wall_seconds(), computed = thread_seconds();
     while (thread_seconds() - computed < seconds) {
@@ -126,7 +127,7 @@ double percentile(std::vector<double> values, double share) {
     return values[static_cast<std::size_t>(at)];
 }
 
-/// Parts near the walker that swing to and fro.
+/// Parts near the walker that swing back and forth.
 class MovingParts {
 public:
     MovingParts(Walk& walk, const Vec3& near, int count) : walk_(walk) {
@@ -203,7 +204,7 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
         candidates += nearest.candidates;
         sum_of_distances += nearest.gap.distance;
         spin_ms.push_back(1e3 * spin(processor_ms.back() / 1e3));
-        // A frame is 1/60 s of wall time; one that is late does not make the next ones shorter.
+        // A frame is 1/60 s of wall time. A late frame does not shorten the next ones.
         next += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
             std::chrono::duration<double>(kFrame));
         const auto now = std::chrono::steady_clock::now();
@@ -263,7 +264,7 @@ Report run_walk_suite(const WalkSuiteOptions& options) {
         (void)import_models({model}, path);
     }
     const Store store = open_store(path);
-    // Least memory first: the peak of the process only grows.
+    // Smallest memory first, because the process's peak never falls.
     std::vector<std::uint64_t> memory = options.memory;
     std::sort(memory.begin(), memory.end());
     std::vector<std::pair<WalkCase, std::uint64_t>> cases;

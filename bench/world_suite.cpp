@@ -37,10 +37,11 @@ struct MotionName {
 constexpr std::array kMotions{
     MotionName{BoxMotion::coherent, "coherent"}, MotionName{BoxMotion::teleport, "teleport"},
     MotionName{BoxMotion::bursts, "bursts"}, MotionName{BoxMotion::resets, "resets"}};
-/// Beyond this many, a hundred boxes around the world have more pairs than fit into a machine's memory.
+/// With more boxes than this, the pairs of a hundred boxes around the world do not fit into memory.
 constexpr std::size_t kMostCrossed = 200'000;
 
-/// The kinds of motion that a layout is measured in: all where nothing else is special.
+/// Whether a motion is measured for a layout: all motions for the uniform layout, two for the
+/// others.
 bool is_measured(BoxLayout layout, BoxMotion motion, std::size_t count) {
     if (layout == BoxLayout::crossed && count > kMostCrossed)
         return false;
@@ -56,7 +57,7 @@ std::vector<MakeBoxPeer> all_peers() {
     return peers;
 }
 
-/// Not the median: some put off their work for some steps.
+/// The mean rather than the median, because some peers defer work to later steps.
 double mean(const std::vector<double>& values) {
     double sum = 0;
     for (const double value : values)
@@ -64,15 +65,15 @@ double mean(const std::vector<double>& values) {
     return sum / static_cast<double>(std::max<std::size_t>(values.size(), 1));
 }
 
-/// What one of them took.
+/// The times of one broad phase.
 struct Times {
     std::string name;
     std::size_t pairs = 0; ///< in the last step
     std::vector<double> seconds{};
 };
 
-/// What a peer took last, and may take with more boxes: some take the square, some little more than
-/// their number.
+/// The time that a peer took last, and an estimate of its time for more boxes. For some peers the
+/// time grows with the square of their number, for others little more than linearly.
 struct Experience {
     std::size_t boxes = 0;
     double seconds = 0;
@@ -80,7 +81,7 @@ struct Experience {
         return seconds * std::pow(static_cast<double>(count) / static_cast<double>(boxes), 1.25);
     }
 };
-/// So many steps may be worth one time of putting all boxes in.
+/// Inserting all boxes is taken to be worth this many steps.
 constexpr double kStepsOfBuild = 5;
 
 class WorldSuite {
@@ -145,12 +146,12 @@ private:
         add_rows(name, count, ours, theirs);
     }
 
-    /// More with fewer boxes: their steps are short.
+    /// Fewer boxes get more steps, because their steps are short.
     [[nodiscard]] int steps_of(std::size_t count) const {
         return std::max(options_.steps, static_cast<int>(50'000 / std::max<std::size_t>(count, 1)));
     }
 
-    /// Leaves out one that would be too slow, by what it took with fewer boxes.
+    /// Adds a peer, unless its times with fewer boxes show that it would be too slow.
     void add_peer(MakeBoxPeer make, const BoxScene& scene, BoxMotion motion,
                   std::vector<std::unique_ptr<BoxPeer>>& peers, std::vector<Times>& theirs) {
         const std::string name = make(std::span<const Box3>())->name();
@@ -208,7 +209,7 @@ private:
 
     const WorldSuiteOptions& options_;
     Report report_;
-    std::map<std::pair<std::string, BoxMotion>, Experience> last_; ///< by peer
+    std::map<std::pair<std::string, BoxMotion>, Experience> last_; ///< of each peer and motion
 };
 
 } // namespace
