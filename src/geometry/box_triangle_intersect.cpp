@@ -41,7 +41,6 @@ bool plane_separates(const Box3& box, const Triangle& t) {
     Corners corners(box);
     for (int axis = 0; axis < 3; ++axis)
         corners.turn(axis, orient2d(t[0], t[1], t[2], axis)); // the sign of the normal's component
-                                                              // along the axis
     return orient3d(t[0], t[1], t[2], corners.least) > 0 ||
            orient3d(t[0], t[1], t[2], corners.greatest) < 0;
 }

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/elementary_crossing.cpp"
 #include "simd/foreach_target.h"
-// Once for each target:
+// Included once for each target:
 #include "geometry/elementary_lanes-inl.h"
 #include "math/rounding.h"
 
@@ -27,7 +27,7 @@ HWY_INLINE Lanes3<D> blend(hn::Vec<D> one_minus_t, hn::Vec<D> t, const Lanes3<D>
 template <class D>
 struct Cubic {
     hn::Vec<D> b[4];
-    hn::Vec<D> error; ///< bounds that of a coefficient and of a value at any time of the part
+    hn::Vec<D> error; ///< error bound of a coefficient, and of a value at any time of the part
 
     /// The coplanarity corner . (x x y) over [0, 1].
     static HWY_INLINE Cubic of(D d, const Patches<D>& p) {
@@ -40,8 +40,8 @@ struct Cubic {
             hn::Mul(third, hn::Add(dot<D>(p.corner[1], p.area_1), dot<D>(p.corner[0], p.area_2)));
         c.b[3] = dot<D>(p.corner[1], p.area_2);
         // A coefficient has six products with at most 13 roundings. An evaluation is three blends
-        // with rounded weights, each off by 4 eps, and so is the split that made a half. Near
-        // overflow, nothing is certain.
+        // with rounded weights, each off by 4 eps; the split that made a half is off by as much.
+        // Near overflow, nothing is certain.
         const auto size = hn::Max(hn::Max(hn::Abs(c.b[0]), hn::Abs(c.b[1])),
                                   hn::Max(hn::Abs(c.b[2]), hn::Abs(c.b[3])));
         const auto size_xy = hn::Mul(p.size_x, p.size_y), product = hn::Mul(size_xy, p.size_c);
@@ -78,7 +78,8 @@ struct Cubic {
     [[nodiscard]] HWY_INLINE hn::Mask<D> rises() const {
         return hn::And(hn::Lt(b[0], hn::Neg(error)), hn::Gt(b[3], error));
     }
-    /// The approximate time of the maximum within the part; any time if there is none.
+    /// The approximate time of the maximum within the part. If there is none, some time within the
+    /// part.
     [[nodiscard]] HWY_INLINE hn::Vec<D> maximum(D d) const {
         // b'(t) / 3 = c2 t^2 + 2 c1 t + c0; takes the root at which b' changes from plus to minus.
         const auto c0 = hn::Sub(b[1], b[0]), c1 = hn::Sub(hn::Sub(b[2], b[1]), c0),

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geometry/elementary_filter.cpp"
 #include "simd/foreach_target.h"
-// Once for each target:
+// Included once for each target:
 #include "geometry/elementary_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -34,7 +34,7 @@ struct CubicCell {
 /// corner . (side_x x side_y): zero where the origin lies in the patch's plane.
 struct Coplanarity {
     std::array<double, 4> b{};
-    double size;  ///< of the largest coefficient
+    double size;  ///< magnitude of the largest coefficient
     double error; ///< bound for each coefficient
 
     explicit Coplanarity(const RoundedPatch& p) {
@@ -176,7 +176,8 @@ enum class Meeting { apart, meet, unknown };
 
 struct Contact {
     Meeting meeting = Meeting::unknown;
-    double x = 0, y = 0; ///< of the origin, approximate; meaningless if the patch is degenerate
+    double x = 0, y = 0; ///< position of the origin, approximate; meaningless if the patch is
+                         ///< degenerate
     Vec3 normal;
 };
 

@@ -8,8 +8,7 @@ namespace abut {
 LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
     using Kind = LeastOverlap::Kind;
     const Vec3 d = b.centre - a.centre;
-    double turn[3][3], way_a[3], way_b[3]; // b's axes in a's frame; the vector to b in a's frame
-                                           // and in b's
+    double turn[3][3], way_a[3], way_b[3]; // b's axes in a's frame; the vector to b in both frames
     for (std::size_t i = 0; i < 3; ++i) {
         way_a[i] = dot(d, a.axis[i]);
         way_b[i] = dot(d, b.axis[i]);
@@ -42,7 +41,7 @@ LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
             const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3,
                               k2 = (k + 2) % 3;
             const double sq = turn[i1][k] * turn[i1][k] + turn[i2][k] * turn[i2][k];
-            // For nearly parallel edges, the face axes cover the cross product's axis.
+            // For nearly parallel edges, the face axes already tell what their cross product would.
             if (sq <= 0x1p-40)
                 continue;
             const double scale = 1 / std::sqrt(sq);

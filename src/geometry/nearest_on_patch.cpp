@@ -94,9 +94,9 @@ private:
     Bound best_;
 };
 
-/// The direction from the origin to the nearest point. The gap itself is off by roundings of the
-/// coordinates, which may be many times its length. So the parts in which the direction is known
-/// are taken from the patch instead.
+/// The direction from the origin to the nearest point. The gap is off by roundings of the
+/// coordinates, which may be many times its length. So its part along the side that holds the
+/// nearest point is removed; inside the patch, the patch's normal is used.
 Vec3 direction_of(const FlatPatch& patch, const Foot& foot, const Vec3& gap, const Vec3& area) {
     if (foot.along_x && foot.along_y)
         return dot(area, gap) < 0 ? -area : area;

@@ -34,8 +34,8 @@ HWY_INLINE Lanes3<D> towards(D d, const Lanes3<D> (&w)[3], const Lanes3<D> (&edg
 }
 
 // For any n, the triangle is at least min over its vertices of n . w / |n| away, so the way n was
-// found needs no error analysis. What is off are that scalar product and quotient, by 8 roundings
-// of the largest w, and each coordinate by the margin, which is at most sqrt(3) margins along n.
+// found needs no error analysis. The errors are those of the scalar product and the quotient, 8
+// roundings of the largest w, and those of the coordinates, at most sqrt(3) margins along n.
 template <class D>
 HWY_INLINE void distance_sq_lanes(D d, const TriangleLeaf& leaf, const std::array<float, 3>& point,
                                   float margin, std::size_t lane, float* lower_sq) {

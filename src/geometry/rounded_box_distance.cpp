@@ -95,7 +95,7 @@ struct Slab {
     }
 };
 
-/// The closest vertex of one box and point of the other. In: the boxes are apart.
+/// The closest pair of a vertex of one box and a point of the other. In: the boxes are apart.
 Candidate nearest_vertex(const RoundedBox& a, const RoundedBox& b, const Slab& slab) {
     Candidate best;
     for (const Vec3& p : vertices_of(a))

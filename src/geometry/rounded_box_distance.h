@@ -25,7 +25,8 @@ struct SolidGap {
     /// On the surfaces: the closest points, or those that the shortest separating motion brings
     /// together.
     Vec3 point_a, point_b;
-    Vec3 normal; ///< unit vector from a to b; b is separated, or separates, along it
+    Vec3 normal; ///< unit vector from a to b: the direction in which b lies, or in which the
+                 ///< shortest separating motion moves b
 };
 
 /// Signed distance of two rounded boxes.

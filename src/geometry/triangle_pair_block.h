@@ -33,12 +33,13 @@ private:
     }
 };
 
-/// Error bound of a pair's distance, the root of distance_sq's result. It exceeds the true distance
-/// by at most
+/// A pair's computed distance, the root of distance_sq's result, exceeds the true distance by at
+/// most
 ///
 ///     kTrianglePairError (r + u + v) + kTrianglePairUnderflow
 ///
 /// where r is the largest difference of a vertex of a and one of b, and u and v are the longest
+/// edges. docs/distance.md has the proof. The largest error found in trials is 2 % of the bound.
 /// edges. docs/distance.md has the proof. The largest error found in trials is 2 % of the bound.
 constexpr double kTrianglePairError = 32 * 0x1p-53, kTrianglePairUnderflow = 0x1p-240;
 
