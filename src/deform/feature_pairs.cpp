@@ -26,8 +26,9 @@ bool boxes_apart(ElementaryKind kind, const PairVertices& vertices, double margi
                  b0 = bounds_of(vertices, second, 4, &MovingVertex::start),
                  a1 = bounds_of(vertices, 0, second, &MovingVertex::end),
                  b1 = bounds_of(vertices, second, 4, &MovingVertex::end);
-    // The least overlap along each axis, over both ends of the motion, from either side; negative
-    // means apart. A rounded difference is below a double only if the exact one is.
+    // Along each axis: the larger of the overlaps at the two ends, once with a below b and once
+    // with a above b. If it is below -margin, the boxes are apart at both ends, on the same side. A
+    // rounded difference is below a double only if the exact one is.
     const Vec3 below = max(a0.high - b0.low, a1.high - b1.low),
                above = max(b0.high - a0.low, b1.high - a1.low), least = min(below, above);
     return std::min({least.x, least.y, least.z}) < -margin;

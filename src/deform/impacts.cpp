@@ -61,8 +61,7 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
     impacts.list.reserve(count);
     for (Impacts& part : parts) {
         add(impacts, part);
-        part.list = std::vector<FeatureImpact>(); // frees this part, so that there is room for one
-                                                  // list, not for two
+        part.list = std::vector<FeatureImpact>(); // leaves room for one list, not for two
     }
     sort(impacts.list);
     return impacts;

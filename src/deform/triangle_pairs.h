@@ -86,7 +86,7 @@ private:
                                      std::size_t k) const {
         return !rules_.represented || represents_vertex(of.represented[triangle], k);
     }
-    /// Features' numbers are below 3 * 2^28.
+    /// Features' numbers are below 3 * 2^28, so that 30 bits hold each.
     static std::uint64_t key(PairKind kind, FeatureIds ids) {
         return static_cast<std::uint64_t>(kind) << 60 | std::uint64_t{ids.a} << 30 | ids.b;
     }
