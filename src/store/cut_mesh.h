@@ -12,8 +12,8 @@
 
 namespace abut {
 
-/// Meshes up to this number of vertices and triangles lie in one block. Larger ones are cut into
-/// pieces of half the size.
+/// Meshes up to this number of vertices and triangles lie in one mesh block. Larger ones are cut
+/// into pieces of half the size.
 inline constexpr std::uint64_t kLargestWhole = 65536;
 inline constexpr std::uint64_t kPieceTriangles = 32768;
 
@@ -60,7 +60,7 @@ private:
     std::vector<std::uint32_t> unused_;
 };
 
-/// Whether a mesh lies in one block.
+/// Whether a mesh lies in one mesh block.
 inline bool is_whole(std::uint64_t vertices, std::uint64_t triangles) {
     return std::max(vertices, triangles) <= kLargestWhole;
 }

@@ -10,8 +10,8 @@
 /// do not have it. docs/store.md explains the columns.
 namespace abut {
 
-/// The outline of one block's hierarchy. It records which content of the block it belongs to, since
-/// the number of a removed block may be reused.
+/// The outline of one mesh block's hierarchy. It records which content of the block it belongs to,
+/// since the number of a removed block may be reused.
 struct HierarchyRow {
     std::int64_t block = 0;
     std::uint64_t block_checksum = 0; ///< checksum of the block's data

@@ -9,8 +9,8 @@
 
 namespace abut {
 
-/// A mesh, or a piece of one with the numbers that its vertices and triangles have in the whole
-/// mesh.
+/// A mesh block: a whole mesh, or a piece of a large one with the numbers that its vertices and
+/// triangles have in the whole mesh.
 struct MeshBlock {
     Mesh mesh;
     /// Ascending. Both lists are empty if the mesh is whole; the numbers are then 0, 1, 2, …
@@ -27,7 +27,7 @@ struct EncodedBlock {
 /// limits the memory that a damaged length can request.
 inline constexpr std::uint64_t kLargestBlockBytes = std::uint64_t{1} << 24;
 
-/// Packs a block without loss. Positions are stored as floats if all of them are floats, else as
+/// Packs a mesh block without loss. Positions are stored as floats if all of them are floats, else as
 /// doubles.
 ///
 ///     u32 vertices | u32 triangles | u32 bytes of a coordinate | u32 1 for a piece, else 0
@@ -39,7 +39,7 @@ inline constexpr std::uint64_t kLargestBlockBytes = std::uint64_t{1} << 24;
 /// far plus one, so that a new vertex costs a zero.
 EncodedBlock encode_block(const MeshBlock& block);
 
-/// Unpacks a block.
+/// Unpacks a mesh block.
 ///
 /// Errors      Fault malformed if the bytes are not those of a block, or if it is longer than
 ///             kLargestBlockBytes.

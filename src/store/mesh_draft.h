@@ -14,7 +14,7 @@
 
 namespace abut {
 
-/// A block that has no number in the store yet.
+/// A mesh block that has no number in the store yet.
 struct BlockDraft {
     BlockRow row;
     std::vector<std::byte> data;
@@ -42,10 +42,10 @@ MeshDraft load_mesh(const SceneSource& source, std::uint32_t mesh);
 /// The memory that load_mesh and encode_mesh take at most, to within some 20 %.
 std::uint64_t loading_bytes(const SceneSource::Size& size);
 
-/// Packs a block. Its box is that of the vertices that its triangles use.
+/// Packs a mesh block. Its box is that of the vertices that its triangles use.
 BlockDraft encode_draft(const MeshBlock& block);
 
-/// Packs the blocks of a mesh in memory.
+/// Packs the mesh blocks of a mesh in memory.
 std::vector<BlockDraft> encode_mesh(const Mesh& mesh);
 
 /// Whether every edge is used by exactly two triangles, and there is an edge. Gives the same answer

@@ -17,8 +17,7 @@ ModelReader::ModelReader(StoreFile& store, std::uint64_t room)
 Model ModelReader::read_mesh(std::int64_t mesh) {
     const MeshRow row = store_.mesh(mesh);
     if (row.blocks != 1)
-        return Model(store_.read_mesh(mesh)); // a large mesh, read whole: it has no stored
-                                              // hierarchy
+        return Model(store_.read_mesh(mesh)); // a large mesh has no stored hierarchy
     StoredBlockData block = store_.read_block_and_row(row.first_block);
     return model_of(block.row, store_.whole_mesh(row, std::move(block.block)));
 }

@@ -13,8 +13,8 @@
 
 namespace abut {
 
-/// Creates Models of a store's meshes and blocks. It uses the hierarchies in the store; missing
-/// ones are built, and wait here to be stored. May be used from any thread.
+/// Creates Models of a store's meshes and mesh blocks. It uses the hierarchies in the store;
+/// missing ones are built, and wait here to be stored. May be used from any thread.
 ///
 /// A hierarchy can always be rebuilt. One that is damaged, of another format or of other content
 /// counts as missing, and is replaced by the one that is built.

@@ -20,7 +20,7 @@
 
 namespace abut {
 
-/// A block with its row.
+/// A mesh block with its row.
 struct StoredBlockData {
     BlockRow row;
     MeshBlock block;
@@ -37,8 +37,8 @@ class StoreFile {
 public:
     StoreFile(std::string path, bool read_only)
         : StoreFile(std::move(path), read_only ? OpenMode::read_only : OpenMode::read_write) {}
-    /// In: immutable, to read what an import wrote while a job of this program records its results
-    /// in the same file.
+    /// In: mode. `immutable` reads what an import wrote, while a job of this program records its
+    /// results in the same file.
     StoreFile(std::string path, OpenMode mode);
     ~StoreFile();
     StoreFile(const StoreFile&) = delete;
@@ -63,8 +63,8 @@ public:
 
     /// The rows of a mesh's blocks, without their data. Mainly used for the boxes.
     std::vector<BlockRow> blocks(const MeshRow& mesh);
-    /// One block. Of a mesh that was cut, this is a piece, with the numbers that its vertices and
-    /// triangles have in the whole mesh.
+    /// One mesh block. Of a mesh that was cut, this is a piece, with the numbers that its vertices
+    /// and triangles have in the whole mesh.
     MeshBlock read_block(std::int64_t block) { return read_block_and_row(block).block; }
     StoredBlockData read_block_and_row(std::int64_t block);
     /// The mesh that lies in one block.
