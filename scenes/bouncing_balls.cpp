@@ -26,7 +26,7 @@ RigidBody box_around() {
 }
 
 std::vector<RigidBody> box_of_balls(const DeformingOptions& options) {
-    constexpr double kBalls = 42, kFill = 0.36; // ratio of a ball's radius to the width of its cell
+    constexpr double kBalls = 42, kFill = 0.36; // kFill: a ball's radius / the width of its cell
     std::vector<RigidBody> bodies{box_around()};
     const double wanted = static_cast<double>(options.triangles - bodies[0].shape.triangles.size());
     const double fineness = std::max(2.0, std::round(std::sqrt(wanted / (8 * kBalls))));

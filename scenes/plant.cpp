@@ -140,8 +140,7 @@ Plant make_plant(const PlantOptions& options) {
         plant = std::move(larger);
         step = next;
         next = step + 1;
-        if (step >= kLargest) { // from here on plants grow by whole units: jump to the number that
-                                // fits
+        if (step >= kLargest) { // larger plants grow by whole units: jump to the number that fits
             const double units = step - kLargest + 1;
             const double fit = share * units / static_cast<double>(plant.first->triangles());
             next = std::max(next, kLargest - 1 + static_cast<int>(fit));
