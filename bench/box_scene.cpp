@@ -84,8 +84,7 @@ Vec3 BoxScene::draw_point(std::size_t index) {
 Box3 BoxScene::draw_box(std::size_t index) {
     const Vec3 p = draw_point(index);
     double side = side_;
-    if (layout_ == BoxLayout::clustered) // gives the usual number of partners among a thousand
-                                         // boxes with a deviation of side_
+    if (layout_ == BoxLayout::clustered) // gives about ten partners within a cluster
         side *= 0.38;
     if (layout_ == BoxLayout::sizes)
         side *= 0.1 * std::pow(1000.0, 0.6 * draw(0, 1) * draw(0, 1));

@@ -238,8 +238,7 @@ private:
                 {}};
         if (c.ask == Ask::distance)
             row.counters["hull pairs"] = hull_pairs / count / options_.rounds;
-        if (c.ask == Ask::penetration) { // both are lower bounds of the depth, found in different
-                                         // ways
+        if (c.ask == Ask::penetration) { // two lower bounds of the depth
             const double sum = std::accumulate(our_answers.begin(), our_answers.end(), 0.0);
             row.counters["depth, of theirs"] =
                 sum / std::accumulate(their_answers.begin(), their_answers.end(), 0.0);
