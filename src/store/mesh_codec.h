@@ -27,8 +27,8 @@ struct EncodedBlock {
 /// limits the memory that a damaged length can request.
 inline constexpr std::uint64_t kLargestBlockBytes = std::uint64_t{1} << 24;
 
-/// Packs a mesh block without loss. Positions are stored as floats if all of them are floats, else as
-/// doubles.
+/// Packs a mesh block without loss. Positions are stored as floats if all of them are floats, else
+/// as doubles.
 ///
 ///     u32 vertices | u32 triangles | u32 bytes of a coordinate | u32 1 for a piece, else 0
 ///     vertex ids, triangle ids (of a piece) | x | y | z | corners
