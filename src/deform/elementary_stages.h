@@ -36,8 +36,8 @@ void for_each_bit(std::uint32_t bits, const Visit& visit) {
 /// In          Source identifies a pair by an Item of its own type and has
 ///                 void write(const Item&, ElementaryBlock&, std::size_t lane) const;
 ///                 ElementaryPair pair(const Item&) const;
-///                 void take(const Item&, const ElementaryImpact&);  // not for pairs
-///                                                                   // that the filter rejects
+///                 void take(const Item&, const ElementaryImpact&);
+///             take() is not called for pairs that the filter rejects.
 template <typename Item, typename Source>
 class ElementaryStages {
 public:
