@@ -10,8 +10,8 @@ install(TARGETS abut_reader DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut)
 if(TARGET abut_mpi)
     install(TARGETS abut_mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut)
 endif()
-install(FILES src/io/ifc/convert.mjs src/io/ifc/products.mjs src/io/ifc/surface.mjs src/io/ifc/zip.mjs src/io/ifc/package.json src/io/ifc/package-lock.json
-        DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc)
+install(DIRECTORY src/io/ifc/ DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc
+        FILES_MATCHING PATTERN "*.mjs" PATTERN "package*.json" PATTERN "node_modules" EXCLUDE)
 # What it runs on, where tools/install_dependencies has brought it: looked for when installing, not here.
 install(DIRECTORY src/io/ifc/node_modules DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc OPTIONAL)
 install(CODE "if(NOT EXISTS \"${PROJECT_SOURCE_DIR}/src/io/ifc/node_modules/web-ifc\")

@@ -124,6 +124,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (arguments.read.spaces && from_store)
         throw Error(ErrorCode::bad_argument, "--spaces",
                     "is for models alone: a store has those of its import");
+    if (!arguments.read.map && from_store)
+        throw Error(ErrorCode::bad_argument, "--no-map",
+                    "is for models alone: a store has the coordinates of its import");
     if (arguments.read.unit != 0 && from_store)
         throw Error(ErrorCode::bad_argument, "--unit",
                     "is for models alone: a store has the one of its import");

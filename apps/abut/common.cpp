@@ -60,8 +60,10 @@ void add_read_options(CLI::App& app, ReadOptions& options) {
     add_choice(app, "--up", options.up, kAxes,
                "Axis that points up in files whose format does not say it");
     app.add_flag("--spaces", options.spaces, "IFC: spaces and zones become parts too");
+    app.add_flag("!--no-map", options.map,
+                 "IFC: coordinates of the project, not of the map (IfcMapConversion)");
     app.add_flag("--allow-outside-files", options.allow_outside_files,
-                 "glTF: buffers may lie outside of the model's folder");
+                 "A model may name files outside of its folder (glTF: buffers, OBJ: mtllib)");
 }
 
 std::vector<ModelPath> parse_model_paths(const std::vector<std::string>& texts) {

@@ -47,7 +47,7 @@ CLI::App* add_subcommand(CLI::App& root, CommonOptions& common, const VerbHelp& 
 inline constexpr const char* kModelHelp =
     "FILE, or FILE:UNIT:AXIS as pump.stl:mm or part.obj:mm:y-up";
 
-/// Declares --unit, --up and --spaces.
+/// Declares --unit, --up, --spaces, --no-map and --allow-outside-files.
 void add_read_options(CLI::App& app, ReadOptions& options);
 
 /// parse_model_path of each.

@@ -99,6 +99,7 @@ int run(const ImportArguments& arguments, const CommonOptions& common) {
                                 .unit = arguments.read.unit,
                                 .up = arguments.read.up,
                                 .spaces = arguments.read.spaces,
+                                .map = arguments.read.map,
                                 .allow_outside_files = arguments.read.allow_outside_files,
                                 .progress = bar.progress()});
     }

@@ -88,11 +88,15 @@ struct ReadOptions {
     /// Whether IFC's spaces and zones become parts. They are volumes in which things are, and meet
     /// all of them.
     bool spaces = false;
+    /// Whether the parts of an IFC file lie on the map that it names (IfcMapConversion): x is the
+    /// easting, y the northing, z the height. Else they lie in the coordinates of the project.
+    bool map = true;
     /// Seconds after which a reader is stopped. 0: no limit.
     double time_limit = 600;
     /// Bytes of memory that a reader may use. 0: no limit.
     std::uint64_t memory_limit = 0;
-    /// Whether a model may refer to files outside of its own folder (buffers of glTF).
+    /// Whether a model may refer to files outside of its own folder: buffers of glTF, and material
+    /// libraries of OBJ, which are refused though they are never opened.
     bool allow_outside_files = false;
     /// Reports the share of the bytes that is read; stops the readers on request.
     Progress progress{};

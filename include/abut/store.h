@@ -29,6 +29,7 @@ struct ImportOptions {
     double unit = 0;
     UpAxis up = UpAxis::z;
     bool spaces = false;              ///< as ReadOptions::spaces
+    bool map = true;                  ///< as ReadOptions::map
     bool allow_outside_files = false; ///< as ReadOptions::allow_outside_files
     Progress progress{};
 };

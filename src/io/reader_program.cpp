@@ -122,7 +122,8 @@ std::vector<std::string> reader_command(const std::string& file, const ReadOptio
                 node,
                 converter / "convert.mjs",
                 file,
-                options.spaces ? "spaces" : "no-spaces"};
+                options.spaces ? "spaces" : "no-spaces",
+                options.map ? "map" : "no-map"};
     }
     if (std::find(kAssimpExtensions.begin(), kAssimpExtensions.end(), extension) ==
         kAssimpExtensions.end())

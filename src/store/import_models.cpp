@@ -59,8 +59,9 @@ std::string asked_of(const ModelPath& path, const ImportOptions& options) {
     const auto up = [](const std::optional<UpAxis>& axis) {
         return axis ? std::string(to_string(*axis)) + "-up" : "-";
     };
-    return fmt::format("{}:{}, else {}:{}{}", path.unit, up(path.up), options.unit, up(options.up),
-                       options.spaces ? ", spaces" : "");
+    return fmt::format("{}:{}, else {}:{}{}{}", path.unit, up(path.up), options.unit,
+                       up(options.up), options.spaces ? ", spaces" : "",
+                       options.map ? ", map" : "");
 }
 
 class StoreImport {
@@ -216,6 +217,7 @@ private:
         from.read.unit = options_.unit;
         from.read.up = options_.up;
         from.read.spaces = options_.spaces;
+        from.read.map = options_.map;
         from.read.allow_outside_files = options_.allow_outside_files;
         from.read.progress = options_.progress;
         from.world = world_up();

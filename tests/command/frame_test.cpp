@@ -171,6 +171,7 @@ TEST_F(FrameTest, AStoreKeepsTheFrameOfItsFirstFile) {
     EXPECT_EQ(run_abut({"import", site_, store, "--json"}).json()["models"][0]["outcome"],
               "unchanged");
     expect_refused(run_abut({"clash", store, "--spaces"}), {"--spaces", "store"});
+    expect_refused(run_abut({"clash", store, "--no-map"}), {"--no-map", "store"});
     expect_refused(run_abut({"clash", store, "--up", "y"}), {"--up", "store"});
 }
 

@@ -225,6 +225,31 @@ Scene read_or_skip(const std::string& path) {
     }
 }
 
+TEST(IfcMap, FilesWithAMapConversionLieThere) {
+    const std::string file = kFolder + "pcert/Building-Structural.ifc";
+    const Scene scene = read_or_skip(file);
+    if (scene.parts.empty())
+        GTEST_SKIP() << "the file or web-ifc is not there";
+    ReadOptions options;
+    options.map = false;
+    const Scene project = read_scene(file, options);
+    ASSERT_EQ(project.parts.size(), scene.parts.size());
+    // #19=IFCMAPCONVERSION(…) in millimetres: turned by 60 degrees.
+    const double sine = std::sqrt(0.75);
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        const auto& from = project.parts[i].world_from_mesh.m;
+        const auto& to = scene.parts[i].world_from_mesh.m;
+        EXPECT_NEAR(to[9], 729013.3488297004 + 0.5 * from[9] - sine * from[10], 1e-8);
+        EXPECT_NEAR(to[10], 9063992.684697363 + sine * from[9] + 0.5 * from[10], 1e-8);
+        EXPECT_NEAR(to[11], 1.3 + from[11], 1e-12);
+        for (std::size_t column = 0; column < 9; column += 3) {
+            EXPECT_NEAR(to[column], 0.5 * from[column] - sine * from[column + 1], 1e-15);
+            EXPECT_NEAR(to[column + 1], sine * from[column] + 0.5 * from[column + 1], 1e-15);
+            EXPECT_EQ(to[column + 2], from[column + 2]);
+        }
+    }
+}
+
 TEST(IfcSurfaces, AGirderHasAllOfItsSixteenTriangles) {
     const Scene scene = read_or_skip(kFolder + "pcert/Building-Structural.ifc");
     if (scene.parts.empty())

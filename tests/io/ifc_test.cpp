@@ -280,6 +280,151 @@ TEST_F(Ifc, ASiteFarFromTheOriginKeepsItsPrecision) {
                {at.x + 2.7, at.y + 1.5, at.z + 1}, {at.x + 3.3, at.y + 2.5, at.z + 1.75});
 }
 
+/// house_4.ifc, which is in millimetres, with a map.
+///
+/// In          unit: of the map, as a STEP entity or $; numbers: from Eastings on.
+std::string on_map(const std::string& unit, const std::string& numbers) {
+    const std::string reference = unit == "$" ? "$" : "#900";
+    return changed("house_4.ifc",
+                   {{"ENDSEC;\nEND", (unit == "$" ? "" : "#900=" + unit + ";\n") +
+                                         "#901=IFCPROJECTEDCRS('EPSG:28992',$,$,$,$,$," +
+                                         reference + ");\n#902=IFCMAPCONVERSION(#14,#901," +
+                                         numbers + ");\nENDSEC;\nEND"}});
+}
+
+const std::string kMetre = "IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)";
+constexpr const char* kWall = "4WallOfTheTests0000001"; // from (0, 0, 0) to (4, 0.2, 3) m
+
+/// The corners of a box from (0, 0, 0) to this one, turned about z and moved.
+std::vector<Vec3> placed_box(const Vec3& size, const Vec3& offset, double cosine, double sine) {
+    std::vector<Vec3> corners;
+    for (const double x : {0.0, size.x})
+        for (const double y : {0.0, size.y})
+            for (const double z : {0.0, size.z})
+                corners.push_back({offset.x + cosine * x - sine * y,
+                                   offset.y + sine * x + cosine * y, offset.z + z});
+    return corners;
+}
+
+/// Each corner is a vertex of the part, to within a micrometre.
+void expect_corners(const Scene& scene, const Part& part, const std::vector<Vec3>& corners) {
+    for (const Vec3& corner : corners) {
+        double nearest = 1e300;
+        for (const auto& triangle : triangles_of(scene, part))
+            for (const Vec3& p : triangle)
+                nearest =
+                    std::min(nearest, std::hypot(p.x - corner.x, p.y - corner.y, p.z - corner.z));
+        EXPECT_LT(nearest, 1e-6) << corner.x << " " << corner.y << " " << corner.z;
+    }
+}
+
+TEST_F(Ifc, AProjectLiesOnItsMap) {
+    // Turned by 30 degrees, 5,000 km from the map's origin.
+    const std::string numbers = "155000.1234,5463000.5678,-1.5,0.8660254037844387,0.5,0.001";
+    const std::string file = folder_.file("map.ifc", on_map(kMetre, numbers));
+    const Scene scene = read_scene(file);
+    EXPECT_EQ(scene.unit, 0.001);
+    expect_corners(
+        scene, by_id(scene).at(kWall),
+        placed_box({4, 0.2, 3}, {155000.1234, 5463000.5678, -1.5}, std::sqrt(0.75), 0.5));
+    const auto parts = by_id(scene);
+    EXPECT_EQ(parts.at("4TableOfTheTests000001").mesh, parts.at("4TableOfTheTests000002").mesh);
+    ReadOptions options;
+    options.map = false;
+    const Scene plain = read_scene(file, options);
+    expect_box(bounds_of(plain, by_id(plain).at(kWall)), {0, 0, 0}, {4, 0.2, 3});
+    // Only transforms differ.
+    ASSERT_EQ(plain.meshes.size(), scene.meshes.size());
+    for (std::size_t i = 0; i < plain.meshes.size(); ++i)
+        EXPECT_TRUE(std::equal(plain.meshes[i].positions.begin(), plain.meshes[i].positions.end(),
+                               scene.meshes[i].positions.begin(), [](const Vec3& a, const Vec3& b) {
+                                   return a.x == b.x && a.y == b.y && a.z == b.z;
+                               }));
+}
+
+TEST_F(Ifc, UnitsAndScalesOfAMapAreTakenAsTheyAreMeant) {
+    const std::string foot = "IFCCONVERSIONBASEDUNIT(#910,.LENGTHUNIT.,'FOOT',#911);\n"
+                             "#910=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);\n"
+                             "#911=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#912);\n#912=" +
+                             kMetre;
+    struct Case {
+        std::string unit, numbers;
+        double scale;
+    };
+    for (const Case& each : std::vector<Case>{
+             {kMetre, "1000.,2000.,30.,$,$,0.001", 1},          // as IFC 4 has it
+             {kMetre, "1000.,2000.,30.,$,$,0.0009996", 0.9996}, // with that of the projection
+             {kMetre, "1000.,2000.,30.,$,$,$", 1},              // Revit
+             {kMetre, "1000.,2000.,30.,1.,0.,1.", 1},           // the ratio of the units left out
+             {"$", "1000000.,2000000.,30000.,$,$,$", 1},        // the project's unit
+             {"$", "1000.,2000.,30.,$,$,0.001", 1},             // metres, by the scale
+             {foot,
+              "3280.8398950131236,6561.679790026247,98.4251968503937,$,$,0.0032808398950131233",
+              1}}) {
+        SCOPED_TRACE(each.unit + " " + each.numbers);
+        const Scene scene = read_scene(folder_.file("map.ifc", on_map(each.unit, each.numbers)));
+        expect_box(bounds_of(scene, by_id(scene).at(kWall)), {1000, 2000, 30},
+                   {1000 + 4 * each.scale, 2000 + 0.2 * each.scale, 30 + 3 * each.scale});
+    }
+}
+
+TEST_F(Ifc, FilesWithDifferentMapConversionsMeet) {
+    // The same wall: of one project at its origin, of the other at (100, 50) m and turned.
+    const Scene one =
+        read_scene(folder_.file("one.ifc", on_map(kMetre, "155000.,5463000.,12.,1.,0.,0.001")));
+    std::string text = on_map(kMetre, "154950.,5463100.,2.,6.123233995736766E-17,-1.,0.001");
+    const std::string placement = "#20=IFCLOCALPLACEMENT($,#13);";
+    text.replace(text.find(placement), placement.size(),
+                 "#920=IFCCARTESIANPOINT((100000.,50000.,10000.));\n"
+                 "#921=IFCAXIS2PLACEMENT3D(#920,#11,#50);\n#20=IFCLOCALPLACEMENT($,#921);");
+    const Scene other = read_scene(folder_.file("other.ifc", text));
+    const Part& part = by_id(other).at(kWall);
+    expect_box(bounds_of(other, part), {155000, 5463000, 12}, {155004, 5463000.2, 15});
+    // A cosine of 6e-17 is none: quarter turns are exact.
+    EXPECT_EQ(part.world_from_mesh.m, by_id(one).at(kWall).world_from_mesh.m);
+}
+
+TEST_F(Ifc, TheMapOfIfc2x3IsInPropertySets) {
+    const std::string end = "ENDSEC;\nEND";
+    const std::string sets =
+        "#900=IFCPROPERTYSINGLEVALUE('Eastings',$,IFCLENGTHMEASURE(155000.5),$);\n"
+        "#901=IFCPROPERTYSINGLEVALUE('Northings',$,IFCLENGTHMEASURE(5463000.25),$);\n"
+        "#902=IFCPROPERTYSINGLEVALUE('OrthogonalHeight',$,IFCLENGTHMEASURE(7.),$);\n"
+        "#903=IFCPROPERTYSINGLEVALUE('XAxisAbscissa',$,IFCREAL(0.),$);\n"
+        "#904=IFCPROPERTYSINGLEVALUE('XAxisOrdinate',$,IFCREAL(1.),$);\n"
+        "#905=IFCPROPERTYSET('0SetOfTheTests00000001',$,'ePSet_MapConversion',$,"
+        "(#900,#901,#902,#903,#904));\n"
+        "#906=IFCPROPERTYSINGLEVALUE('MapUnit',$,IFCIDENTIFIER('METRE'),$);\n"
+        "#907=IFCPROPERTYSET('0SetOfTheTests00000002',$,'ePSet_ProjectedCRS',$,(#906));\n";
+    const Scene scene =
+        read_scene(folder_.file("map.ifc", changed("house_2x3.ifc", {{end, sets + end}})));
+    // x becomes y, y becomes -x.
+    expect_box(bounds_of(scene, by_id(scene).at("1WallOfTheTests0000001")),
+               {155000.3, 5463000.25, 7}, {155000.5, 5463004.25, 10});
+}
+
+TEST_F(Ifc, AMapThatMakesNoSenseIsRefused) {
+    for (const char* const numbers :
+         {"0.,0.,0.,$,$,7.", "0.,0.,0.,$,$,-0.001", "0.,0.,0.,$,$,0.", "0.,0.,0.,0.,0.,0.001",
+          "0.,0.,0.,$,$,0.001);\n#903=IFCMAPCONVERSION(#14,#901,1.,0.,0.,$,$,0.001"}) {
+        const std::string file = folder_.file("map.ifc", on_map(kMetre, numbers));
+        EXPECT_TRUE(contains(error_of(file, ErrorCode::malformed), "map conversion")) << numbers;
+        ReadOptions options;
+        options.map = false;
+        EXPECT_EQ(read_scene(file, options).parts.size(), 3U);
+    }
+    // Twice the same is no contradiction, and one of a drawing in the plane is none of the project.
+    EXPECT_EQ(read_scene(
+                  folder_.file(
+                      "map.ifc",
+                      on_map(kMetre, "9.,0.,0.,$,$,0.001);\n#903="
+                                     "IFCMAPCONVERSION(#14,#901,9.,0.,0.,$,$,0.001);\n"
+                                     "#904=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Plan',2,$,#13,$);\n"
+                                     "#905=IFCMAPCONVERSION(#904,#901,1.,0.,0.,$,$,0.001")))
+                  .parts.size(),
+              3U);
+}
+
 TEST_F(Ifc, AShapeFarFromItsOriginKeepsItsPrecision) {
     // A tetrahedron whose coordinates themselves are those of a map, in millimetres.
     const std::string set =

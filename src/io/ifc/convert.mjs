@@ -1,24 +1,26 @@
-// node convert.mjs FILE.ifc spaces|no-spaces: writes FILE's products to descriptor 3 as the scene stream of
+// node convert.mjs FILE.ifc spaces|no-spaces map|no-map: writes FILE's products to descriptor 3 as the scene stream of
 // ../scene_stream.h.
 //
-// One part a product with triangles: id = GlobalId, name = Name, type = its IFC class. Metres, Z up, as IFC has it.
-// Openings are left out, and spaces and zones unless they are asked for. Every product with a body is a part or has a
-// note that says why it is none. Products that are placed copies of the same geometry share a mesh. Geometry is what web-ifc computes: floats around the geometry's own centre, placed by a double matrix.
+// One part a product with triangles: id = GlobalId, name = Name, type = its IFC class. Metres, Z up, as IFC has it; on
+// the map that the file names, unless `no-map`. Openings are left out, and spaces and zones unless they are asked for.
+// Every product with a body is a part or has a note that says why it is none. Products that are placed copies of the
+// same geometry share a mesh. Geometry is what web-ifc computes: floats around the geometry's own centre, placed by a
+// double matrix.
 
 import crypto from 'node:crypto';
 import fs from 'node:fs';
 
+import {Fault, MALFORMED, UNSUPPORTED} from './fault.mjs';
+import {mapFromProject} from './map.mjs';
 import {Products} from './products.mjs';
 import {edgeFaults, withClosedSlits} from './surface.mjs';
+import {metresPerUnit} from './units.mjs';
 import {plainFile, zippedFile} from './zip.mjs';
 
 const RESULT = 3;
 const MAGIC = Buffer.from('abutscn2');
 const END = Buffer.from('abut-end');
 const HEADER_BYTES = 56;
-// ErrorCode of include/abut/error.h; 1 + code is the stream's status.
-const MALFORMED = 3;
-const UNSUPPORTED = 4;
 const Z_UP = 3; // 1 + UpAxis::z
 // NoteKind of include/abut/scene.h.
 const SPACE = 0;
@@ -32,13 +34,6 @@ const SLIT_ROUNDINGS = 8 * 2 ** -24;
 // survey coordinates after double arithmetic is some 1e-9 m.
 const SAME_PLACE_METRES = 1e-7;
 const SAME_DIRECTION = 1e-9;
-
-class Fault extends Error {
-    constructor(code, text) {
-        super(text);
-        this.code = code;
-    }
-}
 
 /**
  * Vertices at equal positions (-0 equals 0) as one, in the order of their first occurrence: web-ifc parts vertices by
@@ -233,7 +228,9 @@ class Converter {
     #meshOf = new Map();
     #seen = new Set(); // express ids of the products that web-ifc gives
 
-    constructor(api, model, output, products) {
+    /** map: of mapFromProject, or null. */
+    constructor(api, model, output, products, map) {
+        this.map = map;
         this.api = api;
         this.model = model;
         this.output = output;
@@ -256,7 +253,7 @@ class Converter {
         if (placed.length === 0)
             return this.#missing(about);
         const [mesh, world] = placed.length === 1 ? this.#single(placed[0]) : this.#several(placed);
-        this.output.part(transformOf(world), mesh, about.id, about.name, about.type);
+        this.output.part(transformOf(this.map === null ? world : multiply(this.map, world)), mesh, about.id, about.name, about.type);
         const shapes = this.products.shapes(product.expressID);
         if (placed.length < shapes)
             this.#note(about, NOT_BUILT,
@@ -325,28 +322,6 @@ class Converter {
     }
 }
 
-const SI_PREFIXES = {EXA: 1e18, PETA: 1e15, TERA: 1e12, GIGA: 1e9, MEGA: 1e6, KILO: 1e3, HECTO: 1e2, DECA: 1e1,
-                     DECI: 1e-1, CENTI: 1e-2, MILLI: 1e-3, MICRO: 1e-6, NANO: 1e-9, PICO: 1e-12, FEMTO: 1e-15,
-                     ATTO: 1e-18};
-
-/** Metres of an IfcNamedUnit of length. */
-function metresOf(unit) {
-    if (unit?.Name?.value === 'METRE')
-        return SI_PREFIXES[unit.Prefix?.value] ?? 1;
-    const factor = unit?.ConversionFactor;
-    return factor ? factor.ValueComponent.value * metresOf(factor.UnitComponent) : 1;
-}
-
-/** The length unit of the project; metres where the file has none. */
-function metresPerUnit(api, model) {
-    const projects = api.GetLineIDsWithType(model, api.GetTypeCodeFromName('IFCPROJECT'));
-    if (projects.size() === 0)
-        return 1;
-    const units = api.GetLine(model, projects.get(0), true).UnitsInContext?.Units ?? [];
-    const unit = metresOf(units.find(unit => unit?.UnitType?.value === 'LENGTHUNIT'));
-    return unit > 0 && Number.isFinite(unit) ? unit : 1;
-}
-
 /** web-ifc reads what it finds of a truncated file: it has to end as it should. Its schema is in the header. */
 function checkFile(file) {
     const read = (length, position) => file.read(length, position).toString('latin1');
@@ -360,7 +335,7 @@ function checkFile(file) {
         throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
 }
 
-async function convert(path, withSpaces, output) {
+async function convert(path, withSpaces, withMap, output) {
     const damaged = text => { throw new Fault(MALFORMED, text); };
     const file = /\.ifczip$/i.test(path) ? zippedFile(path, damaged) : plainFile(path);
     checkFile(file);
@@ -370,7 +345,9 @@ async function convert(path, withSpaces, output) {
     const model = api.OpenModelFromCallback((offset, size) => file.read(size, offset), {COORDINATE_TO_ORIGIN: false});
     if (model < 0)
         throw new Fault(MALFORMED, 'cannot be parsed as IFC');
-    const converter = new Converter(api, model, output, new Products(api, model, withSpaces));
+    const unit = metresPerUnit(api, model);
+    const map = withMap ? mapFromProject(api, model, file, unit) : null;
+    const converter = new Converter(api, model, output, new Products(api, model, withSpaces), map);
     let fault = null;
     const take = product => {
         try {
@@ -385,12 +362,12 @@ async function convert(path, withSpaces, output) {
     if (fault !== null)
         throw fault;
     converter.noteOthers();
-    output.end(metresPerUnit(api, model));
+    output.end(unit);
 }
 
 const output = new Output();
 try {
-    await convert(process.argv[2], process.argv[3] === 'spaces', output);
+    await convert(process.argv[2], process.argv[3] === 'spaces', process.argv[4] !== 'no-map', output);
 } catch (error) {
     output.error(error instanceof Fault ? error.code : MALFORMED, error.message ?? String(error));
 }

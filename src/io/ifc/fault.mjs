@@ -1,0 +1,11 @@
+// ErrorCode of include/abut/error.h; 1 + code is the stream's status.
+export const MALFORMED = 3;
+export const UNSUPPORTED = 4;
+
+/** What is wrong with a file, as one line. */
+export class Fault extends Error {
+    constructor(code, text) {
+        super(text);
+        this.code = code;
+    }
+}
