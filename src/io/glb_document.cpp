@@ -278,7 +278,8 @@ private:
             if (meshopt->contains("filter"))
                 compressed.filter = named<GlbDocument::Compressed::Filter>(
                     text_or_empty(*meshopt, "filter"),
-                    std::array{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"}, "filter");
+                    std::array{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"},
+                    "filter");
             result.compressed = static_cast<std::uint32_t>(document_.compressed.size());
             document_.compressed.push_back(compressed);
         }

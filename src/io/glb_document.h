@@ -36,7 +36,7 @@ struct GlbDocument {
     /// A buffer view compressed by meshoptimizer.
     struct Compressed {
         enum class Mode : std::uint8_t { attributes, triangles, indices };
-        enum class Filter : std::uint8_t { none, octahedral, quaternion, exponential };
+        enum class Filter : std::uint8_t { none, octahedral, quaternion, exponential, color };
         std::uint32_t buffer = kNone, stride = 0;
         std::uint64_t offset = 0, bytes = 0, count = 0;
         Mode mode = Mode::attributes;

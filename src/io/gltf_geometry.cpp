@@ -208,6 +208,7 @@ decode_request::Job job_of(const GlbDocument::Compressed& compressed) {
         compressed.filter == Filter::none ||
         (!is_index && (compressed.filter == Filter::octahedral   ? stride == 4 || stride == 8
                        : compressed.filter == Filter::quaternion ? stride == 8
+                       : compressed.filter == Filter::color      ? false // of no position
                                                                  : true));
     if (!fits || !filter_fits || compressed.count > kLargest ||
         least_bytes(compressed) > compressed.bytes ||
@@ -221,6 +222,19 @@ decode_request::Job job_of(const GlbDocument::Compressed& compressed) {
     job.stride = stride;
     job.count = compressed.count;
     return job;
+}
+
+/// Refuses attributes in the codec's version 1. Only KHR_meshopt_compression allows it.
+///
+/// In          input: the compressed bytes, of which there is one at least.
+void check_codec(const DecodeJobs::Input& input) {
+    constexpr std::byte kVersionOne{0xa1};
+    std::byte header{};
+    input(0, std::span(&header, 1));
+    if (header == kVersionOne)
+        throw Fault(
+            ErrorCode::unsupported,
+            "is compressed by version 1 of meshoptimizer's vertex codec; version 0 is read");
 }
 
 } // namespace
@@ -435,12 +449,15 @@ void GltfGeometry::decode(const std::string& path, const SourceOptions& options)
         if (std::max(job.count, job.corners) > kLargest / 256)
             malformed("compressed geometry has an impossible size");
         const Place from = place(buffer, offset, bytes);
-        return jobs.add(job, bytes, [from](std::uint64_t at, std::span<std::byte> to) {
+        const auto input = [from](std::uint64_t at, std::span<std::byte> to) {
             if (from.file != nullptr)
                 from.file->read(from.at + at, to);
             else
                 from.temporary->read(from.at + at, to);
-        });
+        };
+        if (job.kind == decode_request::Kind::meshopt_attributes && bytes > 0)
+            check_codec(input);
+        return jobs.add(job, bytes, input);
     };
     const auto take_view = [&](std::uint32_t index) {
         if (index == kNone)

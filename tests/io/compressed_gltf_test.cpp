@@ -466,6 +466,50 @@ TEST_F(CompressedGltf, DamagedMeshoptIsReadOrRefused) {
     error_of(folder_.file("mode.glb", unknown.file()), ErrorCode::unsupported);
 }
 
+TEST_F(CompressedGltf, VersionOneOfMeshoptsVertexCodecIsRefusedByName) {
+    Random random(11);
+    const Sheet plain = sheet(random, 6, 5);
+    const std::size_t count = plain.positions.size();
+    std::string vertices = meshopt_attributes(plain.positions.data(), count, 12);
+    ASSERT_EQ(vertices[0], '\xa0');
+    vertices[0] = '\xa1';
+    for (const char* const extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+        GltfBuilder builder;
+        builder.require(extension);
+        const std::size_t positions = builder.accessor(
+            compressed_view(builder, vertices, "ATTRIBUTES", count, 12, nullptr, extension), kFloat,
+            count, "VEC3");
+        const std::size_t corners =
+            builder.accessor(compressed_view(builder, meshopt_triangles(plain), "TRIANGLES",
+                                             plain.corners.size(), 4, nullptr, extension),
+                             kUnsignedInt, plain.corners.size(), "SCALAR");
+        add_part(builder, positions, corners);
+        const std::string text =
+            error_of(folder_.file("new.glb", builder.file()), ErrorCode::unsupported);
+        EXPECT_NE(text.find("version 1"), std::string::npos) << text;
+    }
+}
+
+TEST_F(CompressedGltf, AFilterOfColoursDoesNotMatter) {
+    Random random(12);
+    const Sheet plain = sheet(random, 6, 5);
+    const std::size_t count = plain.positions.size();
+    GltfBuilder builder;
+    builder.require("KHR_meshopt_compression");
+    const char* const extension = "KHR_meshopt_compression";
+    const std::string vertices = meshopt_attributes(plain.positions.data(), count, 12);
+    const std::size_t positions = builder.accessor(
+        compressed_view(builder, vertices, "ATTRIBUTES", count, 12, nullptr, extension), kFloat,
+        count, "VEC3");
+    const std::size_t corners =
+        builder.accessor(compressed_view(builder, meshopt_triangles(plain), "TRIANGLES",
+                                         plain.corners.size(), 4, nullptr, extension),
+                         kUnsignedInt, plain.corners.size(), "SCALAR");
+    add_part(builder, positions, corners);
+    (void)compressed_view(builder, vertices, "ATTRIBUTES", count, 12, "COLOR", extension);
+    EXPECT_EQ(triangles_of(read(builder)), triangles_of(plain.positions, plain.corners));
+}
+
 TEST_F(CompressedGltf, WithoutTheDecodersProgramTheErrorSaysSo) {
     Random random(10);
     const Sheet plain = sheet(random, 4, 4);
