@@ -1,5 +1,6 @@
 #include "io/obj_scan.h"
 
+#include "io/companion_file.h"
 #include "io/fault.h"
 
 #include <string>
@@ -85,7 +86,7 @@ private:
 
 void scan_obj(ByteStream& content, const std::function<void(const Vec3&)>& vertex,
               const std::function<void(std::span<const std::uint64_t> corners)>& face,
-              const std::function<void(char statement, std::string_view name)>& name) {
+              const std::function<void(std::string_view statement, std::string_view name)>& name) {
     LineScan lines(content);
     CornerReader corners;
     std::string_view line;
@@ -99,19 +100,19 @@ void scan_obj(ByteStream& content, const std::function<void(const Vec3&)>& verte
             ++vertices;
         } else if (word == "f") {
             face(corners.read(rest, vertices, lines));
-        } else if (name && (word == "o" || word == "g")) {
-            name(word.front(), trimmed(rest));
+        } else if (name && (word == "o" || word == "g" || word == "mtllib")) {
+            name(word, trimmed(rest));
         }
     }
     corners.check(vertices);
 }
 
-void ObjParts::name(char statement, std::string_view name) {
-    if (statement == 'o') {
+void ObjParts::name(std::string_view statement, std::string_view name) {
+    if (statement == "o") {
         object_ = name;
         group_.clear();
         part_of_group_.clear();
-    } else {
+    } else if (statement == "g") {
         group_ = name == "default" ? std::string_view() : name;
     }
     current_.reset();
@@ -125,6 +126,11 @@ std::size_t ObjParts::of_face() {
         current_ = entry->second;
     }
     return *current_;
+}
+
+void check_libraries(const std::string& model, std::string_view libraries, bool allow_outside) {
+    for (std::string_view name = take_word(libraries); !name.empty(); name = take_word(libraries))
+        (void)companion_path(model, std::string(name), allow_outside);
 }
 
 } // namespace abut

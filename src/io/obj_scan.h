@@ -19,12 +19,13 @@ namespace abut {
 ///
 /// In          face: is given at least three corners, as indices from 0 of `v` lines. They can be
 ///             trusted only once the scan has returned, since a face may come before its vertices.
-///             name: is given `o` or `g` and the rest of the line; may be empty.
+///             name: is given `o`, `g` or `mtllib` and the rest of the line; may be empty.
 /// Errors      Fault malformed for a face of less than three corners or a word that is no number,
 ///             bad_mesh for a corner that no vertex is for; what the functions throw.
-void scan_obj(ByteStream& content, const std::function<void(const Vec3&)>& vertex,
-              const std::function<void(std::span<const std::uint64_t> corners)>& face,
-              const std::function<void(char statement, std::string_view name)>& name = {});
+void scan_obj(
+    ByteStream& content, const std::function<void(const Vec3&)>& vertex,
+    const std::function<void(std::span<const std::uint64_t> corners)>& face,
+    const std::function<void(std::string_view statement, std::string_view name)>& name = {});
 
 /// Tells which part each face of an OBJ file belongs to.
 ///
@@ -33,8 +34,8 @@ void scan_obj(ByteStream& content, const std::function<void(const Vec3&)>& verte
 /// has the name of its group, else that of its object, else "defaultobject".
 class ObjParts {
 public:
-    /// In          as scan_obj gives it.
-    void name(char statement, std::string_view name);
+    /// In          as scan_obj gives it; what is no name of a part changes nothing.
+    void name(std::string_view statement, std::string_view name);
 
     /// The number of the part of a face that comes now, from 0 in the order of the first faces.
     std::size_t of_face();
@@ -47,5 +48,11 @@ private:
     std::optional<std::size_t> current_;
     std::vector<std::string> ids_;
 };
+
+/// Refuses material libraries (`mtllib`) outside of the model's folder, though none is ever opened.
+///
+/// In          libraries: names, separated by blanks. One that holds blanks is judged word by word.
+/// Errors      Fault unsupported, as companion_path.
+void check_libraries(const std::string& model, std::string_view libraries, bool allow_outside);
 
 } // namespace abut

@@ -20,7 +20,7 @@ class ObjSource : public OnePartSource {
 public:
     ObjSource(const ModelPath& path, const SourceOptions& options)
         : OnePartSource(path, options), memory_(options.memory) {
-        scan();
+        scan(options.read.allow_outside_files);
     }
 
     void read(std::uint32_t, MeshSink& sink) const override {
@@ -64,7 +64,7 @@ private:
 
     /// Looks whether the file is one part whose faces come after their vertices, and how large it
     /// is.
-    void scan() {
+    void scan(bool allow_outside) {
         ByteStream content = ByteStream::open(path_, watch_);
         ObjParts parts;
         Size size;
@@ -78,7 +78,11 @@ private:
                 size.triangles += corners.size() - 2;
                 only_triangles_ = only_triangles_ && corners.size() == 3;
             },
-            [&](char statement, std::string_view name) { parts.name(statement, name); });
+            [&](std::string_view statement, std::string_view name) {
+                if (statement == "mtllib")
+                    check_libraries(path_, name, allow_outside);
+                parts.name(statement, name);
+            });
         if (size.triangles == 0)
             throw Fault(ErrorCode::bad_mesh, "holds no triangles");
         if (std::max({size.vertices, size.triangles, vertices_}) > kLargestMesh)

@@ -21,7 +21,8 @@ std::string node(std::uint64_t number) {
     return "node " + std::to_string(number);
 }
 
-Scene read_obj(ByteStream& content, PolygonScene& scene) {
+Scene read_obj(ByteStream& content, PolygonScene& scene, const std::string& path,
+               bool allow_outside) {
     ObjParts parts;
     std::size_t added = 0;
     scan_obj(
@@ -32,7 +33,11 @@ Scene read_obj(ByteStream& content, PolygonScene& scene) {
                 (void)scene.add_part(parts.ids()[added]);
             scene.face(part, corners);
         },
-        [&](char statement, std::string_view name) { parts.name(statement, name); });
+        [&](std::string_view statement, std::string_view name) {
+            if (statement == "mtllib")
+                check_libraries(path, name, allow_outside);
+            parts.name(statement, name);
+        });
     return scene.finish(PolygonScene::Vertices::used);
 }
 
@@ -72,20 +77,20 @@ Scene read_text_stl(ByteStream& content, PolygonScene& scene) {
 
 } // namespace
 
-std::optional<Scene> read_polygon_file(const std::string& path,
+std::optional<Scene> read_polygon_file(const std::string& path, bool allow_outside,
                                        const std::shared_ptr<const ReadWatch>& watch) {
     const std::string extension = lower_extension(path);
+    const bool is_obj = extension == ".obj";
     const bool is_stl = extension == ".stl";
-    const auto read = extension == ".obj"   ? read_obj
-                      : extension == ".off" ? read_off
+    const auto read = extension == ".off"   ? read_off
                       : extension == ".ply" ? read_ply
                       : is_stl              ? read_text_stl
                                             : nullptr;
-    if (read == nullptr || (is_stl && !is_text_stl(path)))
+    if ((read == nullptr && !is_obj) || (is_stl && !is_text_stl(path)))
         return std::nullopt;
     ByteStream content = ByteStream::open(path, watch);
     PolygonScene scene(*watch);
-    return read(content, scene);
+    return is_obj ? read_obj(content, scene, path, allow_outside) : read(content, scene);
 }
 
 } // namespace abut

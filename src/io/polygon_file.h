@@ -15,8 +15,9 @@ class ReadWatch;
 ///
 /// None for another extension, and for a binary STL file.
 ///
+/// In          allow_outside: as ReadOptions::allow_outside_files.
 /// Errors      Fault; Error of the watch.
-std::optional<Scene> read_polygon_file(const std::string& path,
+std::optional<Scene> read_polygon_file(const std::string& path, bool allow_outside,
                                        const std::shared_ptr<const ReadWatch>& watch);
 
 } // namespace abut

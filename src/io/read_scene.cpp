@@ -73,7 +73,7 @@ Scene read_one(const ModelPath& path, const ReadOptions& options,
     const auto watch = std::make_shared<const ReadWatch>(file, options, should_stop);
     try {
         check_file_kind(file, lower_extension(file));
-        if (auto scene = read_polygon_file(file, watch))
+        if (auto scene = read_polygon_file(file, options.allow_outside_files, watch))
             return completed(std::move(*scene), path, options);
         const auto source = open_own_source(
             path, {.read = options, .folder = kInMemory, .memory = kUnlimited, .watch = watch});

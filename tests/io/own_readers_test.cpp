@@ -1,6 +1,7 @@
 // The readers of our own run in the caller's process: they need no helper, heed limits and requests
 // to stop there, and take no more memory than the file justifies.
 
+#include "io/scene_source.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"
 
@@ -39,6 +40,30 @@ TEST_F(OwnReaders, RefuseWithoutAHelper) {
         if (name != "sample.glb")
             error_of(folder_.file(name, samples_.at(name).substr(0, samples_.at(name).size() - 30)),
                      ErrorCode::malformed);
+}
+
+TEST_F(OwnReaders, MaterialLibrariesOutsideOfTheFolderAreRefused) {
+    const std::string text = samples_.at("sample.obj");
+    ReadOptions allowed;
+    allowed.allow_outside_files = true;
+    SourceOptions in_pieces;
+    in_pieces.folder = folder_.path("");
+    in_pieces.memory = std::uint64_t{1} << 20;
+    // The second is read in pieces too: one part, whose vertices come before its faces.
+    for (const std::string& content : {text, std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}) {
+        for (const std::string library : {"a.mtl", "sub/my materials.mtl", "./a.mtl b.mtl", ""}) {
+            const std::string path = folder_.file("in.obj", "mtllib " + library + "\n" + content);
+            EXPECT_FALSE(read_scene(path).parts.empty()) << library;
+            EXPECT_GT(open_scene_source({path}, in_pieces)->parts().size(), 0U) << library;
+        }
+        for (const std::string library : {"/etc/passwd", "../a.mtl", "a.mtl sub/../../b.mtl"}) {
+            const std::string path =
+                folder_.file("out.obj", content + "mtllib " + library + "\r\n");
+            EXPECT_NE(error_of(path, ErrorCode::unsupported).find("outside"), std::string::npos);
+            EXPECT_THROW((void)open_scene_source({path}, in_pieces), Error) << library;
+            EXPECT_FALSE(read_scene(path, allowed).parts.empty()) << library;
+        }
+    }
 }
 
 TEST_F(OwnReaders, StopAtTheTimeLimit) {
