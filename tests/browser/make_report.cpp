@@ -76,7 +76,7 @@ Scene make_scene(const std::string& file, const Product (&products)[N], std::siz
 double distance_of(ClashKind kind, double share) {
     switch (kind) {
     case ClashKind::hard:
-        return -0.0005 - 0.35 * share * share;
+        return share < 0.05 ? -1e-9 : -0.0005 - 0.35 * share * share; // some nanometres deep
     case ClashKind::contained:
         return -0.02 - share;
     case ClashKind::clearance:

@@ -121,6 +121,14 @@ describe('10,000 clashes', () => {
     assert.deepEqual(down, [...down].sort((a, b) => b - a));
   });
 
+  test('a depth of nanometres is no negative zero', async () => {
+    await page.fill('#max', '-0.0000001');
+    await page.fill('#min', '-0.001');
+    await waitForCount(truth.clashes.filter((clash) => clash.distance === -1e-9).length);
+    const cells = (await rowsInView()).map((row) => row.cells[5]);
+    assert.ok(cells.length > 0 && cells.every((text) => text === '0.00'), cells.join(' '));
+  });
+
   test('sorts by every column', async () => {
     const collator = new Intl.Collator('en', { numeric: true });
     const text = (key) => (a, b) => collator.compare(a[key], b[key]);

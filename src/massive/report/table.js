@@ -3,7 +3,11 @@
 
 const wholeNumber = new Intl.NumberFormat('en');
 const MINUS = '\u2212';
-const signed = (value, digits) => value.toFixed(digits).replace('-', MINUS);
+/** With a true minus sign; what rounds to zero has none. */
+const signed = (value, digits) => {
+  const text = value.toFixed(digits);
+  return text.replace('-', Number(text) === 0 ? '' : MINUS);
+};
 const millimetres = (metres) => (metres === null ? '' : metres === 0 ? '0' : signed(metres * 1000, 2));
 const orNoName = (text) => text || '(no name)';
 
