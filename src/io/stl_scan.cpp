@@ -3,9 +3,23 @@
 #include "io/fault.h"
 #include "io/text_scan.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstring>
 
 namespace abut {
+
+namespace {
+
+/// Keywords are small letters, but capitals are met too.
+bool is_keyword(std::string_view word, std::string_view keyword) {
+    return word == keyword ||
+           std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
+               return std::tolower(static_cast<unsigned char>(a)) == b;
+           });
+}
+
+} // namespace
 
 bool is_text_stl(const std::string& path) {
     ByteStream content = ByteStream::open(path);
@@ -23,7 +37,8 @@ bool is_text_stl(const std::string& path) {
     if (text.starts_with("\xef\xbb\xbf"))
         text.remove_prefix(3);
     const bool is_utf_16 = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
-    if (is_utf_16 || (take_word(text) == "solid" && bytes.find('\0') == std::string_view::npos))
+    if (is_utf_16 ||
+        (is_keyword(take_word(text), "solid") && bytes.find('\0') == std::string_view::npos))
         return true;
     if (bytes.size() < kStlHeaderBytes)
         malformed("is truncated: too short for an STL file");
@@ -41,24 +56,24 @@ void scan_text_stl(ByteStream& content, const std::function<void(std::string_vie
     while (lines.next(rest)) {
         // Statements may share a line, but a name takes the rest of its own.
         for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
-            if (word == "vertex") {
+            if (is_keyword(word, "vertex")) {
                 if (++vertices > 3 * facets)
                     malformed(lines.place() + ": a facet needs three vertices");
                 vertex(take_position(rest, lines));
-            } else if (word == "facet") {
+            } else if (is_keyword(word, "facet")) {
                 if (!open_solid || vertices != 3 * facets)
                     malformed(lines.place() + (open_solid ? ": a facet needs three vertices"
                                                           : ": a facet lies outside of a solid"));
                 ++facets;
-            } else if (word == "endfacet" && vertices != 3 * facets) {
+            } else if (is_keyword(word, "endfacet") && vertices != 3 * facets) {
                 malformed(lines.place() + ": a facet needs three vertices");
-            } else if (word == "solid") {
+            } else if (is_keyword(word, "solid")) {
                 if (open_solid)
                     malformed(lines.place() + ": a solid begins within another one");
                 open_solid = true;
                 solid(trimmed(rest));
                 break;
-            } else if (word == "endsolid") {
+            } else if (is_keyword(word, "endsolid")) {
                 open_solid = false;
                 break;
             }

@@ -197,6 +197,20 @@ TEST(Formats, ColladaComesInItsOwnUnitAndAxes) {
     EXPECT_EQ(world_triangles(other)[0][1], (Vec3{0, 5, 0}));
 }
 
+TEST(Formats, ColladaWithAUnitOrAxesThatAreNoneIsRefused) {
+    const TemporaryFolder folder;
+    const std::string sample = sample_files().at("sample.dae");
+    for (const char* const meter : {"0", "-1", "0,01", "nan", "inf", "1e999", "mm"}) {
+        const std::string text =
+            replaced(sample, "meter=\"1\"", std::string("meter=\"") + meter + '"');
+        EXPECT_NE(error_of(folder.file("a.dae", text), ErrorCode::malformed).find("unit"),
+                  std::string::npos);
+    }
+    const std::string text = replaced(sample, "Y_UP", "W_UP");
+    EXPECT_NE(error_of(folder.file("a.dae", text), ErrorCode::malformed).find("W_UP"),
+              std::string::npos);
+}
+
 TEST(Formats, ReadMeshJoinsTheParts) {
     const TemporaryFolder folder;
     const nlohmann::json nodes = {{{"name", "a"}, {"mesh", 0}},

@@ -76,6 +76,14 @@ TEST_F(Text, BlanksOfAllKindsPartWords) {
     expect_read("sample.obj", replaced_all(samples_.at("sample.obj"), " ", "\f\t"));
 }
 
+TEST_F(Text, KeywordsOfStlMayBeInCapitals) {
+    std::string text = samples_.at("text.stl");
+    for (const auto& [word, capitals] : std::vector<std::pair<std::string, std::string>>{
+             {"solid", "SOLID"}, {"facet", "FACET"}, {"loop", "LOOP"}, {"vertex", "Vertex"}})
+        text = replaced_all(text, word, capitals);
+    expect_read("text.stl", text);
+}
+
 TEST_F(Text, ABackslashContinuesALineOfAnObjFileButNoComment) {
     expect_read("sample.obj", replaced_all(samples_.at("sample.obj"), "1.25 0", "1.25 \\\n 0"));
     expect_read("sample.obj", replaced_all(samples_.at("sample.obj"), "1.25 0", "1.25 \\\r\n 0"));

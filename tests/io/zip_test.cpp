@@ -153,6 +153,35 @@ TEST_F(Zip, A3mfFileThatIsDamaged) {
     }
 }
 
+TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrTurnInACircle) {
+    const auto model = [](const std::string& components, const std::string& item) {
+        std::string text = model_3mf("");
+        text.insert(text.find("</resources>"), components);
+        return text.insert(text.find("</build>"), "<item objectid=\"" + item + "\"/>");
+    };
+    const auto refuse = [&](const std::string& text) {
+        return error_of(folder_.file("bad.3mf", file_3mf(text)), ErrorCode::malformed);
+    };
+    // Ten of each object in the next one: two thousand millions of parts.
+    std::string tower;
+    for (int id = 3; id <= 11; ++id) {
+        tower += "<object id=\"" + std::to_string(id) + "\"><components>";
+        for (int i = 0; i < 10; ++i)
+            tower += "<component objectid=\"" + std::to_string(id - 1) + "\"/>";
+        tower += "</components></object>";
+    }
+    EXPECT_NE(refuse(model(tower, "11")).find("builds more than"), std::string::npos);
+    EXPECT_EQ(read_scene(folder_.file("good.3mf", file_3mf(model(tower, "4")))).parts.size(), 203U);
+    const std::string own =
+        R"(<object id="3"><components><component objectid="3"/></components></object>)";
+    EXPECT_NE(refuse(model(own, "3")).find("object 3"), std::string::npos);
+    const std::string circle =
+        R"(<object id="3"><components><component objectid="4"/></components></object>)"
+        R"(<object id="4"><components><component objectid="3"/></components></object>)";
+    EXPECT_NE(refuse(model(circle, "4")).find("object 4"), std::string::npos);
+    EXPECT_NE(refuse(model("", "9")).find("object 9"), std::string::npos);
+}
+
 class IfcZip : public Zip {
 protected:
     void SetUp() override {
@@ -169,7 +198,9 @@ protected:
 TEST_F(IfcZip, IsTheFileWithinIt) {
     for (const bool packs : {true, false}) {
         const Scene scene = read_scene(folder_.file(
-            "house.ifczip", zip({{"read me.txt", "text"}, {"House.IFC", text_}}, packs)));
+            "house.ifczip",
+            zip({{"read me.txt", "text"}, {"House.IFC", text_}, {"__MACOSX/._House.IFC", "macOS"}},
+                packs)));
         ASSERT_EQ(scene.parts.size(), house_.parts.size());
         EXPECT_EQ(scene.up, house_.up);
         for (std::size_t i = 0; i < scene.parts.size(); ++i)

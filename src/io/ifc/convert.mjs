@@ -369,7 +369,8 @@ const output = new Output();
 try {
     await convert(process.argv[2], process.argv[3] === 'spaces', process.argv[4] !== 'no-map', output);
 } catch (error) {
-    output.error(error instanceof Fault ? error.code : MALFORMED, error.message ?? String(error));
+    output.error(error instanceof Fault ? error.code : MALFORMED,
+                 error instanceof Fault ? error.message : `cannot be read by web-ifc: ${error.message ?? error}`);
 }
 // web-ifc would otherwise take the model apart.
 process.exit(0);

@@ -51,6 +51,9 @@ function directoryOf(archive, fail) {
     return {count, bytes: archive.read(size, at)};
 }
 
+// What macOS adds to an archive beside each file.
+const COMPANION = /(^|\/)(__MACOSX\/|\._[^/]*$)/;
+
 /** The entries whose names end with .ifc. */
 function models({count, bytes}, fail) {
     const entries = [];
@@ -60,7 +63,7 @@ function models({count, bytes}, fail) {
         const nameSize = bytes.readUInt16LE(at + 28);
         const next = at + RECORD_BYTES + nameSize + bytes.readUInt16LE(at + 30) + bytes.readUInt16LE(at + 32);
         const name = bytes.toString('utf8', at + RECORD_BYTES, at + RECORD_BYTES + nameSize);
-        if (/\.ifc$/i.test(name))
+        if (/\.ifc$/i.test(name) && !COMPANION.test(name))
             entries.push({
                 encrypted: (bytes.readUInt16LE(at + 8) & 1) === 1,
                 method: bytes.readUInt16LE(at + 10),

@@ -1,5 +1,8 @@
 #include "io/reader/collada_asset.h"
 
+#include "io/fault.h"
+#include "io/text_scan.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -70,6 +73,24 @@ std::string attribute(std::string_view attributes, std::string_view name) {
     return {};
 }
 
+double metres(const std::string& meter) {
+    char* end = nullptr;
+    const double unit = std::strtod(meter.c_str(), &end);
+    if (!trimmed(end).empty() || !std::isfinite(unit) || unit <= 0)
+        malformed("has a unit that is no positive number of metres: " + meter.substr(0, 40));
+    return unit;
+}
+
+UpAxis up_axis(std::string_view word) {
+    if (word == "X_UP")
+        return UpAxis::x;
+    if (word == "Z_UP")
+        return UpAxis::z;
+    if (word != "Y_UP")
+        malformed("has the unknown up_axis " + std::string(word.substr(0, 40)));
+    return UpAxis::y;
+}
+
 } // namespace
 
 FormatFrame collada_frame(std::string_view text) {
@@ -86,15 +107,11 @@ FormatFrame collada_frame(std::string_view text) {
         if (depth == 1)
             in_asset = tag.name == "asset";
         if (depth == 2 && in_asset && tag.name == "unit") {
-            const double unit = std::strtod(attribute(tag.attributes, "meter").c_str(), nullptr);
-            if (std::isfinite(unit) && unit > 0)
-                frame.unit = unit;
+            if (const std::string meter = attribute(tag.attributes, "meter"); !meter.empty())
+                frame.unit = metres(meter);
         }
         if (depth == 2 && in_asset && tag.name == "up_axis") {
-            if (tag.content.find("X_UP") != std::string_view::npos)
-                frame.up = UpAxis::x;
-            if (tag.content.find("Z_UP") != std::string_view::npos)
-                frame.up = UpAxis::z;
+            frame.up = up_axis(trimmed(tag.content));
         }
         depth += tag.is_empty ? 0 : 1;
     }

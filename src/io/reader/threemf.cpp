@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -27,31 +30,37 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/// The start tags of an XML text with a local name; comments are passed over.
+/// A start tag: its local name and what follows it.
+struct Tag {
+    std::string_view name, attributes;
+};
+
+/// The start tags of an XML text; comments are passed over. End tags come with an empty name.
 class Tags {
 public:
     explicit Tags(std::string_view text) : rest_(text) {}
 
-    /// The next start tag of this name, from behind the name to its end; empty if there is none.
-    std::string_view next(std::string_view name) {
+    /// False if there are no more.
+    bool next(Tag& tag) {
         while (true) {
             const std::size_t open = rest_.find('<');
             if (open == std::string_view::npos)
-                return {};
+                return false;
             rest_.remove_prefix(open);
             const bool is_comment = rest_.starts_with("<!--");
             const std::size_t close = is_comment ? rest_.find("-->") : rest_.find('>');
             if (close == std::string_view::npos)
-                return {};
-            const std::string_view tag = rest_.substr(1, close - 1);
+                return false;
+            const std::string_view text = rest_.substr(1, close - 1);
             rest_.remove_prefix(close + 1);
+            if (is_comment)
+                continue;
             std::size_t end = 0;
-            while (end < tag.size() && !is_blank(tag[end]) && tag[end] != '/')
+            while (end < text.size() && !is_blank(text[end]) && text[end] != '/')
                 ++end;
-            std::string_view found = tag.substr(0, end);
-            found.remove_prefix(std::min(found.find(':') + 1, found.size()));
-            if (!is_comment && found == name)
-                return tag.substr(end).empty() ? std::string_view(" ") : tag.substr(end);
+            tag = {text.substr(0, end), text.substr(end)};
+            tag.name.remove_prefix(std::min(tag.name.find(':') + 1, tag.name.size()));
+            return true;
         }
     }
 
@@ -99,25 +108,70 @@ std::string without_entities(std::string_view text) {
 std::string model_entry(const ZipArchive& archive) {
     const std::string relations = archive.content("_rels/.rels");
     Tags tags(relations);
-    for (std::string_view tag = tags.next("Relationship"); !tag.empty();
-         tag = tags.next("Relationship"))
-        if (attribute(tag, "Type") == kModelType) {
-            std::string_view target = attribute(tag, "Target");
+    for (Tag tag; tags.next(tag);)
+        if (tag.name == "Relationship" && attribute(tag.attributes, "Type") == kModelType) {
+            std::string_view target = attribute(tag.attributes, "Target");
             target.remove_prefix(target.starts_with('/') ? 1 : 0);
             return std::string(target);
         }
     malformed("names no model among its relationships");
 }
 
+/// Counts the parts that a model builds, before anything is built: components of components grow
+/// exponentially.
+class PartCount {
+public:
+    /// In          the model's tags in their order.
+    /// Errors      Fault malformed for an object that is used before it is there, and for too many
+    ///             parts.
+    void take(const Tag& tag) {
+        if (tag.name == "object")
+            current_ = &parts_[attribute(tag.attributes, "id")];
+        else if (tag.name == "mesh" && current_ != nullptr)
+            add(*current_, 1);
+        else if (tag.name == "component" && current_ != nullptr)
+            add(*current_, of_object(tag.attributes));
+        else if (tag.name == "item")
+            add(built_, of_object(tag.attributes));
+    }
+
+private:
+    static constexpr std::uint64_t kMost = 10'000'000;
+
+    static void add(std::uint64_t& sum, std::uint64_t parts) {
+        sum += parts;
+        if (sum > kMost)
+            malformed("builds more than " + std::to_string(kMost) + " parts");
+    }
+
+    /// An object of another model in the archive (`path`) counts as one part.
+    std::uint64_t of_object(std::string_view attributes) const {
+        const std::string_view id = attribute(attributes, "objectid");
+        const auto found = parts_.find(id);
+        if (found != parts_.end() && &found->second != current_)
+            return found->second;
+        if (attributes.find("path") != std::string_view::npos)
+            return 1;
+        malformed("refers to object " + std::string(id.substr(0, 40)) + " before it is there");
+    }
+
+    std::map<std::string_view, std::uint64_t> parts_; ///< by an object's id
+    std::uint64_t* current_ = nullptr;
+    std::uint64_t built_ = 0;
+};
+
 } // namespace
 
 ThreemfModel read_3mf_model(const std::string& file) {
     const ZipArchive archive(file);
     const std::string text = archive.content(model_entry(archive));
-    const std::string_view model = Tags(text).next("model");
-    if (model.empty())
+    Tags tags(text);
+    Tag tag;
+    while (tags.next(tag) && tag.name != "model")
+        ;
+    if (tag.name != "model")
         malformed("holds no model");
-    const std::string_view word = attribute(model, "unit");
+    const std::string_view word = attribute(tag.attributes, "unit");
     ThreemfModel result;
     result.frame = {0.001, UpAxis::z};
     if (!word.empty()) {
@@ -127,10 +181,13 @@ ThreemfModel read_3mf_model(const std::string& file) {
             malformed("has the unknown unit " + std::string(word.substr(0, 40)));
         result.frame.unit = unit->second;
     }
-    Tags tags(text);
-    for (std::string_view tag = tags.next("object"); !tag.empty(); tag = tags.next("object"))
-        if (const std::string_view name = attribute(tag, "name"); !name.empty())
-            result.names.emplace(attribute(tag, "id"), without_entities(name));
+    PartCount count;
+    while (tags.next(tag)) {
+        count.take(tag);
+        if (tag.name == "object")
+            if (const std::string_view name = attribute(tag.attributes, "name"); !name.empty())
+                result.names.emplace(attribute(tag.attributes, "id"), without_entities(name));
+    }
     return result;
 }
 
