@@ -31,10 +31,11 @@ class Stream : public testing::Test {
 protected:
     void expect_same(const std::string& path, Way way, double unit = 0) {
         SCOPED_TRACE(path);
-        const auto source = open_scene_source({path}, {.read = {.unit = unit},
-                                                       .world = std::nullopt,
-                                                       .folder = folder_.path(""),
-                                                       .memory = std::uint64_t{1} << 20});
+        SourceOptions options; // as one temporary, GCC 12 takes a part of it to be uninitialised
+        options.read.unit = unit;
+        options.folder = folder_.path("");
+        options.memory = std::uint64_t{1} << 20;
+        const auto source = open_scene_source({path}, options);
         EXPECT_EQ(source->streams(), way == Way::streamed);
         const Scene expected = read_scene(path, {.unit = unit});
         const Scene scene = scene_of(*source);
