@@ -86,7 +86,7 @@ UpAxis up_axis(std::string_view word) {
         return UpAxis::x;
     if (word == "Z_UP")
         return UpAxis::z;
-    if (word != "Y_UP")
+    if (!word.empty() && word != "Y_UP")
         malformed("has the unknown up_axis " + std::string(word.substr(0, 40)));
     return UpAxis::y;
 }
