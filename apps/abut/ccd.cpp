@@ -34,8 +34,8 @@ constexpr std::array<Named<Assignment>, 5> kAssignments{
 constexpr std::array<Named<Culling>, 3> kCullings{
     {{"tree", Culling::tree}, {"grid", Culling::grid}, {"sweep", Culling::sweep}}};
 
-/// Assignment::adaptive: the assignment follows the impacts once in as many steps, since each time
-/// the hierarchy is built anew.
+/// With Assignment::adaptive, the assignment is adapted to the impacts once in this many steps,
+/// because the hierarchy is rebuilt each time.
 constexpr std::size_t kAdaptEvery = 8;
 
 struct CcdArguments {
@@ -46,7 +46,8 @@ struct CcdArguments {
     std::string out, fail_on;
 };
 
-/// What makes a frame's triangles others than the surface's; empty if they are the same.
+/// Describes how the triangles of a keyframe differ from those of the surface; empty if they are
+/// the same.
 std::string topology_change(const Deformable& surface, const Mesh& frame) {
     const auto &before = surface.triangles(), &after = frame.triangles;
     if (frame.positions.size() != surface.vertex_count())
@@ -60,8 +61,8 @@ std::string topology_change(const Deformable& surface, const Mesh& frame) {
                        (*a)[0], (*a)[1], (*a)[2], (*b)[0], (*b)[1], (*b)[2]);
 }
 
-/// A sequence of frames: the surface that moves through them, and what is wanted of it. Of all
-/// frames, it has the last two.
+/// A sequence of keyframes: the surface that moves through them, and the options of the search for
+/// impacts. Only the last two keyframes are in memory.
 class Sequence {
 public:
     Sequence(const CcdArguments& arguments, const std::string& first)
@@ -75,9 +76,10 @@ public:
 
     [[nodiscard]] const Deformable& surface() const { return surface_; }
 
-    /// Goes on from the frame `from`, where it is, to `to`.
+    /// Advances the surface from its current keyframe `from` to `to`.
     ///
-    /// Errors      of `read_frame` and ImpactFile; Error{bad_mesh} if the topology changes and may not.
+    /// Errors      those of `read_frame` and ImpactFile; Error{bad_mesh} if the topology changes
+    ///             and must not.
     CcdStep advance(const std::string& from, const std::string& to) {
         const Stopwatch watch;
         CcdStep step;
@@ -105,7 +107,7 @@ private:
     void change_topology(const std::string& from, const std::string& to, CcdStep& step) {
         Mesh frame = read_frame(to);
         const std::string change = topology_change(surface_, frame);
-        if (change.empty()) // it had others a moment ago
+        if (change.empty()) // the file has changed since it was first read
             throw Error(ErrorCode::unreadable, to, "is being written to");
         if (!allow_topology_changes_)
             throw Error(
@@ -138,12 +140,12 @@ private:
     ElementaryOptions options_;
     bool adaptive_, allow_topology_changes_;
     Deformable surface_;
-    std::unique_ptr<ImpactFile> out_; ///< may be none
+    std::unique_ptr<ImpactFile> out_; ///< null without --out
     std::size_t steps_ = 0;
 };
 
-/// Large blocks that are freed go back to the system at once; else a sequence would need as much more
-/// as its largest temporary blocks are.
+/// Allocations above this size are returned to the system as soon as they are freed. Otherwise a
+/// sequence would keep as much more memory as its largest temporary arrays take.
 constexpr int kLargeBlock = 1 << 20;
 
 int run(const CcdArguments& arguments, const CommonOptions& common) {
@@ -162,7 +164,7 @@ int run(const CcdArguments& arguments, const CommonOptions& common) {
     if (table)
         print_row(table_head());
     CcdTotal total;
-    std::vector<CcdStep> steps; // for the JSON only
+    std::vector<CcdStep> steps; // filled for JSON output only
     for (std::size_t i = 1; i < frames.size(); ++i) {
         CcdStep step = sequence.advance(frames[i - 1], frames[i]);
         total.add(step);

@@ -22,13 +22,13 @@ struct QueryArguments {
     ElementaryArguments elementary;
 };
 
-/// Answers to the queries of one file, or of all.
+/// Totals of the answers to the queries of one file, or of all files.
 struct Tally {
     std::size_t queries = 0, hits = 0;
     bool has_truth = true;
     std::size_t positives = 0, false_negatives = 0, false_positives = 0;
-    std::array<std::size_t, 3> decided_by{}; ///< by stage
-    std::vector<double> nanoseconds;         ///< of each query
+    std::array<std::size_t, 3> decided_by{}; ///< answers decided by each stage
+    std::vector<double> nanoseconds;         ///< by query
 
     void add(const Tally& other) {
         queries += other.queries;
@@ -45,7 +45,7 @@ struct Tally {
         const double sum = std::accumulate(nanoseconds.begin(), nanoseconds.end(), 0.0);
         return nanoseconds.empty() ? 0 : sum / static_cast<double>(nanoseconds.size());
     }
-    /// The value below which this share of the queries lies.
+    /// Returns the time below which this share of the queries lies, in nanoseconds.
     [[nodiscard]] double quantile_ns(double share) const {
         if (nanoseconds.empty())
             return 0;
@@ -63,7 +63,7 @@ std::optional<ElementaryKind> kind_of(const QueryArguments& arguments) {
                                            : ElementaryKind::edge_edge;
 }
 
-/// A list of true and false (or 1 and 0), one for each query of all files in their order.
+/// Reads a list of true and false (or 1 and 0), one for each query of all files in their order.
 std::vector<bool> read_truth(const std::string& file) {
     std::ifstream stream(file);
     if (!stream)
@@ -82,7 +82,7 @@ std::vector<bool> read_truth(const std::string& file) {
     return truth;
 }
 
-/// The truth of a file takes the place of the queries' own.
+/// Replaces the expected answers of the queries by those of a file.
 void replace_truth(const std::string& file, std::vector<ElementaryQueries>& queries) {
     const std::vector<bool> truth = read_truth(file);
     std::size_t pairs = 0;
@@ -99,11 +99,12 @@ void replace_truth(const std::string& file, std::vector<ElementaryQueries>& quer
     }
 }
 
-/// A query alone takes less than a clock can tell: it is repeated for some microseconds.
+/// Measures the time of a query. It is repeated for some microseconds, because a clock cannot
+/// resolve a single one.
 double nanoseconds_of(const ElementaryPair& pair, const ElementaryOptions& options) {
     constexpr int kMostRepeats = 16;
     constexpr double kLongEnough = 4e-6;
-    bool hit = elementary_impact(pair, options).hit; // brings it into the caches
+    bool hit = elementary_impact(pair, options).hit; // warms the caches
     const Stopwatch watch;
     double seconds = 0;
     int repeats = 0;
@@ -152,7 +153,8 @@ nlohmann::ordered_json describe_tally(const Tally& tally) {
     return row;
 }
 
-/// A file's name in a column; on a line of its own where the terminal is narrower than a row.
+/// Returns a file's name as a column, or as a line of its own if the terminal is narrower than a
+/// row.
 std::string file_column(const std::string& name) {
     constexpr int kRow = 132;
     const int columns = columns_of(stdout);
@@ -169,7 +171,7 @@ std::string table_row(const std::string& name, const Tally& tally) {
 
 int run(const QueryArguments& arguments, const CommonOptions& common) {
     const ElementaryOptions options = arguments.elementary.options();
-    // The answers that are given are those of features that touch.
+    // The expected answers of a file are about features that touch, without a thickness.
     if (options.thickness > 0 && !arguments.truth_file.empty())
         throw Error(ErrorCode::bad_argument, "--truth goes without --thickness");
     std::vector<ElementaryQueries> queries;

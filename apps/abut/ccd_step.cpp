@@ -33,14 +33,15 @@ std::string file_name(const std::string& path) {
     return std::filesystem::path(path).filename().string();
 }
 
-/// A step's name in a column; on a line of its own where the terminal is narrower than a row.
+/// Returns a step's name as a column, or as a line of its own if the terminal is narrower than a
+/// row.
 std::string step_column(const std::string& name) {
     constexpr int kRow = 124;
     const int columns = columns_of(stdout);
     return columns > 0 && columns < kRow ? name + "\n " : fmt::format("{:<44} ", name);
 }
 
-/// Numbers of a row, impacts to seconds.
+/// Formats the numbers of a row, from the impacts to the seconds.
 std::string table_cells(const TestCounts& impacts, const std::string& first_time,
                         const DeformableCounters& counters, double refit, double detect,
                         double total) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// Options that take one word of several.
+/// Options whose value is one of several words.
 namespace abut::command {
 
 template <typename Value>
@@ -15,7 +15,8 @@ struct Named {
     Value value;
 };
 
-/// In          a value that the choices have.
+/// Returns the word for a value.
+/// In          value: one of the choices.
 template <typename Value, std::size_t kCount>
 const char* name_of(Value value, const std::array<Named<Value>, kCount>& choices) {
     return std::find_if(choices.begin(), choices.end(),
@@ -23,7 +24,7 @@ const char* name_of(Value value, const std::array<Named<Value>, kCount>& choices
         ->name;
 }
 
-/// Declares an option whose word sets the value; what it is before is the default.
+/// Declares an option whose word sets `value`. The current `value` is the default.
 template <typename Value, std::size_t kCount>
 void add_choice(CLI::App& app, const std::string& option, Value& value,
                 const std::array<Named<Value>, kCount>& choices, const std::string& description) {

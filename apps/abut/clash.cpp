@@ -22,18 +22,19 @@ namespace {
 
 struct ClashArguments {
     std::vector<std::string> files;
-    ClashOptions options; ///< clearance, touch, self; the rest is filled by run()
+    ClashOptions options; ///< clearance, touch, self; run() fills in the rest
     std::string rules, out, fail_on;
     std::optional<std::string> memory;
     bool no_hierarchies = false;
     ReadOptions read;
 };
 
-/// A file against itself would report every part as a duplicate of itself.
+/// Refuses files that are given twice. A file against itself would report each part as its own
+/// duplicate.
 void refuse_repeated(const std::vector<ModelPath>& files) {
     for (std::size_t i = 0; i < files.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
-            std::error_code missing; // a reader says that better
+            std::error_code missing; // ignored: the reader reports it better
             if (files[i].path == files[j].path ||
                 std::filesystem::equivalent(files[i].path, files[j].path, missing))
                 throw Error(ErrorCode::bad_argument, files[i].path, "is given twice");
@@ -57,7 +58,7 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
     outputs.commit();
 }
 
-/// Appended to the report's members.
+/// Returns the JSON member about the out-of-core job, to be appended to those of the report.
 std::string out_of_core_member(const OutOfCoreCounters& c) {
     std::string workers;
     for (const OutOfCoreCounters::Worker& w : c.workers)
@@ -85,7 +86,8 @@ std::string out_of_core_summary(const OutOfCoreCounters& c) {
         grouped(c.bytes_needed));
 }
 
-/// A process that mpirun started beside the first one: it works, and says nothing.
+/// Runs a helper, that is a process other than the first one that mpirun started. It works and
+/// prints nothing.
 int help(const ClashArguments& arguments, Crew& crew) {
     const InterruptScope scope(OnInterrupt::ask);
     help_find_clashes(arguments.files.front(), crew, {.report = {}, .stop = &interrupt_flag()});
@@ -99,7 +101,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         set_threads(crew->threads());
     if (crew && crew->rank() > 0)
         return help(arguments, *crew);
-    // Everything that can be refused without reading a model is refused first.
+    // Arguments that can be refused without reading a model are refused first.
     const std::vector<ModelPath> files = parse_model_paths(arguments.files);
     refuse_repeated(files);
     const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
@@ -151,7 +153,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             report = std::move(found.report);
             models = std::move(found.models);
             out_of_core = std::move(found.counters);
-            crew.reset(); // the others need not wait for the reports
+            crew.reset(); // the helpers need not wait for the reports
         } else {
             ReadOptions read = arguments.read;
             read.progress = options.progress;

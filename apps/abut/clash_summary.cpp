@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kRows = 5;
 
-/// "name (type)", shortened to a column's width.
+/// Returns "name (type)" with the name shortened to the width of a column.
 std::string label(const std::vector<Scene>& models, const Clash& clash, std::size_t side) {
     const Part& part = models[clash.model.at(side)].parts[clash.part.at(side)];
     constexpr std::size_t kLongest = 36;
@@ -19,24 +19,24 @@ std::string label(const std::vector<Scene>& models, const Clash& clash, std::siz
     if (name.size() > kLongest) {
         std::size_t end = kLongest - 3;
         while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
-            --end; // not inside a UTF-8 character
+            --end; // does not cut a UTF-8 character
         name = name.substr(0, end) + "...";
     }
     return part.type.empty() ? name : fmt::format("{} ({})", name, shown(part.type));
 }
 
-/// The word of a kind, as wide as its column.
+/// Returns the word of a kind, padded to the width of its column.
 std::string kind_text(ClashKind kind) {
     return fmt::format("{:<10}", abut::to_string(kind));
 }
 
-/// The same, coloured by how bad the kind is.
+/// Returns kind_text, coloured by the severity of the kind.
 std::string kind_column(ClashKind kind) {
     const bool is_bad = kind == ClashKind::hard || kind == ClashKind::contained;
     return coloured(is_bad ? Colour::bad : Colour::doubtful, kind_text(kind));
 }
 
-/// A clash in one line, or in two on a terminal that is narrower than that.
+/// Formats a clash in one line, or in two if the terminal is narrower than the line.
 std::string row(const std::vector<Scene>& models, const Clash& clash) {
     constexpr std::size_t kNames = 27; ///< the column where the names begin
     const std::string a = label(models, clash, 0), b = label(models, clash, 1);
@@ -47,7 +47,7 @@ std::string row(const std::vector<Scene>& models, const Clash& clash) {
                        number(clash.distance, 4), a, between, b);
 }
 
-/// The first few clashes of the kinds by `before`.
+/// Lists the first few clashes of the wanted kinds in the order of `before`.
 template <typename Before>
 std::string extremes(const char* title, const ClashReport& report, const std::vector<Scene>& models,
                      bool (*wanted)(ClashKind), Before before) {
@@ -60,7 +60,7 @@ std::string extremes(const char* title, const ClashReport& report, const std::ve
     const std::size_t count = std::min(kRows, rows.size());
     std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count), rows.end(),
                       [&](const Clash* a, const Clash* b) {
-                          // Equal distances stay in the report's order.
+                          // Clashes of equal rank keep the report's order.
                           return before(*a, *b) || (!before(*b, *a) && a < b);
                       });
     std::string text = fmt::format("\n{}\n", title);

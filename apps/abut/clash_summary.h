@@ -8,8 +8,8 @@
 
 namespace abut::command {
 
-/// A report for people: models, counts by kind, the deepest and the nearest pairs, times and
-/// memory.
+/// Returns a report as text for the terminal: models, counts by kind, the deepest and the nearest
+/// pairs, times and memory.
 std::string summary(const ClashReport& report, const std::vector<Scene>& models);
 
 } // namespace abut::command

@@ -31,7 +31,7 @@ struct CollideQuery : PairQuery {
     PosesOption poses;
     bool all = false;
     bool segments = false;
-    bool pieces = false; ///< as solids of convex pieces
+    bool pieces = false; ///< treats the models as solids of convex pieces
 
     [[nodiscard]] CollideOptions options() const {
         return {.mode = all ? ContactMode::all : ContactMode::first, .segments = segments};

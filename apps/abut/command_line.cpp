@@ -23,7 +23,7 @@ bool is_option(const std::string& word) {
     return word.size() > 1 && word[0] == '-' && !negative_number;
 }
 
-/// "--out=FOLDER" names --out.
+/// Returns the option's name: "--out" for "--out=FOLDER".
 std::string name_of_option(const std::string& word) {
     return word.substr(0, word.find('='));
 }
@@ -44,7 +44,8 @@ const OptionFacts* find(const std::vector<OptionFacts>& options, const std::stri
     return found == options.end() ? nullptr : &*found;
 }
 
-/// How many words from `at` on are one option with its value; 0 if the verb has no such option.
+/// Returns the number of words from `at` on that are one option with its value; 0 if the verb has
+/// no such option.
 std::size_t words_of_option(const std::vector<OptionFacts>& options, const Words& words,
                             std::size_t at) {
     const OptionFacts* const option = find(options, name_of_option(words[at]));
@@ -67,7 +68,7 @@ bool are_options(const CLI::App& verb, const Words& words, std::size_t end) {
     return at == end;
 }
 
-/// Refuses options that the verb does not have, and one at the end without its value.
+/// Refuses options that the verb does not have, and a last option that lacks its value.
 void refuse_wrong_options(const CLI::App& verb, const Words& words) {
     const std::vector<OptionFacts> options = all_options(verb);
     for (std::size_t at = 0; at < words.size();) {
@@ -100,8 +101,8 @@ const CLI::App* find_verb(const CLI::App& root, const std::string& name) {
     return found == apps.end() ? nullptr : *found;
 }
 
-/// The place of the verb: the first word that is one and has nothing but its own options before it.
-/// If there is none, the first word that is a verb.
+/// Returns the index of the verb. It is the first word that is a verb and has only its own options
+/// before it, else the first word that is a verb.
 std::optional<std::size_t> place_of_verb(const CLI::App& root, const Words& words) {
     std::optional<std::size_t> first;
     for (std::size_t i = 0; i < words.size(); ++i)
@@ -132,8 +133,8 @@ std::optional<std::size_t> place_of_verb(const CLI::App& root, const Words& word
                     like.empty() ? "see abut --help" : fmt::format("did you mean {}?", like)));
 }
 
-/// How many letters must be put in, left out, changed or swapped with the next one
-/// [optimal string alignment].
+/// Returns the optimal string alignment distance: the number of letters to insert, delete, change
+/// or swap with the next one.
 std::size_t edits(const std::string& a, const std::string& b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
     std::iota(d[0].begin(), d[0].end(), 0U);
@@ -149,7 +150,8 @@ std::size_t edits(const std::string& a, const std::string& b) {
     return d[a.size()][b.size()];
 }
 
-/// The word without dashes in front, in lower case: they are what is mistyped most.
+/// Returns the word in lower case and without leading dashes, because case and dashes are mistyped
+/// most often.
 std::string bare(const std::string& word) {
     std::string letters = word.substr(std::min(word.find_first_not_of('-'), word.size()));
     std::ranges::transform(letters, letters.begin(),
@@ -166,7 +168,7 @@ std::string most_like(const std::string& word, const std::vector<std::string>& n
     std::size_t least = typed.size() / 3 + (typed.size() < kFewLetters ? 0 : 1);
     for (const std::string& name : names) {
         const std::string letters = bare(name);
-        // A word that goes on, or ends too early, is as good as one with a letter wrong.
+        // A word that continues a name or is its beginning counts as one wrong letter at most.
         const bool is_start = std::min(typed.size(), letters.size()) >= kFewLetters &&
                               (typed.starts_with(letters) || letters.starts_with(typed));
         const std::size_t count =

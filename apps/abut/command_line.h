@@ -6,14 +6,14 @@
 
 namespace abut::command {
 
-/// The arguments in the order that the parser takes: the verb first. Options may stand before the
-/// verb, and `help VERB` is `VERB --help`.
+/// Returns the arguments in the order that the parser needs, with the verb first. Users may write
+/// options before the verb, and `help VERB` for `VERB --help`.
 ///
-/// Errors      Error{bad_argument} for a verb that there is not and for an option that the verb does
-///             not have, with the name that may have been meant.
+/// Errors      Error{bad_argument} for an unknown verb and for an option that the verb does not
+///             have; its message suggests the most similar name.
 std::vector<std::string> arranged(const CLI::App& root, std::vector<std::string> arguments);
 
-/// The name that is most like the word; empty if none is much like it.
+/// Returns the name that is most similar to the word; empty if none is similar enough.
 std::string most_like(const std::string& word, const std::vector<std::string>& names);
 
 } // namespace abut::command

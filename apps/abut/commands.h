@@ -2,7 +2,7 @@
 
 #include "common.h"
 
-/// The subcommands, one file each. Every function declares one; `common` must outlive the parser.
+/// The subcommands, one file each. Each function declares one. `common` must outlive the parser.
 namespace abut::command {
 
 Subcommand add_info(CLI::App& root, CommonOptions& common);

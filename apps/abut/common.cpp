@@ -116,7 +116,7 @@ void add_fail_on(CLI::App& app, std::string& fail_on, const std::string& problem
 }
 
 std::optional<double> parse_number(std::string_view text) {
-    // from_chars takes no leading plus sign, which people write in front of coordinates.
+    // from_chars rejects a leading plus sign, which people write in front of coordinates.
     if (text.size() > 1 && text[0] == '+' && text[1] != '-')
         text.remove_prefix(1);
     double value = 0;
@@ -128,7 +128,7 @@ std::optional<double> parse_number(std::string_view text) {
 }
 
 std::optional<double> parse_length(std::string_view text) {
-    // A quotient of whole numbers is rounded once: 50mm is the double that 0.05 is.
+    // A quotient of whole numbers is rounded only once, so that 50mm is the same double as 0.05.
     struct Unit {
         std::string_view name;
         double numerator, denominator;

@@ -40,7 +40,8 @@ std::vector<std::string> names_of_verbs(const CLI::App& root) {
     return names;
 }
 
-/// What completes the value of an option, in bash; nothing: file names, by the shell itself.
+/// Returns the bash code that completes the value of an option; empty for a file name, which bash
+/// itself completes.
 std::string bash_value(const OptionFacts& option) {
     if (!option.choices.empty())
         return fmt::format("_abut_words \"{}\"; ", joined(option.choices));
@@ -49,7 +50,7 @@ std::string bash_value(const OptionFacts& option) {
     return takes_file(option) ? "" : "_abut_nothing; ";
 }
 
-/// The cases of the values of a verb's options: "VERB OPTION) ...".
+/// Returns the bash cases "VERB OPTION) ..." that complete the values of a verb's options.
 std::string bash_values(const Verb& verb) {
     std::string text;
     for (const OptionFacts& option : options_in_a_row(verb))
@@ -60,7 +61,7 @@ std::string bash_values(const Verb& verb) {
     return text;
 }
 
-/// The case of a verb: its options, and the words that may be its argument.
+/// Returns the bash case of a verb, with its options and the words that are valid arguments.
 std::string bash_verb(const Verb& verb) {
     std::vector<std::string> names, words;
     for (const OptionFacts& option : options_in_a_row(verb)) {
@@ -72,7 +73,7 @@ std::string bash_verb(const Verb& verb) {
                        joined(words));
 }
 
-/// Text within single quotes of a shell.
+/// Returns the text in single quotes for a shell.
 std::string in_quotes(std::string_view text) {
     std::string out = "'";
     for (const char c : text)
@@ -80,7 +81,7 @@ std::string in_quotes(std::string_view text) {
     return out + "'";
 }
 
-/// Text in which zsh finds no end of a description.
+/// Escapes the characters that would end a description in zsh.
 std::string zsh_text(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -99,7 +100,7 @@ std::string zsh_action(const OptionFacts& option) {
     return option.is_argument || takes_file(option) ? "_files" : " ";
 }
 
-/// The specs of _arguments, one a line.
+/// Returns the specifications for zsh's _arguments, one per line.
 std::string zsh_specs(const Verb& verb) {
     std::string text;
     int place = 0;

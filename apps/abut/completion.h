@@ -5,10 +5,10 @@
 
 namespace abut::command {
 
-/// What bash sources to complete verbs, options and their words.
+/// Returns a script that bash sources to complete verbs, options and their values.
 std::string bash_completion(const CLI::App& root);
 
-/// The same for zsh, in a file _abut of its fpath.
+/// Returns the completion function for zsh, to be saved as a file _abut in its fpath.
 std::string zsh_completion(const CLI::App& root);
 
 } // namespace abut::command

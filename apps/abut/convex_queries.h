@@ -6,7 +6,7 @@
 
 #include <vector>
 
-/// The questions about the convex hulls of two models: --convex.
+/// The queries on the convex hulls of two models (--convex).
 namespace abut::command {
 
 struct ConvexDistanceQuery : PairQuery {

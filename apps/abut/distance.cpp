@@ -10,7 +10,7 @@ namespace abut::command {
 
 namespace {
 
-/// Whether the answer is no more than that all points are farther apart than --upper-bound.
+/// Whether the answer says only that the models are farther apart than --upper-bound.
 bool is_beyond_bound(const Gap& gap) {
     return gap.status == Status::bound_only && gap.distance >= 0;
 }
@@ -21,8 +21,8 @@ nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
 
 struct DistanceQuery : PairQuery {
     PosesOption poses;
-    bool convex = false; ///< of the models' hulls
-    bool pieces = false; ///< as solids of convex pieces
+    bool convex = false; ///< measures the models' convex hulls
+    bool pieces = false; ///< treats the models as solids of convex pieces
     DistanceOptions options;
 
     [[nodiscard]] Gap ask(const TwoModels& m) const {
@@ -40,7 +40,7 @@ struct DistanceQuery : PairQuery {
             json["point_b"] = to_json(gap.point_b);
             json["triangle_a"] = gap.triangle_a;
             json["triangle_b"] = gap.triangle_b;
-            // Of a depth only the triangles are known.
+            // For a depth only the triangles are known, not the features.
             if (gap.distance >= 0) {
                 json["feature_a"] = describe_feature(gap.feature_a, gap.index_a);
                 json["feature_b"] = describe_feature(gap.feature_b, gap.index_b);
@@ -52,7 +52,7 @@ struct DistanceQuery : PairQuery {
     static std::string in_words(const Gap& gap) {
         if (is_beyond_bound(gap))
             return fmt::format("distance at least {}\n", metres(gap.at_least));
-        // The two bounds of an exact distance differ by rounding alone.
+        // The two bounds of an exact distance differ only by rounding.
         const std::string at_least =
             gap.status == Status::exact ? "" : fmt::format(" (at least {})", metres(gap.at_least));
         return fmt::format("distance {}{}\n"

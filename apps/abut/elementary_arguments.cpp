@@ -8,7 +8,7 @@ namespace abut::command {
 
 namespace {
 
-/// Of the mode `conservative` where none is given; length.
+/// The delta of the mode `conservative` if --delta is not given, a length.
 constexpr double kDefaultDelta = 1e-6;
 
 } // namespace

@@ -9,14 +9,13 @@
 
 namespace abut::command {
 
-/// How elementary tests answer, as the arguments say it: --mode, --delta and
-/// --thickness.
+/// The options of elementary tests: --mode, --delta and --thickness.
 struct ElementaryArguments {
     std::string mode = "exact";
     std::optional<double> delta;
     double thickness = 0;
 
-    /// Errors      Error{bad_argument} for a delta in the mode exact.
+    /// Errors      Error{bad_argument} if a delta is given in the mode `exact`.
     [[nodiscard]] ElementaryOptions options() const;
 };
 

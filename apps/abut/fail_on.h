@@ -7,11 +7,12 @@
 
 namespace abut::command {
 
-/// What abut clash --fail-on asks for: kinds and statuses, of each all where none is named. An approved
-/// clash is no problem unless `approved` is named.
+/// The value of abut clash --fail-on: kinds and statuses of clashes that are a problem. If no kind
+/// is named, all kinds count. If no status is named, all except `approved` count.
 class FailOn {
 public:
-    /// In          words: comma-separated; empty: nothing is a problem. from_store: statuses are known.
+    /// In          words: comma-separated; if empty, no clash is a problem. from_store: whether
+    ///             clashes have statuses.
     /// Errors      Error{bad_argument}, naming the option.
     FailOn(const std::string& words, bool from_store);
 

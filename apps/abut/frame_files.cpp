@@ -14,8 +14,8 @@ std::string_view leading_digits(std::string_view text) {
     return text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
 }
 
-/// Whether a is before b, runs of digits compared as numbers. Equal where only zeros in front of
-/// numbers differ.
+/// Whether a sorts before b if runs of digits are compared as numbers. Names that differ only in
+/// leading zeros are equal.
 bool naturally_less(std::string_view a, std::string_view b) {
     while (!a.empty() && !b.empty()) {
         std::string_view number_a = leading_digits(a), number_b = leading_digits(b);
@@ -54,7 +54,7 @@ std::vector<std::string> frame_files(const std::vector<std::string>& arguments) 
     std::vector<std::string> files = arguments;
     if (arguments.size() == 1) {
         files = matches(arguments.front());
-        // Stable: of names that differ only in zeros, the order of glob() is by bytes.
+        // Stable, so that names that differ only in leading zeros keep the byte order of glob().
         std::stable_sort(files.begin(), files.end(), naturally_less);
     }
     if (files.size() < 2)

@@ -11,7 +11,8 @@ namespace abut::command {
 
 namespace {
 
-/// The files by their names in the folder: those of one kind in a folder of their own.
+/// Returns the texts of the files by subfolder and file name. Each kind of file has its own
+/// subfolder.
 std::map<std::string, std::map<std::string, std::string>> documents(const CLI::App& root) {
     std::map<std::string, std::map<std::string, std::string>> folders;
     folders["man1"]["abut.1"] = man_page(root);
@@ -40,7 +41,7 @@ int run(const CLI::App& root, const std::string& out) {
 
 Subcommand add_generate(CLI::App& root, CommonOptions& common) {
     auto out = std::make_shared<std::string>();
-    // It has no group: the build calls it, and no list of verbs has it.
+    // The verb has no group, so that no list of verbs shows it. Only the build calls it.
     CLI::App* app = add_subcommand(
         root, common,
         {"generate", "", "Write manual pages and completion for shells: the build does", {}, ""});

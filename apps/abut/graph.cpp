@@ -15,7 +15,7 @@ namespace abut::command {
 
 namespace {
 
-/// Edges that a drawing shows at most: more is a blot, and a large file.
+/// Edges in a drawing, at most. More would be illegible and make the file large.
 constexpr std::uint64_t kMostLines = 20'000;
 
 struct GraphArguments {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWidth = 1200, kMargin = 20;
 
-/// Two of the axes, scaled to the page.
+/// The projection onto two of the axes, scaled to the page.
 class Page {
 public:
     explicit Page(const GraphReport& graph) {
@@ -49,7 +49,7 @@ private:
     double scale_ = 1, height_ = 0;
 };
 
-/// Neighbours in the order of work differ: by the golden angle.
+/// Returns the colour of a unit. Hues of consecutive units differ by the golden angle.
 std::string colour(std::size_t unit) {
     return fmt::format("hsl({:.0f} 70% 42%)", std::fmod(137.508 * static_cast<double>(unit), 360));
 }

@@ -6,8 +6,9 @@
 
 namespace abut::command {
 
-/// The lines of a graph as SVG, seen along the axis along which the model reaches least; each unit has
-/// a colour of its own, in the order of work, and a ring of its bytes at the middle of its parts.
+/// Draws the lines of a graph as SVG, seen along the axis of the model's least extent. Each work
+/// unit has its own colour. A circle at the middle of its parts has the unit's number in the order
+/// of work; its radius grows with the unit's bytes.
 std::string draw(const GraphReport& graph);
 
 } // namespace abut::command

@@ -10,16 +10,17 @@ namespace abut::command {
 
 namespace {
 
-// Where the second column begins.
+// The positions where the second column begins.
 constexpr std::size_t kOptionColumn = 24, kVerbColumn = 18;
 
-/// Columns to fill: those of the terminal, up to 100, which is as wide as one reads.
+/// Returns the width of the text: that of the terminal, at most 100 columns for legibility; 80
+/// without a terminal.
 std::size_t text_width() {
     const int columns = columns_of(stdout);
     return columns == 0 ? 80 : static_cast<std::size_t>(std::clamp(columns, 40, 100));
 }
 
-/// The words of the text in lines that end before the column, all but the first indented.
+/// Wraps a text to the text width. All lines but the first are indented.
 std::string wrapped(std::string_view text, std::size_t first_column, std::size_t indent) {
     const std::size_t width = text_width();
     std::string out;
@@ -47,7 +48,8 @@ std::string section(const std::string& title) {
     return fmt::format("\n{}\n", coloured(Colour::heading, title + ":"));
 }
 
-/// "  NAME    text", the text in a column of its own; on the next line if the name is too long.
+/// Formats "  NAME    text" with the text in a second column; it begins on the next line if the
+/// name is too long.
 std::string row(const std::string& name, const std::string& says, std::size_t column) {
     std::string text = "  " + name;
     if (text.size() + 2 > column)

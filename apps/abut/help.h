@@ -7,13 +7,13 @@
 
 namespace abut::command {
 
-/// The text of `abut` and `abut --help`: verbs by group.
+/// Returns the text of `abut` and `abut --help`: the verbs by group.
 std::string general_help(const CLI::App& root);
 
-/// The text of `abut VERB --help`: usage, options, examples, exit statuses.
+/// Returns the text of `abut VERB --help`: usage, options, examples, exit statuses.
 std::string help_of(const Verb& verb);
 
-/// What a LENGTH is; empty if no option takes one.
+/// Returns a note that explains LENGTH; empty if no option takes a length.
 std::string note_on_lengths(const std::vector<OptionGroup>& groups);
 
 } // namespace abut::command

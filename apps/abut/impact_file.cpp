@@ -38,7 +38,7 @@ void append_row(fmt::memory_buffer& out, std::size_t step, const FeatureImpact& 
                    impact.normal.x, impact.normal.y, impact.normal.z, to_string(impact.status));
 }
 
-/// Least significant byte first.
+/// Appends an integer with the least significant byte first.
 template <typename Unsigned>
 void append_word(fmt::memory_buffer& out, Unsigned value) {
     static_assert(std::is_unsigned_v<Unsigned>);
@@ -50,6 +50,7 @@ void append_real(fmt::memory_buffer& out, double value) {
     append_word(out, std::bit_cast<std::uint64_t>(value));
 }
 
+/// Appends a record with the following layout:
 /// byte  0 step | 4 kind | 5 status | 6 zero | 8 a | 12 b | 16 time | 24 u v w | 48 normal | 72
 void append_record(fmt::memory_buffer& out, std::size_t step, const FeatureImpact& impact) {
     append_word(out, static_cast<std::uint32_t>(step));
@@ -70,12 +71,13 @@ void append_record(fmt::memory_buffer& out, std::size_t step, const FeatureImpac
                 std::string("cannot be written: ") + std::strerror(errno));
 }
 
-/// Opens a file for writing and empties it, unless another process writes it: then its content stays.
+/// Opens a file for writing and empties it. If another process is writing it, throws and leaves its
+/// content.
 std::FILE* open_alone(const std::string& path) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0)
         fail(path);
-    // Devices and some network file systems know no locks.
+    // Devices and some network file systems have no locks: other errors of flock() are ignored.
     if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
         close(descriptor);
         throw Error(ErrorCode::cannot_write, path,
@@ -95,7 +97,7 @@ std::FILE* open_alone(const std::string& path) {
 
 ImpactFile::ImpactFile(std::string path)
     : path_(std::move(path)), binary_(path_.ends_with(".bin")), file_(open_alone(path_)) {
-    std::setvbuf(file_.get(), nullptr, _IONBF, 0); // nothing is left for fclose() to write
+    std::setvbuf(file_.get(), nullptr, _IONBF, 0); // so fclose() has nothing to write
     if (binary_) {
         buffer_.append(kMagic);
         append_word(buffer_, kVersion);
@@ -126,7 +128,7 @@ void ImpactFile::finish_step() {
 void ImpactFile::write() {
     if (std::fwrite(buffer_.data(), 1, buffer_.size(), file_.get()) != buffer_.size()) {
         const int fault = errno;
-        // What cannot be cut (a device, a pipe) has taken what it has taken.
+        // A device or a pipe cannot be truncated, and keeps what was written.
         static_cast<void>(ftruncate(fileno(file_.get()), bytes_));
         throw Error(ErrorCode::cannot_write, path_,
                     std::string("cannot be written: ") + std::strerror(fault));

@@ -12,19 +12,20 @@
 
 namespace abut::command {
 
-/// Every impact of a sequence, in a file that grows step by step. docs/deformable.md says what it
-/// holds: comma-separated text, or fixed records where its name ends in .bin.
+/// A file of all impacts of a sequence, which grows step by step. It holds comma-separated text, or
+/// binary records of fixed size if its name ends in .bin; docs/deformable.md describes both.
 ///
-/// Written in place: however the work ends, the file has the impacts of all steps that were added,
-/// and no part of another.
+/// It is written in place. However the work ends, the file has the impacts of all steps that were
+/// added, and no part of another step.
 class ImpactFile {
 public:
-    /// Creates the file, or empties it. No other process can open it so until it is closed.
+    /// Creates the file, or empties it. Until it is closed, no other process can open it in this
+    /// way.
     ///
     /// Errors      Error{cannot_write}, naming the file; Error{interrupted}.
     explicit ImpactFile(std::string path);
 
-    /// Adds what met in a step. A signal during it is answered after it.
+    /// Adds the impacts of a step. A signal that arrives meanwhile is handled afterwards.
     ///
     /// Errors      Error{cannot_write}, naming the file; Error{interrupted}.
     void add(std::size_t step, std::span<const FeatureImpact> impacts);
@@ -41,7 +42,7 @@ private:
     bool binary_;
     std::unique_ptr<std::FILE, Close> file_;
     fmt::memory_buffer buffer_;
-    std::int64_t bytes_ = 0; ///< of the header and the steps that were added
+    std::int64_t bytes_ = 0; ///< size of the header and the steps added so far
 };
 
 } // namespace abut::command

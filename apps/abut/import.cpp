@@ -14,7 +14,7 @@ namespace abut::command {
 namespace {
 
 struct ImportArguments {
-    std::vector<std::string> files; ///< the store last
+    std::vector<std::string> files; ///< model files, then the store
     std::string memory = "512M";
     ReadOptions read;
     bool remove = false;

@@ -4,19 +4,20 @@
 
 #include <string>
 
-/// Numbers as people read them: at most six significant digits, no "-0", and a length with its unit.
+/// Numbers as text for people: at most six significant digits, no "-0", and lengths with their
+/// unit.
 namespace abut::command {
 
-/// "0.05", "1.23457e+06"; "0" for a zero of either sign.
+/// Formats a number, such as "0.05" or "1.23457e+06"; "0" for a zero of either sign.
 std::string number(double value, int digits = 6);
 
-/// "0.05 m"
+/// Formats a length, such as "0.05 m".
 std::string metres(double value);
 
-/// "(1, 0.5, 0) m"
+/// Formats a point, such as "(1, 0.5, 0) m".
 std::string point(const Vec3& place);
 
-/// "(0, 0, 1)": a direction has no unit.
+/// Formats a direction, which has no unit, such as "(0, 0, 1)".
 std::string direction(const Vec3& way);
 
 } // namespace abut::command

@@ -19,15 +19,15 @@ struct InfoArguments {
     std::vector<std::string> files;
     bool parts = false;
     bool verify = false;
-    bool pieces = false; ///< also the convex pieces of each mesh
+    bool pieces = false; ///< also describes the convex pieces of each mesh
     ReadOptions read;
 };
 
-/// A file's totals. Each instance counts, but for `meshes` and `stored_triangles`.
+/// The totals of a file over all its parts. `stored_triangles` counts each mesh only once.
 struct FileInfo {
     std::size_t stored_triangles = 0;
     std::size_t closed_parts = 0;
-    MeshReport sum; ///< of the parts; its counts and bounds only
+    MeshReport sum; ///< over the parts; only counts and bounds are filled in
 };
 
 Vec3 apply(const Transform& t, const Vec3& p) {
@@ -152,7 +152,7 @@ std::string table(const Scene& scene, const std::vector<MeshReport>& reports, co
         return text;
     text += fmt::format("\n  {:>9} {:>6} {:>10} {:>9} {:>8} {:>12} {:>7}  part\n", "triangles",
                         "closed", "degenerate", "duplicate", "boundary", "non-manifold", "flipped");
-    constexpr std::size_t kNumbers = 71; // columns before a part's name
+    constexpr std::size_t kNumbers = 71; // columns in front of a part's name
     const auto columns = static_cast<std::size_t>(columns_of(stdout));
     for (const Part& part : scene.parts) {
         const MeshReport& report = reports[part.mesh];

@@ -45,7 +45,7 @@ nlohmann::ordered_json describe(const StoreSummary& summary, bool verified) {
                                  {"hierarchy_bytes", summary.hierarchy_bytes},
                                  {"file_bytes", summary.file_bytes},
                                  {"unused_bytes", summary.unused_bytes}};
-    // Of nothing there are no bounds: JSON has no infinity.
+    // An empty store has infinite bounds, which JSON cannot express.
     if (summary.bounds.lower.x <= summary.bounds.upper.x)
         store["bounds"] = {{"lower", to_json(summary.bounds.lower)},
                            {"upper", to_json(summary.bounds.upper)}};

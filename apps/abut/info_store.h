@@ -4,10 +4,11 @@
 
 namespace abut::command {
 
-/// Whether `abut info` should take a file for a store: by how it begins, else by its name.
+/// Whether `abut info` should treat a file as a store, judged by its first bytes or else by its
+/// name.
 bool looks_like_store(const std::string& file);
 
-/// `abut info STORE…`
+/// Runs `abut info STORE…`. Returns the exit status.
 int describe_stores(const std::vector<std::string>& files, bool verify,
                     const CommonOptions& common);
 

@@ -14,7 +14,7 @@ std::atomic<bool> g_interrupted{false};
 std::atomic<OnInterrupt> g_answer{OnInterrupt::exit};
 std::atomic<bool> g_silent{false};
 
-// Only async-signal-safe calls here: write and _exit; the atomics are lock-free.
+// The handler makes only async-signal-safe calls (write and _exit). The atomics must be lock-free.
 static_assert(std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<OnInterrupt>::is_always_lock_free);
 

@@ -17,12 +17,14 @@ namespace {
 
 using namespace abut::command;
 
-/// Of several processes that mpirun started for one job, the first speaks for all.
+/// Whether this process must stay silent. Of several processes that mpirun started for one job,
+/// only the first prints.
 bool is_spoken_for(const std::vector<std::string>& arguments) {
     return std::ranges::find(arguments, "clash") != arguments.end() && abut::is_helper();
 }
 
-/// One line on standard error, unless silent, whatever a third-party message or a file's name holds.
+/// Prints an error as one line on standard error unless silent. Line breaks in messages of other
+/// libraries or in file names are escaped.
 int fail(bool silent, int status, std::string_view message) {
     if (!silent)
         print_error(message);
@@ -37,7 +39,7 @@ int help(const CLI::App& root, const std::string& verb_name) {
     return kExitDone;
 }
 
-/// The parser takes the arguments from the back.
+/// Parses the arguments and runs the command. The parser takes arguments in reverse order.
 int run(CLI::App& root, const std::vector<Subcommand>& commands, const CommonOptions& common,
         std::vector<std::string> arguments) {
     arguments = arranged(root, std::move(arguments));

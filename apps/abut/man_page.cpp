@@ -11,7 +11,8 @@ namespace abut::command {
 
 namespace {
 
-/// Text in which roff finds no request, no escape and no hyphen that may not be copied.
+/// Escapes a text for roff, so that it contains no request and no escape, and hyphens are copied as
+/// typed.
 std::string roff(std::string_view text) {
     std::string out;
     if (text.starts_with('.') || text.starts_with('\''))

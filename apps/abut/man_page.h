@@ -6,10 +6,10 @@
 
 namespace abut::command {
 
-/// man abut, in the language of man(7).
+/// Returns the source of `man abut`, in the format of man(7).
 std::string man_page(const CLI::App& root);
 
-/// man abut-VERB
+/// Returns the source of `man abut-VERB`.
 std::string man_page(const Verb& verb);
 
 } // namespace abut::command

@@ -23,7 +23,7 @@ namespace {
     throw Error(ErrorCode::cannot_write, path.string(), "cannot be written: " + why);
 }
 
-/// A new hidden folder inside `folder`. Errors: Error{cannot_write} naming `blame`.
+/// Creates a new hidden folder inside `folder`. Errors: Error{cannot_write} naming `blame`.
 fs::path make_staging(const fs::path& folder, const fs::path& blame) {
     std::string name = (folder / ".abut-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
@@ -31,8 +31,8 @@ fs::path make_staging(const fs::path& folder, const fs::path& blame) {
     return name;
 }
 
-/// A lock on a folder, which writers of files that belong together take. File systems without locks go
-/// without it.
+/// A lock on a folder for writers of files that belong together. It has no effect on file systems
+/// without locks.
 class FolderLock {
 public:
     explicit FolderLock(const fs::path& folder)
@@ -51,7 +51,8 @@ private:
     int descriptor_;
 };
 
-/// Exchanges two files. False if one is missing or a folder, or if the file system cannot.
+/// Exchanges two files. Returns false if one is missing or a folder, or if the file system cannot
+/// exchange files.
 bool exchange(const fs::path& a, const fs::path& b) {
     std::error_code ignored;
     return !fs::is_directory(a, ignored) && !fs::is_directory(b, ignored) &&
@@ -84,7 +85,7 @@ OutputFiles::~OutputFiles() {
     if (!staging_.empty())
         fs::remove_all(staging_, ignored);
     for (auto folder = created_.rbegin(); folder != created_.rend(); ++folder)
-        fs::remove(*folder, ignored); // keeps a folder that somebody else has put a file into
+        fs::remove(*folder, ignored); // fails, and keeps it, if it is not empty
 }
 
 std::string OutputFiles::path(const std::string& name) const {
@@ -130,7 +131,8 @@ void OutputFiles::commit() {
     created_.clear();
 }
 
-/// A file of an earlier run is exchanged for the new one, and stays in the staging folder.
+/// Moves a staged file to its place. A file of an earlier run is exchanged with it and moves to the
+/// staging folder.
 void OutputFiles::move(const std::string& name) {
     const fs::path staged = staging_ / name, place = folder_ / name;
     if (exchange(staged, place))

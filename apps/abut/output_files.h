@@ -9,9 +9,10 @@ namespace abut::command {
 
 /// Files of one folder that appear together or not at all.
 ///
-/// Before the work: the constructor proves that the folder can be written (or created) and leaves
-/// no trace. After it: stage() each file, then commit(). Without a commit() everything is taken
-/// back, folders that were created included; files of an earlier run stay as they are.
+/// The constructor is called before the work. It proves that the folder can be written or created,
+/// and leaves no trace. After the work, call stage() for each file, then commit(). Without
+/// commit(), the destructor removes everything, including folders that were created. Files of an
+/// earlier run then stay as they are.
 class OutputFiles {
 public:
     /// Errors      Error{cannot_write}, naming the folder or the file.
@@ -23,15 +24,16 @@ public:
     /// The final path of a file.
     [[nodiscard]] std::string path(const std::string& name) const;
 
-    /// Calls write(path) with a path beside the final one; errors of `write` are made to name the
-    /// final path.
+    /// Calls write(path) with the path of a temporary file. Errors of `write` that name it are
+    /// changed to name the final path.
     void stage(const std::string& name, const std::function<void(const std::string&)>& write);
 
     void stage_text(const std::string& name, const std::string& text);
 
-    /// Moves all staged files to their places, while no other process does so in this folder.
+    /// Moves all staged files to their places. A lock excludes other processes that do so in this
+    /// folder.
     ///
-    /// Errors      Error{cannot_write}, naming the file; all files are again as they were before.
+    /// Errors      Error{cannot_write}, naming the file; all files are restored first.
     void commit();
 
 private:

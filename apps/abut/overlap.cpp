@@ -46,7 +46,7 @@ auto with_shape(const OverlapArguments& arguments, const Answer& answer) {
 }
 
 int run(const OverlapArguments& arguments, const CommonOptions& common) {
-    with_shape(arguments, [](const auto&) {}); // what is wrong with it is said before any reading
+    with_shape(arguments, [](const auto&) {}); // checks the shape before any file is read
     const OneModel model = load(arguments.model, common);
     const Stopwatch watch;
     std::vector<std::uint32_t> triangles;

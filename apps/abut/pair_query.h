@@ -5,33 +5,33 @@
 #include <algorithm>
 #include <string>
 
-/// What the questions about two models have in common: ask, print, tell the exit status.
+/// Shared code of the queries on two models: ask, print the answer, return the exit status.
 namespace abut::command {
 
-/// The base of a question. Each adds
+/// The base of a query on two models. Each query adds
 ///
-///     ask(models)                the answer for the poses given
-///     add_answer(answer, json)   its fields of the JSON object
-///     in_words(answer)           its text
-///     is_problem(answer)         whether it is what --fail-on is about
+///     ask(models)                returns the answer for the given poses
+///     add_answer(answer, json)   adds the answer's fields to the JSON object
+///     in_words(answer)           returns the answer as text
+///     is_problem(answer)         whether the answer is the problem of --fail-on
 ///
 /// and, if it can be asked for many poses,
 ///
 ///     poses                      the option --poses
-///     ask(models, placements)    the answers, in order
-///     in_a_line(answer)          the text of one of them
+///     ask(models, placements)    returns the answers, in order
+///     in_a_line(answer)          returns one answer as a line of text
 struct PairQuery {
     TwoModelsOptions models;
-    std::string fail_on; ///< empty: no answer is a problem
+    std::string fail_on; ///< if empty, no answer is a problem
 
-    /// The beginning of the JSON object.
+    /// Returns the first members of the JSON object.
     [[nodiscard]] nlohmann::ordered_json question() const { return describe(models); }
     [[nodiscard]] int exit_status(bool problem) const {
         return problem && !fail_on.empty() ? kExitProblem : kExitDone;
     }
 };
 
-/// Asks for the poses of the command line. Returns the exit status.
+/// Asks the query for the poses of the command line. Returns the exit status.
 template <typename Query>
 int run(const Query& query, const CommonOptions& common) {
     const TwoModels models = load(query.models, common);
@@ -50,7 +50,7 @@ int run(const Query& query, const CommonOptions& common) {
     return query.exit_status(query.is_problem(answer));
 }
 
-/// Asks for each pose of the file of --poses. Returns the exit status.
+/// Asks the query for each pose in the file of --poses. Returns the exit status.
 template <typename Query>
 int run_many(const Query& query, const CommonOptions& common) {
     const std::vector<Pose> poses = read_poses(query.poses.file);

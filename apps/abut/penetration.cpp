@@ -26,8 +26,8 @@ nlohmann::ordered_json describe_region(const ContactRegion& region) {
 
 struct PenetrationQuery : PairQuery {
     PenetrationOptions options;
-    bool convex = false; ///< of the models' hulls
-    bool pieces = false; ///< as solids of convex pieces
+    bool convex = false; ///< measures the models' convex hulls
+    bool pieces = false; ///< treats the models as solids of convex pieces
 
     [[nodiscard]] Depth ask(const TwoModels& m) const {
         return penetration(m.a, m.world_from_a, m.b, m.world_from_b, options);

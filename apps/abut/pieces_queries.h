@@ -6,16 +6,17 @@
 
 #include <vector>
 
-/// The questions about two models as solids of convex pieces: --pieces.
+/// The queries on two models as solids of convex pieces (--pieces).
 namespace abut::command {
 
-/// The pieces of a model.
+/// Decomposes a model into convex pieces.
 ///
-/// Errors      as ConvexPieces, its line beginning with the file's name.
+/// Errors      as ConvexPieces; the message begins with the file's name.
 ConvexPieces pieces_of(const Model& model, const std::string& file);
 
-/// {pieces, triangles, largest, bytes}: how many pieces a mesh has, triangles in all and in the
-/// largest piece, memory; {pieces: null, triangles, error} if it is no solid.
+/// Returns {pieces, triangles, largest, bytes}: the number of convex pieces of a mesh, the
+/// triangles of all pieces and of the largest one, and the memory. Returns {pieces: null,
+/// triangles, error} if the mesh is not a solid.
 nlohmann::ordered_json describe_pieces(const Mesh& mesh);
 
 struct PiecesDistanceQuery : PairQuery {

@@ -33,7 +33,7 @@ void ProgressBar::show(std::string_view stage, double fraction) {
         stage_start_ = now;
         last_shown_ = {};
         if (style_ == Style::lines) {
-            fmt::print(stderr, "{:<12}", stage_); // the line is ended with the stage
+            fmt::print(stderr, "{:<12}", stage_); // end_stage() ends the line
             std::fflush(stderr);
         }
     }

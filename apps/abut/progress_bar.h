@@ -9,24 +9,26 @@
 
 namespace abut::command {
 
-/// Shows on standard error how far long work is: a bar on a terminal, which vanishes in the end;
-/// elsewhere, where it is asked for, a line a stage.
+/// Shows the progress of long work on standard error. On a terminal it is a bar, which vanishes at
+/// the end. Elsewhere it is one line per stage, if the user asked for it.
 class ProgressBar {
 public:
     enum class Style : std::uint8_t { none, bar, lines };
 
     explicit ProgressBar(Style style) : style_(style) {}
-    /// Clears what is shown.
+    /// Clears the bar.
     ~ProgressBar() { finish(); }
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// What to hand to the library: reports here, stops on interrupt. Must not outlive the bar.
+    /// Returns the object to pass to the library. It reports to this bar and stops on an interrupt.
+    /// It must not outlive the bar.
     [[nodiscard]] Progress progress();
 
-    /// Calls must not overlap, which Progress::report promises.
+    /// Shows a stage and its fraction done. Calls must not overlap; Progress::report guarantees
+    /// that.
     void show(std::string_view stage, double fraction);
-    /// Takes a bar off the terminal until show() is called: something is to be printed there.
+    /// Removes the bar from the terminal until the next show(), so that other text can be printed.
     void hide();
     /// Ends the last stage; may be called twice.
     void finish();

@@ -53,7 +53,7 @@ std::string name_of(const ListedClash& clash, std::size_t side) {
                  (type.empty() ? "" : " (" + type + ")"));
 }
 
-/// A clash in one line, or in three on a terminal that is narrower than that.
+/// Formats a clash in one line, or in three if the terminal is narrower than the line.
 std::string row(const ListedClash& clash) {
     const std::string head = fmt::format("  {}  {:<8}  {:<9}  {:>10} m", clash_id_text(clash.id),
                                          abut::to_string(clash.status), abut::to_string(clash.kind),

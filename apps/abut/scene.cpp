@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kMostTriangles = 1'000'000'000;
 constexpr std::uint64_t kMostClashes = 1'000'000; // PlantOptions counts them as int
-constexpr std::uint64_t kMostFrames = 10'000;     // their numbers have four digits
+constexpr std::uint64_t kMostFrames = 10'000;     // file names have four digits
 constexpr const char* kPlant = "plant";
 
 struct SceneArguments {

@@ -7,7 +7,7 @@
 
 namespace abut::command {
 
-/// Writes a plant to FILE.glb and its truth to FILE.truth.json; prints the truth.
+/// Writes a plant to FILE.glb and its true clashes to FILE.truth.json; prints the latter.
 int make_plant_files(const std::string& out, const PlantOptions& options,
                      const CommonOptions& common);
 

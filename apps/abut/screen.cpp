@@ -14,16 +14,16 @@ namespace abut::command {
 
 namespace {
 
-// A mark of ours: the first, a letter of Colour, the coloured text, the second.
+// A colour mark of coloured(): kBegin, a letter of Colour, the coloured text, kEnd.
 constexpr char kBegin = '\x0e', kEnd = '\x0f';
 
 struct Character {
-    std::size_t bytes; ///< 1 if it is not valid
+    std::size_t bytes; ///< 1 if the character is not valid
     char32_t code;
     bool valid;
 };
 
-/// The character that the text begins with [Unicode 15, table 3-7].
+/// Decodes the first character of the text [Unicode 15, table 3-7].
 Character first_character(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned lead = byte(0);
@@ -45,7 +45,7 @@ Character first_character(std::string_view text) {
     return {bytes, code, true};
 }
 
-/// Whether a terminal obeys the character in place of showing it.
+/// Whether a terminal interprets the character instead of showing it.
 bool is_obeyed(char32_t c) {
     const bool control = c < 0x20 || (c >= 0x7F && c < 0xA0);
     const bool direction = c == 0x061C || c == 0x200E || c == 0x200F ||
@@ -74,8 +74,8 @@ const char* sequence_of(char colour) {
     return "";
 }
 
-/// The text with its marks as sequences or as nothing, its line ends kept, and all else that a
-/// terminal obeys escaped.
+/// Prepares a text for a stream. Colour marks become escape sequences, or nothing if colours are
+/// off. Line ends are kept, and all other characters that a terminal interprets are escaped.
 std::string for_stream(std::string_view text, std::FILE* stream) {
     const bool colours = has_colours(stream);
     std::string out;

@@ -6,8 +6,8 @@
 
 namespace abut::command {
 
-/// Calls take(number, line) for each line of a text file, from 1, without its end (\n, \r\n or \r)
-/// and without a byte-order mark before the first.
+/// Calls take(number, line) for each line of a text file. Numbers begin at 1. Line ends (\n, \r\n
+/// or \r) and a leading byte-order mark are removed.
 ///
 /// Errors      Error, naming the file: file_not_found; unreadable; malformed for text in UTF-16 or
 ///             with zero bytes.

@@ -13,7 +13,7 @@ namespace {
 
 struct ImpactArguments {
     PairQuery pair;
-    std::array<std::string, 2> ends; ///< as given; empty: where it starts
+    std::array<std::string, 2> ends; ///< as given; the start pose if empty
     bool screw = false;
     std::optional<double> tolerance;
     std::optional<std::uint64_t> max_steps;
@@ -78,7 +78,7 @@ struct ImpactQuery : PairQuery {
     static bool is_problem(const Impact& impact) { return impact.hit; }
 };
 
-/// Checks the poses.
+/// Checks the poses and returns the query.
 ImpactQuery query_of(const ImpactArguments& arguments, const CommonOptions& common) {
     return {arguments.pair,      motion_of(arguments, 0), motion_of(arguments, 1),
             arguments.tolerance, arguments.max_steps,     common.progress_style()};

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kArguments = "Arguments";
 
-/// The words in the braces that CLI11 makes of a set: "TEXT:{aabb,obb}".
+/// Returns the words in the braces of CLI11's type name for a set: "TEXT:{aabb,obb}".
 std::vector<std::string> choices_of(const std::string& type) {
     const std::size_t begin = type.find('{'), end = type.rfind('}');
     std::vector<std::string> words;
@@ -23,7 +23,8 @@ std::vector<std::string> choices_of(const std::string& type) {
     return words;
 }
 
-/// The name of a check, which says more than the type that it follows: "FLOAT:LENGTH".
+/// Returns the placeholder of a value: the name of a check if there is one ("LENGTH" of
+/// "FLOAT:LENGTH"), because it says more than the type.
 std::string value_of(const std::string& type) {
     if (type.find('{') != std::string::npos)
         return "WORD";
@@ -100,13 +101,13 @@ std::vector<OptionGroup> options_of(const CLI::App& app) {
     };
     for (const CLI::Option* option : app.get_options())
         add(option->get_group(), *option);
-    // A nameless subcommand of CLI11 is a group of options.
+    // In CLI11, a subcommand without a name is a group of options.
     for (const CLI::App* group : app.get_subcommands({}))
         if (group->get_name().empty())
             for (const CLI::Option* option : group->get_options())
                 if (option != group->get_help_ptr())
                     add(group->get_group() + " (" + group->get_description() + ")", *option);
-    if (!common.options.empty()) // the help comes last
+    if (!common.options.empty()) // moves --help to the end
         std::rotate(common.options.begin(), common.options.begin() + 1, common.options.end());
     groups.push_back(common);
     std::erase_if(groups, [](const OptionGroup& group) { return group.options.empty(); });

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-/// What the parser knows of the verbs and their options, as help, manual pages and completion need it.
-/// All three are made from here, so that none says what another does not.
+/// The verbs and their options as the parser knows them. Help, manual pages and completion are all
+/// generated from these data, so that they agree.
 namespace abut::command {
 
-/// Groups of verbs, in the order of the list.
+/// The groups of verbs, in the order of the help.
 inline constexpr const char* kModels = "Models and stores";
 inline constexpr const char* kTwoModels = "Two models";
 inline constexpr const char* kOneModel = "One model and a shape";
@@ -16,7 +16,7 @@ inline constexpr const char* kClashes = "Clashes between the parts of models";
 inline constexpr const char* kDeforming = "Surfaces that deform";
 inline constexpr const char* kScenes = "Scenes to try";
 
-/// The group of the options that each verb has.
+/// The group of the options that all verbs have.
 inline constexpr const char* kCommonGroup = "Options of every verb";
 
 struct Example {
@@ -29,7 +29,7 @@ struct VerbHelp {
     std::string group;
     std::string says; ///< one sentence
     std::vector<Example> examples;
-    std::string problem; ///< when the exit status is 1; empty: never
+    std::string problem; ///< when the exit status is 1; never if empty
 };
 
 /// A subcommand that knows its help.
@@ -44,16 +44,16 @@ private:
     VerbHelp help_;
 };
 
-/// The verbs, in their order, without those that have no group.
+/// Returns the verbs that have a group, in their order.
 std::vector<const Verb*> verbs_of(const CLI::App& root);
 
 /// An option or an argument of a verb.
 struct OptionFacts {
-    std::vector<std::string> names; ///< "-h", "--help"; of an argument: its name in capitals
-    std::string value;              ///< what stands for its value ("FILE"); empty: a flag
+    std::vector<std::string> names; ///< "-h", "--help"; for an argument its name in capitals
+    std::string value;              ///< placeholder of its value ("FILE"); empty for a flag
     std::vector<std::string> choices;
     std::string brief; ///< one line
-    std::string says;  ///< with choices, default, and what it needs and excludes
+    std::string says;  ///< with choices, default, and the options it needs and excludes
     bool is_argument = false;
     bool required = false;
     bool repeated = false;
@@ -64,16 +64,16 @@ struct OptionGroup {
     std::vector<OptionFacts> options;
 };
 
-/// Arguments first, then the options by group, those of every verb last.
+/// Returns the arguments, then the options by group; the options of all verbs come last.
 std::vector<OptionGroup> options_of(const CLI::App& app);
 
-/// "abut collide [OPTIONS] A B"
+/// Returns the usage line, such as "abut collide [OPTIONS] A B".
 std::string usage_of(const CLI::App& app);
 
 struct ExitStatus {
     std::string status, says;
 };
-/// problem: when it is 1; empty: never.
+/// In          problem: when the exit status is 1; never if empty.
 std::vector<ExitStatus> exit_statuses(const std::string& problem);
 
 /// Examples of the command as a whole.

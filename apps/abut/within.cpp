@@ -12,7 +12,7 @@ namespace {
 struct WithinQuery : PairQuery {
     PosesOption poses;
     double tolerance = 0;
-    bool pieces = false; ///< as solids of convex pieces
+    bool pieces = false; ///< treats the models as solids of convex pieces
 
     [[nodiscard]] bool ask(const TwoModels& m) const {
         return within(m.a, m.world_from_a, m.b, m.world_from_b, tolerance);

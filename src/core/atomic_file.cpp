@@ -23,8 +23,8 @@ namespace {
 } // namespace
 
 void write_file_atomically(const std::string& path, std::string_view content) {
-    // The file is new, so that no other writer's is overwritten or removed: not another thread's, nor that of
-    // a process of the same number on another machine.
+    // O_EXCL makes a new file, so that no other writer's temporary file is overwritten or removed.
+    // The other writer may be a thread, or a process with the same id on another machine.
     static std::atomic<std::uint64_t> writers{0};
     std::string temporary;
     int file = -1;

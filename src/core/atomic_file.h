@@ -5,10 +5,10 @@
 
 namespace abut {
 
-/// Writes a file so that it appears whole or not at all: to a temporary name beside it, then
-/// renamed.
+/// Writes a file so that it appears complete or not at all. The content goes to a temporary file in
+/// the same folder, which is then renamed.
 ///
-/// The temporary is removed on failure.
+/// The temporary file is removed on failure.
 ///
 /// Errors      Error{cannot_write}, naming the file.
 void write_file_atomically(const std::string& path, std::string_view content);

@@ -8,12 +8,12 @@
 
 namespace abut {
 
-/// A set of numbers that grows, for any number of threads.
+/// A growing set of numbers. Any number of threads may insert at the same time.
 ///
-/// Source      open addressing with linear probing, in shards with a lock each.
+/// Source      open addressing with linear probing, in shards that have a lock each.
 class ConcurrentSet {
 public:
-    /// True if the number was not in the set. In: any but ~0.
+    /// Inserts a number. Returns true if it was not in the set. In: any number but ~0.
     bool insert(std::uint64_t number) {
         return shards_[hash_of(number) >> (64 - kShardBits)].insert(number);
     }
@@ -22,7 +22,7 @@ private:
     static constexpr int kShardBits = 8;
     static constexpr std::uint64_t kFree = ~std::uint64_t{0};
 
-    /// Fibonacci hashing: the upper bits are the well mixed ones.
+    /// Fibonacci hashing: the upper bits are well mixed.
     static std::uint64_t hash_of(std::uint64_t number) { return number * 0x9e3779b97f4a7c15U; }
 
     struct Shard {
@@ -41,7 +41,8 @@ private:
             ++used;
             return true;
         }
-        /// Where the number is, or belongs: begins at the bits below those that chose the shard.
+        /// The number's slot, or the free slot where it belongs. The probe starts at the hash bits
+        /// below those that chose the shard.
         std::uint64_t& find(std::uint64_t number) {
             std::size_t i = (hash_of(number) << kShardBits >> 32) & (slots.size() - 1);
             while (slots[i] != number && slots[i] != kFree)

@@ -15,11 +15,11 @@
 
 namespace abut {
 
-/// Sorts any number of records in bounded memory: sorted runs on the disk, then one merge of them
-/// all. What fits into the memory never touches the disk.
+/// Sorts any number of records in bounded memory: writes sorted runs to the disk, then merges all
+/// of them at once. Records that fit into memory never touch the disk.
 ///
-/// In          records with operator<, an order in which no two are equal: else their order would
-///             depend on the memory.
+/// In          records with operator<, a strict order without equal records. The order of equal
+///             records would depend on the memory limit.
 /// Cost        each record is written and read once.
 template <typename Record>
 class ExternalSort {
@@ -39,7 +39,7 @@ public:
         records_.push_back(record);
     }
 
-    /// Calls take(record) for all of them in ascending order. To be called once, after the last push.
+    /// Calls take(record) for all records in ascending order. Call it once, after the last push.
     template <typename Take>
     void drain(const Take& take) {
         if (runs_.empty()) {
@@ -56,7 +56,8 @@ public:
 private:
     static constexpr std::size_t kLeastRecords = 1024;
 
-    /// Records of the file from `next` to `end`, sorted; `buffer` holds those that come next.
+    /// A sorted run: the records of the file from `next` to `end` are still unread, `buffer` holds
+    /// those read.
     struct Run {
         std::uint64_t next = 0, end = 0;
         std::vector<Record> buffer;
@@ -73,7 +74,7 @@ private:
         records_.clear();
     }
 
-    /// False if the run is at its end.
+    /// Reads the next records of a run. Returns false at its end.
     bool refill(Run& run, std::size_t most) {
         const std::size_t count = std::min<std::uint64_t>(most, run.end - run.next);
         run.buffer.resize(count);

@@ -7,8 +7,8 @@
 
 namespace abut {
 
-/// 128 bits that stand for a content: that two contents share them by chance is not to be expected
-/// before some 10^18 of them.
+/// A 128-bit hash that identifies a content. A chance collision is not expected below about 10^18
+/// contents.
 struct Hash128 {
     std::uint64_t low = 0, high = 0;
     friend bool operator==(const Hash128&, const Hash128&) = default;
@@ -17,12 +17,12 @@ struct Hash128 {
     }
 };
 
-/// Source      XXH3 [Collet], unseeded: the same on every machine. Not for adversaries who look for
-///             collisions.
+/// Source      XXH3 [Collet], unseeded: the same on every machine. Not safe against adversaries who
+///             construct collisions.
 Hash128 hash_128(std::span<const std::byte> bytes);
 std::uint64_t hash_64(std::span<const std::byte> bytes);
 
-/// The hash of a content that comes in pieces; how it is cut makes no difference.
+/// The hash of a content that is added in parts. How it is divided makes no difference.
 class Hasher {
 public:
     Hasher();

@@ -10,7 +10,7 @@ void prefer_large_pages(const void* start, std::size_t bytes) noexcept {
     const auto address = reinterpret_cast<std::uintptr_t>(start);
     const std::uintptr_t first = (address + kPage - 1) / kPage * kPage;
     const std::uintptr_t end = (address + bytes) / kPage * kPage;
-    // Only a hint: where the system has no large pages, nothing is lost.
+    // This is only a hint: it has no effect where the system has no large pages.
     if (first < end)
         (void)madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE); // NOLINT
 }

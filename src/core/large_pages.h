@@ -5,8 +5,8 @@
 
 namespace abut {
 
-/// Asks the system for large pages in a range of memory that is not used yet: page faults take a
-/// third of the time of filling it otherwise. Does nothing for a small range.
+/// Asks the system for large pages in a range of unused memory. Without them, page faults take a
+/// third of the time of filling the memory. Does nothing for a small range.
 void prefer_large_pages(const void* start, std::size_t bytes) noexcept;
 
 template <typename Value>

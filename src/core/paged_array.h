@@ -12,16 +12,15 @@
 
 namespace abut {
 
-/// An array on the disk, read and written at any place through a cache of pages of bounded size.
-/// Not for several threads at once.
+/// An array on disk with random access through a bounded cache of pages. Not thread-safe.
 ///
-/// Source      a direct-mapped cache: neighbouring pages never displace each other.
+/// Source      a direct-mapped cache: neighbouring pages never evict each other.
 template <typename Value>
 class PagedArray {
     static_assert(std::is_trivially_copyable_v<Value>);
 
 public:
-    /// In          count: all elements are zero bytes until they are set.
+    /// In          count: number of elements; all are zero until they are set.
     PagedArray(const std::string& folder, std::uint64_t count, std::size_t memory)
         : file_(folder), count_(count) {
         const std::uint64_t pages = count / kPageValues + 1;

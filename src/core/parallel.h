@@ -19,8 +19,8 @@ namespace abut {
 
 /// Calls body(i) for every i in [0, count), in parallel, in chunks of at least `grain`.
 ///
-/// The order of calls is not fixed: write results to slot i. Exceptions leave through the caller;
-/// of several, one.
+/// The order of the calls is not fixed, so write results to slot i. If calls throw, one of the
+/// exceptions reaches the caller.
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     if (count <= grain) {
@@ -29,8 +29,8 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
         return;
     }
 #ifdef __SANITIZE_THREAD__
-    // The thread sanitizer cannot see into the packaged oneTBB and takes its hand-overs for races:
-    // plain threads in its place show the races of our own.
+    // The thread sanitizer cannot see into the packaged oneTBB and reports its synchronisation as
+    // races. Plain threads in its place show the races of this library's own code.
     std::atomic<std::size_t> next{0};
     std::mutex failing;
     std::exception_ptr failure;
@@ -60,8 +60,8 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #endif
 }
 
-/// Calls body(); a thread that waits in there for parallel work takes up no other meanwhile. For
-/// whoever holds a lock.
+/// Calls body(). While this thread waits inside for parallel work, it takes up no unrelated task.
+/// Use it while holding a lock.
 template <typename Body>
 void isolated(const Body& body) {
 #ifdef __SANITIZE_THREAD__
@@ -71,7 +71,7 @@ void isolated(const Body& body) {
 #endif
 }
 
-/// Sorts as std::sort does.
+/// Sorts like std::sort.
 template <typename Iterator>
 void parallel_sort(Iterator begin, Iterator end) {
 #ifdef __SANITIZE_THREAD__

@@ -13,15 +13,16 @@
 
 namespace abut {
 
-/// Takes items one at a time, works on them in parallel, and gives them away one at a time in the order
-/// in which they were taken; at most `tokens` of them are under way. Taking and giving may overlap.
+/// Takes items one at a time, processes them in parallel, and passes them on one at a time in the
+/// order in which they were taken. At most `tokens` items are in flight. Taking and giving may
+/// overlap.
 ///
-/// In          take(): a pointer, null at the end; work(item), give(item).
-/// Errors      those of the three leave through the caller; of several, one.
+/// In          take() returns a pointer, null at the end; work(item), give(item).
+/// Errors      if the three functions throw, one of the exceptions reaches the caller.
 template <typename Pointer, typename Take, typename Work, typename Give>
 void parallel_pipeline(std::size_t tokens, const Take& take, const Work& work, const Give& give) {
 #ifdef __SANITIZE_THREAD__
-    // As in parallel.h: plain threads, that the thread sanitizer can see into.
+    // Plain threads, which the thread sanitizer can see into; see parallel.h.
     std::mutex taking, giving;
     std::condition_variable turn;
     std::size_t taken = 0, given = 0;

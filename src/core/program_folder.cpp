@@ -8,7 +8,8 @@ namespace abut {
 
 namespace {
 
-/// Is set before main, from any source's initialisation: hence no object of this source's.
+/// A function's static, not a global of this file: other files' initialisers may set it before
+/// main.
 std::filesystem::path& folder_of_helpers() {
     static std::filesystem::path folder;
     return folder;

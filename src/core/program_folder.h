@@ -4,10 +4,10 @@
 
 namespace abut {
 
-/// Where the running program lies: its companions are looked for beside it. Empty if not known.
+/// The folder of the running program. Its helper programs are expected beside it. Empty if unknown.
 std::filesystem::path program_folder();
 
-/// Where set_helper_folder says that companions lie; empty if nobody has said so.
+/// The folder of helper programs that set_helper_folder has set; empty if none was set.
 const std::filesystem::path& helper_folder();
 
 } // namespace abut

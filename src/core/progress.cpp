@@ -33,7 +33,7 @@ void ProgressMeter::advance(std::size_t steps) {
         return;
     const std::size_t done = done_.fetch_add(steps) + steps;
     const std::size_t percent = total_ == 0 ? 100 : 100 * done / total_;
-    // A thread that finds another one reporting goes on with its work.
+    // A thread does not wait for another thread's report.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock.owns_lock() && percent + 1 > next_percent_) {
         next_percent_ = percent + 1;

@@ -9,13 +9,13 @@
 
 namespace abut {
 
-/// Reports one stage of a long job, at most once a percent, and ends it when the caller asks for
-/// that.
+/// Reports the progress of one stage of a long job, at most once a percent. Ends the stage with an
+/// exception when the caller asks to stop.
 class ProgressMeter {
 public:
     ProgressMeter(const Progress& progress, std::string_view stage, std::size_t total);
 
-    /// From any thread. Errors: Error{interrupted}.
+    /// May be called from any thread. Errors: Error{interrupted}.
     void advance(std::size_t steps = 1);
 
 private:
@@ -27,7 +27,7 @@ private:
     std::size_t next_percent_ = 0;
 };
 
-/// Errors: Error{interrupted} if the caller asked to stop.
+/// Throws Error{interrupted} if the caller asked to stop.
 void check_stop(const Progress& progress);
 
 } // namespace abut

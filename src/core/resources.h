@@ -2,7 +2,7 @@
 
 namespace abut {
 
-/// That this process has used so far, in all its threads.
+/// Processor time that all threads of this process have used so far.
 double processor_seconds();
 
 } // namespace abut

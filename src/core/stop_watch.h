@@ -4,14 +4,14 @@
 
 namespace abut {
 
-/// A clock on the wall.
+/// Measures elapsed wall-clock time.
 class StopWatch {
 public:
-    /// Since it was made, or since the last lap.
+    /// Time since construction or the last lap.
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
     }
-    /// The same, and a new lap begins.
+    /// As seconds(), and starts a new lap.
     double lap() {
         const auto now = std::chrono::steady_clock::now();
         const double seconds = std::chrono::duration<double>(now - last_).count();

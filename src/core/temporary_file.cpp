@@ -20,7 +20,8 @@ int open_without_name(const std::string& folder) {
     const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL))
         return file;
-    // Some file systems (network ones among them) have none without a name: it loses its own here.
+    // Some file systems, such as network ones, cannot create a file without a name. The file is
+    // then created with a name, which is removed at once.
     std::string name = folder + "/.abut-XXXXXX";
     const int named = mkostemp(name.data(), O_CLOEXEC);
     if (named >= 0)

@@ -8,16 +8,16 @@
 
 namespace abut {
 
-/// In place of a folder: the file is kept in memory.
+/// Used instead of a folder to keep the file in memory.
 inline constexpr const char* kInMemory = ":memory:";
 
-/// A file without a name: it is gone with the process that made it, however that ends.
+/// A file without a name. It disappears with the process that made it, however that ends.
 ///
-/// Reads and writes at any place, from any thread; what is written by one thread and read by
-/// another must be ordered by the caller.
+/// Any thread may read and write at any place. If one thread writes what another reads, the caller
+/// must synchronise them.
 class TemporaryFile {
 public:
-    /// In          folder: where the disk space is taken from, or kInMemory.
+    /// In          folder: where the disk space is used, or kInMemory.
     /// Errors      Error{cannot_write}, naming the folder.
     explicit TemporaryFile(const std::string& folder);
     ~TemporaryFile();
@@ -31,11 +31,11 @@ public:
     /// Errors      Error{unreadable}, naming the folder.
     void read(std::uint64_t at, std::span<std::byte> bytes) const;
 
-    /// As many of the bytes as the file has; how many.
+    /// Reads as many of the bytes as the file has. Returns their number.
     std::size_t read_some(std::uint64_t at, std::span<std::byte> bytes) const;
 
     [[nodiscard]] const std::string& folder() const noexcept { return folder_; }
-    /// To hand the file to another process.
+    /// The file descriptor, to pass the file to another process.
     [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
 private:
@@ -43,7 +43,7 @@ private:
     int descriptor_ = -1;
 };
 
-/// Reads a temporary file through a window: cheap where places follow each other. One thread.
+/// Reads a temporary file through a window, which makes consecutive reads cheap. For one thread.
 class TemporaryReader {
 public:
     explicit TemporaryReader(const TemporaryFile& file) : file_(file) {}
@@ -59,7 +59,7 @@ private:
     std::uint64_t start_ = 0;
 };
 
-/// Writes to the end of a temporary file through a buffer.
+/// Appends to a temporary file through a buffer.
 class TemporaryWriter {
 public:
     explicit TemporaryWriter(TemporaryFile& file, std::uint64_t at = 0,
@@ -69,9 +69,9 @@ public:
 
     /// Errors      as TemporaryFile::write.
     void append(const void* data, std::size_t size);
-    /// To be called before the file is read, and at the end.
+    /// Call it before the file is read, and at the end.
     void flush();
-    /// Where the next byte goes.
+    /// Offset of the next byte to be written.
     [[nodiscard]] std::uint64_t end() const noexcept { return written_ + used_; }
 
 private:

@@ -9,7 +9,7 @@
 namespace abut {
 
 std::vector<StoredBlock> stored_blocks(StoreFile& store, const MeshRow& mesh) {
-    constexpr std::uint64_t kBytesPerNumber = 4; // that a triangle has in the whole
+    constexpr std::uint64_t kBytesPerNumber = 4; // ModelBlock::numbers has one entry per triangle
     std::vector<StoredBlock> blocks;
     for (const BlockRow& block : store.blocks(mesh))
         blocks.push_back({block.block, block.box,
@@ -57,7 +57,8 @@ std::shared_ptr<const ModelBlock> BlockCache::get(const StoredBlock& block) {
 
 std::shared_ptr<const ModelBlock> BlockCache::read(const StoredBlock& block) {
     std::shared_ptr<const ModelBlock> result;
-    // Others may be waiting for this: no other work meanwhile.
+    // `isolated` keeps this thread from taking up the test of another pair while it waits. That
+    // test might need this block too, and would never get it.
     isolated([&] { result = std::make_shared<const ModelBlock>(reader_.read_block(block.row)); });
     return result;
 }
@@ -66,7 +67,7 @@ void BlockCache::make_room(std::uint64_t bytes) {
     for (auto at = order_.end(); bytes_ + bytes > budget_ && at != order_.begin();) {
         const auto candidate = std::prev(at);
         const auto entry = entries_.find(*candidate);
-        // One that is being read, or that somebody holds, takes its memory anyway.
+        // Evicting a block that is being read or that a caller holds would free no memory.
         if (entry->second.block == nullptr || entry->second.block.use_count() > 1) {
             at = candidate;
             continue;

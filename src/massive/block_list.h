@@ -9,20 +9,22 @@
 
 namespace abut {
 
-/// The models that a part consists of: one, or the blocks of a large mesh. For one thread.
+/// The models that a part consists of: its only model, or the mesh blocks of a large mesh. Not
+/// thread-safe.
 class BlockList {
 public:
-    /// In          a part that outlives the list, with all that it refers to.
+    /// In          part: it and all that it refers to must outlive the list.
     explicit BlockList(const ClashPart& part) : part_(part) {
         if (part.blocks != nullptr)
             placed_.emplace(*part.blocks, part.world_from_mesh);
     }
 
-    /// One of the models, and what keeps it in memory.
+    /// One of the models. `block` keeps it in memory; it is null if the part is not in blocks.
     struct Held {
         std::shared_ptr<const ModelBlock> block;
         const Model* model = nullptr;
-        /// That its triangles have in the whole; empty: it is the whole.
+        /// Index in the whole mesh of each triangle of the block; empty if the model is the whole
+        /// mesh.
         std::span<const std::uint32_t> numbers;
 
         [[nodiscard]] std::uint32_t number(std::uint32_t triangle) const {
@@ -35,7 +37,7 @@ public:
         return placed_ ? part_.blocks->triangles() : part_.model->mesh().triangles.size();
     }
     [[nodiscard]] std::size_t size() const { return placed_ ? placed_->size() : 1; }
-    /// Holds model i in the world.
+    /// World box of model i.
     [[nodiscard]] const Box3& box(std::size_t i) const {
         return placed_ ? placed_->box(i) : part_.box;
     }
@@ -47,7 +49,7 @@ public:
         const std::span<const std::uint32_t> numbers = block->numbers;
         return {std::move(block), model, numbers};
     }
-    /// Null for a part that is whole.
+    /// The part's blocks; null if the part is one model.
     [[nodiscard]] PlacedBlocks* placed() { return placed_ ? &*placed_ : nullptr; }
 
 private:

@@ -8,14 +8,14 @@
 #include <cmath>
 #include <string_view>
 
-/// CSV as RFC 4180 has it: a header, CRLF, quotes where a cell needs them; UTF-8 without a
-/// byte-order mark.
+/// Writes CSV as RFC 4180 defines it: a header, CRLF, quotes where a cell needs them; UTF-8 without
+/// a byte-order mark.
 ///
-/// A spreadsheet takes a cell that begins with = + - @ | for a formula or a command, quoted or not,
-/// also in full width (East Asian forms) and after space, and the texts here come from files of
-/// others. Such a text gets an apostrophe in front, which spreadsheets take as "this is text".
-/// Numbers are ours and stay as they are. Programs that want the texts unaltered read the JSON
-/// report.
+/// A spreadsheet takes a cell that begins with = + - @ | for a formula or a command, even if the
+/// cell is quoted, in full width (East Asian forms) or after white space. The texts come from
+/// untrusted model files. Such a text therefore gets a leading apostrophe, which marks it as text
+/// for a spreadsheet. Numbers are written by this library and stay as they are. Programs that need
+/// the unaltered texts read the JSON report.
 namespace abut {
 
 namespace {
@@ -24,13 +24,13 @@ constexpr std::string_view kHeader =
     "id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,"
     "point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,"
     "direction_x,direction_y,direction_z,triangle_pairs,rule";
-constexpr std::string_view kStatusHeader = ",status,note"; // of a store alone
+constexpr std::string_view kStatusHeader = ",status,note"; // only in reports of a store
 
-/// Whether a spreadsheet may take the text for more than text. A control character in front is
-/// reason enough: programs differ in which of them they skip.
+/// Whether a spreadsheet may take the text for a formula or a command. A leading control character
+/// suffices, because programs differ in which of them they skip.
 bool is_active(std::string_view text) {
     using namespace std::string_view_literals;
-    // Each also in full width.
+    // The second row holds the same characters in full width.
     constexpr std::array kStarts{"="sv,      "+"sv,      "-"sv,      "@"sv,      "|"sv,
                                  "\uFF1D"sv, "\uFF0B"sv, "\uFF0D"sv, "\uFF20"sv, "\uFF5C"sv};
     // Space, no-break, ideographic and zero-width space, byte-order mark.

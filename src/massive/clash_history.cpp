@@ -42,7 +42,7 @@ HistoryRow read_row(Database& database, const Statement& row, std::int64_t quest
     return result;
 }
 
-/// Writes rows of one question, and their tally in the end.
+/// Writes rows of one question. finish() writes their tally.
 class HistoryWriter {
 public:
     HistoryWriter(Database& database, std::int64_t question)
@@ -73,7 +73,7 @@ private:
     Statement put_;
 };
 
-/// The clashes of a report by their ids.
+/// Finds the clashes of a report by id. Several clashes may have one id.
 class ById {
 public:
     explicit ById(const ClashReport& report) {
@@ -81,7 +81,7 @@ public:
             places_.emplace_back(report.clashes[i].id, i);
         std::ranges::sort(places_);
     }
-    /// Calls take(place) for each clash with this id; false if there is none.
+    /// Calls take(index) for each clash with this id; returns false if there is none.
     template <typename Take>
     bool for_each(std::uint64_t id, const Take& take) const {
         const auto first = std::ranges::lower_bound(places_, id, {}, &Place::first);
@@ -133,7 +133,7 @@ std::uint64_t HistoryRow::checksum() const {
 ClashStatus HistoryRow::status(const MarkRow* mark, std::int64_t job) const {
     if (clash.resolved != 0)
         return ClashStatus::resolved;
-    // A mark is of the clash that was there then, not of one that came back after it.
+    // A mark does not apply to a clash that was resolved after it and came back.
     if (mark != nullptr && mark->serial > returned)
         return mark->mark;
     return appeared == job ? ClashStatus::fresh : ClashStatus::active;
@@ -231,7 +231,8 @@ void tell_statuses(Database& database, std::int64_t question, std::int64_t job,
             const bool is_there = by_id.for_each(row.clash.id, [&](std::size_t place) {
                 Clash& clash = report.clashes[place];
                 clash.note.clear();
-                // Of a job that is not recorded a clash may be back that the history has as resolved.
+                // A job that is not recorded may find a clash again that the history lists as
+                // resolved.
                 set(clash, row.clash.resolved != 0 ? ClashStatus::fresh : row.status(mark, job),
                     mark);
             });

@@ -11,38 +11,43 @@
 #include <functional>
 #include <vector>
 
-/// What has become of the clashes of a question from job to job. docs/clash-status.md tells the rules.
+/// The clash history of a store: which clashes of a question appeared, stayed or were resolved from
+/// job to job. A question is a set of clash options, whichever parts they are applied to
+/// (QuestionRow). docs/clash-status.md states the rules.
 namespace abut {
 
-/// A clash that some job of a question found. A row of a store, with a checksum.
+/// A clash that at least one job of a question found. It is a store row with a checksum.
 struct HistoryRow {
     std::int64_t question = 0;
     ListedClash clash;         ///< without status and note
-    std::int64_t appeared = 0; ///< job that found it first, or first again
-    /// It had been resolved before that: the last mark that was set until then; else 0.
+    std::int64_t appeared = 0; ///< job that found it first, or first after it was resolved
+    /// If it was resolved before `appeared`: the serial number of the last mark set until then,
+    /// which makes older marks void. Else 0.
     std::int64_t returned = 0;
 
     [[nodiscard]] std::uint64_t checksum() const;
-    /// In          mark: null if there is none; job: the last one of the question that has ended.
+    /// In          mark: null if the clash has none; job: the last finished job of the question.
     [[nodiscard]] ClashStatus status(const MarkRow* mark, std::int64_t job) const;
 };
 
-/// In the order of ids.
-/// Errors      Error{malformed}, naming the store, if a row is not what its checksum says, or missing.
+/// Calls take(row) for each row of a question, sorted by clash id.
+/// Errors      Error{malformed}, naming the store, if a row does not match its checksum or is
+///             missing.
 void for_each_in_history(Database& database, std::int64_t question,
                          const std::function<void(HistoryRow&&)>& take);
 
-/// Brings the history of a job's question up to date with what it found. Within a transaction.
+/// Updates the history of a job's question with the clashes that the job found. The caller holds a
+/// transaction.
 void record_history(Database& database, const JobRow& job, const ClashReport& report,
                     const std::vector<Scene>& models);
 
-/// Removes what is resolved; returns the ids. Within a transaction.
+/// Removes the resolved clashes and returns their ids. The caller holds a transaction.
 std::vector<std::uint64_t> forget_resolved(Database& database, std::int64_t question);
 
-/// Fills in what the report says of statuses.
+/// Fills in the report's statuses, notes and resolved clashes.
 ///
-/// In          question: 0 if it was never asked; job: the one that the report is of, if the history has
-///             it, else a number beyond all.
+/// In          question: 0 if it was never asked; job: the job of the report if it is recorded in
+///             the history, else a number larger than that of any job.
 void tell_statuses(Database& database, std::int64_t question, std::int64_t job,
                    ClashReport& report);
 

@@ -13,7 +13,7 @@ namespace abut {
 
 namespace {
 
-/// Distinct values in order of first use, each with its index.
+/// Distinct values in order of first use. Each has an index.
 class Table {
 public:
     std::uint32_t index(const std::string& value) {
@@ -26,12 +26,11 @@ public:
 
 private:
     std::unordered_map<std::string, std::uint32_t> index_;
-    std::vector<const std::string*> values_; // keys of the map: nodes stay where they are
+    std::vector<const std::string*> values_; // keys of the map, whose addresses are stable
 };
 
-/// The report as the page reads it: columns, not rows, and every part, type, file and rule only
-/// once. A page of 100,000 clashes is a third of the size that it would have with the rows of the
-/// JSON report.
+/// The report as the page reads it: in columns, with every part, type, file and rule stored once. A
+/// page of 100,000 clashes has a third of the size that the rows of the JSON report would need.
 class PageData {
 public:
     PageData(const ClashReport& report, const std::vector<Scene>& models)
@@ -146,12 +145,12 @@ private:
     std::unordered_map<const Part*, std::uint32_t> parts_;
     std::vector<const Part*> part_order_;
     std::vector<std::uint32_t> part_type_, part_file_;
-    std::vector<std::array<std::uint32_t, 2>> part_index_; ///< of each clash
+    std::vector<std::array<std::uint32_t, 2>> part_index_; ///< by clash
     std::vector<std::uint32_t> rule_index_, note_index_;
     Table types_, files_, rules_, notes_;
 };
 
-/// Appends the template up to the marker and cuts it off `html`.
+/// Appends the template up to the marker, then removes that text and the marker from `html`.
 void append_until(TextBuffer& out, std::string_view& html, std::string_view marker) {
     const std::size_t at = html.find(marker);
     append(out, html.substr(0, at));

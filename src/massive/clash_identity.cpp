@@ -15,7 +15,7 @@ public:
     void add(std::string_view text) {
         for (const char c : text)
             step(static_cast<unsigned char>(c));
-        step(0xff); // in no UTF-8 text: "ab", "c" differs from "a", "bc"
+        step(0xff); // occurs in no UTF-8 text, so that "ab", "c" differs from "a", "bc"
     }
     [[nodiscard]] std::uint64_t value() const { return value_; }
 

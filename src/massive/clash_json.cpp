@@ -61,7 +61,7 @@ void append_clash(TextBuffer& out, const Clash& clash, const std::vector<Scene>&
 
 } // namespace
 
-// One clash a line: a report of 100,000 can be searched, compared and cut with line tools.
+// Writes one clash per line, so that line tools can search, compare and cut a report.
 std::string to_json(const ClashReport& report, const std::vector<Scene>& models) {
     TextBuffer out;
     append(out, "{\n");

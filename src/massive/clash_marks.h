@@ -10,26 +10,30 @@
 
 namespace abut {
 
-/// What someone has said of a clash, whichever question it answers. Rows of a store, with checksums.
+/// A user's mark on a clash: reviewed or approved, with a note. It applies to the clash in every
+/// question. It is a store row with a checksum.
 struct MarkRow {
-    std::int64_t serial = 0; ///< counts all marks that were ever set; put_mark gives it
+    std::int64_t serial = 0; ///< number among all marks ever set; put_mark assigns it
     std::uint64_t id = 0;
-    ClashStatus mark = ClashStatus::reviewed; ///< or approved
+    ClashStatus mark = ClashStatus::reviewed; ///< reviewed or approved
     std::string note;
-    std::int64_t marked = 0; ///< when, in seconds since 1970
+    std::int64_t marked = 0; ///< time of marking, in seconds since 1970
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
 
 using Marks = std::unordered_map<std::uint64_t, MarkRow>;
 
-/// The serial number of the last mark that was set.
+/// Returns the serial number of the last mark that was set; 0 if none was.
 std::int64_t last_mark(Database& database);
 
-/// Errors      Error{malformed}, naming the store, if a row is not what its checksum says, or missing.
+/// Reads all marks, by clash id.
+/// Errors      Error{malformed}, naming the store, if a row does not match its checksum or is
+///             missing.
 Marks read_marks(Database& database);
 
-/// Sets a mark in place of what `marks` has, or takes it away. Within a transaction.
+/// put_mark replaces the mark of clash row.id, remove_mark removes one; both change the store and
+/// `marks`. The caller holds a transaction.
 void put_mark(Database& database, Marks& marks, MarkRow row);
 void remove_mark(Database& database, Marks& marks, std::uint64_t id);
 

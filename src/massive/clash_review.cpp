@@ -21,7 +21,7 @@ namespace {
     throw Error(ErrorCode::bad_argument, database.path(), "clash " + clash_id_text(id) + why);
 }
 
-/// The ids of clashes that are known, and of those that are there.
+/// The ids of all clashes in the history; those of the clashes that are not resolved.
 struct KnownIds {
     std::unordered_set<std::uint64_t> known, present;
 };
@@ -64,7 +64,7 @@ ClashReview review(Database& database, const QuestionRow& question, const Marks&
         ++result.statuses.at(static_cast<std::size_t>(row.clash.status));
         result.clashes.push_back(std::move(row.clash));
     });
-    // They come in the order of ids.
+    // The rows come sorted by id, and the stable sort keeps that order among equals.
     std::ranges::stable_sort(result.clashes, [](const ListedClash& a, const ListedClash& b) {
         return std::tie(a.status, a.distance) < std::tie(b.status, b.distance);
     });
@@ -118,7 +118,7 @@ std::uint64_t forget_resolved_clashes(const Store& store) {
         Marks marks = read_marks(database);
         const KnownIds ids = known_ids(database);
         for (const std::uint64_t id : gone)
-            if (!ids.known.contains(id)) // another question may have it
+            if (!ids.known.contains(id)) // another question may still have it
                 remove_mark(database, marks, id);
         transaction.commit();
         return std::uint64_t{gone.size()};

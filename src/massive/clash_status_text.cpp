@@ -63,7 +63,7 @@ void append_json_listed(TextBuffer& out, const ListedClash& clash) {
 
 namespace {
 
-/// An array with a line for each.
+/// Appends a JSON array with one clash per line.
 void append_json_list(TextBuffer& out, const std::vector<ListedClash>& clashes) {
     const char* separator = "[\n  ";
     for (const ListedClash& clash : clashes) {

@@ -8,17 +8,17 @@
 #include <cstdint>
 #include <string>
 
-/// What reports say of statuses.
+/// Text of clash statuses in reports.
 namespace abut {
 
-/// "2026-11-22T10:00:00Z", of seconds since 1970.
+/// Formats seconds since 1970 as "2026-11-22T10:00:00Z".
 std::string time_text(std::int64_t seconds);
 
-/// Appends {"new": 1, ...}.
+/// Appends the number of clashes of each status as {"new": 1, ...}.
 void append_json_statuses(TextBuffer& out, const std::array<std::uint64_t, 5>& statuses);
-/// Appends an object.
+/// Appends a clash as a JSON object.
 void append_json_listed(TextBuffer& out, const ListedClash& clash);
-/// Appends `"resolved": [...],`, one clash a line; nothing where the report has no statuses.
+/// Appends `"resolved": [...],`, one clash per line; appends nothing if the report has no statuses.
 void append_json_resolved(TextBuffer& out, const ClashReport& report);
 
 } // namespace abut

@@ -19,11 +19,11 @@ struct Utf8Sequence {
     bool valid;
 };
 
-/// The character that begins at `text[0]`, which is no ASCII.
+/// Examines the character that begins at `text[0]`, which is not ASCII.
 Utf8Sequence utf8_sequence(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned lead = byte(0);
-    // The second byte's range shuts out overlong forms, surrogates and what lies beyond U+10FFFF.
+    // The range of the second byte excludes overlong forms, surrogates and values above U+10FFFF.
     unsigned lower = 0x80;
     unsigned upper = 0xBF;
     std::size_t length = 0;
@@ -69,7 +69,7 @@ void append_json_ascii(TextBuffer& out, char c) {
     }
 }
 
-/// Appends `, "notes": [...]` if there are some.
+/// Appends `, "notes": [...]` if there are notes.
 void append_json_notes(TextBuffer& out, const std::vector<SceneNote>& notes) {
     if (notes.empty())
         return;
@@ -125,7 +125,7 @@ void append_json_number(TextBuffer& out, double value) {
     if (!std::isfinite(value))
         append(out, "null");
     else if (value == 0 && std::signbit(value))
-        append(out, "-0.0"); // readers take "-0" for the integer, which has no sign
+        append(out, "-0.0"); // readers take "-0" for an integer, which has no sign
     else
         fmt::format_to(fmt::appender(out), "{}", value);
 }
@@ -142,7 +142,7 @@ void append_json_point(TextBuffer& out, const Vec3& point) {
 
 std::string clash_id_text(std::uint64_t id) {
     return fmt::format("{:016x}",
-                       id); // text: a JSON number of 64 bits does not survive every reader
+                       id); // text, because not every reader preserves a JSON number of 64 bits
 }
 
 std::optional<std::uint64_t> parse_clash_id(std::string_view text) {

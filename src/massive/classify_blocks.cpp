@@ -18,21 +18,21 @@ namespace abut {
 
 namespace {
 
-/// The squared distance of two boxes: no points of them are nearer.
+/// Lower bound of the squared distance between points of two boxes; rounding is accounted for.
 double least_distance_sq(const Box3& a, const Box3& b) {
     constexpr double kSafe = 1 - 0x1p-40;
     return kSafe * length_sq(max(max(a.lower - b.upper, b.lower - a.upper), {0, 0, 0}));
 }
-/// No points of them are farther apart.
+/// Upper bound of the squared distance between points of two boxes.
 double largest_distance_sq(const Box3& a, const Box3& b) {
     constexpr double kSafe = 1 + 0x1p-40;
     return kSafe * length_sq(max(a.upper - b.lower, b.upper - a.lower));
 }
 
-/// Where triangles lie, each once.
+/// Collects which block holds which triangle. Duplicates are removed whenever the list has doubled.
 class TriangleNames {
 public:
-    using Name = std::pair<std::uint32_t, std::uint32_t>; ///< number in the whole, name
+    using Name = std::pair<std::uint32_t, std::uint32_t>; ///< index in whole mesh, name
 
     void add(std::uint32_t number, std::uint32_t name) {
         names_.emplace_back(number, name);
@@ -57,8 +57,8 @@ private:
 };
 
 class BlocksPair {
-    // Before its uses: what it returns is deduced.
-    /// Calls ask(a, b) with both as solids.
+    // Defined before its uses, because its return type is deduced.
+    /// Calls ask(a, b) with both parts as solids.
     template <typename Ask>
     auto with_solids(const Ask& ask) {
         const auto whole = [](const ClashPart& part) {
@@ -75,7 +75,7 @@ public:
     BlocksPair(const ClashPart& a, const ClashPart& b) : a_(a), b_(b) {}
 
     std::optional<Clash> classify(double clearance, double touch) {
-        // Duplicates have more contacts than one would keep.
+        // Duplicates have too many contacts to keep them in memory.
         if (same_triangles(a_.part(), b_.part()) && a_.triangles() > 0)
             return duplicate();
         std::vector<Contact> contacts;
@@ -92,7 +92,8 @@ public:
 private:
     using Held = BlockList::Held;
 
-    /// By their numbers in the whole; where they lie is remembered.
+    /// Calls take(contact) for each contact, with triangle indices of the whole meshes. Afterwards
+    /// both parts know which block holds each triangle in contact.
     template <typename Take>
     void for_each_contact(const Take& take) {
         TriangleNames names_a, names_b;
@@ -164,7 +165,8 @@ private:
         return apart_clash(nearest.gap, contained);
     }
 
-    /// The gap of whole models: the least over all pairs of blocks, nearest boxes first.
+    /// Returns the gap of the whole models, which is the least over all pairs of blocks. Pairs with
+    /// the nearest boxes are tested first.
     MeasuredGap nearest_within(double bound_sq) {
         struct BlockPair {
             double least_sq;
@@ -199,7 +201,7 @@ private:
             found.gap.triangle_b = of_b.number(found.gap.triangle_b);
             if (is_before(found, best))
                 best = found;
-            // What is as near counts too, if its triangles come before.
+            // A gap of equal length still counts if its triangles come first.
             bound_sq = std::nextafter(best.measured_sq, std::numeric_limits<double>::infinity());
         }
         return best;

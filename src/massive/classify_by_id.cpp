@@ -11,7 +11,7 @@ std::optional<Clash> classify_by_id(const ClashPart& a, std::string_view id_a, c
         exchanged ? classify_pair(b, a, clearance, touch) : classify_pair(a, b, clearance, touch);
     if (!clash)
         return clash;
-    // Without negative zeros, exchanging twice is exchanging nothing.
+    // Negative zeros become positive, so that exchanging twice changes no bit.
     Vec3& d = clash->direction;
     d = {d.x + 0.0, d.y + 0.0, d.z + 0.0};
     if (exchanged)

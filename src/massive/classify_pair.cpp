@@ -20,8 +20,7 @@ PlacedSolid solid_of(const ClashPart& part) {
 
 Clash classify_meeting(const ClashPart& a, const ClashPart& b, std::vector<Contact> contacts,
                        double touch) {
-    // The order of the traversal depends on the hardware's lanes in nothing, but sorted is plainly
-    // the same everywhere.
+    // Sorted, so that the order visibly does not depend on the SIMD width.
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
     const PlacedSolid solid_a = solid_of(a), solid_b = solid_of(b);

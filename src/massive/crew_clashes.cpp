@@ -20,10 +20,10 @@ namespace abut {
 
 namespace {
 
-/// Unwinds a helper whose leader has left.
+/// Thrown to unwind a helper whose leader has left the crew.
 struct Dismissed {};
 
-/// Pieces as the leader sends them.
+/// The tasks that the leader sends to this helper.
 class LeaderSource final : public WorkSource {
 public:
     LeaderSource(Crew& crew, const Progress& progress) : crew_(crew), progress_(progress) {}
@@ -94,8 +94,9 @@ void lead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions
           const std::string& store) {
     if (plan.units.empty())
         return;
-    // Pieces are recorded while others are tested: no locks of readers in the way. It is closed after
-    // the last transaction, since that gives up all locks that the process has of the file.
+    // The store is read without locks, because results are recorded while pairs are tested. It is
+    // closed after the last transaction, since closing it releases all locks that the process has
+    // on the file.
     StoreFile file(store, OpenMode::immutable);
     CrewLead leading(crew, plan, result, options);
     try {

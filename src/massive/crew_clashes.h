@@ -7,10 +7,11 @@
 
 namespace abut {
 
-/// Does all the work of a plan together with the helpers of a crew, each in help_find_clashes.
+/// Does all work of a plan together with the helpers of a crew; each helper runs help_find_clashes.
+/// Called by the leader.
 ///
-/// Errors      what went wrong first, in whichever process. The helpers go on to wait for the leader
-///             to leave the crew.
+/// Errors      the first failure, in whichever process it occurred. The helpers then wait for the
+///             leader to leave the crew.
 void lead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions& options,
           const std::string& store);
 

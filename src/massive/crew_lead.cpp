@@ -14,13 +14,13 @@ namespace abut {
 
 namespace {
 
-/// Unwinds a worker whose job has failed elsewhere.
+/// Thrown to unwind the leader's own work when the job has ended or failed elsewhere.
 struct Abandoned {};
 
-/// How long to wait before looking whether to stop.
+/// How long to wait before checking whether to stop.
 constexpr std::chrono::milliseconds kPatience{20};
 
-/// Of a helper: one is tested while what the other needs comes into memory.
+/// Tasks that a helper has at a time. One is tested while the meshes of the other are read.
 constexpr int kPiecesAtOnce = 2;
 
 } // namespace

@@ -20,26 +20,27 @@
 
 namespace abut {
 
-/// The leader's side of a job that a crew does: pieces go out to whoever is free, what comes back is
-/// put together and recorded. Two threads do that, so that none waits for the disk: one serves the
-/// helpers, one records. The leader works too, with this as its source of pieces.
+/// The leader's side of a crew's job. It hands out tasks to free workers, then collects and records
+/// their results. One thread serves the helpers and another one records, so that no helper waits
+/// for the disk. The leader itself is a worker too, with this object as its source of tasks.
 class CrewLead final : public WorkSource {
 public:
-    /// Begins to serve the helpers. In: all must outlive it.
+    /// Starts both threads. All arguments must outlive this object.
     CrewLead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions& options);
     ~CrewLead() override;
 
-    /// Waits until every helper has its first pieces: the leader does not take all of a small job before
-    /// the others have heard of it.
+    /// Returns the leader's own next task. Waits until every helper has its first tasks, so that
+    /// the leader does not take all of a small job.
     std::optional<WorkPiece> next() override;
     void done(PieceResult result) override;
     void on_pair() override;
 
-    /// The work ends, because of the exception that is being handled, unless it has failed before.
+    /// Ends the work. Keeps the exception that is being handled, unless an earlier failure is
+    /// known.
     void fail();
-    /// Waits for the helpers' last pieces.
+    /// Waits until all results are recorded.
     ///
-    /// Errors      what went wrong first, wherever that was; Error{interrupted}.
+    /// Errors      the first failure of any process; Error{interrupted}.
     void finish();
 
 private:
@@ -53,15 +54,15 @@ private:
     const JobPlan& plan_;
     const ClashOptions& options_;
     ProgressMeter progress_;
-    JobResult& result_; ///< the recorder's
-    std::mutex mutex_;  ///< of the four that follow
+    JobResult& result_; ///< used by the recorder only
+    std::mutex mutex_;  ///< guards the next four members
     std::condition_variable to_record_;
-    std::vector<PieceResult> done_; ///< to be recorded
+    std::vector<PieceResult> done_; ///< results to record
     WorkSchedule schedule_;
     std::exception_ptr failure_;
     std::latch helpers_have_work_{1};
-    std::atomic<bool> ended_ = false; ///< all is recorded, or the job has failed
-    std::thread server_, recorder_;   ///< last: they use the others
+    std::atomic<bool> ended_ = false; ///< all results are recorded, or the job has failed
+    std::thread server_, recorder_;   ///< declared last: they use the other members
 };
 
 } // namespace abut

@@ -8,7 +8,7 @@
 
 namespace abut {
 
-/// Value is Struct, or const Struct where it is written.
+/// Value is Struct when a message is read, const Struct when it is written.
 template <typename Value, typename Struct>
 concept Either = std::same_as<std::remove_const_t<Value>, Struct>;
 
@@ -86,7 +86,7 @@ std::vector<std::byte> encode(const CrewMessage& message) {
 
 namespace {
 
-/// The alternative of that number.
+/// Returns a message that holds the alternative with that index.
 template <std::size_t... I>
 CrewMessage make(std::size_t index, std::index_sequence<I...>) {
     CrewMessage message;

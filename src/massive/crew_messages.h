@@ -15,34 +15,35 @@
 
 namespace abut {
 
-/// What the processes of a crew say to each other in the clash job of a store: the leader a briefing,
-/// then pieces; a helper results, or, once and last, what went wrong.
+/// Messages of a crew in the clash job of a store. The leader sends a Briefing, then tasks
+/// (WorkPiece). A helper sends results, or a Failure as its last message.
 
-/// What a helper must know before its first piece.
+/// The data that a helper needs before its first task.
 struct Briefing {
     ClashOptions options;            ///< without progress
-    std::uint64_t budget = 0;        ///< bytes of models
-    std::uint64_t blocks_budget = 0; ///< bytes of blocks of large meshes
-    Hash128 models;                  ///< what the store holds
+    std::uint64_t budget = 0;        ///< bytes of models in memory
+    std::uint64_t blocks_budget = 0; ///< bytes of mesh blocks in memory
+    Hash128 models;                  ///< parts_key of the leader's store
 };
 
-/// An exception on its way to another process.
+/// An exception as it is sent to another process.
 struct Failure {
-    bool is_error = false; ///< Error; else another exception of which the text is left
+    bool is_error = false; ///< an Error; else another exception, of which only the text is kept
     ErrorCode code{};
-    std::string file, text; ///< text: what follows the file's name
-    /// Of the exception that is being handled.
+    std::string file, text; ///< text: the message without the file's name
+    /// Returns the message for the exception that is being handled.
     static Failure of(const std::exception& exception);
     [[noreturn]] void rethrow() const;
 };
 
-/// In place of a piece.
+/// Sent instead of a task when all have been handed out.
 struct NoMoreWork {};
 
 using CrewMessage = std::variant<Briefing, WorkPiece, NoMoreWork, PieceResult, Failure>;
 
 std::vector<std::byte> encode(const CrewMessage& message);
-/// Errors      std::length_error for bytes that encode() of the same build has not made.
+/// Errors      std::length_error for bytes that are too short or of an unknown kind. Only encode()
+///             of the same build writes valid bytes.
 CrewMessage decode(const std::vector<std::byte>& bytes);
 
 } // namespace abut

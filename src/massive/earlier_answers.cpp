@@ -26,7 +26,8 @@ std::uint64_t youngest_generation(const std::vector<ModelRow>& models) {
 EarlierAnswers::EarlierAnswers(Database& database, const JobRow& earlier, const StoredParts& stored)
     : database_(database), earlier_(earlier), stored_(stored), by_row_(stored),
       is_unchanged_(stored.parts.size()) {
-    // Rules and ids look at the names of files too.
+    // Rules and clash ids depend on file names too, so an answer holds only if the name is the
+    // same.
     std::vector<bool> same_file;
     for (const auto& model : models_with_files(stored.models))
         same_file.push_back(std::ranges::find(earlier.models, model) != earlier.models.end());
@@ -58,7 +59,7 @@ std::vector<ClashRow> EarlierAnswers::clashes(const std::vector<IndexPair>& cand
         const IndexPair pair(*a, *b);
         if (!knows(pair) || !std::binary_search(candidates.begin(), candidates.end(), pair))
             return;
-        if (*b < *a) { // the file lists its parts in another order than then
+        if (*b < *a) { // the order of the file's parts has changed since
             std::swap(row.parts.first, row.parts.second);
             exchange_sides(row.clash);
         }

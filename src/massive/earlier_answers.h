@@ -14,24 +14,26 @@
 
 namespace abut {
 
-/// The models by their numbers, with the hashes of their files' names, as JobRow keeps them.
+/// Returns the number and the hash of the file name of each model, as JobRow stores them.
 std::vector<std::pair<std::int64_t, std::uint64_t>>
 models_with_files(const std::vector<ModelRow>& models);
-/// Of the youngest part.
+/// Returns the generation of the most recently imported or changed part.
 std::uint64_t youngest_generation(const std::vector<ModelRow>& models);
 
-/// What an earlier job of the same question knows of the pairs of now: the answers of those whose
-/// parts both are as they were then, as far as it came. A part that an import has brought or changed
-/// since has a later generation; numbers of parts and generations are never used again.
+/// The answers of an earlier job of the same question that still hold. An answer holds if the
+/// earlier job tested the pair and neither part has changed since. A part that an import has added
+/// or changed since has a later generation. Part numbers and generations are never reused.
 class EarlierAnswers {
 public:
-    /// All three must outlive this.
+    /// All three arguments must outlive this object.
     EarlierAnswers(Database& database, const JobRow& earlier, const StoredParts& stored);
 
-    /// In          pair: a candidate of now.
+    /// Whether the earlier job's answer to a pair still holds.
+    /// In          pair: a candidate pair of the current job.
     [[nodiscard]] bool knows(const IndexPair& pair) const;
-    /// The clashes of the pairs that it knows, with a and b in the order of now.
-    /// In          candidates: of now, sorted.
+    /// Returns the clashes of the pairs for which knows() is true, with a and b in the current
+    /// order of parts.
+    /// In          candidates: all candidate pairs of the current job, sorted.
     [[nodiscard]] std::vector<ClashRow> clashes(const std::vector<IndexPair>& candidates) const;
 
 private:
@@ -39,8 +41,8 @@ private:
     const JobRow& earlier_;
     const StoredParts& stored_;
     PartsByRow by_row_;
-    std::vector<bool> is_unchanged_; ///< by part
-    std::vector<IndexPair> left_;    ///< that it did not come to, sorted
+    std::vector<bool> is_unchanged_; ///< by part: not changed since the earlier job
+    std::vector<IndexPair> left_;    ///< pairs that the earlier job did not test, sorted
 };
 
 } // namespace abut

@@ -23,7 +23,7 @@ namespace abut {
 namespace {
 
 struct Candidate {
-    std::uint32_t a, b; ///< in PartInstances::parts
+    std::uint32_t a, b; ///< indices in PartInstances::parts
     PairTerms terms;
 };
 
@@ -124,7 +124,8 @@ private:
         blocks_.resize(parts_.meshes.size());
         parallel_for(list.size(), 1, [&](std::size_t k) {
             const Mesh& mesh = *parts_.meshes[list[k]];
-            // As out of core, so that both give the same.
+            // Cut into blocks exactly where the out-of-core job does, so that both give the same
+            // result.
             if (is_whole(mesh.positions.size(), mesh.triangles.size()))
                 meshes_[list[k]].emplace(mesh);
             else
@@ -144,7 +145,7 @@ private:
                 identify(*found[k], c);
             progress.advance();
         });
-        // Candidates are sorted by part, so the clashes are.
+        // Candidates are sorted by part, so the clashes are too.
         for (std::optional<Clash>& clash : found)
             if (clash) {
                 ++report_.counts[static_cast<std::size_t>(clash->kind)];
@@ -173,8 +174,8 @@ private:
     ClashReport report_;
     PartInstances parts_;
     std::vector<Candidate> candidates_;
-    std::vector<std::optional<Model>> meshes_;               ///< of parts that a candidate needs
-    std::vector<std::unique_ptr<const ModelBlocks>> blocks_; ///< of those that are large
+    std::vector<std::optional<Model>> meshes_;               ///< by mesh, if a candidate needs it
+    std::vector<std::unique_ptr<const ModelBlocks>> blocks_; ///< for large meshes
 };
 
 } // namespace

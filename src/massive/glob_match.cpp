@@ -3,8 +3,7 @@
 namespace abut {
 
 bool glob_match(std::string_view glob, std::string_view text) {
-    // After a star, the shortest run that lets the rest match: on a mismatch, the last star takes
-    // one more.
+    // A star first matches an empty run. On a mismatch, the last star takes one more character.
     std::size_t g = 0, t = 0, after_star = std::string_view::npos, retry = 0;
     while (t < text.size()) {
         if (g < glob.size() && glob[g] == '*') {

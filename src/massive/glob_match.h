@@ -4,8 +4,8 @@
 
 namespace abut {
 
-/// Whether a text matches a glob: `*` any run, `?` one character, all others themselves. Case
-/// counts.
+/// Whether a text matches a glob. `*` matches any run of characters, `?` one character (a byte),
+/// and any other character itself. Case counts.
 bool glob_match(std::string_view glob, std::string_view text);
 
 } // namespace abut

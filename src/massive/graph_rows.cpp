@@ -16,7 +16,7 @@ struct GraphTable {
     std::string_view name, sql;
 };
 
-/// SQLite keeps these texts, so it knows which version made a table.
+/// SQLite stores these texts verbatim. Comparing them tells whether this version made a table.
 constexpr GraphTable kTables[]{{"overlap_graph", R"(CREATE TABLE overlap_graph(
   clearance REAL NOT NULL,
   generation INTEGER NOT NULL,
@@ -42,7 +42,7 @@ bool has_tables(Database& database) {
     });
 }
 
-/// Errors      Error{bad_argument}, naming the store, if there is another table of such a name.
+/// Errors      Error{bad_argument}, naming the store, if it has a foreign table of such a name.
 void make_tables(Database& database) {
     if (has_tables(database))
         return;
@@ -59,7 +59,7 @@ void make_tables(Database& database) {
 }
 
 struct Edge {
-    std::int64_t a = 0, b = 0; ///< rows of parts
+    std::int64_t a = 0, b = 0; ///< store rows of the parts
     std::uint64_t unit = 0;
 };
 
@@ -80,7 +80,7 @@ void keep_graph(Database& database, double clearance, const StoredParts& stored,
         for (const IndexPair& pair : unit.pairs)
             edges.push_back({stored.parts[pair.a()].row, stored.parts[pair.b()].row, u});
     }
-    // In the order of the table, which grows at its end then.
+    // Sorted by the table's primary key, so that every insertion appends.
     std::ranges::sort(
         edges, [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
     Statement add_edge(database, "INSERT INTO overlap_edge VALUES (?,?,?)");

@@ -6,14 +6,15 @@
 
 #include <vector>
 
-/// One overlap graph in a store, for questions in SQL: the last that was to be kept. No job reads it, since
-/// finding and cutting the graph takes no longer. docs/massive.md says what the columns mean.
+/// The last overlap graph that was kept in a store, for queries in SQL. No job reads it, because
+/// finding and cutting the graph takes no longer than reading it. docs/massive.md explains the
+/// columns.
 namespace abut {
 
-/// Keeps a graph in place of the one before. Within a transaction.
+/// Stores a graph and removes the one stored before. The caller holds a transaction.
 ///
-/// In          units: which hold its edges.
-/// Errors      Error{bad_argument}, naming the store, if it has other tables of these names.
+/// In          units: the work units, whose pairs are the edges of the graph.
+/// Errors      Error{bad_argument}, naming the store, if it has foreign tables of these names.
 void keep_graph(Database& database, double clearance, const StoredParts& stored,
                 const std::vector<WorkUnit>& units);
 

@@ -15,10 +15,11 @@ namespace abut {
 
 namespace {
 
-/// For pairs and rows of the unit at hand.
+/// Least memory beside the tables, for the pairs and part rows of the current work unit.
 constexpr std::uint64_t kLeastMemory = std::uint64_t{64} << 10;
 
-/// Of the memory, for hierarchies that wait to be kept: of models in half of it, more than they take.
+/// Divisor of the memory: this share holds built hierarchies that wait to be stored. The
+/// hierarchies of all models that fit into half of the memory need less.
 constexpr std::uint64_t kHierarchiesShare = 64;
 
 [[noreturn]] void fail_for_memory(std::uint64_t least, const std::string& store) {
@@ -26,7 +27,7 @@ constexpr std::uint64_t kHierarchiesShare = 64;
                 "needs more memory: " + std::to_string((least >> 20) + 1) + " MiB at least");
 }
 
-/// Whether a pair has a large mesh.
+/// Whether at least one pair has a part with a large mesh.
 bool needs_large(const StoredParts& parts, const std::vector<IndexPair>& pairs) {
     return !parts.large.empty() &&
            std::any_of(pairs.begin(), pairs.end(), [&](const IndexPair& pair) {
@@ -63,8 +64,8 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
         plan.record = JobRecord::open(store.path(), plan.stored, options, plan.candidates);
     if (plan.record != nullptr)
         pairs = plan.record->pairs_left(plan.stored, std::move(pairs));
-    // A crew keeps none: its processes read the store without locks. With or without a record, the
-    // pieces are the same.
+    // A crew stores no hierarchies, because its processes read the store without locks. The room is
+    // set aside even without a record, so that the work units are the same in both cases.
     if (out_of_core.keep_hierarchies && out_of_core.crew == nullptr)
         plan.hierarchies_room = out_of_core.memory / kHierarchiesShare;
     plan.budget =
@@ -75,7 +76,7 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
         if (const std::uint64_t least = least_for_blocks(plan.stored); plan.blocks_budget < least)
             fail_for_memory(out_of_core.memory + 2 * (least - plan.blocks_budget), store.path());
     }
-    // One unit is tested while the next one's models come into memory.
+    // One unit is tested while the models of the next one are read.
     const std::size_t workers = out_of_core.crew == nullptr ? 1 : out_of_core.crew->size();
     const std::uint64_t unit = unit_budget(plan.stored, pairs, plan.budget / 2, workers);
     plan.units =
@@ -85,7 +86,8 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
         plan.record->plan(plan.stored, plan.units);
     else
         plan.hierarchies_room = 0;
-    // What the broad phase and the partition needed is free for models, and not in small pieces.
+    // Returns the memory that the broad phase and the partition freed to the system, so that the
+    // models can use it without fragmentation.
     malloc_trim(0);
     progress.advance();
     return plan;

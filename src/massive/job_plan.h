@@ -13,19 +13,22 @@
 
 namespace abut {
 
-/// What a job out of core compares, and in which order.
+/// The work of an out-of-core job: the parts, and the pairs to test in the order of work.
 struct JobPlan {
     StoredParts stored;
     std::vector<WorkUnit> units;
     std::uint64_t candidates = 0;
-    std::uint64_t budget = 0;           ///< bytes of models: of a unit and of the next one
-    std::uint64_t blocks_budget = 0;    ///< bytes of blocks of large meshes
-    std::uint64_t hierarchies_room = 0; ///< bytes of hierarchies that wait to be kept
-    std::unique_ptr<JobRecord> record;  ///< may be none
+    std::uint64_t budget = 0;           ///< bytes of models in memory: of one unit and the next
+    std::uint64_t blocks_budget = 0;    ///< bytes of mesh blocks in memory
+    std::uint64_t hierarchies_room = 0; ///< bytes of built hierarchies that wait to be stored
+    std::unique_ptr<JobRecord> record;  ///< null if nothing is recorded
 };
 
-/// In          recorded: what the store knows of this job counts, and it is to be kept there.
-/// Errors      as find_clashes of a store.
+/// Finds the candidate pairs of a store and divides them into work units.
+///
+/// In          recorded: if the options allow it, reuse what the store knows of this job and record
+///             the progress there.
+/// Errors      those of find_clashes on a store.
 JobPlan make_plan(StoreFile& store, const ClashOptions& options,
                   const OutOfCoreOptions& out_of_core, bool recorded);
 

@@ -22,7 +22,7 @@ bool is_writable(const std::string& store) {
     return access(store.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0;
 }
 
-/// The same question about the same parts.
+/// Returns a key that is equal for jobs of the same question about the same parts.
 Hash128 job_key(const Hash128& parts, std::int64_t question) {
     return RowHash().add(parts).add(question).value_128();
 }
@@ -43,7 +43,7 @@ std::unique_ptr<JobRecord> JobRecord::open(const std::string& store, const Store
 JobRecord::JobRecord(const std::string& store, const StoredParts& stored,
                      const ClashOptions& options, std::uint64_t candidates)
     : database_(store, OpenMode::read_write), parts_(parts_key(stored.models)) {
-    // Others may read the store between two pieces of work.
+    // Other processes may read the store between two commits.
     database_.run("PRAGMA busy_timeout = 10000; PRAGMA synchronous = FULL");
     const auto find = [&] {
         const auto question = find_question(database_, options);
@@ -58,7 +58,7 @@ JobRecord::JobRecord(const std::string& store, const StoredParts& stored,
     }
     Transaction transaction(database_);
     prepare_job_tables(database_);
-    find(); // another process may have been faster
+    find(); // again: another process may have created the job meanwhile
     if (job_.question == 0)
         job_.question = add_question(database_, options);
     if (job_.job == 0) {
@@ -73,7 +73,8 @@ JobRecord::JobRecord(const std::string& store, const StoredParts& stored,
     transaction.commit();
 }
 
-/// Within a transaction: neither another process at this job, nor an import, has come in between.
+/// Throws if another process has taken over this job or an import has changed the parts. The caller
+/// holds a transaction.
 void JobRecord::require_ours() {
     const auto there = find_job(database_, job_.key);
     if (!there || there->run != job_.run)
@@ -126,7 +127,7 @@ void JobRecord::plan(const StoredParts& stored, const std::vector<WorkUnit>& uni
     JobRow planned = job_;
     planned.planned = true;
     put_job(database_, planned);
-    // What was begun before has been taken over; what has ended stays until this has.
+    // Answers of unfinished jobs were taken over above. Finished jobs stay until this one finishes.
     remove_other_jobs(database_, job_, false);
     transaction.commit();
     job_ = planned;
@@ -176,7 +177,8 @@ void JobRecord::finish(ClashReport& report, const std::vector<Scene>& models) {
 
 void tell_statuses(Database& database, const StoredParts& stored, const ClashOptions& options,
                    ClashReport& report) {
-    std::int64_t question = 0, job = std::numeric_limits<std::int64_t>::max(); // one to come
+    // A job that the history does not have gets a number larger than any other.
+    std::int64_t question = 0, job = std::numeric_limits<std::int64_t>::max();
     if (has_job_tables(database))
         question = find_question(database, options).value_or(0);
     if (question != 0)

@@ -19,39 +19,44 @@
 
 namespace abut {
 
-/// What a job has done, kept in its store: which pairs are left, and what the others gave. Each piece
-/// of work is recorded as a whole or not at all, so a job that is killed goes on where it was. A new
-/// job takes over what an earlier one of the same question knows of parts that have not changed since.
+/// The progress of a job, recorded in its store: the pairs that are left and the clashes of the
+/// others. Each work unit is recorded entirely or not at all, so that a killed job can be resumed.
+/// A new job takes over the answers of an earlier job of the same question for parts that have not
+/// changed since.
 ///
-/// Of two processes that work on one job, the later takes over: the other's next piece is refused. So
-/// is that of a job whose parts an import has changed meanwhile.
+/// If two processes work on one job, the later one takes over, and the next commit of the other one
+/// fails. A commit also fails if an import has changed the store's parts meanwhile.
 ///
-/// In          stored: of all members the same, which the job is about.
-/// Errors      of all members: Error, naming the store: as Database; malformed if a row is not what
-///             its checksum says; unreadable if another process has taken over.
+/// In          stored: the parts of the job, the same for all members.
+/// Errors      of all members: Error, naming the store, as Database; malformed if a row does not
+///             match its checksum; unreadable if another process has taken over or an import has
+///             changed the parts.
 class JobRecord {
 public:
-    /// Null if the store cannot be written to.
+    /// Opens the record of a job and creates it if it does not exist. Returns null if the store
+    /// cannot be written to.
     static std::unique_ptr<JobRecord> open(const std::string& store, const StoredParts& stored,
                                            const ClashOptions& options, std::uint64_t candidates);
 
-    /// Of all candidates, sorted, those whose answer is not known. None: nothing has to be written any
-    /// more if the job has ended.
+    /// Returns the candidate pairs whose answer is not known. It returns none if the job has
+    /// finished.
+    /// In          candidates: all candidate pairs, sorted.
     std::vector<IndexPair> pairs_left(const StoredParts& stored, std::vector<IndexPair> candidates);
 
-    /// The pieces of work from now on, in place of those that were left.
+    /// Replaces the recorded work units by these. Does nothing if the job has finished.
     void plan(const StoredParts& stored, const std::vector<WorkUnit>& units);
-    /// The clashes that are known, without models; their parts are indices in StoredParts. After
-    /// plan().
+    /// Returns the clashes that are known, with parts as indices in StoredParts and without models.
+    /// Call it after plan().
     std::vector<Clash> found(const StoredParts& stored);
-    /// Piece `unit` of the plan is done, and found some clashes, whose parts are indices in
-    /// StoredParts; hierarchies that were built are kept with it.
+    /// Records that a unit of the plan is done, with its clashes and the hierarchies that were
+    /// built. The parts of the clashes are indices in StoredParts.
     void commit(const StoredParts& stored, std::size_t unit, std::span<const Clash> clashes,
                 const std::vector<HierarchyRow>& hierarchies);
-    /// Pieces that are committed while it is open are committed with it: the disk is waited for once.
+    /// Opens an outer transaction. Units that are committed while it is open reach the disk when it
+    /// is committed, at the cost of one wait.
     [[nodiscard]] Transaction together() { return Transaction(database_); }
-    /// The job has ended: the clashes of the report get their statuses, and earlier jobs of the same
-    /// question go.
+    /// Records that the job has finished, gives the clashes of the report their statuses, and
+    /// removes the other jobs of the same question.
     void finish(ClashReport& report, const std::vector<Scene>& models);
 
 private:
@@ -61,12 +66,12 @@ private:
     void require_ours();
 
     Database database_;
-    Hash128 parts_; ///< as they were when the job was opened
+    Hash128 parts_; ///< parts_key when the job was opened
     JobRow job_;
-    std::vector<ClashRow> taken_over_; ///< from an earlier job, until the plan is recorded
+    std::vector<ClashRow> taken_over_; ///< clashes of an earlier job, until the plan is recorded
 };
 
-/// The same statuses where nothing is to be recorded, or nothing can be.
+/// Gives the clashes of a report their statuses when the job is not recorded.
 void tell_statuses(Database& database, const StoredParts& stored, const ClashOptions& options,
                    ClashReport& report);
 

@@ -13,20 +13,23 @@
 
 namespace abut {
 
-/// What a job has found so far, piece by piece, recorded in the store where the plan has a record.
+/// Collects the results of a job, unit by unit. They are recorded in the store if the plan has a
+/// record.
 class JobResult {
 public:
-    /// In          plan, options and store must outlive it.
+    /// In          plan, options, store: must outlive this object.
     JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store, std::size_t workers);
 
-    /// What was found before the job was stopped.
+    /// Adds the clashes that the record already knows, found before the job was stopped or taken
+    /// over from an earlier one.
     void recall();
 
-    /// What was found in some pieces. Once it returns, they are recorded, at the cost of one commit.
+    /// Adds the results of some tasks. When it returns they are recorded, at the cost of one
+    /// commit.
     void take(std::vector<PieceResult> results);
 
-    /// All of it: clashes in the order of their parts, which are known by their places among those
-    /// that clash. The job has ended.
+    /// Ends the job and returns the report. Clashes are sorted by part; their parts are indices in
+    /// the report's lists of clashing parts.
     StoreClashReport finish();
 
     [[nodiscard]] const OutOfCoreCounters& counters() const { return result_.counters; }
@@ -40,8 +43,8 @@ private:
     JobPlan& plan_;
     const ClashOptions& options_;
     StoreFile& store_;
-    StoreClashReport result_; ///< the clashes' parts are indices in the plan's until finish()
-    std::map<std::uint32_t, Part> named_; ///< parts that clash
+    StoreClashReport result_; ///< until finish(), parts of clashes are indices in the plan's parts
+    std::map<std::uint32_t, Part> named_; ///< parts that clash, by index in the plan's parts
 };
 
 } // namespace abut

@@ -15,7 +15,7 @@ std::span<const std::byte> bytes_of(const Hash128& hash) {
     return std::as_bytes(std::span(&hash, 1));
 }
 
-/// The same for the same question, of whatever parts.
+/// Returns a hash of all options that make up the question. It does not depend on the parts.
 Hash128 question_hash(const ClashOptions& options) {
     RowHash hash;
     const auto add_texts = [&](const std::vector<std::string>& texts) {
@@ -62,7 +62,7 @@ JobRow read_job(Database& database, const Statement& row) {
     return job;
 }
 
-/// The last job of some kind.
+/// Returns the last job for which wanted(job) is true.
 template <typename Wanted>
 std::optional<JobRow> find_last(Database& database, const Wanted& wanted) {
     std::optional<JobRow> found;
@@ -124,7 +124,7 @@ std::vector<QuestionRow> read_questions(Database& database) {
             damaged_job(database, "question " + std::to_string(row.question) +
                                       " is not what its checksum says");
         result.push_back(row);
-        // None is ever removed.
+        // Questions are never removed, so their numbers have no gaps.
         if (row.question != static_cast<std::int64_t>(result.size()))
             damaged_job(database, "a question is missing");
     }

@@ -10,56 +10,57 @@
 #include <utility>
 #include <vector>
 
-/// Questions and jobs: rows of a store, each with its checksum. What writes is called within a
-/// transaction.
+/// Questions and jobs as store rows, each with a checksum. The caller of a function that writes
+/// holds a transaction.
 ///
-/// Errors      of all readers: Error{malformed}, naming the store, if a row is not what its checksum
-///             says.
+/// Errors      of all functions that read: Error{malformed}, naming the store, if a row does not
+///             match its checksum.
 namespace abut {
 
-/// What jobs are asked, of whatever parts.
+/// A question: the options of a job, whichever parts it is about.
 struct QuestionRow {
     std::int64_t question = 0;
     Hash128 hash; ///< of the options
     double clearance = 0, touch = 0;
     bool self = false;
-    std::uint64_t rules = 0; ///< how many
+    std::uint64_t rules = 0; ///< number of rules
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
 std::vector<QuestionRow> read_questions(Database& database);
-/// The number of a question in the store; none if it was never asked.
+/// Returns the number of a question in the store; none if it was never asked.
 std::optional<std::int64_t> find_question(Database& database, const ClashOptions& options);
-/// A question that the store does not have yet.
+/// Adds a question that the store does not have yet, and returns its number.
 std::int64_t add_question(Database& database, const ClashOptions& options);
 
-/// What was asked of which parts, and how far the answer has come.
+/// A job: a question about the parts that the store had, and how far its answer has come.
 struct JobRow {
     std::int64_t job = 0, question = 0;
-    Hash128 key;                  ///< of the question and the parts
-    std::uint64_t generation = 0; ///< of the youngest part: a part of a later one has changed since
-    bool within = false;          ///< pairs within a model were of interest too
-    /// The models by their numbers, with the hashes of their files' names.
+    Hash128 key;                  ///< hash of the question and the parts
+    std::uint64_t generation = 0; ///< of the youngest part; changed parts have a later one
+    bool within = false;          ///< pairs within one model file were tested too
+    /// The number of each model and the hash of its file name.
     std::vector<std::pair<std::int64_t, std::uint64_t>> models;
     std::uint64_t candidates = 0;
-    std::int64_t run = 0; ///< counts how often the job was begun or gone on with
+    std::int64_t run = 0; ///< how often the job was begun or resumed
     bool planned = false;
-    std::int64_t finished = 0; ///< when it ended, in seconds since 1970; 0: it has not
+    std::int64_t finished = 0; ///< end of the job, in seconds since 1970; 0 if it has not ended
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
-/// All, in the order of their numbers. There are few: two of each question at most.
+/// Returns all jobs, sorted by number. There are at most two for each question.
 std::vector<JobRow> read_jobs(Database& database);
 std::optional<JobRow> find_job(Database& database, const Hash128& key);
-/// Of the question, the last that ended, or else null.
+/// Returns the last finished job of a question, if there is one.
 std::optional<JobRow> find_finished_job(Database& database, std::int64_t question);
-/// Of the question, the last other one that knows something.
+/// Returns the last other job of the same question that has a plan and may thus have answers.
 std::optional<JobRow> find_earlier_job(Database& database, const JobRow& job);
-/// A new job gets its number.
+/// Adds a job, or replaces its row. A new job (number 0) gets its number.
 void put_job(Database& database, JobRow& job);
-/// The row alone.
+/// Removes the row of a job; its clashes and units stay.
 void remove_job(Database& database, std::int64_t job);
-/// Removes jobs of the question but this one, with their clashes: all, or those that have not ended.
+/// Removes all other jobs of the job's question, with their clashes and units. Finished jobs are
+/// removed only if `finished_too`.
 void remove_other_jobs(Database& database, const JobRow& job, bool finished_too);
 
 } // namespace abut

@@ -16,7 +16,8 @@ struct JobTable {
     const char* sql;
 };
 
-/// SQLite keeps these texts, so it knows which version made a table. What no job can find again:
+/// The tables whose contents no job can find again. SQLite stores these texts verbatim; comparing
+/// them tells whether this version made a table.
 constexpr std::array kOfPeople{
     JobTable{"question", R"(CREATE TABLE question(
   question INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -87,7 +88,7 @@ constexpr std::array kOfJobs{
   checksum INTEGER NOT NULL))"},
 };
 
-/// `new` are the clashes that came with the last job that ended.
+/// The view gives each clash its status. A clash is `new` if the last finished job found it first.
 constexpr JobTable kStatusView{"clash_status", R"(CREATE VIEW clash_status AS
 SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_file, distance,
   CASE WHEN resolved > 0 THEN 'resolved'
@@ -96,14 +97,14 @@ SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_f
     THEN 'new' ELSE 'active' END AS status, resolved, note
 FROM clash_history AS h LEFT JOIN clash_mark AS m USING (id))"};
 
-/// The first version of jobs knew no questions.
+/// Whether the job table was made by the first version, which had no questions and no generations.
 bool is_of_first_version(Database& database) {
     return database.number("SELECT count(*) FROM pragma_table_info('job')") > 0 &&
            database.number(
                "SELECT count(*) FROM pragma_table_info('job') WHERE name = 'generation'") == 0;
 }
 
-/// Errors      Error{malformed} if there is another table of this name.
+/// Errors      Error{malformed} if there is a foreign table of this name.
 bool is_there(Database& database, const JobTable& table) {
     Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = ?");
     find.bind(std::string_view(table.sql), table.name);
@@ -133,7 +134,7 @@ void make_anew(Database& database) {
     database.run("CREATE INDEX clash_by_job ON clash(job)");
     database.run(kStatusView.sql);
     database.run("DELETE FROM row_tally WHERE list GLOB 'job*' OR list GLOB 'clash [0-9]*'");
-    // Numbers of jobs are never used again: the history has some.
+    // The history refers to job numbers, which must not be used again.
     database.run("INSERT INTO sqlite_sequence(name, seq) "
                  "SELECT 'job', coalesce(max(appeared), 0) FROM clash_history");
 }

@@ -8,30 +8,32 @@
 #include <string>
 #include <vector>
 
-/// The tables of jobs in a store; docs/massive.md says what their columns mean.
+/// The tables of jobs in a store. docs/massive.md explains the columns.
 namespace abut {
 
-/// Makes the tables that are missing. Those of jobs that the first version made are made anew, empty:
-/// jobs can be done again. What people said of clashes stays. Within a transaction.
+/// Creates the tables that are missing. Job tables of the first version are replaced by empty ones,
+/// because jobs can be run again. The marks of users stay. The caller holds a transaction.
 void prepare_job_tables(Database& database);
-/// Whether there are all tables.
-/// Errors      of both: Error{malformed}, naming the store, if there is another table of such a name.
+/// Whether all tables exist.
+/// Errors      of both functions: Error{malformed}, naming the store, if it has a foreign table of
+///             such a name.
 bool has_job_tables(Database& database);
 
-/// How many rows a list has, and the sum of their checksums: a row that a damaged page hides is missed.
+/// The number of rows of a list and the sum of their checksums. It reveals a row that a damaged
+/// page hides.
 struct RowTally {
     std::uint64_t rows = 0, sum = 0;
     void add(std::uint64_t checksum) { ++rows, sum += checksum; }
     void remove(std::uint64_t checksum) { --rows, sum -= checksum; }
     friend bool operator==(const RowTally&, const RowTally&) = default;
 };
-/// The tally of a list as it was kept; of none if there is no such list.
+/// Returns the stored tally of a list; an empty tally if there is no such list.
 RowTally read_tally(Database& database, const std::string& list);
 void write_tally(Database& database, const std::string& list, const RowTally& tally);
 /// Errors      Error{malformed}, naming the store, if rows are missing.
 void require_tally(Database& database, const std::string& list, const RowTally& found);
 
-/// The elements of a blob; none if its size is no multiple of theirs.
+/// Returns the elements of a blob; none if its size is not a multiple of the element size.
 template <typename Element>
 std::vector<Element> blob_elements(std::span<const std::byte> bytes) {
     std::vector<Element> result;
@@ -43,6 +45,7 @@ std::vector<Element> blob_elements(std::span<const std::byte> bytes) {
     return result;
 }
 
+/// Throws Error{malformed}, naming the store.
 [[noreturn]] void damaged_job(const Database& database, const std::string& what);
 
 } // namespace abut

@@ -14,10 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What launchers tell the processes that they start: how many they are, if they say that, and which
-/// this one is.
+/// The number of processes that a launcher started, and the rank of this one.
 struct Launch {
-    std::size_t size = 0; ///< 0: not said
+    std::size_t size = 0; ///< 0 if the launcher does not tell
     std::size_t rank = 0;
 };
 
@@ -32,7 +31,8 @@ std::optional<Launch> launch() {
     struct Variables {
         const char *rank, *size;
     };
-    // Open MPI's mpirun; MPICH's and srun --mpi=pmi2; srun --mpi=pmix.
+    // The launchers, in this order: mpirun of Open MPI; mpirun of MPICH or srun --mpi=pmi2;
+    // srun --mpi=pmix.
     for (const auto& [rank, size] :
          {Variables{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
           Variables{"PMI_RANK", "PMI_SIZE"}, Variables{"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}})
@@ -41,7 +41,8 @@ std::optional<Launch> launch() {
     return std::nullopt;
 }
 
-/// What src/massive/mpi is built into. It is loaded only where it is needed: MPI takes time to load.
+/// Returns the path of the module that src/massive/mpi is built into. It is loaded only when it is
+/// needed, because MPI takes time to load.
 fs::path find_module() {
     const fs::path here = program_folder();
     for (const fs::path& candidate :
@@ -63,7 +64,7 @@ std::unique_ptr<Crew> join_crew() {
     if (!started || started->size == 1)
         return nullptr;
     const fs::path module = find_module();
-    // Open MPI's own modules look for its symbols among the global ones. Never closed.
+    // RTLD_GLOBAL, because Open MPI's own modules look up its symbols globally. Never closed.
     void* const handle = dlopen(module.c_str(), RTLD_NOW | RTLD_GLOBAL);
     if (handle == nullptr)
         throw Error(ErrorCode::unsupported, module.string(),

@@ -11,9 +11,10 @@ namespace abut {
 
 namespace {
 
-/// Two of each side, and one that is coming in, whose triangles are in memory twice.
+/// Blocks in memory per thread: two of each part, and one that is being read, whose triangles are
+/// in memory twice.
 constexpr std::uint64_t kBlocksAThread = 6;
-/// Of the budget, for the examination of a solid.
+/// Divisor of the budget: this share is for the examination whether a mesh bounds a solid.
 constexpr std::uint64_t kExaminationShare = 8;
 
 std::uint64_t for_blocks(std::uint64_t budget) {
@@ -37,7 +38,7 @@ public:
     [[nodiscard]] std::shared_ptr<const ModelBlock> block(std::size_t i) const override {
         return cache_.get(blocks_[i]);
     }
-    /// Compressed, of the blocks that were read.
+    /// Compressed bytes of the blocks that were read, estimated from their mean size.
     [[nodiscard]] std::uint64_t bytes_needed() const {
         const auto read = static_cast<std::uint64_t>(
             std::ranges::count_if(blocks_, [&](const StoredBlock& block) {

@@ -11,23 +11,25 @@
 
 namespace abut {
 
-/// The large meshes that a worker meets, whose blocks come into memory as they are asked for.
+/// The large meshes that a worker needs. Their blocks are read when they are asked for.
 class LargeMeshes {
 public:
-    /// In          budget: bytes of blocks; the reader must outlive this.
+    /// In          budget: bytes of blocks in memory; reader: must outlive this object.
     LargeMeshes(ModelReader& reader, std::uint64_t budget);
     ~LargeMeshes();
 
-    /// In          mesh: row of the store. Calls come one after the other; what an earlier one gave may
-    ///             be used meanwhile.
+    /// Returns the blocks of a mesh. Calls must not overlap; results of earlier calls may be in use
+    /// meanwhile.
+    /// In          mesh: row in the store.
     /// Errors      those of the store.
     const ModelBlocks& open(std::int64_t mesh);
 
-    /// How many threads the budget has room for, with the blocks of what was opened.
+    /// The number of threads whose blocks fit into the budget, given the largest block opened so
+    /// far.
     [[nodiscard]] int threads() const;
 
     [[nodiscard]] const BlockCache& cache() const { return cache_; }
-    /// Compressed, of the blocks that were read, each once.
+    /// Compressed bytes of the blocks that were read, each counted once.
     [[nodiscard]] std::uint64_t bytes_needed() const;
 
 private:
@@ -36,11 +38,11 @@ private:
     StoreFile& store_;
     std::uint64_t budget_;
     BlockCache cache_;
-    std::map<std::int64_t, std::unique_ptr<const Blocks>> meshes_; ///< by row
+    std::map<std::int64_t, std::unique_ptr<const Blocks>> meshes_; ///< by store row
     std::uint64_t largest_block_ = 0;
 };
 
-/// Bytes for blocks below which not even one thread can work.
+/// The least budget, in bytes of blocks, with which one thread can work.
 std::uint64_t least_for_blocks(const StoredParts& stored);
 
 } // namespace abut

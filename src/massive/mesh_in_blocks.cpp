@@ -11,7 +11,7 @@ namespace abut {
 
 namespace {
 
-/// For the examination of a solid: beyond, it goes to the disk.
+/// Memory for the examination whether a mesh bounds a solid. It sorts on disk what exceeds this.
 constexpr std::size_t kMemory = std::size_t{1} << 30;
 
 class MeshInBlocks final : public ModelBlocks {

@@ -9,13 +9,14 @@
 
 namespace abut {
 
-/// A mesh in memory in the blocks that a store has of it; most: triangles of a block.
+/// Cuts a mesh in memory into the same blocks that a store would hold.
 ///
+/// In          most: triangles of a block, at most.
 /// Errors      Error{bad_mesh}.
 std::unique_ptr<const ModelBlocks> in_blocks(const Mesh& mesh,
                                              std::uint64_t most = kPieceTriangles);
 
-/// A block of a store as a model of its own.
+/// Builds the model of one mesh block.
 ModelBlock make_model_block(MeshBlock piece);
 
 } // namespace abut

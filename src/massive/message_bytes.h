@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
-/// Values as the bytes of a message between processes of one build, and back. A struct takes part by a
-/// function `fields(stream, value)` that calls stream(member, member, ...), for both directions.
+/// Conversion of values to the bytes of a message and back. Both processes run the same build. A
+/// struct takes part through a function `fields(stream, value)` that calls stream(member, member,
+/// ...) in both directions.
 namespace abut {
 
 class MessageWriter {
@@ -91,7 +92,8 @@ private:
         else
             value.reset();
     }
-    /// Of elements of at least one byte.
+    /// Reads the number of elements of a list. Each takes at least one byte, so a number above the
+    /// bytes that are left is refused before memory is reserved.
     std::size_t count() {
         std::uint64_t count = 0;
         get(count);

@@ -29,8 +29,8 @@ std::string length_text(double metres) {
 
 std::vector<std::string> warn_of_distant_models(const std::vector<std::string>& files,
                                                 const std::vector<Box3>& boxes, double clearance) {
-    // A spanning tree of least gaps, grown from the first model: those of its edges that are longer
-    // than the clearance part the groups.
+    // Grows a minimum spanning tree of the gaps from the first model. The edges of the tree that
+    // are longer than the clearance separate the groups.
     constexpr double kFar = std::numeric_limits<double>::infinity();
     struct Outside {
         std::size_t model, nearest;

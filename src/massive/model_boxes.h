@@ -7,14 +7,15 @@
 
 namespace abut {
 
-/// A line for each model, or group of models, whose box is farther than a clearance from the boxes of
-/// all others: no pair across can be found there. It names the two models that are nearest.
+/// Returns a warning for each model, or group of models, whose box is farther than the clearance
+/// from the boxes of all others. No clash with another model can be found there. The warning names
+/// the two models that are nearest.
 ///
-/// In          files, boxes: of the models; an empty box stands for a model without parts.
+/// In          files, boxes: of the models; a model without parts has an empty box.
 std::vector<std::string> warn_of_distant_models(const std::vector<std::string>& files,
                                                 const std::vector<Box3>& boxes, double clearance);
 
-/// A length in metres as text of three digits: "0.25 m", "12.5 km".
+/// Formats a length in metres with at most three significant digits: "0.25 m", "12.5 km".
 std::string length_text(double metres);
 
 } // namespace abut

@@ -17,7 +17,7 @@ void ModelCache::make_room(std::uint32_t unit, std::uint64_t bytes, bool alone) 
     std::vector<Candidate> candidates;
     for (const auto& [mesh, entry] : entries_)
         if (entry.model != nullptr && entry.call + (alone ? 0 : 1) < call_)
-            // A use that should have come by now has gone to another worker.
+            // A next use before the current unit was handed to another worker instead.
             candidates.push_back(
                 {entry.next_use >= unit ? entry.next_use : WorkPiece::kNoUse, mesh});
     std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
@@ -37,7 +37,7 @@ std::vector<const Model*> ModelCache::load(const WorkPiece& piece) {
     std::vector<std::pair<std::int64_t, Entry*>> missing;
     std::uint64_t bytes = 0;
     for (const WorkPiece::MeshUse& use : piece.meshes) {
-        Entry& entry = entries_[use.mesh]; // its address stays
+        Entry& entry = entries_[use.mesh]; // the address is stable
         entry.next_use = use.next_use;
         entry.call = call_;
         if (entry.model == nullptr) {

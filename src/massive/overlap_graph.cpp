@@ -17,7 +17,7 @@ Vec3 middle_of(const Box3& box) {
     return 0.5 * box.lower + 0.5 * box.upper;
 }
 
-/// Sets that are joined; how many nodes each holds.
+/// The connected components of a graph, as a union-find structure with the size of each set.
 class Components {
 public:
     explicit Components(std::size_t count) : parent_(count), size_(count, 1) {
@@ -44,7 +44,7 @@ private:
     std::vector<std::uint32_t> parent_, size_;
 };
 
-/// Adds one piece of work after the other.
+/// Sums up the figures of a graph report. add() is called for each work unit in order.
 class GraphFigures {
 public:
     GraphFigures(const JobPlan& plan, std::uint64_t lines)
@@ -118,8 +118,8 @@ private:
 
     const JobPlan& plan_;
     GraphReport report_;
-    std::vector<std::uint32_t> valence_; ///< of a part
-    std::vector<bool> needed_;           ///< of a mesh
+    std::vector<std::uint32_t> valence_; ///< by part
+    std::vector<bool> needed_;           ///< by mesh: whether an edge needs it
     Components components_;
     std::uint64_t every_, edges_ = 0;
 };

@@ -11,7 +11,7 @@ namespace abut {
 
 namespace {
 
-/// Of either surface, at most, for the depth: docs/clash.md says how near that comes.
+/// Samples of each surface, at most, to make a depth accurate. docs/clash.md gives the accuracy.
 constexpr int kSamples = 200;
 
 } // namespace
@@ -38,7 +38,7 @@ Clash meeting_clash(const WorldSolid& a, const WorldSolid& b, const std::vector<
         options.threshold = touch;
         options.accuracy_budget = kSamples;
         const LocalPenetration p = penetration_depth(a, b, contacts, options);
-        // Not proven shallow enough: hard.
+        // The clash is hard unless the depth is proven to be at most `touch`.
         clash.kind = touch == 0 || p.at_most > touch ? ClashKind::hard : ClashKind::touch;
         if (p.depth > 0) {
             clash.distance = -p.depth;

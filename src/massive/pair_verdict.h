@@ -10,19 +10,21 @@
 
 namespace abut {
 
-/// Two surfaces that share a point of two triangles.
+/// Returns a `touch` clash of two surfaces at a common point of a pair of triangles.
+///
+/// In          first: two triangles that share a point.
 Clash touch_clash(const WorldSolid& a, const WorldSolid& b, const TrianglePair& first);
 
-/// What two parts are that meet and are no duplicates: `hard` or `touch`.
+/// Returns the clash of two parts that meet and are not duplicates: `hard` or `touch`.
 ///
-/// In          all contacts, at least one, sorted; touch: metres.
+/// In          contacts: all of them, sorted, at least one; touch: metres.
 Clash meeting_clash(const WorldSolid& a, const WorldSolid& b, const std::vector<Contact>& contacts,
                     double touch);
 
-/// Whether every component of `inner` lies inside `outer`. In: their surfaces do not meet.
+/// Whether every component of `inner` lies inside `outer`. Their surfaces must not meet.
 bool lies_inside(const WorldSolid& inner, const WorldSolid& outer);
 
-/// What two parts are that do not meet: `contained`, or `clearance`.
+/// Returns the clash of two parts that do not meet: `contained` or `clearance`.
 Clash apart_clash(const Gap& gap, bool contained);
 
 } // namespace abut

@@ -7,23 +7,25 @@
 
 namespace abut {
 
-/// One part of one of the models, in a numbering over all.
+/// A part as the clash job sees it: a mesh and a transform.
 struct PartInstance {
     std::uint32_t model = 0, part = 0;
     std::uint32_t mesh = 0; ///< index in PartInstances::meshes
     Transform world_from_mesh;
-    Box3 box; ///< world box of the vertices that triangles use; empty if there is no triangle
+    Box3 box; ///< world box of the vertices that triangles use; empty without triangles
 };
 
-/// The parts of all models, in the frame of the first.
+/// The parts of all models, in the frame of the first model.
 struct PartInstances {
-    std::vector<PartInstance> parts; ///< by model, then as in the model
-    std::vector<const Mesh*> meshes; ///< all models' meshes; no copies
+    std::vector<PartInstance> parts; ///< by model, then in the model's order
+    std::vector<const Mesh*> meshes; ///< meshes of all models, not copied
 };
 
-/// Errors      Error{bad_mesh}, naming the model's file: a part names a mesh that is not there, an
-///             index or a coordinate is out of range, a transform is not finite.
-/// Cost        one transform of every vertex of every instance; parallel.
+/// Lists the parts of all models and computes their world boxes.
+///
+/// Errors      Error{bad_mesh}, naming the model's file: a part names a mesh that does not exist,
+///             an index or a coordinate is out of range, or a transform is not finite.
+/// Cost        transforms each vertex of each part instance once; parallel.
 PartInstances gather_parts(const std::vector<Scene>& models);
 
 } // namespace abut

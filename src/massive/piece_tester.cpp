@@ -46,7 +46,8 @@ PieceResult PieceTester::test(const Loaded& loaded, const std::function<void()>&
         found[k] = test_pair(loaded, piece.pairs[k]);
         on_pair();
     };
-    // Whole meshes are in memory. Those of large ones come: what lies together one after the other.
+    // Pairs of whole meshes have all their data in memory. Pairs with a large mesh read blocks
+    // while they are tested; they come in an order in which neighbouring pairs share blocks.
     std::vector<bool> is_large(piece.pairs.size());
     for (const std::uint32_t k : piece.large_pairs)
         is_large[k] = true;
@@ -82,7 +83,7 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
     const PartRow &a = loaded.parts[pair.a], &b = loaded.parts[pair.b];
     const auto use = [&](std::uint32_t part) { return loaded.piece.parts[part]; };
     const std::string &file_a = files_[use(pair.a).model], &file_b = files_[use(pair.b).model];
-    const PairTerms terms = *loaded.rules->terms(pair.a, pair.b); // a candidate has some
+    const PairTerms terms = *loaded.rules->terms(pair.a, pair.b); // every candidate pair has terms
     const auto placed = [&](const PartRow& row, std::uint32_t part) {
         const std::uint32_t mesh = use(part).mesh;
         const auto whole = static_cast<std::uint32_t>(loaded.models.size());

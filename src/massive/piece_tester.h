@@ -18,35 +18,39 @@
 
 namespace abut {
 
-/// Does pieces of work: brings what they need into memory, tests their pairs.
+/// Does tasks: reads the meshes and parts that a task needs, and tests its pairs.
 class PieceTester {
 public:
-    /// In          models: of the store; budget: bytes of models in memory; blocks_budget: of blocks of
-    ///             large meshes; hierarchies_room: of hierarchies that are to be kept. Store and
-    ///             options must outlive it.
+    /// In          store, options: must outlive this object; models: of the store; budget: bytes of
+    ///             models in memory; blocks_budget: bytes of mesh blocks in memory;
+    ///             hierarchies_room: bytes of built hierarchies that wait to be stored, 0 if none
+    ///             is stored.
     PieceTester(StoreFile& store, const ClashOptions& options, const std::vector<ModelRow>& models,
                 std::uint64_t budget, std::uint64_t blocks_budget,
                 std::uint64_t hierarchies_room = 0);
 
-    /// A piece with what it needs, valid until the load after the next.
+    /// A task with the data that it needs, valid until the load after the next.
     struct Loaded {
         WorkPiece piece;
-        std::vector<const Model*> models;       ///< of the piece's meshes
-        std::vector<const ModelBlocks*> large;  ///< and of its large ones
-        int threads = 1;                        ///< that its large pairs have room for
-        std::vector<PartRow> parts;             ///< of the piece's parts
-        std::unique_ptr<const RuleTable> rules; ///< of the same
+        std::vector<const Model*> models;       ///< of the task's meshes
+        std::vector<const ModelBlocks*> large;  ///< of the task's large meshes
+        int threads = 1;                        ///< at most, for the pairs with a large mesh
+        std::vector<PartRow> parts;             ///< store rows of the task's parts
+        std::unique_ptr<const RuleTable> rules; ///< for the same parts
     };
     /// Errors      those of the store.
     Loaded load(WorkPiece piece);
 
-    /// In          on_pair: called after each pair, from any thread; what it throws ends the test.
+    /// Tests all pairs of a task.
+    ///
+    /// In          on_pair: called after each pair, from any thread; an exception that it throws
+    ///             ends the test.
     PieceResult test(const Loaded& loaded, const std::function<void()>& on_pair) const;
 
-    /// Hierarchies that were built since the last call, and are to be kept.
+    /// Returns the hierarchies that were built since the last call and are to be stored.
     std::vector<HierarchyRow> take_built() { return reader_.take_built(); }
 
-    /// What it did so far, but for units and pairs.
+    /// The counters of this worker so far, without units and pairs.
     [[nodiscard]] OutOfCoreCounters::Worker figures() const;
 
 private:
@@ -54,7 +58,7 @@ private:
 
     StoreFile& store_;
     const ClashOptions& options_;
-    std::vector<std::string> files_; ///< of the models
+    std::vector<std::string> files_; ///< by model
     ModelReader reader_;
     ModelCache cache_;
     LargeMeshes large_;

@@ -9,14 +9,14 @@
 namespace abut {
 
 void work(PieceTester& tester, WorkSource& source) {
-    // On one thread, that thread does all.
+    // With one thread only, the next task is loaded after the test instead of beside it.
     const auto policy =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1
             ? std::launch::async
             : std::launch::deferred;
     using Clock = std::chrono::steady_clock;
-    Clock::time_point given; // the last piece
-    // What follows: in memory, or to be brought there once it has the memory for itself.
+    Clock::time_point given; // when the source gave the last task
+    // The next task: already loaded, or still to be loaded because it needs the memory for itself.
     struct Coming {
         std::optional<WorkPiece> piece;
         std::optional<PieceTester::Loaded> loaded;

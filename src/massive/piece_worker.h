@@ -7,21 +7,22 @@
 
 namespace abut {
 
-/// Where a worker gets its pieces from, and where it leaves what it found.
+/// Gives a worker its tasks and takes its results.
 class WorkSource {
 public:
     virtual ~WorkSource() = default;
-    /// The next piece; none if there is no more work. Waits until that is known.
+    /// Returns the next task; none if there is no more work. Waits until that is known.
     virtual std::optional<WorkPiece> next() = 0;
     virtual void done(PieceResult result) = 0;
-    /// After each pair, from any thread. What it throws ends the work.
+    /// Called after each pair, from any thread. An exception that it throws ends the work.
     virtual void on_pair() = 0;
-    /// The work has failed: `next`, which another thread may be in, waits no longer.
+    /// Called when the work has failed: a call of next() that waits in another thread must return
+    /// or throw soon.
     virtual void give_up() {}
 };
 
-/// Does pieces until there are none: while one is tested, what the next one needs comes into memory.
-/// `done` is called while nothing is being read; `next` and `done` never at once.
+/// Does tasks until there are none. While one is tested, the data of the next one are read. `done`
+/// is called while nothing is being read, and never at the same time as `next`.
 ///
 /// Errors      those of the tester and the source.
 void work(PieceTester& tester, WorkSource& source);

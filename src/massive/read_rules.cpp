@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Reads one rules file; `where` in each message is a path like rules[2].a.name.
+/// Reads one rules file. `where` in a message is a path like rules[2].a.name.
 class RulesReader {
 public:
     explicit RulesReader(const std::string& path) : path_(path) {}

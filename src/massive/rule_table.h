@@ -15,21 +15,21 @@
 
 namespace abut {
 
-/// What the rules say of a pair of parts.
+/// The clearance and touch tolerance of a pair of parts, and the rule that gives them.
 struct PairTerms {
     double clearance, touch;
-    const ClashRule* rule; ///< null: there are no rules
+    const ClashRule* rule; ///< null if there are no rules
 };
 
-/// What rules may ask of a part.
+/// The properties of a part that rules can refer to.
 struct RuleSubject {
-    std::uint32_t model = 0; ///< parts of one model have one number
-    std::string_view file;   ///< the model's
+    std::uint32_t model = 0; ///< equal for parts of one model file
+    std::string_view file;   ///< of the model
     std::string_view id, name, type;
 };
 
-/// What the rules ask of many parts, in place of their names: a few bytes each, since most parts have
-/// the answers of others. Without rules, nothing.
+/// Which rules select which parts. It stores a few bytes per part instead of the part's names,
+/// because most parts have the same answers as other parts. Without rules it stores nothing.
 class RuleTable {
 public:
     /// In          options: must outlive the table.
@@ -37,17 +37,19 @@ public:
     RuleTable(const RuleTable&) = delete;
     RuleTable& operator=(const RuleTable&) = delete;
 
-    /// The next part; parts are counted from 0.
+    /// Adds the next part. Parts are numbered from 0.
     void add(const RuleSubject& part);
 
-    /// The first rule that selects two parts, in either order, gives their terms; none if it ignores
-    /// the pair or no rule selects it. Without rules, every pair has the options' terms.
+    /// Returns the terms of a pair, given by the first rule that selects its parts in either order.
+    /// Returns none if that rule ignores the pair or no rule selects it. Without rules, every pair
+    /// has the options' terms.
     ///
-    /// Selectors match a file by its path or by its name alone, a name by `name` or `id`.
+    /// A file selector matches the path or the file name alone. A name selector matches `name` or
+    /// `id`.
     [[nodiscard]] std::optional<PairTerms> terms(std::size_t i, std::size_t k) const;
 
 private:
-    /// What many parts have in common.
+    /// The answers of the rules that many parts have in common.
     struct Kind {
         std::vector<bool> is_a, is_b; ///< by rule: whether its side selects the part
         std::uint32_t model = 0, type = 0;
@@ -61,13 +63,13 @@ private:
     [[nodiscard]] const Hash128* prefix(std::size_t part, std::size_t length) const;
 
     const ClashOptions& options_;
-    std::vector<std::size_t> lengths_; ///< of prefixes that rules compare, each once
+    std::vector<std::size_t> lengths_; ///< distinct lengths of the prefixes that rules compare
     bool asks_types_ = false;
     std::map<std::string, std::uint32_t, std::less<>> types_;
     std::map<Kind, std::uint32_t> numbers_;
-    std::vector<const Kind*> kinds_; ///< by number, of numbers_
+    std::vector<const Kind*> kinds_; ///< keys of numbers_, by number
     std::vector<std::uint32_t> parts_;
-    std::vector<Hash128> prefixes_; ///< of each part, of each length; zero if its name is shorter
+    std::vector<Hash128> prefixes_; ///< by part and length; zero if the name is shorter
 };
 
 } // namespace abut

@@ -16,7 +16,7 @@ bool less(const Vec3& p, const Vec3& q) {
     return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 
-/// The sum of hashes of all world triangles: the same in whatever order they come.
+/// Returns the sum of the hashes of all world triangles, which does not depend on their order.
 Hash128 hash_of(const BlockList& part) {
     const Vec3 zero{0, 0, 0};
     Hash128 sum;

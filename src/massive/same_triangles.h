@@ -4,12 +4,12 @@
 
 namespace abut {
 
-/// Whether two parts are the same triangles at the same place, in whatever order and however their
-/// corners are numbered.
+/// Whether two parts consist of the same triangles at the same place. The order of the triangles
+/// and of their corners does not matter.
 ///
-/// Accuracy    by 128 bits of hashes where boxes and numbers of triangles are the same: an error is
-///             not to be expected.
-/// Cost        one pass over both parts where they are the same for all that boxes tell.
+/// Accuracy    compares boxes and numbers of triangles, then hashes of 128 bits. An accidental
+///             match is not to be expected.
+/// Cost        one pass over both parts, only if their boxes and numbers of triangles are equal.
 bool same_triangles(const ClashPart& a, const ClashPart& b);
 
 } // namespace abut

@@ -18,7 +18,7 @@ namespace abut {
 
 namespace {
 
-/// All the work of a plan, for one worker.
+/// All work of a plan, for a job without a crew.
 class AllWork final : public WorkSource {
 public:
     AllWork(const JobPlan& plan, JobResult& result, const Progress& progress)
@@ -44,7 +44,8 @@ void do_alone(const JobPlan& plan, JobResult& result, const ClashOptions& option
     work(tester, source);
 }
 
-/// An import that has come in between mixes up what was read before and after it.
+/// Throws if an import has changed the store's parts since the plan was made. Results from before
+/// and after an import must not be mixed.
 void require_unchanged(StoreFile& store, const JobPlan& plan) {
     require_parts(store.models(), parts_key(plan.stored.models), store.path());
 }
@@ -66,7 +67,7 @@ StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
         else
             lead(*crew, plan, result, options, file.path());
     } catch (const Error& error) {
-        // That a part is not there any more is no damage if an import took it out.
+        // A missing part is not damage if an import removed it: report the import instead.
         if (error.code() == ErrorCode::malformed || error.code() == ErrorCode::bad_argument)
             require_unchanged(file, plan);
         throw;

@@ -31,14 +31,15 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
         }
         result.meshes.push_back(stored);
     });
-    result.meshes.shrink_to_fit(); // it is kept
+    result.meshes.shrink_to_fit(); // the table stays in memory for the whole job
     for (std::size_t i = 0; i < large.size(); ++i)
         for (const StoredBlock& block : stored_blocks(store, large[i])) {
             result.large[i].largest_block = std::max(result.large[i].largest_block, block.bytes);
             result.large[i].bytes += block.bytes;
         }
     result.models = store.models();
-    // A row takes more bytes of the file: a damaged number takes no memory.
+    // A part's row takes more bytes of the file than kLeastRow. The bound keeps a damaged number of
+    // parts from reserving too much memory.
     constexpr std::uint64_t kLeastRow = 64;
     const std::uint64_t most_parts = std::filesystem::file_size(store.path()) / kLeastRow;
     std::uint64_t parts = 0;
@@ -52,7 +53,7 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
     result.boxes.reserve(result.parts.capacity());
     for (std::uint32_t m = 0; m < result.models.size(); ++m) {
         store.for_each_part(result.models[m], [&](const PartRow& part) {
-            // Meshes come in the order of their numbers.
+            // The meshes are sorted by number.
             const auto mesh =
                 std::ranges::lower_bound(result.meshes, part.mesh, {}, &StoredMesh::mesh);
             if (mesh == result.meshes.end() || mesh->mesh != part.mesh)
@@ -121,7 +122,8 @@ PairCell StoredParts::cell_of(const IndexPair& pair) const {
                         other = a_counts ? pair.b() : pair.a();
     const Box3& box = boxes[other];
     const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
-    // Blocks lie on a surface, cells in space: of three bits of the key about one tells nothing.
+    // The key has three bits for each level of cells. Blocks lie on a surface, which meets about 4
+    // of the 8 cells of a level: so 3/2 bits of the key are kept per bit of the number of blocks.
     const auto bits = static_cast<unsigned>(std::bit_width((a_counts ? of_a : of_b)->blocks));
     return {part, middle, spatial_key(boxes[part], middle, middle, middle) >> (63 - 3 * bits / 2)};
 }

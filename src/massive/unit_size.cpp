@@ -7,10 +7,12 @@ namespace abut {
 
 namespace {
 
-/// Of each worker. The last unit is waited for by all others, so that up to one in so many is lost;
-/// each is committed on its own, and shares less with the next the smaller it is.
+/// Units that each worker should get. All workers wait for the last unit, so up to 1 / kUnits of
+/// the time is lost. More units would cost more, because each is committed on its own, and smaller
+/// units share less with the next.
 constexpr std::uint64_t kUnits = 32;
-/// A unit of less is not worth a message and a commit: some milliseconds of work.
+/// The least size of a unit, worth some milliseconds of work. A smaller one is not worth a message
+/// and a commit.
 constexpr std::uint64_t kLeastBytes = std::uint64_t{2} << 20;
 constexpr std::uint64_t kLeastPairs = 512;
 

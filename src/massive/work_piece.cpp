@@ -7,12 +7,12 @@ namespace abut {
 
 namespace {
 
-/// Where a value stands in a sorted list that has it.
+/// Returns the index of a value in a sorted list that contains it.
 std::uint32_t place_of(const std::vector<std::uint32_t>& sorted, std::uint32_t value) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, value) - sorted.begin());
 }
 
-/// Where along a large mesh a pair lies.
+/// The sort key of a pair with a large mesh: pairs of one part and cell follow each other.
 struct PlaceOfPair {
     std::uint32_t part = 0;
     std::uint64_t cell = 0;

@@ -13,16 +13,17 @@
 
 namespace abut {
 
-/// A unit of work as it is handed out: whoever does it needs the store, but no tables of parts.
+/// A task: a work unit as it is sent to a worker. The worker needs the store but no tables of
+/// parts.
 struct WorkPiece {
     struct MeshUse {
-        std::int64_t mesh = 0;      ///< row of the store
-        std::uint64_t bytes = 0;    ///< of a Model of it, estimated
-        std::uint32_t next_use = 0; ///< the next unit that needs it, as far as is known; or kNoUse
+        std::int64_t mesh = 0;      ///< row in the store
+        std::uint64_t bytes = 0;    ///< estimated size of its Model
+        std::uint32_t next_use = 0; ///< next unit of this worker that needs it, or kNoUse
     };
     struct PartUse {
-        std::int64_t row = 0;    ///< of the store
-        std::uint32_t mesh = 0;  ///< index in meshes, and from their number on in large
+        std::int64_t row = 0;    ///< row in the store
+        std::uint32_t mesh = 0;  ///< index in `meshes`, or meshes.size() + index in `large`
         std::uint32_t model = 0; ///< index in the store's models
     };
     struct Pair {
@@ -30,40 +31,42 @@ struct WorkPiece {
     };
     static constexpr std::uint32_t kNoUse = UINT32_MAX;
 
-    std::uint32_t unit = 0; ///< which of the plan
-    bool alone = false;     ///< no other piece fits into the memory beside it
+    std::uint32_t unit = 0; ///< index in the plan's units
+    bool alone = false;     ///< no other task fits into the memory beside this one
     std::vector<MeshUse> meshes;
     std::vector<std::int64_t>
-        large; ///< rows of large meshes: their blocks come as they are asked for
+        large; ///< rows of large meshes, whose blocks are read during the test
     std::vector<PartUse> parts;
     std::vector<Pair> pairs; ///< in the order of the unit
-    /// Indices of the pairs that have a large mesh: those that lie together one after the other.
+    /// Indices of the pairs that have a large mesh, in an order in which neighbouring pairs follow
+    /// each other.
     std::vector<std::uint32_t> large_pairs;
 };
 
-/// All but the meshes' next uses, which kNoUse stands for.
+/// Makes the task of a work unit. All next uses are kNoUse; the caller fills them in.
 WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& units,
                      std::size_t unit);
 
-/// What was found in a piece.
+/// The result of one task.
 struct PieceResult {
     struct Found {
-        std::uint32_t pair = 0; ///< index in the piece's pairs
+        std::uint32_t pair = 0; ///< index in the task's pairs
         Clash clash;            ///< without model and part
     };
     struct Named {
-        std::int64_t row = 0; ///< of the store
+        std::int64_t row = 0; ///< row in the store
         Part part;            ///< id, name and type
     };
 
     std::uint32_t unit = 0;
-    std::uint32_t from = 0;     ///< rank of the worker; filled in by who receives it
-    std::uint64_t pairs = 0;    ///< tested
+    std::uint32_t from = 0;     ///< rank of the worker; the receiver fills it in
+    std::uint64_t pairs = 0;    ///< number of pairs tested
     std::vector<Found> clashes; ///< in the order of the pairs
     std::vector<Named> named;   ///< the parts that clash, each once
-    /// Built for this piece or the next, to be kept. They stay in the process that built them.
+    /// Hierarchies that were built for this task or the next, to be stored. They are not sent to
+    /// another process.
     std::vector<HierarchyRow> hierarchies;
-    OutOfCoreCounters::Worker worker; ///< so far, without units and pairs
+    OutOfCoreCounters::Worker worker; ///< counters of the worker so far, without units and pairs
 };
 
 } // namespace abut

@@ -12,7 +12,8 @@ namespace abut {
 
 namespace {
 
-/// Distance, point a, point b, direction: SQLite keeps no sign of zero, so they are kept as bytes too.
+/// Distance, point a, point b and direction. They are also stored as bytes, because SQLite does not
+/// keep the sign of zero.
 using ExactNumbers = std::array<double, 10>;
 
 ExactNumbers pack(const Clash& c) {

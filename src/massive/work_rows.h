@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-/// What jobs have found, and what is left to do: rows of a store, each with its checksum. What writes
-/// is called within a transaction.
+/// The clashes that jobs have found and the work units that are left, as store rows with checksums.
+/// The caller of a function that writes holds a transaction.
 ///
-/// Errors      of all readers: Error{malformed}, naming the store, if a row is not what its checksum
-///             says, or missing.
+/// Errors      of all functions that read: Error{malformed}, naming the store, if a row does not
+///             match its checksum or is missing.
 namespace abut {
 
-/// Two parts by their rows in the store, a and b.
+/// The store rows of parts a and b.
 using RowPair = std::pair<std::int64_t, std::int64_t>;
 
-/// A clash of a job: `clash` without model and part.
+/// A clash of a job. `clash` has no model and part; `parts` stands for them.
 struct ClashRow {
     RowPair parts;
     Clash clash;
@@ -28,11 +28,11 @@ void add_clashes(Database& database, std::int64_t job, const std::vector<ClashRo
 void for_each_clash(Database& database, std::int64_t job,
                     const std::function<void(ClashRow&&)>& take);
 
-/// The pairs of a piece of work that is left to do.
+/// Adds the work units that are left to do, each as its list of pairs.
 void add_units(Database& database, std::int64_t job,
                const std::vector<std::vector<RowPair>>& units);
 void remove_unit(Database& database, std::int64_t job, std::uint64_t unit);
-/// All that is left, and with clashes all that was found.
+/// remove_units removes the units of a job; remove_work removes its units and its clashes.
 void remove_units(Database& database, std::int64_t job);
 void remove_work(Database& database, std::int64_t job);
 void for_each_pair_left(Database& database, std::int64_t job,

@@ -6,8 +6,9 @@ namespace abut {
 
 namespace {
 
-/// About what it costs: models are read and built at some bytes a nanosecond, a pair takes some
-/// microseconds. Runs that are cut wrong are cut again.
+/// Estimates the cost of a unit, in bytes of models to read and build. A pair takes some
+/// microseconds, as reading kBytesPerPair bytes does. An error is corrected when a worker that has
+/// finished takes over half of another's run.
 std::uint64_t work_of_unit(const WorkUnit& unit) {
     constexpr std::uint64_t kBytesPerPair = 1024;
     return unit.bytes + kBytesPerPair * unit.pairs.size();
@@ -48,7 +49,7 @@ void WorkSchedule::take_over_half(Run& run) {
         *std::ranges::max_element(runs_, {}, [this](const Run& other) { return work_of(other); });
     if (longest.begin == longest.end)
         return;
-    // At least one unit changes hands, be it the only one.
+    // At least one unit is taken over, even if it is the only one.
     const std::uint64_t half = work_before_[longest.begin] + work_of(longest) / 2;
     const std::size_t middle = std::min(unit_after(half), longest.end - 1);
     run = {middle, longest.end};

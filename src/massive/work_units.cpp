@@ -14,10 +14,12 @@ namespace abut {
 
 namespace {
 
-/// A partition of more nodes than this would itself take some 100 MB: space is halved first.
+/// Partitioning more nodes than this would take more than about 100 MB. Such a graph is first
+/// halved in space.
 constexpr std::size_t kMostNodes = 250'000;
-constexpr std::size_t kMostSubgraphs = 64; ///< of one partition
-/// METIS balances the weights to some per cent, and meshes are shared between subgraphs.
+constexpr std::size_t kMostSubgraphs = 64; ///< of one call of cut_graph
+/// Safety factor for the number of subgraphs: METIS balances the weights only to some per cent, and
+/// subgraphs share meshes.
 constexpr double kRoom = 1.25;
 
 class Partition {
@@ -46,7 +48,7 @@ public:
             cut(std::move(lists[i]), is_cut || i + 1 == lists.size());
     }
 
-    /// Units of pairs as they come.
+    /// Fills units with the pairs in the given order, each up to the budget.
     void fill_in_order(const std::vector<IndexPair>& pairs, bool is_cut = false) {
         std::vector<IndexPair> some;
         std::uint64_t bytes = 0;
@@ -57,7 +59,8 @@ public:
                    (mesh_stamp_[b] == stamp_ || a == b ? 0 : bytes_of(b));
         };
         for (const IndexPair& pair : pairs) {
-            // What asks for nothing more goes with what is there, also if that is alone.
+            // A pair that needs no further mesh always joins the current unit, even one that
+            // exceeds the budget.
             if (cost(pair) > 0 && bytes + cost(pair) > budget_ && !some.empty()) {
                 units_.push_back(unit_of(std::exchange(some, {}), is_cut));
                 ++stamp_;
@@ -107,7 +110,7 @@ private:
         return unit;
     }
 
-    /// A node of the graph of one list: a part, or a cell of a large one.
+    /// A node of the graph of a list of pairs: a part, or a cell of a part with a large mesh.
     struct Node {
         std::uint32_t part = 0;
         std::uint64_t cell = 0;
@@ -131,7 +134,7 @@ private:
         return {part, 0, 0.5 * box.lower + 0.5 * box.upper};
     }
 
-    /// The pairs within each subgraph; last, those that were cut.
+    /// Returns the pairs within each subgraph, then, as the last list, the pairs that were cut.
     std::vector<std::vector<IndexPair>> split(const WorkUnit& unit) {
         std::vector<Node> nodes;
         for (const IndexPair& pair : unit.pairs)
@@ -146,7 +149,7 @@ private:
         };
         for (const IndexPair& pair : unit.pairs)
             edges.push_back({index(node_of(pair, pair.a())), index(node_of(pair, pair.b()))});
-        // Cells that follow each other share blocks.
+        // Consecutive cells of a part share blocks: an edge between them keeps them together.
         for (std::uint32_t i = 1; i < nodes.size(); ++i)
             if (nodes[i].part == nodes[i - 1].part)
                 edges.push_back({i - 1, i});
@@ -163,14 +166,16 @@ private:
         return lists;
     }
 
-    /// At least 2, since the unit is larger than the budget.
+    /// Returns the number of subgraphs to cut a unit into: at least 2, because the unit exceeds the
+    /// budget.
     [[nodiscard]] std::size_t subgraphs_for(const WorkUnit& unit, std::size_t nodes) const {
         const double needed =
             kRoom * static_cast<double>(unit.bytes) / static_cast<double>(budget_);
         return std::min({static_cast<std::size_t>(needed) + 1, kMostSubgraphs, nodes});
     }
 
-    /// A mesh's bytes are borne by all the parts that show it; all weights together are below 2^30.
+    /// Returns the weight of each node. The bytes of a mesh are divided among the nodes that use
+    /// it. They are scaled so that the sum of all weights stays below 2^30.
     std::vector<std::int32_t> weights_of(const WorkUnit& unit, const std::vector<Node>& nodes) {
         for (const Node& node : nodes)
             shown_[mesh_of(node.part)] = 0;
@@ -187,7 +192,8 @@ private:
         return weights;
     }
 
-    /// By the middles of the boxes, across where they reach farthest.
+    /// Halves the nodes at the median of their middles, along the axis on which they extend
+    /// farthest.
     static std::vector<std::int32_t> halve(const std::vector<Node>& nodes) {
         Box3 bounds;
         for (const Node& node : nodes)
@@ -214,13 +220,14 @@ private:
     const StoredParts& stored_;
     std::uint64_t budget_;
     std::vector<WorkUnit> units_;
-    std::vector<std::uint32_t> mesh_stamp_; ///< of a mesh: the last list that it was found in
-    std::vector<std::uint64_t> shown_;      ///< by how many nodes
+    std::vector<std::uint32_t> mesh_stamp_; ///< by mesh: the last list in which it was found
+    std::vector<std::uint64_t> shown_;      ///< by mesh: number of nodes that use it
     const std::string& store_;
     std::uint32_t stamp_ = 0;
 };
 
-/// Each unit after one that shares as many bytes with it as any that is left.
+/// Orders the units greedily. Each is followed by a remaining unit that shares the most bytes of
+/// meshes with it, or by the first remaining one if none shares any.
 std::vector<WorkUnit> in_order_of_sharing(std::vector<WorkUnit> units, const StoredParts& stored) {
     std::vector<std::vector<std::uint32_t>> users(stored.meshes.size());
     for (std::uint32_t u = 0; u < units.size(); ++u)

@@ -38,7 +38,8 @@ double quotient(const Dyadic& a, const Dyadic& b) {
         return 0;
     Dyadic::Integer numerator = abs(a.mantissa_), denominator = abs(b.mantissa_);
     int exponent = a.exponent_ - b.exponent_;
-    // An integer quotient of 64 bits or one more; its last bit is below half a double's.
+    // The integer quotient has 64 or 65 bits. Its last bit is below half a unit of a double's last
+    // place.
     const int shift = 64 + static_cast<int>(msb(denominator)) - static_cast<int>(msb(numerator));
     if (shift > 0)
         numerator <<= shift;

@@ -6,12 +6,12 @@
 
 namespace abut {
 
-/// An integer times a power of two: sums, differences and products of finite doubles, exactly. For
-/// what a filter could not decide; no faster than it needs to be.
+/// An integer times a power of two. Sums, differences and products of finite doubles are exact.
+/// Used where a filter could not decide; not tuned for speed.
 class Dyadic {
 public:
     Dyadic() = default;
-    Dyadic(double value); // NOLINT: a double is one; formulas read as they do for doubles
+    Dyadic(double value); // NOLINT: implicit, so that formulas read as they do for doubles
 
     [[nodiscard]] int sign() const { return mantissa_.sign(); }
 
@@ -20,7 +20,7 @@ public:
     friend Dyadic operator-(const Dyadic& a);
     friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
 
-    /// a / b, b not zero.
+    /// a / b, where b is not zero.
     /// Accuracy    within one unit in the last place.
     friend double quotient(const Dyadic& a, const Dyadic& b);
 
@@ -35,7 +35,7 @@ private:
     int exponent_ = 0;
 };
 
-/// A vector of them.
+/// A vector of dyadic numbers.
 struct DyadicVec3 {
     Dyadic x, y, z;
     DyadicVec3() = default;

@@ -8,16 +8,17 @@ namespace {
 
 constexpr std::size_t kCoefficients = 4;
 
-/// Bernstein coefficients over [0, 1] of degree 3, times 3. Multiplying a polynomial's degree up
-/// adds no change of sign.
+/// Bernstein coefficients of degree 3 over [0, 1], times 3. Raising the degree of a polynomial adds
+/// no change of sign.
 std::array<BigInt, kCoefficients> bernstein(const IntegerPolynomial& p) {
     const BigInt first = 3 * p.c[0], second = first + p.c[1];
     const BigInt third = second + p.c[1] + p.c[2];
     return {first, second, third, BigInt(3 * (p.c[0] + p.c[1] + p.c[2] + p.c[3]))};
 }
 
-/// Takes multiples of the divisor, shifted, from p until its degree is less; p is multiplied by
-/// constants on the way. Each step's factor of the divisor goes to `quotient`.
+/// Pseudo-division: subtracts shifted multiples of the divisor from p until its degree is less than
+/// the divisor's. Each step multiplies p by the divisor's leading coefficient. The quotient is
+/// stored in `quotient` unless it is null.
 void divide(IntegerPolynomial& p, const IntegerPolynomial& divisor, IntegerPolynomial* quotient) {
     const int degree = divisor.degree();
     const auto top = static_cast<std::size_t>(degree);
@@ -72,7 +73,7 @@ IntegerPolynomial derivative(const IntegerPolynomial& p) {
 }
 
 IntegerPolynomial common_divisor(IntegerPolynomial a, IntegerPolynomial b) {
-    // Euclid's algorithm; degrees are too small for coefficients to explode.
+    // Euclid's algorithm. Degrees are too small for the coefficients to explode.
     while (!b.is_zero()) {
         divide(a, b, nullptr);
         std::swap(a, b);
@@ -89,7 +90,7 @@ IntegerPolynomial quotient(IntegerPolynomial p, const IntegerPolynomial& divisor
 IntegerPolynomial restricted(const IntegerPolynomial& p, const BigInt& index, unsigned level) {
     const int degree = p.degree();
     IntegerPolynomial r = p;
-    // Scale: t = x / 2^level. Then Horner's scheme shifts by `index`.
+    // Substitutes t = x / 2^level. Then Horner's scheme shifts by `index`.
     for (int i = 0; i < degree; ++i)
         r.c[static_cast<std::size_t>(i)] <<= level * static_cast<unsigned>(degree - i);
     for (int first = 0; first < degree; ++first)

@@ -9,7 +9,7 @@
 
 namespace abut {
 
-/// Any integer; up to 512 bits without a memory allocation.
+/// An integer of any size. Up to 512 bits it needs no memory allocation.
 using BigInt = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked,
@@ -20,7 +20,7 @@ using BigInt = boost::multiprecision::number<
 struct IntegerPolynomial {
     std::array<BigInt, 4> c;
 
-    /// -1 for the zero polynomial.
+    /// The degree; -1 for the zero polynomial.
     [[nodiscard]] int degree() const;
     [[nodiscard]] bool is_zero() const { return degree() < 0; }
     /// Sign at t = 1.
@@ -40,19 +40,20 @@ IntegerPolynomial common_divisor(IntegerPolynomial a, IntegerPolynomial b);
 /// p / divisor up to a constant factor. In: the division leaves no remainder.
 IntegerPolynomial quotient(IntegerPolynomial p, const IntegerPolynomial& divisor);
 
-/// 2^(degree level) p((index + u) / 2^level) as a polynomial in u: p as seen in one cell of a
-/// dyadic grid, u in [0, 1].
+/// 2^(degree level) p((index + u) / 2^level) as a polynomial in u. It describes p in one cell of a
+/// dyadic grid, where u is in [0, 1].
 IntegerPolynomial restricted(const IntegerPolynomial& p, const BigInt& index, unsigned level);
 
-/// Changes of sign among the Bernstein coefficients over [0, 1], zeros left out: at least the number of roots
-/// in the open interval (with multiplicity), and odd if that is odd.
+/// Number of sign changes among the Bernstein coefficients over [0, 1], ignoring zeros. It is at
+/// least the number of roots in the open interval, counted with multiplicity, and differs from that
+/// by an even number.
 int sign_variations(const IntegerPolynomial& p);
 
-/// The sign that p has on all of [0, 1] as its Bernstein coefficients tell; 0 if they do not tell.
+/// The sign of p on all of [0, 1], if its Bernstein coefficients have the same sign; otherwise 0.
 int certain_sign(const IntegerPolynomial& p);
 
-/// The values over one power of two that makes the largest a double of full precision; their ratios
-/// are what counts.
+/// The values scaled by one power of two so that the largest is a double of full precision. Only
+/// their ratios are meaningful.
 template <std::size_t n>
 std::array<double, n> common_scale(const std::array<BigInt, n>& values) {
     unsigned bits = 0;

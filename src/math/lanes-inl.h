@@ -1,4 +1,4 @@
-// Vectors of three coordinates, many side by side: one in each SIMD lane.
+// Vectors of three coordinates, one vector in each SIMD lane.
 
 // Included once for each target.
 #if defined(ABUT_MATH_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -19,13 +19,13 @@ namespace abut::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Three coordinates, lanes wide.
+/// The coordinates of as many vectors as there are lanes.
 template <class D>
 struct Lanes3 {
     hn::Vec<D> x, y, z;
 };
 
-/// The lanes from `lane` on of three rows.
+/// Loads vectors from three rows, starting at `lane`.
 template <class D, typename T, std::size_t n>
 HWY_INLINE Lanes3<D> load3(D d, const T (*row)[n], std::size_t lane) {
     return {hn::Load(d, row[0] + lane), hn::Load(d, row[1] + lane), hn::Load(d, row[2] + lane)};
@@ -63,7 +63,7 @@ template <class D>
 HWY_INLINE Lanes3<D> minus_scaled(const Lanes3<D>& a, hn::Vec<D> s, const Lanes3<D>& b) {
     return {hn::NegMulAdd(s, b.x, a.x), hn::NegMulAdd(s, b.y, a.y), hn::NegMulAdd(s, b.z, a.z)};
 }
-/// The largest coordinate's size.
+/// The largest magnitude of the coordinates.
 template <class D>
 HWY_INLINE hn::Vec<D> max_abs(const Lanes3<D>& a) {
     return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
@@ -83,7 +83,7 @@ HWY_INLINE V max3(V a, V b, V c) {
     return hn::Max(a, hn::Max(b, c));
 }
 
-/// A mask of at most 16 lanes as bits, the first lane's lowest.
+/// The bits of a mask of at most 16 lanes. The first lane has the lowest bit.
 template <class D>
 HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
     static_assert(hn::MaxLanes(D()) <= 16);

@@ -7,8 +7,8 @@
 
 namespace abut {
 
-/// 2^exponent as two factors, since it may be no double: scales by exponents of -2000 to 2000. What
-/// neither over- nor underflows is exact.
+/// 2^exponent for exponents of -2000 to 2000. It is stored as two factors, since a single double
+/// cannot hold all of these. A product is exact unless it over- or underflows.
 class PowerOfTwo {
 public:
     explicit PowerOfTwo(int exponent)
@@ -18,7 +18,7 @@ public:
     friend Vec3 operator*(const PowerOfTwo& p, const Vec3& v) { return p.second_ * (p.first_ * v); }
 
 private:
-    /// 2^exponent, a normal double.
+    /// 2^exponent as a normal double.
     static double normal(int exponent) {
         return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
     }

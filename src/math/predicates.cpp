@@ -16,7 +16,7 @@ namespace {
 thread_local std::uint64_t t_exact_signs = 0;
 
 constexpr double kEpsilon = 0x1p-53;
-// Each product of two differences may lose this much to underflow before it is scaled by the third.
+// Bounds the loss of a product of two differences to underflow, before it is scaled by the third.
 constexpr double kUnderflow = 16 * std::numeric_limits<double>::denorm_min();
 
 using Int256 = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
@@ -35,7 +35,8 @@ int sign_of(const Int& v) {
     return (v > 0) - (v < 0);
 }
 
-/// Determinant of three rows. Int holds products of two entries, Wide of three.
+/// Sign of the determinant of three rows. Int can hold products of two entries, Wide products of
+/// three.
 template <typename Int, typename Wide>
 int determinant_sign(const std::array<Int, 9>& d) {
     const Int x = d[4] * d[8] - d[5] * d[7], y = d[5] * d[6] - d[3] * d[8],
@@ -43,7 +44,7 @@ int determinant_sign(const std::array<Int, 9>& d) {
     return sign_of(Wide(Wide(d[0]) * Wide(x) + Wide(d[1]) * Wide(y) + Wide(d[2]) * Wide(z)));
 }
 
-/// Rows b - a (b itself, if it is a direction), c - a, d - a.
+/// The rows are b - a (or b itself, if it is a direction), c - a, d - a.
 template <typename Int, typename Wide>
 int orient3d_integer(const Scaled<12>& s, bool direction) {
     std::array<Int, 9> d{};
@@ -59,7 +60,7 @@ int orient2d_integer(const Scaled<6>& s) {
     return sign_of(Int(ux * vy - uy * vx));
 }
 
-/// `direction`: b is one, not a point.
+/// `direction`: b is a direction, not a point.
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                    bool direction = false) {
     ++t_exact_signs;
@@ -93,8 +94,8 @@ int orient2d(double ax, double ay, double bx, double by, double cx, double cy) {
     return orient2d_exact(ax, ay, bx, by, cx, cy);
 }
 
-/// Sign of u . (v x w), each a difference of two points as rounded; 0 if rounding may have changed
-/// it.
+/// Sign of u . (v x w), where each vector is a rounded difference of two points. Returns 0 if
+/// rounding may have changed the sign.
 int determinant_filter(const Vec3& u, const Vec3& v, const Vec3& w) {
     const double vywz = v.y * w.z, vzwy = v.z * w.y;
     const double vzwx = v.z * w.x, vxwz = v.x * w.z;
@@ -105,7 +106,7 @@ int determinant_filter(const Vec3& u, const Vec3& v, const Vec3& w) {
                              std::abs(u.z) * (std::abs(vxwy) + std::abs(vywx));
     const double bound = (8 + 64 * kEpsilon) * kEpsilon * permanent +
                          kUnderflow * (1 + std::abs(u.x) + std::abs(u.y) + std::abs(u.z));
-    // Overflow makes the bound infinite or not a number: then neither comparison holds.
+    // Overflow makes the bound infinite or not a number; then both comparisons are false.
     return det > bound || -det > bound ? sign(det) : 0;
 }
 
@@ -118,7 +119,7 @@ std::uint64_t exact_signs() {
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (const int side = determinant_filter(b - a, c - a, d - a); side != 0)
         return side;
-    // Common enough to be worth a look: a shared vertex, a collapsed triangle.
+    // Frequent cases that are quickly decided: a shared vertex, a collapsed triangle.
     if (b == a || c == a || d == a || c == b || d == b || d == c)
         return 0;
     return orient3d_exact(a, b, c, d);

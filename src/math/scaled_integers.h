@@ -16,6 +16,8 @@ struct Binary {
     int exponent = 0;
 };
 
+/// The bits of a double:
+///
 ///      63    62..52    51..0
 ///     sign  exponent  fraction, below an implicit 1 unless the exponent is 0
 inline Binary decompose(double v) {
@@ -34,7 +36,7 @@ inline Binary decompose(double v) {
     return {v < 0 ? -magnitude : magnitude, exponent - 1075 + zeros};
 }
 
-/// Doubles as integers over one power of two, which no sign depends on.
+/// Doubles as integers in units of a common power of two. Signs do not depend on the unit.
 template <std::size_t n>
 struct Scaled {
     std::array<Binary, n> values;

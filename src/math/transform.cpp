@@ -11,9 +11,10 @@ namespace abut {
 
 Transform::Transform(const Pose& pose) {
     double w = pose.rotation[0], x = pose.rotation[1], y = pose.rotation[2], z = pose.rotation[3];
-    // Scaled by the largest first: no square of a valid quaternion over- or underflows.
+    // Divides by the largest component first, so that no square of a valid quaternion over- or
+    // underflows.
     const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
-    // Zero times what is not finite is not a number.
+    // Zero times infinity or NaN is NaN, which makes the comparison false.
     const Vec3& at = pose.translation;
     if (!(0 * w + 0 * x + 0 * y + 0 * z + 0 * at.x + 0 * at.y + 0 * at.z == 0))
         throw Error(ErrorCode::bad_argument, "pose has a value that is not finite");
@@ -39,7 +40,7 @@ Transform compose(const Transform& a, const Transform& b) {
 Transform inverse(const Transform& t) {
     const auto& m = t.m;
     const Vec3 c0{m[0], m[1], m[2]}, c1{m[3], m[4], m[5]}, c2{m[6], m[7], m[8]};
-    // Rows of the inverse are the cross products of the columns over the determinant.
+    // The rows of the inverse are cross products of the columns, divided by the determinant.
     const Vec3 r0 = cross(c1, c2), r1 = cross(c2, c0), r2 = cross(c0, c1);
     const double s = 1 / dot(c0, r0);
     Transform r({s * r0.x, s * r1.x, s * r2.x, s * r0.y, s * r1.y, s * r2.y, s * r0.z, s * r1.z,
@@ -55,7 +56,7 @@ Stretch stretch_of(const Transform& t) {
                                 Vec3{m[6], m[7], m[8]}};
     const double xx = length_sq(c[0]), yy = length_sq(c[1]), zz = length_sq(c[2]);
     const double xy = dot(c[0], c[1]), yz = dot(c[1], c[2]), zx = dot(c[2], c[0]);
-    // Every eigenvalue of L^T L lies in a disc around a diagonal entry.
+    // By Gershgorin's theorem, every eigenvalue of L^T L lies in a disc around a diagonal entry.
     const double rx = std::abs(xy) + std::abs(zx), ry = std::abs(xy) + std::abs(yz),
                  rz = std::abs(yz) + std::abs(zx);
     double least = std::min({xx - rx, yy - ry, zz - rz}),
@@ -67,7 +68,8 @@ Stretch stretch_of(const Transform& t) {
             Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(gram, Eigen::EigenvaluesOnly)
                 .eigenvalues();
         most = std::min(most, values[2]);
-        least = values[0] - 1e-14 * most; // the solver is exact to a few roundings of the largest
+        least = values[0] - 1e-14 * most; // the solver's error is a few roundings of the largest
+                                          // eigenvalue
     }
     constexpr double kRounding = 1e-14;
     return {least > 0 ? std::sqrt(least) * (1 - kRounding) : 0, std::sqrt(most) * (1 + kRounding)};

@@ -9,10 +9,10 @@ namespace abut {
 
 namespace {
 
-/// Cells of this size tell most signs that are not zero.
+/// Cells of size 2^-kFirstLevel decide most signs that are not zero.
 constexpr unsigned kFirstLevel = 40;
 
-/// 2^degree p(u / 2): the left half of a cell.
+/// 2^degree p(u / 2): the polynomial in the left half of a cell.
 IntegerPolynomial left_half(IntegerPolynomial p) {
     const int degree = p.degree();
     for (int i = 0; i < degree; ++i)
@@ -28,7 +28,7 @@ IntegerPolynomial shifted_by_one(IntegerPolynomial p) {
     return p;
 }
 
-/// Where p has its zero, about. In: p has one in (0, 1) and changes its sign there.
+/// An approximate zero of p. In: p has one zero in (0, 1) and changes its sign there.
 double zero_of(const IntegerPolynomial& p) {
     const auto c = common_scale(p.c);
     double low = 0, high = 1;
@@ -49,7 +49,7 @@ struct Isolation {
     const IntegerPolynomial& square_free;
     std::vector<UnitRoot>& roots;
 
-    /// Roots in the half-open cell [index, index + 1) / 2^level.
+    /// Finds the roots in the half-open cell [index, index + 1) / 2^level.
     void in_cell(IntegerPolynomial local, const BigInt& index, unsigned level) const {
         if (local.c[0].is_zero()) {
             roots.emplace_back(index, level);
@@ -129,7 +129,8 @@ int UnitRoot::sign_of(const IntegerPolynomial& p) {
         if (const int sign = certain_sign(here); sign != 0)
             return sign;
         if (may_be_zero) {
-            // The divisor's roots are roots of the square-free polynomial: one in this cell or none.
+            // Roots of the common divisor are roots of the square-free polynomial, so at most one
+            // lies in this cell.
             const IntegerPolynomial common = common_divisor(square_free_, p);
             if (sign_variations(restricted(common, index_, level_)) % 2 == 1)
                 return 0;

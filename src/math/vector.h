@@ -43,7 +43,7 @@ inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// The largest coordinate's size.
+/// The largest magnitude of the coordinates.
 inline double max_abs(const Vec3& a) {
     return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
 }
@@ -56,7 +56,7 @@ inline double component(const Vec3& a, int axis) {
     return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
 }
 
-/// Some unit vector across another; zero if that is.
+/// A unit vector orthogonal to v; zero if v is zero.
 inline Vec3 perpendicular(const Vec3& v) {
     const Vec3 size{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
     const Vec3 axis = size.x <= size.y && size.x <= size.z ? Vec3{1, 0, 0}
@@ -79,7 +79,7 @@ inline void extend(Box3& box, const Vec3& p) {
 inline bool is_empty(const Box3& box) {
     return !(box.lower.x <= box.upper.x);
 }
-/// With `margin` all around it.
+/// The box, enlarged by `margin` on every side.
 inline Box3 grown(const Box3& box, double margin) {
     const Vec3 by{margin, margin, margin};
     return {box.lower - by, box.upper + by};

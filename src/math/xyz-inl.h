@@ -1,4 +1,4 @@
-// A vector of space in one register, for work on few vectors at a time.
+// A vector of three coordinates in one register, for kernels that work on a few vectors at a time.
 
 // Included once for each target.
 #if defined(ABUT_MATH_XYZ_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -16,9 +16,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// Three coordinates, and a fourth that means nothing. Each operation rounds as that on Vec3 does: the
-/// results are the same on all targets. (A vector of the compiler, not of Highway, whose vectors are
-/// no wider than a register: where registers hold two, the compiler takes two.)
+/// Three coordinates and an unused fourth. Each operation rounds as that on Vec3 does, so that
+/// results are the same on all targets. The type is the compiler's vector type, not Highway's,
+/// whose vectors are no wider than a register. If registers hold only two doubles, the compiler
+/// uses two registers.
 struct alignas(32) Xyz {
     using Lanes = double __attribute__((vector_size(32)));
 
@@ -35,7 +36,7 @@ HWY_INLINE Xyz to_xyz(const Vec3& v) {
 HWY_INLINE Vec3 to_vec3(const Xyz& v) {
     return {v.x(), v.y(), v.z()};
 }
-/// From four numbers in a row.
+/// Loads from four consecutive numbers.
 HWY_INLINE Xyz load_xyz(const double* numbers) {
     Xyz v;
     std::memcpy(&v.lanes, numbers, sizeof v.lanes);

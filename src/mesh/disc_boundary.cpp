@@ -7,7 +7,7 @@ namespace abut {
 
 namespace {
 
-/// A side of the border, from a vertex to the next.
+/// A directed edge of the border.
 struct Side {
     std::uint32_t from, to;
 };
@@ -16,13 +16,14 @@ bool operator<(const Side& side, std::uint32_t from) {
     return side.from < from;
 }
 
-/// How many different numbers there are. Sorts them.
+/// Number of distinct values. Sorts them.
 std::size_t count_distinct(std::vector<std::uint32_t>& numbers) {
     std::sort(numbers.begin(), numbers.end());
     return static_cast<std::size_t>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
 }
 
-/// The border's vertices, if it is one loop that passes none twice.
+/// The border's vertices in order, if it is a single loop that visits no vertex twice; otherwise
+/// empty.
 std::vector<std::uint32_t> loop_of(std::vector<Side>& border) {
     std::sort(border.begin(), border.end(),
               [](const Side& a, const Side& b) { return a.from < b.from; });
@@ -44,7 +45,7 @@ std::vector<std::uint32_t> loop_of(std::vector<Side>& border) {
 
 std::vector<std::uint32_t> disc_boundary(const SurfaceView& surface,
                                          std::span<const std::uint32_t> triangles) {
-    // Uses of edges: in an edge's lowest bit, whether it is used from the higher vertex on.
+    // Uses of edges by triangles. The lowest bit tells whether the use starts at the higher vertex.
     std::vector<std::uint32_t> uses, vertices;
     uses.reserve(3 * triangles.size());
     vertices.reserve(3 * triangles.size());
@@ -60,9 +61,9 @@ std::vector<std::uint32_t> disc_boundary(const SurfaceView& surface,
     }
     std::sort(uses.begin(), uses.end());
     if (std::adjacent_find(uses.begin(), uses.end()) != uses.end())
-        return {}; // two triangles on one side of an edge
+        return {}; // two triangles use the edge in the same direction
 
-    std::vector<Side> border; // of edges with one use
+    std::vector<Side> border; // edges with only one use
     for (std::size_t i = 0; i < uses.size(); ++i) {
         if (i + 1 < uses.size() && uses[i] >> 1 == uses[i + 1] >> 1) {
             ++i;
@@ -71,9 +72,10 @@ std::vector<std::uint32_t> disc_boundary(const SurfaceView& surface,
         const auto& [low, high] = surface.features.edges[uses[i] >> 1];
         border.push_back((uses[i] & 1U) != 0 ? Side{high, low} : Side{low, high});
     }
-    // Vertices - edges + triangles: 1 for a disc. Other surfaces with one boundary have less, unless
-    // they fall apart, or have closed ones hanging at a vertex: those have no projection that
-    // shows all of one side.
+    // The Euler characteristic, vertices - edges + triangles, is 1 for a disc. It is less for other
+    // connected surfaces with one boundary. Only surfaces that are not connected, or have closed
+    // surfaces attached at a vertex, can reach 1 as well. They have no projection that shows one
+    // side of all triangles.
     const std::size_t edges = (uses.size() + border.size()) / 2;
     if (border.empty() || count_distinct(vertices) + triangles.size() != edges + 1)
         return {};

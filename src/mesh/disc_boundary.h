@@ -8,9 +8,9 @@
 
 namespace abut {
 
-/// The vertices around some triangles of a surface, in order, if these form a disc: connected, every side used by
-/// one of them, or by two in opposite directions, with one boundary that passes no vertex twice,
-/// and no hole. Empty if they do not.
+/// The boundary vertices, in order, of triangles that form a disc; empty if they form none. In a
+/// disc, the triangles are connected. Each edge is used by one triangle, or by two in opposite
+/// directions. There is no hole, and the one boundary visits no vertex twice.
 ///
 /// Cost        O(n log n).
 std::vector<std::uint32_t> disc_boundary(const SurfaceView& surface,

@@ -9,23 +9,24 @@
 
 namespace abut {
 
-/// For each position the number of the first that equals it: in all bits, but that -0 equals 0.
+/// For each position, the index of the first position equal to it. Positions are equal if all bits
+/// are, except that -0 equals 0.
 ///
 /// In          fewer than 2^32 - 1 positions, with members x, y, z of type float or double; any
 ///             values.
-/// Cost        O(n) expected, one pass over a flat table with linear probing: 8 to 16 bytes a
-///             position.
+/// Cost        O(n) expected: one pass over a flat table with linear probing, 8 to 16 bytes for
+///             each position.
 template <typename Position>
 std::vector<std::uint32_t> first_equal_positions(std::span<Position> positions);
 
-/// Keeps the first of equal positions, in their order. Returns for each former position its new number.
-/// In and cost as first_equal_positions.
+/// Removes all but the first of equal positions and keeps their order. Returns the new index of
+/// each former position. In and Cost as first_equal_positions.
 template <typename Position>
 std::vector<std::uint32_t> join_equal_positions(std::vector<Position>& positions);
 
 namespace detail {
 
-/// The bits of a coordinate, the same for -0 and 0.
+/// The bits of a coordinate, where -0 counts as 0.
 template <typename Real>
 auto coordinate_bits(Real value) {
     using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
@@ -39,8 +40,8 @@ bool is_equal_position(const Position& p, const Position& q) {
            coordinate_bits(p.z) == coordinate_bits(q.z);
 }
 
-/// Coordinates on a grid differ in few bits, and those lie high: a product spreads them upwards,
-/// the shift brings them down again.
+/// Hash of a position. Coordinates on a grid differ only in a few high bits. The product spreads
+/// differences upwards, and the shift brings them back down.
 template <typename Position>
 std::uint64_t position_hash(const Position& p) {
     constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15; // 2^64 over the golden ratio
@@ -59,7 +60,7 @@ std::uint64_t position_hash(const Position& p) {
 template <typename Position>
 std::vector<std::uint32_t> first_equal_positions(std::span<Position> positions) {
     constexpr std::uint32_t kFree = 0xffffffff;
-    // At least twice as many places as positions: probes stay short.
+    // At least twice as many slots as positions, so that probes stay short.
     const int index_bits = std::bit_width(positions.size()) + 1;
     const std::size_t last = (std::size_t{1} << index_bits) - 1;
     std::vector<std::uint32_t> table(last + 1, kFree);

@@ -8,7 +8,7 @@ namespace abut {
 
 namespace {
 
-/// Which vertices and edges have a representative already.
+/// Which vertices and edges already have a representative.
 class Claims {
 public:
     explicit Claims(const SurfaceView& surface)
@@ -22,13 +22,14 @@ public:
                 edges_[surface_.features.edges_of[triangle][k]] = true;
         }
     }
-    /// What a triangle could still represent.
+    /// The features that a triangle could still represent.
     [[nodiscard]] Represented unclaimed(std::size_t triangle) const {
         const IndexTriangle& v = surface_.triangles[triangle];
         const IndexTriangle& e = surface_.features.edges_of[triangle];
         unsigned bits = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            // A triangle with a repeated index has its vertex, and its edge, twice.
+            // A triangle with a repeated index has that vertex, and maybe its edge, twice; only the
+            // first counts.
             const bool repeats_vertex = std::find(v.begin(), v.begin() + k, v[k]) != v.begin() + k;
             const bool repeats_edge = std::find(e.begin(), e.begin() + k, e[k]) != e.begin() + k;
             if (!vertices_[v[k]] && !repeats_vertex)
@@ -58,16 +59,16 @@ std::vector<Represented> assign_maximal(const SurfaceView& surface) {
     return represented;
 }
 
-/// A vertex or an edge as one of three of a triangle.
+/// One use of a vertex or an edge by a triangle, which has three of each.
 struct Use {
     std::uint32_t triangle;
     std::uint8_t corner;
 };
 
-/// The uses of each feature, in the triangles' order.
+/// The uses of each feature, in the order of the triangles.
 class Incidence {
 public:
-    /// In: three features of each triangle, below `count` or kNoEdge.
+    /// In: the three features of each triangle, each below `count` or kNoEdge.
     Incidence(std::size_t count, std::span<const IndexTriangle> features) : begin_(count + 1) {
         const auto for_each_use = [&](const auto& visit) {
             for (std::uint32_t i = 0; i < features.size(); ++i)
@@ -92,7 +93,8 @@ private:
 
 constexpr unsigned kVertexBits = 0, kEdgeBits = 3;
 
-/// Each feature to that of its triangles that represents the fewest of those that `counted` masks.
+/// Assigns each feature to the one of its triangles that represents the fewest features. Only the
+/// features in the mask `counted` count.
 void assign_to_least(const Incidence& incidence, std::size_t count, unsigned first_bit,
                      Represented counted, std::span<Represented> represented) {
     for (std::size_t feature = 0; feature < count; ++feature) {

@@ -20,7 +20,7 @@ SurfaceFeatures make_surface_features(std::size_t vertices,
             }
     };
 
-    // The sides at each higher vertex, one vertex after the other.
+    // Groups the triangles' sides by their higher vertex (counting sort).
     std::vector<std::uint32_t> begin(vertices + 1);
     for_each_side([&](std::uint32_t, std::uint32_t higher, std::uint32_t) { ++begin[higher + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -30,7 +30,7 @@ SurfaceFeatures make_surface_features(std::size_t vertices,
         sides[next[higher]++] = {lower, side};
     });
 
-    // Those with one other vertex side by side.
+    // Sorts each group, so that sides with the same lower vertex are adjacent.
     const auto is_new = [](const Side* first, const Side* side) {
         return side == first || side->lower != (side - 1)->lower;
     };

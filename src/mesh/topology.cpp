@@ -18,7 +18,8 @@ bool same_edge(const HalfEdge& a, const HalfEdge& b) {
     return a.lower() == b.lower() && a.upper() == b.upper();
 }
 
-/// Visits the sides of all triangles whose merged vertices differ, in the triangles' order.
+/// Visits the sides of all triangles with three distinct merged vertices, in the order of the
+/// triangles.
 template <typename Visit>
 void for_each_half_edge(const Mesh& mesh, const std::vector<std::uint32_t>& vertex_of,
                         const Visit& visit) {
@@ -33,15 +34,15 @@ void for_each_half_edge(const Mesh& mesh, const std::vector<std::uint32_t>& vert
     }
 }
 
-/// By lower vertex, upper vertex, triangle. Counting gives each lower vertex its range; the few
-/// half-edges in there are sorted.
+/// The half-edges sorted by lower vertex, upper vertex, triangle. A counting sort gives each lower
+/// vertex its range, and the few half-edges in a range are sorted.
 std::vector<HalfEdge> sorted_half_edges(const Mesh& mesh,
                                         const std::vector<std::uint32_t>& vertex_of) {
     std::vector<std::size_t> end_of(vertex_of.size() + 1);
     for_each_half_edge(mesh, vertex_of, [&](const HalfEdge& e) { ++end_of[e.lower() + 1]; });
     std::partial_sum(end_of.begin(), end_of.end(), end_of.begin());
     std::vector<HalfEdge> sorted(end_of.back());
-    // Where a range begins, until its half-edges move that to where it ends.
+    // Each entry first holds where a range begins. Filling the range advances the entry to its end.
     for_each_half_edge(mesh, vertex_of,
                        [&](const HalfEdge& e) { sorted[end_of[e.lower()]++] = e; });
     std::size_t begin = 0;
@@ -86,7 +87,7 @@ bool is_closed(const Topology& topology) {
 }
 
 std::vector<std::uint32_t> vertex_components(const Mesh& mesh, const Topology& topology) {
-    // Trees whose parents have lower numbers: then one pass upwards finds all roots.
+    // Union-find in which parents have lower indices, so that one ascending pass finds all roots.
     std::vector<std::uint32_t> parent = topology.vertex_of;
     const auto root = [&](std::uint32_t v) {
         while (parent[v] != v)

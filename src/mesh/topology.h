@@ -18,37 +18,41 @@ struct HalfEdge {
     [[nodiscard]] std::uint32_t upper() const { return from < to ? to : from; }
 };
 
-/// How triangles hang together once vertices at equal positions are merged.
+/// The connectivity of triangles after vertices at equal positions are merged.
 struct Topology {
     std::vector<std::uint32_t>
-        vertex_of; ///< mesh vertex -> merged vertex (an index of a mesh vertex at that position)
+        vertex_of; ///< mesh vertex -> merged vertex, the index of the first mesh vertex at that
+                   ///< position
     std::vector<HalfEdge>
-        half_edges; ///< by undirected edge; triangles with two equal vertices have none
+        half_edges; ///< sorted by undirected edge; a triangle with two equal vertices has none
 
-    /// The half-edges between two merged vertices, in either direction.
+    /// The half-edges that connect two merged vertices, in either direction.
     [[nodiscard]] std::span<const HalfEdge> edge(std::uint32_t v, std::uint32_t w) const;
 };
 
+/// Computes a mesh's connectivity.
 /// In          a valid mesh (see require_valid).
 /// Cost        O(n log n).
 Topology make_topology(const Mesh& mesh);
 
-/// Every edge is used by exactly two triangles, and there is an edge.
+/// Whether every edge is used by exactly two triangles, and there is at least one edge.
 bool is_closed(const Topology& topology);
 
-/// For each mesh vertex a number that vertices connected by triangles share.
+/// A component number for each mesh vertex. Vertices connected by triangles have the same number.
 std::vector<std::uint32_t> vertex_components(const Mesh& mesh, const Topology& topology);
 
-/// One triangle of each set of triangles that merged vertices connect.
+/// One triangle of each connected component of triangles with merged vertices.
 std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Topology& topology);
 
-/// Squares of box sizes stay finite in single precision up to here.
+/// Largest coordinate for which squares of box sizes stay finite in single precision.
 inline constexpr double kLargestCoordinate = 1e18;
 
+/// Checks vertex positions.
 /// Errors      Error{bad_mesh} if a coordinate is not finite or beyond kLargestCoordinate.
 void require_valid_positions(std::span<const Vec3> positions);
 
-/// Errors      as for its positions; Error{bad_mesh} if an index is out of range.
+/// Checks a mesh.
+/// Errors      as require_valid_positions; Error{bad_mesh} if an index is out of range.
 void require_valid(const Mesh& mesh);
 
 } // namespace abut

@@ -6,7 +6,7 @@
 
 namespace abut {
 
-/// Positions that a triangle uses. Shares the mesh's own where it uses all of them.
+/// The positions that triangles use. If a mesh uses all of its positions, they are not copied.
 class UsedPositions {
 public:
     /// In          a valid mesh, which must outlive this.
@@ -18,7 +18,7 @@ private:
     std::vector<Vec3> some_;
 };
 
-/// The box of positions under a transform, each as `apply` places it; empty if there is none.
+/// The box of positions under a transform, each placed by `apply`. Empty if there are none.
 Box3 world_box(const std::vector<Vec3>& positions, const Transform& world_from_mesh);
 
 } // namespace abut

@@ -17,18 +17,19 @@
 #include "simd/foreach_target.h"
 #include "simd/simd.h"
 
-// What the targets share.
+// Code that does not depend on the SIMD target; compiled once.
 #ifndef ABUT_TREE_BUILD_ONCE
 #define ABUT_TREE_BUILD_ONCE
 namespace abut::build_tree_detail {
 
 constexpr std::uint32_t kLeafSize = TriangleLeaf::kLanes;
-constexpr std::uint32_t kBottomSize = kLeafSize * Node::kWidth; ///< of a node with full leaves
+constexpr std::uint32_t kBottomSize = kLeafSize * Node::kWidth; ///< primitives of a node whose
+                                                                ///< leaves are all full
 constexpr std::size_t kBins = 16;
 constexpr std::uint32_t kParallelSplit =
-    4096; // below this many primitives, a task costs more than it saves
+    4096; // with fewer primitives, a task costs more than it saves
 
-/// Four floats; the fourth is along for the ride.
+/// Four floats. The fourth is padding, except in Primitive.
 struct alignas(16) Quad {
     float v[4];
 };
@@ -36,7 +37,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr Quad kHighest{{kInfinity, kInfinity, kInfinity, kInfinity}};
 constexpr Quad kLowest{{-kInfinity, -kInfinity, -kInfinity, -kInfinity}};
 
-/// A box, and in place of the fourth coordinate of its lower corner the number of its primitive.
+/// A box. The fourth component of its lower corner holds the index of its primitive.
 struct Primitive {
     Quad lower, upper;
 
@@ -49,7 +50,7 @@ struct Primitive {
     }
 
 private:
-    /// Makes a float of usual size of every index below 2^28.
+    /// Set in every index, so that an index below 2^28 reads as a float of ordinary magnitude.
     static constexpr std::uint32_t kNumber = 0x40000000;
 };
 
@@ -64,7 +65,7 @@ using namespace build_tree_detail; // NOLINT(google-build-using-namespace): its 
 namespace hn = hwy::HWY_NAMESPACE;
 using D4 = hn::CappedTag<float, 4>;
 
-/// Lane by lane.
+/// Applies the operation to each lane.
 template <typename Operation>
 Quad combine(const Quad& a, const Quad& b, const Operation& operation) {
     const D4 d;
@@ -107,12 +108,12 @@ struct Bounds {
     }
 };
 
-/// Twice the middle.
+/// Twice the centre of the primitive's box.
 Quad centre(const Primitive& primitive) {
     return primitive.lower + primitive.upper;
 }
 
-/// A run of primitives and their boxes: of the primitives, and of their centres.
+/// A run of primitives, with the bounds of the primitives and of their centres.
 struct Range {
     std::uint32_t begin = 0, end = 0;
     Bounds bounds, centres;
@@ -124,7 +125,7 @@ struct Range {
     }
 };
 
-/// Where a range is cut: below a bin of an axis.
+/// A place to cut a range: below the bin `bin` of an axis.
 struct Cut {
     std::size_t axis = 0, bin = 0;
     float cost = kInfinity;
@@ -155,7 +156,7 @@ public:
         return bin_at((middle - origin_.v[cut.axis]) * scale_.v[cut.axis]) < cut.bin;
     }
 
-    /// The cut of least area times primitives; none if all centres coincide.
+    /// The cut with the least sum of area times number of primitives; none if all centres coincide.
     [[nodiscard]] Cut best() const {
         Cut best;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -223,8 +224,8 @@ private:
         return r;
     }
 
-    /// Cuts where the surface-area heuristic is least; in the middle of the run if all centres
-    /// coincide. Small ranges are cut at multiples of a leaf or of a node of leaves.
+    /// Cuts where the surface-area heuristic is least. If all centres coincide, cuts in the middle
+    /// of the run. Small ranges are cut at multiples of a leaf, or of a node of full leaves.
     std::array<Range, 2> split(const Range& range) {
         if (range.size() <= kBottomSize)
             return halve(range, kLeafSize);
@@ -237,7 +238,7 @@ private:
         return cut.cost < kInfinity ? partition(range, bins, cut) : halve(range, 1);
     }
 
-    /// Cuts in the middle of the longest axis of the centres, to a multiple of the quantum.
+    /// Cuts in the middle of the longest axis of the centres, rounded to a multiple of the quantum.
     std::array<Range, 2> halve(const Range& range, std::uint32_t quantum) {
         const Quad extent = range.centres.upper - range.centres.lower;
         const auto axis =
@@ -247,8 +248,8 @@ private:
         return {measure(range.begin, cut), measure(cut, range.end)};
     }
 
-    /// Puts the primitive that belongs at `nth` in the order of the axis there, smaller ones before
-    /// it. Source: [Hoare 1961], quickselect.
+    /// Partially sorts the range along the axis: `nth` receives the primitive that belongs there,
+    /// and smaller ones come before it. Source: [Hoare 1961], quickselect.
     static void select(Primitive* low, Primitive* high, const Primitive* nth, std::size_t axis) {
         const auto key = [axis](const Primitive& p)
                              HWY_ATTR { return p.lower.v[axis] + p.upper.v[axis]; };
@@ -288,7 +289,7 @@ private:
         return halves;
     }
 
-    /// A node that stays where it is, whatever other threads claim.
+    /// A new node. Its address stays valid while other threads claim nodes.
     struct Claim {
         std::uint32_t index;
         Node* node;
@@ -300,8 +301,9 @@ private:
     }
 
     void build_node(Node& node, const Range& range) {
-        // Open the child of largest area until the node is full or nothing is left to open: leaves,
-        // or what makes a node of full leaves.
+        // Open the child of largest area until the node is full or no child is large enough. In a
+        // node of more than kBottomSize primitives, children of at most kBottomSize stay whole:
+        // they become nodes of full leaves. In a smaller node, children are opened down to leaves.
         const std::uint32_t opened = range.size() > kBottomSize ? kBottomSize : kLeafSize;
         std::array<Range, Node::kWidth> children{range};
         std::size_t count = 1;
@@ -341,8 +343,8 @@ private:
         });
     }
 
-    /// Nodes depth first, whatever order the threads made them in; a leaf's slots from a multiple
-    /// of its size.
+    /// Copies the nodes to the tree depth first, so that the order does not depend on the threads.
+    /// Each leaf's slots start at a multiple of the leaf size.
     void lay_out() {
         tree_.nodes.reserve(nodes_.size());
         tree_.order.reserve(primitives_.size() + primitives_.size() / 8);
@@ -370,7 +372,7 @@ private:
 
     std::vector<Primitive>& primitives_;
     Tree& tree_;
-    std::deque<Node> nodes_; ///< in the order in which threads came to them
+    std::deque<Node> nodes_; ///< in the order in which threads claimed them
     std::mutex claiming_;
 };
 

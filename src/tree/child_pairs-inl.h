@@ -1,4 +1,4 @@
-// The children of two nodes, each against each.
+// Compares the children of one node with those of another, one against eight in SIMD.
 
 // Included once for each target.
 #if defined(ABUT_TREE_CHILD_PAIRS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -13,20 +13,21 @@
 
 #include <limits>
 
-// What the targets share.
+// Code that does not depend on the SIMD target; compiled once.
 #ifndef ABUT_TREE_CHILD_PAIRS_ONCE
 #define ABUT_TREE_CHILD_PAIRS_ONCE
 namespace abut {
 
-/// More than underflow takes from a product. Without it, all is within a bound that is nearly 0.
+/// Exceeds what underflow takes from a product. Without it, an underflowed product of 0 would make
+/// every pair count as within a bound that is nearly 0.
 constexpr float kUnderflow = std::numeric_limits<float>::min();
 
-/// What a pass over pairs of boxes is to find.
+/// What a pass over pairs of boxes computes.
 enum class BoxTest : std::uint8_t {
-    overlap, ///< whether they overlap, and how deep
-    within,  ///< the lower bound of their distance, and whether all of both is within the bound
-    nearest, ///< the lower bound of their distance, also along the direction
-    middles, ///< how far their middles are from each other
+    overlap, ///< whether the boxes overlap, and how deep
+    within,  ///< a lower bound of their distance, and whether all their points are within the bound
+    nearest, ///< a lower bound of their distance, also along the known direction
+    middles, ///< the distance of their centres
 };
 
 } // namespace abut
@@ -35,26 +36,27 @@ enum class BoxTest : std::uint8_t {
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// All lanes of a node.
+/// The lanes of one node.
 using Lanes8 = hn::CappedTag<float, Node::kWidth>;
 
-/// Eight boxes by their middles and half extents: [axis][lane].
+/// Eight boxes as centres and half extents: [axis][lane].
 struct MiddleBoxes {
     HWY_ALIGN float centre[3][Node::kWidth];
     HWY_ALIGN float half[3][Node::kWidth];
 };
 
-/// The children of one node of a pair, in its own frame and in that of the other.
+/// The children of one node of a pair, in the node's own frame and in the other node's.
 struct Siblings {
     MiddleBoxes own{}, seen{};
-    /// n . (what of the child is farthest along the direction n), in world units, the direction
-    /// turned towards the other node: no gap along it is smaller than minus both.
+    /// How far each child extends along the direction n, in world units: the largest n . x. The
+    /// direction points towards the other node. The gap along n between two children is at least
+    /// -(advance of one + advance of the other).
     HWY_ALIGN float advance[Node::kWidth] = {};
     std::uint32_t used = 0;                                ///< lanes with a child
-    float margin = 0, stretch_sq = 0, most_stretch_sq = 0; ///< of distances in its own frame
+    float margin = 0, stretch_sq = 0, most_stretch_sq = 0; ///< of distances in the node's own frame
 };
 
-/// The children that are leaves; unused lanes count as such.
+/// A bit for each child that is a leaf. An unused lane counts as a leaf.
 HWY_INLINE std::uint32_t leaf_lanes(const Node& node) {
     std::uint32_t lanes = 0;
     for (std::uint32_t i = 0; i < Node::kWidth; ++i)
@@ -62,7 +64,7 @@ HWY_INLINE std::uint32_t leaf_lanes(const Node& node) {
     return lanes;
 }
 
-/// The children of a node in its own frame, and in another.
+/// Fills `s` with the children of a node, in the node's own frame and in the other's.
 HWY_INLINE void see_children(const Node& node, const FrameMap& to_own, const FrameMap& to_other,
                              Siblings& s) {
     const Lanes8 d;
@@ -95,7 +97,7 @@ HWY_INLINE void see_children(const Node& node, const FrameMap& to_own, const Fra
     s.most_stretch_sq = to_own.most_stretch_sq;
 }
 
-/// Both nodes' children.
+/// The children of both nodes.
 struct ChildPairs {
     Siblings p, q;
 
@@ -104,9 +106,9 @@ struct ChildPairs {
         see_children(node_q, nodes.q_from_p, nodes.p_from_q, q);
     }
 
-    /// Measures the children along the nodes' direction.
+    /// Computes `advance` of all children for the nodes' direction.
     HWY_INLINE void take_direction(const NodePair& nodes) {
-        // The middles of both in p's frame.
+        // Centres of both are taken in p's frame.
         advance(p.own.centre, nodes.n_p, p.own.half, nodes.n_p, 1,
                 (std::abs(nodes.n_p[0]) + std::abs(nodes.n_p[1]) + std::abs(nodes.n_p[2])) *
                     p.margin,
@@ -132,7 +134,7 @@ private:
     }
 };
 
-/// The children of a node that may be near anything below the other, by the other's axes.
+/// The children that may be near anything below the other node, tested along the other node's axes.
 template <BoxTest test>
 HWY_INLINE std::uint32_t near_node(const Siblings& children, const Siblings& others,
                                    const Aabb& bounds, float bound_sq) {
@@ -159,17 +161,19 @@ HWY_INLINE std::uint32_t near_node(const Siblings& children, const Siblings& oth
     return children.used & ~far;
 }
 
-/// One child of a node against all of the other.
+/// Results of one child of a node against the eight of the other: a bit for each of the eight.
 struct RowOfPairs {
-    std::uint32_t near = 0;     ///< they may be within the bound, or overlap
-    std::uint32_t accepted = 0; ///< all of both is within the bound
+    std::uint32_t near = 0;     ///< the pair may overlap, or may be within the bound
+    std::uint32_t accepted = 0; ///< all points of both are within the bound of each other
 };
 
-/// Gaps of one box to eight on the axes of one frame.
+/// Gaps between one box and eight, along the axes of one frame.
 template <BoxTest test>
 struct AxisGaps {
-    hn::Vec<Lanes8> gap_sq;   ///< certain, squared, summed; of an overlap: the largest gap itself
-    hn::Vec<Lanes8> reach_sq; ///< no two points are farther apart; of middles: they are
+    hn::Vec<Lanes8> gap_sq;   ///< sum of the certain gaps' squares; for `overlap`, the largest gap
+                              ///< itself
+    hn::Vec<Lanes8> reach_sq; ///< upper bound of the squared distance of two points; for `middles`,
+                              ///< that of the centres
 
     HWY_INLINE AxisGaps(Lanes8 d, const MiddleBoxes& one, std::size_t i, const MiddleBoxes& others,
                         std::size_t lane, float margin) {
@@ -198,9 +202,10 @@ struct AxisGaps {
     }
 };
 
-/// Compares child i of x with all of y. `value`, of eight: the squared lower bound of the distance in
-/// the world; of an overlap: the largest gap, so that the most negative is the deepest; of middles:
-/// their squared distance. A bound that is not a number keeps the pair.
+/// Compares child i of x with all children of y. Each of the eight entries of `value` receives the
+/// squared lower bound of the distance in the world. For `overlap` it is the largest gap, so that
+/// the most negative value is the deepest overlap. For `middles` it is the squared distance of the
+/// centres. A pair whose bound is not a number is kept.
 template <BoxTest test>
 HWY_INLINE RowOfPairs compare_row(const Siblings& x, std::size_t i, const Siblings& y,
                                   float bound_sq, float* value) {

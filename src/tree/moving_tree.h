@@ -10,23 +10,23 @@
 
 namespace abut {
 
-/// Eight children side by side, as moving boxes: row r of lane i is rows[r][i] (see MovingBoxRun).
-/// Unused lanes come last: their boxes are empty, their reference none.
+/// A node with eight children, stored as moving boxes: row r of lane i is rows[r][i] (see
+/// MovingBoxRun). Unused lanes come last. Their boxes are empty and their references are none.
 struct alignas(32) MovingNode {
     static constexpr std::uint32_t kWidth = Node::kWidth;
     float rows[MovingBoxRun::kRows][kWidth];
     NodeRef child[kWidth];
 
-    /// The boxes alone: children have no ids.
+    /// The boxes without ids: children have none.
     [[nodiscard]] MovingBoxRun boxes() const { return {&rows[0][0], nullptr, kWidth}; }
 };
 
-/// Hierarchy over moving boxes, eight wide. Its shape stays while boxes change.
+/// Hierarchy over moving boxes, eight wide. Its topology stays the same while the boxes change.
 struct MovingTree {
-    std::vector<MovingNode> nodes; ///< nodes[0] is the root; a node comes after the one above it
+    std::vector<MovingNode> nodes; ///< nodes[0] is the root; a node comes after its parent
 
     MovingTree() = default;
-    /// The shape of a tree; boxes are to be fitted.
+    /// Takes the topology of a tree. All boxes are empty until `fit`.
     explicit MovingTree(const Tree& shape);
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
@@ -36,13 +36,13 @@ struct MovingTree {
     [[nodiscard]] std::size_t bytes() const { return nodes.size() * sizeof(nodes[0]); }
 };
 
-/// Leaves are numbered in the order of their slots.
+/// The number of a leaf: leaves are numbered in the order of their slots.
 inline std::uint32_t leaf_number(NodeRef leaf) {
     return leaf.first() / TriangleLeaf::kLanes;
 }
 
-/// Gives all nodes the boxes of their leaves at one end, which `leaf_box(number)` returns, and what
-/// encloses them. It is called from any thread.
+/// Sets the boxes of all leaves at one end of the motion, and refits the nodes above.
+/// `leaf_box(number)` returns a leaf's box; it may be called from any thread.
 ///
 /// Cost        O(n), the leaves in parallel.
 template <typename LeafBox>
@@ -52,9 +52,9 @@ namespace moving_tree {
 
 void set_box(MovingNode& node, std::size_t lane, StepEnd end, const Aabb& box);
 MovingBox box_of(const MovingNode& node, std::size_t lane);
-/// Of all children.
+/// The box that encloses all children of a node.
 MovingBox bounds_of(const MovingNode& node);
-/// Takes the boxes of nodes that are not leaves from the nodes below.
+/// Refits the boxes of inner children from the nodes below.
 void fit_inner(MovingTree& tree, StepEnd end);
 
 } // namespace moving_tree

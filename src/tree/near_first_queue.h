@@ -8,12 +8,14 @@
 
 namespace abut {
 
-/// A queue that gives the smallest key first, to within 12 % (of the square root), and of those
-/// the last one added; constant time. Keys are squared distances, not negative; one that is not a
-/// number, of which nothing is known, counts as 0.
+/// A queue that returns an item of nearly the smallest key, in constant time. The square root of
+/// the key is within 12 % of the smallest. Among items of one bucket, the last one added comes
+/// first. Keys are squared distances, so they are not negative. A key that is not a number, which
+/// says nothing about the distance, counts as 0.
 ///
-/// The key's float bits grow with the key: the exponent and two bits of the fraction number a
-/// bucket. Buckets are lists in one pool; a bit each says which are not empty.
+/// The bits of a positive float grow with its value: the exponent and the first two bits of the
+/// fraction give the bucket's number. Buckets are lists in one pool. A bit for each bucket tells
+/// whether it has items.
 ///
 ///     bucket  0 .......................... 127
 ///     key     all below top / 2^32   ...   top and above
@@ -42,7 +44,7 @@ public:
         filled_[bucket / 64] |= std::uint64_t{1} << bucket % 64;
     }
 
-    /// Takes the next item. In: not empty.
+    /// Removes and returns the next item. In: the queue is not empty.
     Item pop() {
         --size_;
         const std::uint32_t bucket = first_bucket();
@@ -56,7 +58,7 @@ public:
         return item;
     }
 
-    /// Whether all items left have keys above `key`, by their buckets. In: not empty.
+    /// Whether all items have keys above `key`, as far as their buckets tell. In: not empty.
     [[nodiscard]] bool all_above(float key) const { return first_bucket() > bucket_of(key); }
 
 private:

@@ -1,4 +1,5 @@
-// Two nodes of two trees to each other, and their leaves: what every traversal of a pair ends in.
+// The relative placement of two nodes of two trees, and the comparison of two leaves. Every
+// traversal of a pair of trees ends here.
 
 // Included once for each target.
 #if defined(ABUT_TREE_NODE_PAIR_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -20,7 +21,7 @@ namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Row = hn::CappedTag<float, 4>;
 
-/// x v0 + y v1 + z v2, and t besides; all of four floats.
+/// result = x v0 + y v1 + z v2, plus t if it is given. All are vectors of four floats.
 HWY_INLINE void combine(const float* v0, const float* v1, const float* v2, float x, float y,
                         float z, const float* t, float* result) {
     const Row d;
@@ -34,8 +35,9 @@ HWY_INLINE void combine(const float* v0, const float* v1, const float* v2, float
     }
 }
 
-// x_to = A_to (M (A_from^T x_from + o_from) + t - o_to), A the nodes' rotations. What the origins
-// cancel is computed in double, so that the error is relative to the nodes and their distance.
+// x_to = A_to (M (A_from^T x_from + o_from) + t - o_to), A the nodes' rotations. The origins
+// largely cancel. Their difference is computed in double, so that the error is relative to the
+// nodes' sizes and their distance.
 HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& from,
                               FrameMap& map) {
     const auto& turn = to.frame.turn;
@@ -73,10 +75,10 @@ HWY_INLINE void between_nodes(const TreeMap& trees, const Node& to, const Node& 
     map.most_stretch_sq = trees.most_stretch_sq;
 }
 
-/// Two nodes to each other, p of a and q of b.
+/// The relative placement of two nodes, p of a and q of b.
 struct NodePair {
     FrameMap p_from_q, q_from_p;
-    Covector n_p{}, n_q{}; ///< the direction, from a to b
+    Covector n_p{}, n_q{}; ///< the direction from a to b, as seen in either frame
 
     HWY_INLINE NodePair(const PairFrame& frame, const Node& p, const Node& q) {
         between_nodes(frame.a_from_b, p, q, p_from_q);
@@ -84,8 +86,9 @@ struct NodePair {
     }
 };
 
-/// The pairs of triangles of two leaves, children of the nodes, that may meet; and those that may be
-/// within the bound (squared, in the world), unless only contacts matter.
+/// Compares the triangles of two leaves, which are children of the nodes. Returns the pairs that
+/// may meet and, unless only contacts matter, the pairs that may be within the bound (squared, in
+/// the world).
 HWY_INLINE LeafPairs compare_leaves(const Tree& tree_a, NodeRef a, const Tree& tree_b, NodeRef b,
                                     const NodePair& nodes, bool contacts_only, float bound_sq) {
     const TriangleLeaf &leaf_a = tree_a.leaf(a), &leaf_b = tree_b.leaf(b);
@@ -96,7 +99,7 @@ HWY_INLINE LeafPairs compare_leaves(const Tree& tree_a, NodeRef a, const Tree& t
         pairs = near_pairs(
             leaf_a, leaf_b, nodes.p_from_q,
             {bound_sq / nodes.p_from_q.stretch_sq * (1 + 0x1p-20F), bound_sq, nodes.n_p});
-    // Lanes beyond the leaves' counts repeat the first.
+    // Lanes beyond the leaves' counts repeat the first triangle.
     constexpr std::uint32_t kRows[] = {0x000f, 0x00ff, 0x0fff, 0xffff};
     constexpr std::uint32_t kColumns[] = {0x1111, 0x3333, 0x7777, 0xffff};
     const std::uint32_t used = kRows[a.count() - 1] & kColumns[b.count() - 1];

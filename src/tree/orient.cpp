@@ -13,11 +13,11 @@ namespace abut {
 namespace {
 
 constexpr std::size_t kLanes = TriangleLeaf::kLanes;
-/// Above this many slots a node keeps the tree's axes: large pieces of a surface have no one
-/// direction, and every level costs a pass over the triangles.
+/// A node with more slots than this keeps the tree's axes. A large part of a surface has no single
+/// direction, and every further level would cost a pass over the triangles.
 constexpr std::uint32_t kMostSlots = 2048;
 
-/// A run of leaves, with the area of their triangles and its first and second moments about the
+/// A run of leaves, with the area of its triangles and their first and second moments about the
 /// tree's origin.
 struct Moments {
     std::uint32_t first = ~0U, end = 0; ///< slots
@@ -39,8 +39,8 @@ Vec3 vertex(const TriangleLeaf& leaf, std::size_t vertex, std::size_t lane) {
     return {leaf.v[vertex][0][lane], leaf.v[vertex][1][lane], leaf.v[vertex][2][lane]};
 }
 
-/// Of a triangle: the integral of x x^T is (9 c c^T + p p^T + q q^T + r r^T) area / 12, c the
-/// centroid.
+/// Adds a triangle. The integral of x x^T over it is (9 c c^T + p p^T + q q^T + r r^T) area / 12,
+/// where c is the centroid.
 void add_triangle(const TriangleLeaf& leaf, std::size_t lane, Moments& m) {
     const Vec3 p = vertex(leaf, 0, lane), q = vertex(leaf, 1, lane), r = vertex(leaf, 2, lane);
     const double area = length(cross(q - p, r - p));
@@ -60,7 +60,8 @@ void add_triangle(const TriangleLeaf& leaf, std::size_t lane, Moments& m) {
         add(x, area / 12);
 }
 
-/// Principal axes of the surface about its centroid. False if it has none, or they are the tree's.
+/// Principal axes of the surface about its centroid. False if there are none, or if they are the
+/// tree's axes.
 bool principal_frame(const Moments& m, NodeFrame& frame) {
     if (!(m.area > 0))
         return false;
@@ -90,7 +91,7 @@ bool principal_frame(const Moments& m, NodeFrame& frame) {
     return frame.turn != NodeFrame().turn;
 }
 
-/// Box of the triangles of some slots in a frame, rounded as it comes.
+/// Box of the triangles of some slots in a frame. Rounding is not accounted for.
 Aabb box_of(const Tree& tree, const NodeFrame& frame, std::uint32_t first, std::uint32_t end) {
     struct alignas(16) Lanes {
         float v[kLanes];
@@ -166,7 +167,7 @@ private:
         return m;
     }
 
-    /// Nodes that may get axes of their own, and those below them.
+    /// Marks the nodes that may get their own axes, and all nodes below them.
     [[nodiscard]] std::vector<std::uint8_t> with_moments() const {
         std::vector<std::uint8_t> wanted(tree_.nodes.size(), 1);
         if (own_axes_ == OwnAxes::where_smaller)
@@ -248,12 +249,12 @@ private:
         node.frame.turned = true;
         for (const Aabb& box : boxes)
             node.bounds.merge(box);
-        // The positions' own error, turned; three products and sums.
+        // The rounding of the positions, rotated, and that of three products and their sums.
         const float rounding = 2 * position_rounding_ + 16 * 0x1p-24F * reach_of(node.bounds);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             node.bounds.lower[axis] -= rounding;
             node.bounds.upper[axis] += rounding;
-            // An empty box stays empty: it is infinite.
+            // An empty box stays empty, because its bounds are infinite.
             for (std::size_t i = 0; i < Node::kWidth; ++i) {
                 node.lower[axis][i] = boxes[i].lower[axis] - rounding;
                 node.upper[axis][i] = boxes[i].upper[axis] + rounding;
@@ -266,7 +267,8 @@ private:
         for (const NodeRef child : node.child) {
             if (child.is_none() || !child.is_leaf())
                 continue;
-            // From the positions in double: a leaf's error is relative to its own size.
+            // Computed from the positions in double, so that a leaf's error is relative to its own
+            // size.
             TriangleLeaf& leaf = tree_.leaves[child.first() / kLanes];
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const auto& t = mesh_.triangles[tree_.order[child.first() + lane]];
@@ -283,7 +285,7 @@ private:
     Tree& tree_;
     const TreeMesh& mesh_;
     OwnAxes own_axes_;
-    float position_rounding_; ///< of a position in single precision
+    float position_rounding_; ///< rounding error of a position stored in single precision
     std::vector<Moments> moments_;
 };
 

@@ -6,22 +6,23 @@
 
 namespace abut {
 
-/// Which nodes of a tree get axes of their own.
+/// Which nodes of a tree get their own axes.
 enum class OwnAxes : std::uint8_t {
     never,
     where_smaller, ///< where they make the children's boxes smaller
-    where_turned,  ///< where the node's frame says that it is turned: it is known
+    where_turned,  ///< where the node's frame is already marked as turned
 };
 
-/// Fills the leaves of a tree, in the tree's axes.
+/// Fills the leaves of a tree in the tree's axes.
 ///
-/// In          the tree's order.
+/// In          the tree's order is set.
 void fill_leaves(Tree& tree, const TreeMesh& mesh);
 
-/// Gives the nodes of a tree of triangles their frames, boxes and bounds, and turns the leaves.
+/// Sets frames, boxes and bounds of the nodes of a triangle tree, and transforms the leaves to
+/// their node's frame.
 ///
-/// In          the tree's children and order, its leaves and the children's boxes in the tree's axes.
-/// Cost        O(n log n); in parallel.
+/// In          children and order are set; leaves and the children's boxes are in the tree's axes.
+/// Cost        O(n log n), in parallel.
 void orient_nodes(Tree& tree, const TreeMesh& mesh, OwnAxes own_axes);
 
 } // namespace abut

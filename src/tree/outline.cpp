@@ -9,19 +9,20 @@ namespace abut {
 
 namespace {
 
-constexpr std::uint32_t kNode = 5; ///< a child that is one
+constexpr std::uint32_t kNode = 5; ///< code of a child that is a node
 constexpr unsigned kChildBits = 3;
 constexpr std::uint32_t kChildMask = (1U << kChildBits) - 1;
 constexpr std::uint32_t kOwnAxes = 1U << (kChildBits * Node::kWidth);
-/// The cuts of the builder end far above this, whatever the mesh.
+/// Upper limit on the depth. The builder's trees stay far below it, whatever the mesh.
 constexpr std::size_t kDeepest = 1024;
 
 std::uint32_t child_code(std::uint32_t node, std::size_t lane) {
     return node >> (kChildBits * lane) & kChildMask;
 }
 
-/// Walks the nodes depth first: take(node, lane, code, next), next being the number of a child that is
-/// a node. False, before it gets out of bounds, if they are no tree.
+/// Walks the nodes depth first and calls take(node, lane, code, next), where `next` is the number
+/// of a child that is a node. Returns false, before it reads out of bounds, if the nodes do not
+/// form a tree.
 template <typename Take>
 bool walk(const std::vector<std::uint32_t>& nodes, const Take& take) {
     struct Place {
@@ -47,7 +48,8 @@ bool walk(const std::vector<std::uint32_t>& nodes, const Take& take) {
     return next == nodes.size();
 }
 
-/// Whether its children are side by side, and enough of them. The root alone may have only one, a leaf.
+/// Whether a node's children are contiguous and at least two. Only the root may have a single
+/// child, which must be a leaf.
 bool is_sound(std::uint32_t node, bool is_root) {
     std::size_t children = 0;
     while (children < Node::kWidth && child_code(node, children) != 0)
@@ -56,7 +58,7 @@ bool is_sound(std::uint32_t node, bool is_root) {
            (children > 1 || (is_root && children == 1 && child_code(node, 0) != kNode));
 }
 
-/// The boxes of all children in the tree's axes, from the leaves up.
+/// Computes the boxes of all children in the tree's axes, from the leaves up.
 void fit_boxes(Tree& tree) {
     const auto set_box = [](Node& node, std::size_t lane, const Aabb& box) {
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -29,7 +29,7 @@ double translation_reach(const Transform& t) {
     return std::max({std::abs(t.m[9]), std::abs(t.m[10]), std::abs(t.m[11])});
 }
 
-/// `world_size` bounds all world coordinates in play.
+/// `world_size` bounds all world coordinates involved.
 TreeMap make_map(const Transform& to_from, const Transform& world_from_to, double world_size) {
     TreeMap map;
     for (std::size_t row = 0; row < 3; ++row) {
@@ -39,18 +39,18 @@ TreeMap make_map(const Transform& to_from, const Transform& world_from_to, doubl
             map.linear[row][column] = to_float(to_from.m[3 * column + row]);
     }
     map.row_sum = round_up(largest_row_sum(to_from));
-    // The composed transforms and the positions in the world and in the trees' frames, as if all
-    // error fell on one axis.
+    // The margin covers the rounding of the composed transforms and of the positions in the world
+    // and in the trees' frames, as if all error fell on one axis.
     const auto [least, most] = stretch_of(world_from_to);
     map.margin = round_up(64 * 0x1p-53 * world_size / least);
-    // Nodes' axes are of unit length to a few parts in 2^24; squares are summed and compared in
-    // single precision too.
+    // Nodes' axes have unit length only to a few parts in 2^24, and squares are summed and compared
+    // in single precision.
     map.stretch_sq = round_down(least * least * (1 - 64 * 0x1p-24));
     map.most_stretch_sq = round_up(most * most * (1 + 64 * 0x1p-24));
     return map;
 }
 
-/// No two points of the trees are farther apart, on each axis of a's frame.
+/// Upper bound of the distance of two points of the trees, on each axis of a's frame.
 double reach_between(const Tree& a, const Tree& b, const Transform& a_from_b) {
     return reach(a) + translation_reach(a_from_b) + largest_row_sum(a_from_b) * reach(b);
 }
@@ -71,8 +71,8 @@ PairFrame make_pair_frame(const Tree& a, const Transform& world_from_a, const Tr
     const double reach = reach_between(a, b, a_from_b);
     frame.reach_sq = round_up(4 * reach * reach * double{frame.a_from_b.most_stretch_sq});
     const auto usable = [](const TreeMap& m) {
-        // Margins and stretches that are not numbers, or too small to square, prune wrongly or
-        // nothing.
+        // A margin or stretch that is not a number, or is too small to square, would prune wrongly
+        // or prune nothing.
         return std::isfinite(m.margin) && std::isfinite(m.most_stretch_sq) &&
                std::isfinite(m.row_sum) && m.stretch_sq > 0x1p-100F;
     };

@@ -10,33 +10,33 @@
 #include <cmath>
 #include <cstdint>
 
-/// Traversals of one tree: for a box, for a segment (in order, if wanted), for the nearest
-/// primitive to a point. Bodies below.
+/// Traversals of one tree: for a box, for a segment (in order, if wanted), and for the primitive
+/// nearest to a point. The bodies follow the declarations.
 namespace abut {
 
 /// Calls visit(slot) for every primitive in a leaf whose box meets `query`.
 template <typename Visit>
 void for_each_overlap(const Tree& tree, const Aabb& query, const Visit& visit);
 
-/// What is in front of a plane: normal . x > offset. The offset has a margin for what both may be off
-/// by in the frame of any node.
+/// The points in front of a plane: normal . x > offset. The offset includes a margin for the errors
+/// of both terms in the frame of any node.
 struct TreeHalfSpace {
     std::array<float, 3> normal;
     float offset;
 };
 using TreeHalfSpaces = boost::container::static_vector<TreeHalfSpace, 16>;
 
-/// The same, but for leaves whose box lies in one of some half-spaces; visit may add to these.
+/// As above, but skips leaves whose box lies in one of the half-spaces `but_for`. `visit` may add
+/// half-spaces during the traversal.
 template <typename Visit>
 void for_each_overlap(const Tree& tree, const Aabb& query, const TreeHalfSpaces& but_for,
                       const Visit& visit);
 
-/// A segment in a tree's frame, as midpoint and half vector, with a margin for what both may be off
-/// by.
+/// A segment in a tree's frame, as midpoint and half vector, with a margin for the error of both.
 struct TreeSegment {
     std::array<float, 3> middle, half;
-    float margin; ///< at least the error of each coordinate in the frame of any node, in the
-                  ///< tree's units
+    float margin; ///< at least the error of each coordinate in any node's frame, in the tree's
+                  ///< units
 };
 
 /// Calls visit(slot) for every primitive whose leaf's box may meet the segment.
@@ -44,13 +44,14 @@ struct TreeSegment {
 template <typename Visit>
 void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 
-/// The same, boxes that the segment enters first in front; visit returns the parameter (of middle +
-/// s half, -1 <= s <= 1) beyond which nothing matters any more.
+/// As above, but boxes that the segment enters first come first. `visit` returns the parameter s
+/// beyond which no primitive matters any more; the segment is middle + s half, -1 <= s <= 1.
 template <typename Visit>
 void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const Visit& visit);
 
-/// Calls visit(slot) for primitives, nearest first by what single precision says of their distance; visit returns the squared distance in the
-/// tree's frame beyond which nothing matters any more.
+/// Calls visit(slot) for primitives near a point, in order of their approximate distance in single
+/// precision. `visit` returns the squared distance in the tree's frame beyond which no primitive
+/// matters any more.
 template <typename Visit>
 void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin,
                    float bound_sq, const Visit& visit);
@@ -59,8 +60,8 @@ namespace traverse_one {
 
 using Hits = std::array<bool, Node::kWidth>;
 
-/// Box in a node's frame that holds a box of the tree's frame. The same box where the frames are
-/// the same.
+/// The box in a node's frame that encloses a box of the tree's frame. If the frames are the same,
+/// so are the boxes.
 inline Aabb in_frame(const Aabb& box, const NodeFrame& frame) {
     Aabb result;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -93,7 +94,8 @@ public:
                 entries_.push_back({lower_sq[i], leaf.first() + i});
     }
 
-    /// The one that seems nearest first. Returns the bound that the last visit returned.
+    /// Visits the primitive that seems nearest first, then the others. Returns the bound that the
+    /// last visit returned.
     template <typename Visit>
     float visit_all(float bound_sq, const Visit& visit) {
         const auto nearest =
@@ -116,7 +118,7 @@ private:
     boost::container::static_vector<Entry, Node::kWidth * TriangleLeaf::kLanes> entries_;
 };
 
-/// Descends wherever `test(node)` marks a child.
+/// Descends to every child that `test(node)` marks.
 template <typename Test, typename Visit>
 void descend(const Tree& tree, const Test& test, const Visit& visit) {
     if (tree.empty())
@@ -140,30 +142,32 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
     }
 }
 
-/// Where a segment (middle + s half) enters and leaves the children at the earliest and the latest;
-/// it misses those that it leaves before it enters them.
+/// For each child, the parameters at which a segment (middle + s half) enters it at the earliest
+/// and leaves it at the latest. The segment misses a child that it leaves before it enters.
 struct Passage {
     std::array<float, Node::kWidth> enter, leave;
 };
 
+/// Computes where the segment passes the children of a node.
 /// Source      slabs [Kay, Kajiya 1986].
 inline Passage pass(const Node& node, const TreeSegment& in_tree) {
     const TreeSegment segment{node.frame.point_from_tree(in_tree.middle),
                               node.frame.vector_from_tree(in_tree.half), in_tree.margin};
-    // Rounding of a quotient of about 1, times a few; what larger ones lose changes nothing.
+    // Several times the rounding error of a quotient near 1. The error of a larger quotient does
+    // not change the result.
     constexpr float kRounding = 0x1p-20F;
     Passage passage{};
     passage.enter.fill(-1);
     passage.leave.fill(1);
     for (std::size_t k = 0; k < 3; ++k) {
         const float m = segment.middle[k], e = segment.half[k], inverse = 1 / e;
-        const bool up = !std::signbit(e); // of zeros too: their inverse has it
+        const bool up = !std::signbit(e); // a zero has a sign too, and its inverse has the same
         const float* near = up ? node.lower[k] : node.upper[k];
         const float* far = up ? node.upper[k] : node.lower[k];
         const float to_near = up ? m + segment.margin : m - segment.margin,
                     to_far = up ? m - segment.margin : m + segment.margin;
-        // Along an axis the quotient is infinite, or not a number on a face: then min and max keep
-        // what they had.
+        // Where e is 0, the quotient is infinite, or not a number in the plane of a face. In the
+        // latter case std::max and std::min keep their first argument.
         for (std::size_t i = 0; i < Node::kWidth; ++i) {
             passage.enter[i] = std::max(passage.enter[i], (near[i] - to_near) * inverse);
             passage.leave[i] = std::min(passage.leave[i], (far[i] - to_far) * inverse);
@@ -188,7 +192,7 @@ inline Hits overlaps(const Node& node, const Aabb& query) {
     return hits;
 }
 
-/// Takes out the children that lie in a half-space.
+/// Unmarks the children that lie in the half-space.
 inline void take_out(const Node& node, const TreeHalfSpace& space, Hits& hits) {
     const std::array<float, 3> n = node.frame.vector_from_tree(space.normal);
     const auto& o = node.frame.origin;
@@ -235,9 +239,9 @@ void for_each_on_segment(const Tree& tree, const TreeSegment& segment, const Vis
                 c[k] = m[k] - 0.5F * (node.lower[k][i] + node.upper[k][i]);
                 h[k] = 0.5F * (node.upper[k][i] - node.lower[k][i]) + segment.margin;
             }
-            // Box axes, then the cross products of the segment with the box axes. The latter's
-            // products are rounded relative to themselves and to the box: the margin in h outweighs
-            // that.
+            // The axes of the box, then the cross products of the segment with these axes. The
+            // rounding of the latter's products is relative to the products and to the box, and the
+            // margin in h exceeds it.
             bool hit = true;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
@@ -275,7 +279,7 @@ void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const 
         }
         const Node& node = tree.nodes[entry.ref.index()];
         const traverse_one::Passage passage = traverse_one::pass(node, segment);
-        // What is entered first is to be taken first: last on the stack.
+        // The child that is entered first goes on top of the stack.
         const auto first = static_cast<std::ptrdiff_t>(pending.size());
         for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
             if (passage.enter[i] <= std::min(passage.leave[i], bound))

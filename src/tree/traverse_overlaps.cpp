@@ -8,14 +8,14 @@
 #include "simd/foreach_target.h"
 #include "volume/moving_box-inl.h"
 
-// What the targets share.
+// Code that does not depend on the SIMD target; compiled once.
 #ifndef ABUT_TREE_TRAVERSE_OVERLAPS_ONCE
 #define ABUT_TREE_TRAVERSE_OVERLAPS_ONCE
 namespace abut::traverse_overlaps_detail {
 
 using PairStack = boost::container::small_vector<OverlapTraversal::Pair, 512>;
 
-/// Not of the root.
+/// The box of a child. In: not the root's name.
 inline MovingBoxRef box_of(const MovingTree& tree, std::uint32_t name) {
     return {tree.nodes[node_of(name)].boxes(), lane_of(name)};
 }
@@ -28,7 +28,7 @@ namespace abut::HWY_NAMESPACE {
 
 using namespace traverse_overlaps_detail; // NOLINT(google-build-using-namespace): its own
 
-/// The children of a node whose boxes may come within the margin of a box: a bit each.
+/// A bit for each child of a node whose box may come within the margin of the given box.
 HWY_INLINE std::uint32_t near_children(const MovingNode& node, const MovingBoxRef& box,
                                        float margin) {
     const MovingBoxLanes::D d;
@@ -39,7 +39,7 @@ HWY_INLINE std::uint32_t near_children(const MovingNode& node, const MovingBoxRe
     return bits;
 }
 
-/// Puts the pairs of children of a pair that is not two leaves.
+/// Replaces a pair that is not two leaves by pairs of children that may overlap.
 class Opener {
 public:
     Opener(const OverlapTraversal& traversal, PairStack& pairs)
@@ -59,7 +59,7 @@ public:
     }
 
 private:
-    /// Calls visit(name, lane).
+    /// Calls visit(name, lane) for each child of a node.
     template <typename Visit>
     static void for_each_child(const MovingTree& tree, std::uint32_t node, const Visit& visit) {
         for (std::uint32_t i = 0; i < MovingNode::kWidth && !tree.nodes[node].child[i].is_none();
@@ -75,7 +75,7 @@ private:
             open_b(name, node, 0xfeU << lane);
         });
     }
-    /// The child against those children of a node of b that are `wanted`.
+    /// Pairs a child of a with those children of a node of b that are `wanted`.
     void open_b(std::uint32_t name, std::uint32_t node, std::uint32_t wanted) {
         std::uint32_t bits =
             near_children(traversal_.b.nodes[node], box_of(traversal_.a, name), traversal_.margin) &
@@ -115,7 +115,7 @@ bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair
     return true;
 }
 
-/// Opens the pairs of one level of the trees after the other.
+/// Opens the pairs level by level, until there are `wanted` pairs or only pairs of leaves.
 void split_overlaps(const OverlapTraversal& traversal, std::size_t wanted, PairStack& pairs) {
     for (bool opened = true; opened && pairs.size() < wanted;) {
         opened = false;

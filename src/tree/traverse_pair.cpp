@@ -14,19 +14,20 @@
 #include "simd/foreach_target.h"
 #include "tree/child_pairs-inl.h"
 
-// What the targets share.
+// Code that does not depend on the SIMD target; compiled once.
 #ifndef ABUT_TREE_TRAVERSE_PAIR_ONCE
 #define ABUT_TREE_TRAVERSE_PAIR_ONCE
 namespace abut::traverse_pair {
 
-/// Where one box has so many times the surface of the other, it is opened alone: about one level of
-/// a tree.
+/// A node with more than this many times the other's surface area is opened alone. The value is
+/// about the ratio of areas between two levels of a tree.
 constexpr float kUnlike = 8;
 
-/// Two boxes still to be looked at, by their names.
+/// A pair of boxes that waits for its test, given by the boxes' names.
 struct BoxPair {
     std::uint32_t a, b;
-    float bound_sq; ///< lower bound of the squared distance; where they overlap, less than 0
+    float
+        bound_sq; ///< `value` of compare_row: for most tests a lower bound of the squared distance
 };
 using BoxPairs = boost::container::small_vector<BoxPair, 256>;
 
@@ -53,7 +54,7 @@ public:
         return drain() ? Verdict::done : verdict_;
     }
 
-    /// Visits one pair of leaves that seem to be near each other.
+    /// Follows the nearest pair of boxes down to one pair of leaves, and visits it.
     Verdict descend() {
         BoxPair pair{kRootName, kRootName, 0};
         while (true) {
@@ -90,7 +91,7 @@ public:
     [[nodiscard]] float bound_sq() const { return bound_sq_; }
 
 private:
-    /// Looks at all that was found, last first. False: stop, with a verdict.
+    /// Tests all pairs in `found_`, the last one first. Returns false, with a verdict set, to stop.
     bool drain() {
         while (!found_.empty()) {
             const BoxPair pair = found_.back();
@@ -109,13 +110,14 @@ private:
         std::uint32_t lanes;
     };
 
-    /// Looks at one pair: adds what is near below it to `found_`. False: stop, with a verdict.
+    /// Tests one pair and adds the nearby pairs below it to `found_`. Returns false, with a verdict
+    /// set, to stop.
     bool step(const BoxPair& pair) {
         const NodeRef a = t_.a.named(pair.a), b = t_.b.named(pair.b);
         bool open_a = !a.is_leaf(), open_b = !b.is_leaf();
         if (open_a && open_b)
             open_larger(pair, open_a, open_b);
-        // What is not opened is compared as the child that it is.
+        // A box that is not opened is compared as a child of the node above it.
         const std::uint32_t index_p = open_a ? a.index() : node_of(pair.a),
                             index_q = open_b ? b.index() : node_of(pair.b);
         const Node &p = t_.a.nodes[index_p], &q = t_.b.nodes[index_q];
@@ -140,13 +142,13 @@ private:
             of_q.lanes = near_node<test>(children.q, children.p, p.bounds, bound_sq_);
             t_.volume_tests += 2 * Node::kWidth;
         }
-        // The fewer children one by one, each against all of the others.
+        // The side with fewer children is taken one by one, each against all of the other side.
         return std::popcount(of_p.lanes) <= std::popcount(of_q.lanes)
                    ? compare<false>(nodes, of_p, of_q)
                    : compare<true>(nodes, of_q, of_p);
     }
 
-    /// Of two nodes, the one that alone is to be opened if they are of unlike size.
+    /// If two nodes differ much in size, opens only the larger one.
     void open_larger(const BoxPair& pair, bool& open_a, bool& open_b) const {
         const float area_a = t_.a.nodes[t_.a.named(pair.a).index()].bounds.half_area() *
                              t_.frame.a_from_b.stretch_sq / t_.frame.b_from_a.stretch_sq,
@@ -157,15 +159,16 @@ private:
             open_a = false;
     }
 
-    /// Pairs of children, bit 8 i + j for child i of the one node and j of the other.
+    /// Pairs of children. Bit 8 i + j stands for child i of one node and child j of the other.
     struct PairSet {
         std::uint64_t near = 0;
-        std::uint64_t leaves = 0;                          ///< of `near`, pairs of leaves
-        HWY_ALIGN float value[Node::kWidth][Node::kWidth]; ///< as compare_row's
+        std::uint64_t leaves = 0;                          ///< those pairs in `near` that are two
+                                                           ///< leaves
+        HWY_ALIGN float value[Node::kWidth][Node::kWidth]; ///< as compare_row returns it
     };
 
-    /// Compares the children of x with those of y; y is a's where `y_is_a`. Pairs of leaves are
-    /// visited at once where order does not matter.
+    /// Compares the children of x with those of y; y belongs to a if `y_is_a`. Pairs of leaves are
+    /// visited at once where the order does not matter.
     template <bool y_is_a>
     bool compare(const NodePair& nodes, const Side& x, const Side& y) {
         PairSet pairs;
@@ -204,7 +207,7 @@ private:
         for (std::uint64_t left = pairs.leaves; left != 0; left &= left - 1) {
             const auto bit = static_cast<std::size_t>(std::countr_zero(left));
             const std::size_t i = bit / Node::kWidth, j = bit % Node::kWidth;
-            if (pairs.value[i][j] > bound_sq_) // the bound has shrunk
+            if (pairs.value[i][j] > bound_sq_) // the bound may have shrunk since
                 continue;
             const NodeRef leaf_x = x.node.child[i], leaf_y = y.node.child[j];
             if (!(y_is_a ? visit(nodes, leaf_y, leaf_x) : visit(nodes, leaf_x, leaf_y)))
@@ -229,12 +232,13 @@ private:
             prefetch(x.node.child[i], y_is_a ? t_.b : t_.a);
             prefetch(y.node.child[j], y_is_a ? t_.a : t_.b);
         }
-        // The pair that overlaps deepest goes last, and so comes next: a contact is likeliest there.
+        // The pair that overlaps deepest goes last, so that it is tested next: a contact is
+        // likeliest there.
         if (test == BoxTest::overlap && count > 0)
             std::swap(*deepest, found_.back());
     }
 
-    /// Calls the node into the caches: it is looked at soon, but not next.
+    /// Prefetches a node, which will be needed soon, but not next.
     static void prefetch(NodeRef ref, const Tree& tree) {
         constexpr std::size_t kLine = 64;
         if (ref.is_leaf())
@@ -266,8 +270,8 @@ private:
         const Vec3 n = visitor_.direction();
         if (n == Vec3{})
             return;
-        // A vector v of a tree's frame has length n . L v along the direction n of the world, L the
-        // linear part of its transform.
+        // A vector v of a tree's frame has length n . L v along the world direction n, where L is
+        // the linear part of the tree's transform.
         const auto seen_in = [&](const Transform& world) {
             constexpr double kBelowOne = 1 - 0x1p-20;
             Covector seen{};

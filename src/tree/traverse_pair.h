@@ -8,7 +8,7 @@
 
 namespace abut {
 
-/// What a traversal of two trees does where two leaves may be near each other.
+/// Called for each pair of leaves that may be near each other.
 class LeafPairVisitor {
 public:
     LeafPairVisitor() = default;
@@ -16,49 +16,54 @@ public:
     LeafPairVisitor& operator=(const LeafPairVisitor&) = delete;
     virtual ~LeafPairVisitor() = default;
 
-    /// Looks at the pairs of triangles that are left: not none. Returns the squared world distance
-    /// beyond which pairs do not matter from now on; negative: stop.
+    /// Tests the pairs of triangles that were not culled; there is at least one. Returns the
+    /// squared world distance beyond which pairs no longer matter. A negative value stops the
+    /// traversal.
     virtual double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) = 0;
-    /// A direction of the world, from a to b, along which the trees seem to be far apart: that of
-    /// the closest points so far. Any vector of length 1 at most does; zero if none is known.
+    /// A world direction, from a to b, along which the trees seem to be far apart: the direction
+    /// between the closest points found so far. Any vector of length at most 1 is correct. Zero if
+    /// none is known.
     [[nodiscard]] virtual Vec3 direction() const { return {}; }
 };
 
 enum class Verdict : std::uint8_t {
     done,     ///< everything within the bound was visited
-    stopped,  ///< by the visitor
-    accepted, ///< some boxes lie wholly within the bound of each other
+    stopped,  ///< the visitor stopped it
+    accepted, ///< all points of some two boxes are within the bound of each other
 };
 
 struct PairTraversal {
     const Tree& a;
     const Tree& b;
     const PairFrame& frame;
-    double bound_sq = 0; ///< squared world distance beyond which pairs do not matter; 0: overlap
-    /// Pairs of boxes that traverse_nearest keeps, at most about: beyond, it goes depth first.
+    double bound_sq = 0; ///< squared world distance beyond which pairs do not matter; 0: only
+                         ///< overlaps do
+    /// traverse_nearest queues at most about this many pairs of boxes. Beyond that it goes depth
+    /// first.
     std::size_t queue_limit = std::size_t{1} << 16;
-    std::uint64_t volume_tests = 0;    ///< counted up
-    std::uint64_t primitive_tests = 0; ///< counted up
+    std::uint64_t volume_tests = 0;    ///< incremented
+    std::uint64_t primitive_tests = 0; ///< incremented
 };
 
 /// Visits the leaf pairs that may share a point, depth first. Needs no bound.
 ///
 /// In          trees of triangles; frame.valid.
 /// Accuracy    conservative: every pair of triangles that share a point is visited.
-/// Cost        8 box pairs in one SIMD pass, some 50 instructions, and some 350 for each pair of
-///             nodes; no allocation for trees of usual depth.
-/// Source      [Gottschalk, Lin, Manocha 1996]. Differs: the six face axes only, one box against
-///             eight; both nodes are opened at once where they are of like size.
+/// Cost        about 50 instructions for 8 box pairs in one SIMD pass, and about 350 for each pair
+///             of nodes; no allocation for trees of usual depth.
+/// Source      [Gottschalk, Lin, Manocha 1996]. Differs: tests only the six face axes, one box
+///             against eight; opens both nodes at once if they are of similar size.
 Verdict traverse_contacts(PairTraversal& traversal, LeafPairVisitor& visitor);
 
-/// The same for the leaf pairs that may be within the bound, which stays; `accepted` where two boxes
-/// lie wholly within it.
+/// Visits the leaf pairs that may be within the bound, depth first. The bound stays as it is.
+/// Returns `accepted` as soon as all points of two boxes are within the bound of each other.
 Verdict traverse_within(PairTraversal& traversal, LeafPairVisitor& visitor);
 
-/// The same, nearest boxes first: fewest visits where the bound shrinks.
-/// Source      [Larsen, Gottschalk, Lin, Manocha 1999], the priority queue. Differs: buckets, so
-///             nearest to within 12 %; boxes and triangles are also told apart by their
-///             gap along the direction of the closest points so far.
+/// Visits the leaf pairs that may be within the bound, the nearest boxes first. If the visitor
+/// shrinks the bound, this order needs the fewest visits.
+/// Source      [Larsen, Gottschalk, Lin, Manocha 1999], the priority queue. Differs: keys are
+///             sorted into buckets, so the order is by distance to within 12 %; boxes and triangles
+///             are also separated by their gap along the direction of the closest points so far.
 Verdict traverse_nearest(PairTraversal& traversal, LeafPairVisitor& visitor);
 
 } // namespace abut

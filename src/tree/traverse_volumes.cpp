@@ -15,28 +15,30 @@
 #include "tree/node_pair-inl.h"
 #include "volume/lower_bound-inl.h"
 
-// What the targets share.
+// Code that does not depend on the SIMD target; compiled once.
 #ifndef ABUT_TREE_TRAVERSE_VOLUMES_ONCE
 #define ABUT_TREE_TRAVERSE_VOLUMES_ONCE
 namespace abut::traverse_volumes {
 
-/// More than underflow takes from a product. Without it, all is within a bound that is nearly 0.
+/// Exceeds what underflow takes from a product. Without it, an underflowed product of 0 would make
+/// every pair count as within a bound that is nearly 0.
 constexpr float kUnderflow = std::numeric_limits<float>::min();
 
-/// Two volumes still to be looked at, by their names.
+/// A pair of volumes that waits for its test, given by the volumes' names.
 struct VolumePair {
     std::uint32_t a, b;
     float bound_sq; ///< lower bound of the squared distance
 };
 using VolumePairs = boost::container::small_vector<VolumePair, 512>;
 
-/// One side of the pair, and how the other's volumes come into its frame.
+/// One side of the pair, with the map that brings the other side's volumes into its frame.
 template <typename V>
 struct Side {
     const Tree& tree;
     const VolumeLayer<V>& layer;
     typename V::Map from_other;
-    float stretch_sq, most_stretch_sq; ///< of squares, to the world
+    float stretch_sq, most_stretch_sq; ///< from squared distances in its frame to those in the
+                                       ///< world
 
     [[nodiscard]] V volume(std::uint32_t name) const {
         return name == kRootName ? layer.root : layer.children[node_of(name)].get(lane_of(name));
@@ -91,7 +93,7 @@ public:
     }
 
     Verdict best_first() {
-        // No two points are farther apart than the farthest of the roots' balls.
+        // The circumscribed balls of the roots bound the distance of any two points.
         VolumeBounds bounds{};
         bound_all<true>(D(), root_block(), image_of(b_.layer.root, a_.from_other), bounds);
         NearFirstQueue<VolumePair> pending(
@@ -120,7 +122,8 @@ private:
         return block;
     }
 
-    /// Visits the pair's leaves, or adds its children to `found`; not done: the end.
+    /// Visits a pair of leaves, or adds the children of another pair to `found`. Any verdict but
+    /// `done` ends the traversal.
     template <bool with_upper>
     HWY_INLINE Verdict step(const VolumePair& pair, VolumePairs& found) {
         const NodeRef ref_a = a_.tree.named(pair.a), ref_b = b_.tree.named(pair.b);
@@ -161,8 +164,8 @@ private:
         return bound_sq >= 0 ? Verdict::done : Verdict::stopped;
     }
 
-    /// Bounds one volume, given in the other frame, to the children of a node, and adds those that
-    /// may be within the bound. True if one is wholly within it.
+    /// Compares one volume of the other tree with the children of a node, and adds the children
+    /// that may be within the bound. Returns true if one lies wholly within the bound.
     template <bool with_upper, typename Add>
     HWY_INLINE bool open(const Side<V>& side, std::uint32_t index, const V& other, const Add& add) {
         VolumeBounds bounds{};
@@ -170,8 +173,8 @@ private:
                               bounds);
         const std::uint32_t used = traverse_volumes::children_of(side.tree.nodes[index]);
         pair_.volume_tests += static_cast<std::uint64_t>(std::popcount(used));
-        // The child that overlaps deepest goes last, and so comes next: a contact is likeliest
-        // there.
+        // The child that overlaps deepest goes last, so that it is tested next: a contact is
+        // likeliest there.
         std::uint32_t deepest = Node::kWidth;
         for (std::uint32_t rest = used; rest != 0; rest &= rest - 1) {
             auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
@@ -250,13 +253,13 @@ VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a
     const auto origin = [](const Transform& t) { return length({t.m[9], t.m[10], t.m[11]}); };
     const double world_size =
         origin(world_from_a) + most_a * a.reach() + origin(world_from_b) + most_b * b.reach();
-    // Double precision: the composed transforms and the world positions.
+    // Bounds the rounding of double precision in the composed transforms and the world positions.
     const double slack = 128 * 0x1p-53 * world_size;
     frame.a_from_b = make_relative_pose(compose(inverse(world_from_a), world_from_b), a.reach(),
                                         b.reach(), slack / least_a);
     frame.b_from_a = make_relative_pose(compose(inverse(world_from_b), world_from_a), b.reach(),
                                         a.reach(), slack / least_b);
-    // Products with them are rounded once more.
+    // Products with these factors are rounded once more.
     frame.stretch_a_sq = round_down(least_a * least_a * (1 - 8 * 0x1p-24));
     frame.stretch_b_sq = round_down(least_b * least_b * (1 - 8 * 0x1p-24));
     frame.most_stretch_a_sq = round_up(most_a * most_a * (1 + 8 * 0x1p-24));

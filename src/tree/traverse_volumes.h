@@ -9,18 +9,20 @@
 
 namespace abut {
 
-/// Two volume trees under their transforms: what a traversal of the pair needs to know.
+/// The frames of two volume trees under their transforms, as a traversal of the pair needs them.
 struct VolumeFrame {
     RelativePose a_from_b, b_from_a;
-    /// A squared distance in the tree's frame is at least, and at most, so many times larger in the
-    /// world.
+    /// The world's squared distance is at least stretch_sq, and at most most_stretch_sq, times that
+    /// in the tree's frame.
     float stretch_a_sq = 0, stretch_b_sq = 0;
     float most_stretch_a_sq = 0, most_stretch_b_sq = 0;
-    bool valid = false; ///< false: of different kinds, singular, or of a size that single precision
-                        ///< cannot square; the trees' boxes then have to do
+    bool valid = false; ///< false: kinds differ, a transform is singular, or sizes are such that
+                        ///< single precision cannot square them; the trees' boxes are then used
+                        ///< instead
 };
 
-/// In          world_from_a, world_from_b: of the trees' frames.
+/// Computes the frames of a pair of volume trees.
+/// In          world_from_a, world_from_b: transforms of the trees' frames.
 /// Accuracy    the margins cover all rounding: of composing the transforms, of the world positions
 ///             that the exact kernels see, and of the traversal's single precision.
 VolumeFrame make_volume_frame(const VolumeTree& a, const Transform& world_from_a,
@@ -33,12 +35,12 @@ struct VolumeTraversal {
     const VolumeFrame& frame;
 };
 
-/// As the traversals of boxes, with the volumes in their place.
+/// The traversals of traverse_pair.h, with these volumes in place of boxes.
 ///
-/// In          frame.valid; each volume tree built over the tree beside it.
+/// In          frame.valid; each volume tree was built over its tree.
 /// Accuracy    conservative: every pair of triangles within the bound is visited.
-/// Source      [Gottschalk, Lin, Manocha 1996], [Larsen et al. 1999]. Differs: one volume against
-///             eight; of two nodes that of the larger circumscribed ball is opened.
+/// Source      [Gottschalk, Lin, Manocha 1996], [Larsen et al. 1999]. Differs: tests one volume
+///             against eight; of two nodes, opens the one whose circumscribed ball is larger.
 Verdict traverse_contacts(const VolumeTraversal& traversal, LeafPairVisitor& visitor);
 Verdict traverse_within(const VolumeTraversal& traversal, LeafPairVisitor& visitor);
 Verdict traverse_nearest(const VolumeTraversal& traversal, LeafPairVisitor& visitor);

@@ -38,10 +38,10 @@ private:
     std::uint32_t bits_ = 0xffffffffU;
 };
 
-/// A frame of a node: x_node = sum over k of turn[k] (x_tree - origin)[k]. Its axes are at right
-/// angles and of unit length to single precision.
+/// The frame of a node: x_node = sum over k of turn[k] (x_tree - origin)[k]. Its axes are
+/// orthogonal and of unit length to single precision.
 struct alignas(16) NodeFrame {
-    /// The tree's axes as the node sees them: the columns of the rotation, padded to four.
+    /// The tree's axes in the node's frame: the columns of the rotation, padded to four.
     std::array<std::array<float, 4>, 3> turn{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     std::array<float, 3> origin{};
     bool turned = false; ///< false: axes and origin are the tree's
@@ -63,7 +63,8 @@ struct alignas(16) NodeFrame {
         };
         return {along(0), along(1), along(2)};
     }
-    /// The way back, as the axes are at right angles to single precision only.
+    /// The inverse map. It is accurate only to single precision, as the axes are orthogonal only to
+    /// that.
     [[nodiscard]] Vec3 point_to_tree(const Vec3& p) const {
         const auto along = [&](std::size_t k) {
             return double{turn[k][0]} * p.x + double{turn[k][1]} * p.y + double{turn[k][2]} * p.z +
@@ -73,9 +74,9 @@ struct alignas(16) NodeFrame {
     }
 };
 
-/// Eight children side by side: lane i of every row belongs to child i. Unused lanes come last:
-/// their box is empty (lower > upper), their reference none. The boxes are aligned to the node's
-/// own frame.
+/// A node with eight children: lane i of every row belongs to child i. Unused lanes come last.
+/// Their boxes are empty (lower > upper) and their references are none. The boxes are aligned to
+/// the node's own frame.
 struct alignas(32) Node {
     static constexpr std::size_t kWidth = 8;
     float lower[3][kWidth]; ///< [axis][child]
@@ -83,7 +84,7 @@ struct alignas(32) Node {
     NodeRef child[kWidth];
     NodeFrame frame;
     Aabb bounds;     ///< of all children
-    float reach = 0; ///< no coordinate of a child is larger
+    float reach = 0; ///< the largest magnitude of a child's coordinates
 
     [[nodiscard]] Aabb box(std::size_t i) const {
         Aabb b;
@@ -95,12 +96,13 @@ struct alignas(32) Node {
     }
 };
 
-/// A child by its node and its lane there, in one number; the root has no node above it.
+/// The name of a child: its node and its lane there in one number. The root, which is no child, has
+/// a name of its own.
 constexpr std::uint32_t kRootName = 0xffffffffU;
 constexpr std::uint32_t child_name(std::uint32_t node, std::uint32_t lane) {
     return node * static_cast<std::uint32_t>(Node::kWidth) + lane;
 }
-/// Not of the root.
+/// The node that holds the child. In: not kRootName.
 constexpr std::uint32_t node_of(std::uint32_t name) {
     return name / Node::kWidth;
 }
@@ -113,7 +115,8 @@ struct Tree {
     std::vector<Node> nodes;          ///< nodes[0] is the root; empty if there is no primitive
     std::vector<std::uint32_t> order; ///< slot -> primitive; a leaf is a run of slots
     Aabb bounds;                      ///< of all primitives, in the tree's frame
-    /// Of a tree of triangles: leaf i's at first slot / 4, in the frame of the leaf's node.
+    /// Only for a tree of triangles. The leaf with first slot s is leaves[s / 4], in the frame of
+    /// its node.
     std::vector<TriangleLeaf> leaves;
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
@@ -129,33 +132,33 @@ struct Tree {
     }
 };
 
-/// Builds the tree of some boxes; every node has the tree's axes.
+/// Builds the tree of some boxes. Every node has the tree's axes.
 ///
 /// In          fewer than 2^28 boxes, none empty, all finite.
 /// Cost        O(n log n); subtrees in parallel. The result does not depend on the number of
 ///             threads.
 /// Source      binned surface-area heuristic [Wald 2007]; wide nodes by opening the largest child
-///             first. Differs: the cuts of small sets leave multiples of 4, then of 32, so that
-///             leaves and nodes are full.
+///             first. Differs: small sets are cut at multiples of 4, then of 32, so that leaves and
+///             nodes are full.
 Tree build_tree(std::span<const Aabb> boxes);
 
-/// The mesh of a tree, in the tree's frame.
+/// The mesh over which a tree is built, in the tree's frame.
 struct TreeMesh {
     std::span<const Vec3> positions;
     std::span<const std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Builds the tree of some triangles; a node has axes of its own where its children's boxes become
-/// smaller by it.
+/// Builds the tree of some triangles. A node has its own axes if they make its children's boxes
+/// smaller.
 ///
-/// In          fewer than 2^28 triangles; `own_axes` false: all nodes have the tree's.
+/// In          fewer than 2^28 triangles; `own_axes` false: all nodes have the tree's axes.
 /// Source      orientation by the covariance of the surface [Gottschalk, Lin, Manocha 1996].
-///             Differs: one for the eight children, so that its cost is paid once for up to 64
-///             pairs of boxes; of the triangles, not of their hull.
+///             Differs: one orientation for all eight children, so that its cost is paid once for
+///             up to 64 pairs of boxes; covariance of the triangles, not of their hull.
 Tree build_tree(const TreeMesh& mesh, bool own_axes = true);
 
-/// Throws std::logic_error if a box fails to enclose what lies below it, or a primitive is not in
-/// exactly one leaf.
+/// Throws std::logic_error if a box does not enclose what lies below it, or if a primitive is not
+/// in exactly one leaf.
 void validate(const Tree& tree, std::span<const Aabb> boxes);
 void validate(const Tree& tree, const TreeMesh& mesh);
 

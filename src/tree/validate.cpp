@@ -9,7 +9,7 @@ namespace abut {
 
 namespace {
 
-/// Walks the tree and tells every box and what must lie in it.
+/// Walks the tree and checks with `encloses` that each box encloses every primitive below it.
 template <typename Encloses>
 class Validator {
 public:

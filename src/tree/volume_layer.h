@@ -9,17 +9,17 @@
 
 namespace abut {
 
-/// A volume for every child of every node of a tree, in the tree's frame: what a traversal looks at
-/// in place of the boxes.
+/// A volume for each child of each node of a tree, in the tree's frame. A traversal uses these in
+/// place of the boxes.
 template <typename V>
 struct VolumeLayer {
     std::vector<VolumeBlock<V>> children; ///< children[n] belongs to the tree's nodes[n]
-    V root;                               ///< around everything
-    double reach = 0;                     ///< no point of a volume is farther from the origin
+    V root;                               ///< encloses everything
+    double reach = 0;                     ///< upper bound of a volume's distance from the origin
 
     VolumeLayer() = default;
-    /// In          triangles: of the primitives, in the tree's frame. What double precision loses
-    ///             on the way there is in the frame of a pair (traverse_volumes.h).
+    /// In          triangles: the tree's primitives, in the tree's frame. The pair's frame
+    ///             (traverse_volumes.h) accounts for the rounding of positions to double precision.
     /// Cost        every level fits its volumes to all triangles anew; nodes in parallel.
     VolumeLayer(const Tree& tree, std::span<const Triangle> triangles);
 

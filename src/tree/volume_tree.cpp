@@ -9,7 +9,7 @@ namespace abut {
 
 namespace {
 
-/// Triangles in the order in which a walk of the tree meets them: those below any child are a run.
+/// Triangles in depth-first order, so that those below any child form a contiguous run.
 class SubtreeRuns {
 public:
     struct Run {

@@ -12,7 +12,7 @@
 
 namespace abut {
 
-/// The volumes of one kind over one tree. Immutable once built.
+/// Volumes of one kind for all children of one tree. Immutable once built.
 class VolumeTree {
 public:
     using Layer = std::variant<VolumeLayer<BoundingSphere>, VolumeLayer<Pss>, VolumeLayer<Lss>,
@@ -23,7 +23,7 @@ public:
 
     [[nodiscard]] Volume kind() const { return kind_; }
     [[nodiscard]] const Layer& layer() const { return layer_; }
-    /// No point of a volume is farther from the origin of the tree's frame.
+    /// Upper bound of the distance of a volume's points from the origin of the tree's frame.
     [[nodiscard]] double reach() const;
     [[nodiscard]] std::size_t bytes() const;
 
@@ -32,10 +32,10 @@ private:
     Layer layer_;
 };
 
-/// Fits volumes to all that lies below the children of a tree of triangles.
+/// Fits volumes to all that lies below each child of a tree of triangles.
 ///
-/// Returns     none for the kinds that the tree's own boxes are: `automatic` and `aabb`; and for an
-///             empty tree.
+/// Returns     null for an empty tree, and for `automatic` and `aabb`: the tree's own boxes serve
+///             these.
 std::unique_ptr<const VolumeTree> build_volume_tree(Volume kind, const Tree& tree,
                                                     const TreeMesh& mesh);
 

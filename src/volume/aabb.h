@@ -7,15 +7,15 @@
 
 namespace abut {
 
-/// The float next below or equal, next above or equal.
+/// Rounds to the nearest float not above, or not below, the number.
 ///
-/// Not inline: where g++ 12 vectorises several of them side by side, it compares the numbers before
+/// Not inline: where g++ 12 vectorises several calls side by side, it compares the numbers before
 /// they are rounded.
 float round_down(double v);
 float round_up(double v);
 
-/// Axis-aligned box in single precision that encloses what it was fitted to: every bound is rounded
-/// outward.
+/// Axis-aligned box in single precision. It encloses what it was fitted to, because every bound is
+/// rounded outward.
 struct Aabb {
     std::array<float, 3> lower{std::numeric_limits<float>::infinity(),
                                std::numeric_limits<float>::infinity(),
@@ -25,7 +25,7 @@ struct Aabb {
                                -std::numeric_limits<float>::infinity()};
 
     Aabb() = default;
-    /// Encloses the box and `margin` around it.
+    /// Encloses the box, enlarged by `margin` on every side.
     explicit Aabb(const Box3& box, double margin = 0)
         : lower{round_down(box.lower.x - margin), round_down(box.lower.y - margin),
                 round_down(box.lower.z - margin)},

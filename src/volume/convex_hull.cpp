@@ -24,9 +24,9 @@ public:
         qh_memfreeshort(&state_, &blocks, &bytes);
     }
 
-    /// False if the points span no volume beyond rounding.
+    /// Returns false if the points span no volume beyond rounding.
     bool run(std::vector<double>& coordinates) {
-        // Qt: facets are triangles. Pp: no reports of lost precision.
+        // Qt: triangulates facets. Pp: suppresses reports of lost precision.
         char options[] = "qhull Qt Pp";
         return qh_new_qhull(&state_, 3, static_cast<int>(coordinates.size() / 3),
                             coordinates.data(), False, options, nowhere(), nowhere()) == 0;
@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    /// Qhull prints what it has to say; its exit code tells all that is needed.
+    /// Discards Qhull's messages; its exit code is sufficient.
     static std::FILE* nowhere() {
         static const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
             std::fopen("/dev/null", "w"), &std::fclose);
@@ -65,7 +65,8 @@ std::vector<Triangle> convex_hull(std::span<const Vec3> points) {
     const double largest = std::max({size.x, size.y, size.z});
     if (points.size() < 4 || !(largest > 0))
         return {};
-    // Qhull's tolerances depend on the largest coordinate: it gets the points in a unit cube.
+    // Qhull's tolerances depend on the largest coordinate, so it gets the points scaled to a unit
+    // cube.
     std::vector<double> coordinates;
     coordinates.reserve(3 * points.size());
     for (const Vec3& p : points) {

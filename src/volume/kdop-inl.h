@@ -1,4 +1,4 @@
-// Gaps between k-DOPs: of one and several.
+// Gaps between one k-DOP and several.
 
 // Included once for each target.
 #if defined(ABUT_VOLUME_KDOP_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
-/// Rows: lower bounds, then upper bounds, of each slab.
+/// The block's rows are the lower bounds of all slabs, then the upper bounds.
 template <class D, std::size_t k>
 HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Kdop<k>>& block, std::size_t lane,
                                     const KdopImage<k>& one) {
@@ -32,8 +32,8 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Kdop<k>>& block, std:
         open[i] = hn::MulSub(apart, hn::Set(d, inverse_norm), hn::Set(d, one.margin));
         gap = hn::Max(gap, open[i]);
     }
-    // Gaps at right angles to each other add up: along the axes, and along one axis and the two
-    // diagonals across it.
+    // Squares of gaps in orthogonal directions add up. Such directions are the three axes, and an
+    // axis together with the two face diagonals orthogonal to it.
     const auto together = [&](std::size_t i, std::size_t j, std::size_t l) HWY_ATTR {
         return hn::Add(square_of_gap(d, open[i]),
                        hn::Add(square_of_gap(d, open[j]), square_of_gap(d, open[l])));

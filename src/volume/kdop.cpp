@@ -22,13 +22,13 @@ int sum_of_magnitudes(const Normal& n) {
     return std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]);
 }
 
-/// A direction as a sum of normals: weights are not negative.
+/// A direction as a sum of three normals with non-negative weights.
 struct Cone {
     std::array<Normal, 3> normals;
     std::array<double, 3> weights;
 };
 
-/// For a direction (a, b, c) with a >= b >= c >= 0.
+/// The cone of a direction (a, b, c) with a >= b >= c >= 0.
 template <std::size_t k>
 Cone sorted_cone(double a, double b, double c) {
     if constexpr (k == 26)
@@ -41,7 +41,7 @@ Cone sorted_cone(double a, double b, double c) {
             {0.5 * (a + b - c), 0.5 * (a + c - b), 0.5 * (b + c - a)}};
 }
 
-/// The same for any direction: its coordinates' signs and order are undone in the normals.
+/// The cone of any direction. Sorts its magnitudes, and undoes order and signs in the normals.
 template <std::size_t k>
 Cone cone_of(const std::array<double, 3>& direction) {
     std::array<std::size_t, 3> order{0, 1, 2};
@@ -72,7 +72,7 @@ Kdop<k> Kdop<k>::fit(std::span<const Triangle> triangles, double margin) {
                 high = std::max(high, x);
                 size = std::max(size, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
             }
-        // Along a coordinate axis nothing is rounded; along others, two sums.
+        // Nothing is rounded along a coordinate axis. Along other normals, two sums are.
         const int terms = sum_of_magnitudes(kNormals[i]);
         const double off = terms * margin + (terms > 1 ? 2 * 0x1p-53 * size : 0);
         kdop.lower[i] = round_down(low - off);

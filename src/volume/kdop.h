@@ -10,8 +10,8 @@
 
 namespace abut {
 
-/// The normals of a k-DOP's slabs: the coordinate axes first, then (k = 18, 26) the diagonals of
-/// the cube's faces, then (k = 14, 26) those of the cube.
+/// The normals of a k-DOP's slabs: the coordinate axes, then the diagonals of the cube's faces (k =
+/// 18 and 26), then the diagonals of the cube (k = 14 and 26).
 template <std::size_t k>
 constexpr std::array<std::array<int, 3>, k / 2> kdop_normals() {
     static_assert(k == 14 || k == 18 || k == 26);
@@ -53,9 +53,9 @@ struct Kdop {
     /// The smallest k-DOP around both.
     static Kdop merge(const Kdop& a, const Kdop& b);
 
-    /// No point of the volume is farther from the frame's origin.
+    /// Upper bound of the distance of the volume's points from the frame's origin.
     [[nodiscard]] double reach() const;
-    /// No point of the volume is farther from the centre of its first three slabs.
+    /// Upper bound of the distance of the volume's points from the centre of its first three slabs.
     [[nodiscard]] float circumradius() const;
 };
 
@@ -67,17 +67,18 @@ extern template struct Kdop<14>;
 extern template struct Kdop<18>;
 extern template struct Kdop<26>;
 
-/// How the k-DOPs of one frame are bounded by slabs of another: made once for a pose.
+/// Maps k-DOPs of one frame to k-DOPs of another that enclose them. Made once for a pose.
 ///
-/// Along a normal n of the target frame, a point L x + t reaches n . t + (L^T n) . x. The direction
-/// L^T n lies in a cone of three of the k normals; by its coordinates c_j >= 0 in that cone,
+/// Along a normal n of the target frame, the image L x + t of a point x has the coordinate n . t +
+/// (L^T n) . x. The direction L^T n lies in a cone of three of the k normals. With its coordinates
+/// c_j >= 0 in that cone,
 ///
 ///     (L^T n) . x = sum_j c_j normal_j . x <= sum_j c_j upper_j.
 template <std::size_t k>
 struct KdopMap {
     struct Term {
         std::uint32_t slab = 0;
-        float weight = 0; ///< negative: of the opposite normal
+        float weight = 0; ///< negative: weight of the opposite normal
     };
     std::array<std::array<Term, 3>, k / 2> terms{};
     std::array<float, k / 2> offset{}; ///< n . t
@@ -86,10 +87,10 @@ struct KdopMap {
     explicit KdopMap(const RelativePose& pose);
 };
 
-/// A k-DOP of the target frame that encloses the image of the volume, to rounding.
+/// A k-DOP of the target frame that encloses the image of the volume, up to rounding.
 ///
 /// Source      [Klosowski et al. 1998] moves the vertices. Differs: three slabs bound each
-///             direction, so that no vertices are stored; a little wider.
+///             direction, so that no vertices are stored; the result is a little wider.
 template <std::size_t k>
 struct KdopImage {
     Kdop<k> kdop;

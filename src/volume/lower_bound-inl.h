@@ -1,5 +1,5 @@
-// Kernels of bounds between one volume and several: included by sources that compile themselves for
-// each SIMD target (simd/simd.h), so that a traversal has them inline.
+// Kernels that bound the distance between one volume and several. They are included by sources that
+// compile themselves for each SIMD target (simd/simd.h), so that traversals have them inline.
 
 // Included once for each target.
 #if defined(ABUT_VOLUME_LOWER_BOUND_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
-/// A ball around each volume of a block, and around an image.
+/// A ball around the volume in each lane of a block.
 template <class D>
 struct LanesBall {
     Lanes3<D> centre;
@@ -78,7 +78,8 @@ HWY_INLINE ImageBall ball_around(const KdopImage<k>& image) {
     return ball;
 }
 
-/// `block` against `one`, all lanes. Without `with_upper`, upper_sq is left as it was.
+/// Bounds the distances of `one` to all volumes of the block. Without `with_upper`, upper_sq is
+/// left unchanged.
 template <bool with_upper, class D, typename V>
 HWY_INLINE void bound_all(D d, const VolumeBlock<V>& block, const typename V::Image& one,
                           VolumeBounds& bounds) {

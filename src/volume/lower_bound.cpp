@@ -18,7 +18,7 @@ struct OneToMany {
     const typename V::Image* one;
 };
 
-/// Run-time dispatch names functions, not templates: one takes all kinds.
+/// Run-time dispatch takes functions, not templates. One function handles all kinds of volume.
 using AnyOneToMany =
     std::variant<OneToMany<BoundingSphere>, OneToMany<Pss>, OneToMany<Lss>, OneToMany<Rss>,
                  OneToMany<Obb>, OneToMany<Kdop14>, OneToMany<Kdop18>, OneToMany<Kdop26>>;
@@ -70,7 +70,7 @@ float distance_lower_bound(const V& a, const V& b, const typename V::Map& map) {
     VolumeBlock<V> block;
     block.set(0, a);
     VolumeBounds bounds{};
-    // One lane would do; eight at once take no longer.
+    // Only one lane is needed, but eight take no longer.
     bound_distances(block, image_of(b, map), bounds);
     return std::sqrt(bounds.lower_sq[0]);
 }

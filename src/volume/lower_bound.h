@@ -8,39 +8,40 @@
 
 namespace abut {
 
-/// What is known of the distance of one volume to eight, in the frame of the eight.
+/// Bounds of the distances between one volume and eight, in the frame of the eight.
 struct VolumeBounds {
     static constexpr std::size_t kLanes = 8;
-    alignas(32) float lower_sq[kLanes]; ///< no two points are nearer, squared; 0: may overlap
-    alignas(32) float gap[kLanes];      ///< widest gap along a direction; negative: overlap
-    alignas(32) float upper_sq[kLanes]; ///< no two points are farther apart, squared
+    alignas(32) float lower_sq[kLanes]; ///< lower bound of the squared distance; 0: may overlap
+    alignas(32) float gap[kLanes];      ///< the widest gap along a direction; negative: overlap
+    alignas(32) float upper_sq[kLanes]; ///< upper bound of the squared distance of any two points
 };
 
-/// The volume `one`, seen in the frame of the block, against all volumes of the block.
+/// Bounds the distances between the volume `one`, given in the frame of the block, and all volumes
+/// of the block.
 ///
-/// Degenerate  lanes that were never set hold volumes that are a point at the origin.
-/// Accuracy    certain: the image's margin is taken off every gap. The gap of rectangles and
-///             segments is their distance to rounding; that of boxes the widest along the 15 axes,
-///             or of three at right angles together.
-/// Cost        one SIMD pass: some 20 operations (sphere), 100 (LSS), 250 (OBB), 900 (RSS) for
+/// Degenerate  a lane that was never set holds a volume that is a point at the origin.
+/// Accuracy    conservative: the image's margin is subtracted from every gap. For rectangles and
+///             segments the gap is their distance up to rounding. For boxes it is the widest gap
+///             along the 15 axes, or three orthogonal gaps together.
+/// Cost        one SIMD pass: about 20 operations (sphere), 100 (LSS), 250 (OBB), 900 (RSS) for
 ///             eight pairs.
 /// Source      OBB: [Gottschalk, Lin, Manocha 1996], swept spheres: [Larsen et al. 1999]. Differs:
-///             no branches; the closest points only propose a direction, and the gap along it
-///             counts, so no rounding of theirs needs a bound.
+///             no branches; the closest points only propose a direction, and the gap along it is
+///             the result, so their rounding needs no bound.
 template <typename V>
 void bound_distances(const VolumeBlock<V>& block, const typename V::Image& one,
                      VolumeBounds& bounds);
 
-/// The same with one lane: the reference for every SIMD target.
+/// As bound_distances, but with one lane: the reference for every SIMD target.
 template <typename V>
 void bound_distances_reference(const VolumeBlock<V>& block, const typename V::Image& one,
                                VolumeBounds& bounds);
 
-/// Lower bound of the distance of two volumes, in a's frame; `map` takes b's frame to a's.
+/// Lower bound of the distance of two volumes, in a's frame. `map` takes b's frame to a's.
 template <typename V>
 float distance_lower_bound(const V& a, const V& b, const typename V::Map& map);
 
-/// Whether two volumes may share a point. Certain if false.
+/// Whether two volumes may share a point. If false, they certainly do not.
 template <typename V>
 bool may_overlap(const V& a, const V& b, const typename V::Map& map);
 

@@ -1,4 +1,4 @@
-// A moving box against eight, side by side.
+// A moving box against eight others in SIMD.
 
 // Included once for each target.
 #if defined(ABUT_VOLUME_MOVING_BOX_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// Boxes of a run side by side, a register for each bound.
+/// Moving boxes of a run in SIMD lanes, with a register for each bound.
 class MovingBoxLanes {
 public:
     using D = hn::CappedTag<float, 8>;
@@ -33,8 +33,8 @@ public:
         }
     }
 
-    /// Bits of those that may come within the margin of a box. A rounded difference is below a
-    /// float only if the exact one is.
+    /// A bit for each box that may come within the margin of the given box. Conservative: a rounded
+    /// difference is below a float only if the exact difference is.
     [[nodiscard]] HWY_INLINE std::uint32_t overlap_bits(const MovingBoxRef& box,
                                                         hn::Vec<D> minus_margin) const {
         const D d;
@@ -42,7 +42,8 @@ public:
         const auto bound = [&](std::size_t end, std::size_t i) HWY_ATTR {
             return hn::Set(d, row[(MovingBoxRun::kEnd * end + i) * box.run.count]);
         };
-        // How far the boxes overlap along an axis at one end at least; of all axes the least.
+        // The overlap along an axis is the larger of those at both ends. The result is the least
+        // over all axes.
         auto overlap = hn::Set(d, std::numeric_limits<float>::infinity());
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto below = hn::Max(hn::Sub(bound(0, axis + 3), lower_[0][axis]),

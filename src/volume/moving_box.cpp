@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "volume/moving_box.cpp"
 #include "simd/foreach_target.h"
-// Once for each target:
+// Compiled once for each target.
 #include "volume/moving_box-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -14,15 +14,15 @@ namespace abut {
 enum class StepEnd : std::uint8_t { start, end };
 inline constexpr std::array kStepEnds{StepEnd::start, StepEnd::end};
 
-/// Boxes of something whose points move in straight lines, at both ends of their motion. Two of them
-/// meet at no time if along one axis one is below the other at the start and at the end.
+/// Boxes around something whose points move in straight lines, at both ends of the motion. Two
+/// moving boxes never meet if, along one axis, one lies below the other at both ends.
 struct MovingBox {
     Aabb start, end;
 
     [[nodiscard]] const Aabb& at(StepEnd step_end) const {
         return step_end == StepEnd::start ? start : end;
     }
-    /// What it stays within.
+    /// The box that encloses the whole motion.
     [[nodiscard]] Aabb swept() const {
         Aabb box = start;
         box.merge(end);
@@ -30,31 +30,31 @@ struct MovingBox {
     }
 };
 
-/// Some things in moving boxes: their numbers, and the boxes in rows, one for each bound.
-/// rows[r * count + k] is box k's lower bound on axis r, or its upper bound on axis r - 3, at the
-/// start; rows 6 to 11 are those at the end. May be empty.
+/// A run of moving boxes with ids. The boxes are stored in rows, one for each bound. At the start
+/// of the motion, rows[r * count + k] is box k's lower bound on axis r (r < 3) or its upper bound
+/// on axis r - 3. Rows 6 to 11 are the same bounds at the end. May be empty.
 ///
 /// Kernels read up to kPadding floats beyond the last row.
 struct MovingBoxRun {
-    static constexpr std::uint32_t kMost = 12; ///< boxes in a run
+    static constexpr std::uint32_t kMost = 12; ///< maximum number of boxes in a run
     static constexpr std::size_t kRows = 12;
     static constexpr std::size_t kPadding = 8;
-    /// Of the bounds at the end.
+    /// First row of the bounds at the end.
     static constexpr std::size_t kEnd = 6;
 
     const float* rows = nullptr;
     const std::uint32_t* ids = nullptr;
     std::uint32_t count = 0;
 
-    /// A bit for each.
+    /// A mask with a bit set for each box.
     [[nodiscard]] std::uint32_t all() const { return (1U << count) - 1; }
 };
 
-/// Where the bounds of box k at one end begin, in rows that are `count` apart.
+/// Index of the first bound of box k at one end, in rows of `count` floats.
 inline std::size_t first_bound(StepEnd end, std::size_t count, std::size_t k) {
     return (end == StepEnd::start ? 0 : MovingBoxRun::kEnd) * count + k;
 }
-/// Six bounds, a row each, from the first on.
+/// Writes the six bounds of a box, `count` floats apart.
 inline void set_bounds(float* bound, std::size_t count, const Aabb& box) {
     for (const auto& side : {box.lower, box.upper})
         for (const float value : side) {
@@ -72,29 +72,30 @@ inline Aabb bounds_from(const float* bound, std::size_t count) {
     return box;
 }
 
-/// One of a run.
+/// One box of a run.
 struct MovingBoxRef {
     MovingBoxRun run;
     std::uint32_t place = 0;
 };
 
-/// Which boxes of a run may meet which of another: a matrix of bits, in tiles of eight by eight. Bit
-/// 8 k + i of a tile stands for its box k of a and its box i of b.
+/// Which boxes of run a may meet which boxes of run b: a matrix of bits in tiles of eight by eight.
+/// Bit 8 k + i of a tile stands for the tile's box k of a and box i of b.
 struct RunOverlaps {
     static constexpr std::uint32_t kTile = 8;
-    static constexpr std::uint32_t kTiles = (MovingBoxRun::kMost + kTile - 1) / kTile; ///< a side
+    static constexpr std::uint32_t kTiles = (MovingBoxRun::kMost + kTile - 1) / kTile; ///< along
+                                                                                       ///< one side
 
     MovingBoxRun a, b;
     std::array<std::uint64_t, std::size_t{kTiles} * kTiles>
-        tiles{}; ///< those of a's first boxes first
+        tiles{}; ///< row by row, those of a's first boxes first
 
     [[nodiscard]] static std::uint32_t tiles_of(const MovingBoxRun& run) {
         return (run.count + kTile - 1) / kTile;
     }
 
-    /// Of a run with itself: leaves each pair once, and none with itself.
+    /// For a run against itself: keeps each pair once, and no box with itself.
     void keep_once() {
-        // Bit i of row k where i > k.
+        // Bits i of row k with i > k.
         constexpr std::uint64_t kAbove = 0x0080c0e0f0f8fcfe;
         for_each_tile([&](std::uint32_t i, std::uint32_t k, std::uint64_t& tile) {
             tile &= i < k ? ~std::uint64_t{0} : i == k ? kAbove : 0;
@@ -130,10 +131,10 @@ private:
     }
 };
 
-/// Fills in the tiles: boxes that may come within a margin of each other.
+/// Fills in the tiles with the pairs of boxes that may come within a margin of each other.
 ///
-/// Accuracy    certified: no bit is missing for boxes that come so near at some time.
-/// Cost        some 30 instructions for a box against eight.
+/// Accuracy    conservative: every pair that comes within the margin at some time has its bit.
+/// Cost        about 30 instructions for a box against eight.
 void find_overlaps(std::span<RunOverlaps> overlaps, float margin);
 
 } // namespace abut

@@ -1,4 +1,4 @@
-// Gaps between oriented boxes: of one and several.
+// Gaps between one oriented box and several.
 
 // Included once for each target.
 #if defined(ABUT_VOLUME_OBB_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -15,10 +15,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
-/// The separating axes of two boxes: three face normals of each, and nine edge pairs.
+/// Tests the separating axes of two boxes: the three face normals of each, and nine cross products
+/// of edges.
 ///
-/// Rows 0 to 2: centre; 3 to 11: axes a_i; 12 to 14: half lengths h_i. With w from the block's
-/// centre, e_k the other's edges, N_k its face normals:
+/// Rows 0 to 2 hold the centre, 3 to 11 the axes a_i, 12 to 14 the half lengths h_i. Let w go from
+/// the block's centre to the other's. Let e_k be the directions of the other's edges, g_k their
+/// half lengths, N_k its face normals, and g'_k the distances from its centre to its faces. The
+/// gaps are
 ///
 ///     a_i:        |a_i . w| - h_i - sum_k g_k |a_i . e_k|
 ///     N_k:        |N_k . w| - g'_k - sum_i h_i |N_k . a_i|
@@ -41,7 +44,7 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Obb>& block, std::siz
             facing[i][k] = hn::Abs(dot(a[i], set3(d, one.normal[k])));
         }
     }
-    // Faces: gaps at right angles to each other add up.
+    // Faces: squares of gaps in orthogonal directions add up.
     auto gap = hn::Set(d, hwy::LowestValue<float>());
     auto own_sq = hn::Zero(d), other_sq = hn::Zero(d);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -57,7 +60,7 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Obb>& block, std::siz
         other_sq = hn::Add(other_sq, square_of_gap(d, other));
     }
     auto lower_sq = hn::Max(own_sq, hn::Mul(other_sq, hn::Set(d, 1 / one.normals_spread)));
-    // Edges: a_i x e_k in the frame of the a's has the components 0, -c_2k, c_1k (cyclically).
+    // Edges: in the frame of the a_i, a_i x e_k has the components 0, -c_2k, c_1k (cyclically).
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -70,9 +73,10 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Obb>& block, std::siz
             open = hn::NegMulAdd(hn::Set(d, one.half_across[k][k1]), facing[i][k2], open);
             open = hn::NegMulAdd(hn::Set(d, one.half_across[k][k2]), facing[i][k1], open);
             const auto sine_sq = hn::MulAdd(c1, c1, hn::Mul(c2, c2));
-            // Below this the edges are parallel, and the faces' normals say as much.
+            // Nearly parallel edges are skipped: the face normals separate such boxes as well.
             const auto usable = hn::Gt(sine_sq, hn::Set(d, 0x1p-20F));
-            // The terms are off by as much however short the cross product is.
+            // The rounding of the terms does not shrink with the cross product, so the margin is
+            // divided too.
             const auto along = hn::Div(hn::Sub(open, margin), hn::Sqrt(sine_sq));
             gap = hn::IfThenElse(usable, hn::Max(gap, along), gap);
         }

@@ -24,8 +24,8 @@ public:
             for (std::size_t k = 0; k < 3; ++k)
                 a(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = box_.axis[i][k];
         }
-        // The axes as they are stored are at right angles to rounding only: coordinates come from
-        // the inverse, not from dot products.
+        // The stored axes are orthogonal only up to rounding. Coordinates therefore come from the
+        // inverse, not from dot products.
         inverse_ = a.inverse();
     }
 
@@ -43,8 +43,9 @@ public:
             centre = centre + middle[static_cast<Eigen::Index>(i)] * to_double(box.axis[i]);
         box.centre = to_float(centre);
         const Eigen::Vector3d shift = coordinates(to_double(box.centre) - origin_);
-        // Differences, a rounded inverse, three products and sums: fewer than 64 roundings of the
-        // distance to the origin; the coordinates' sum is at least 1 / 2 of it.
+        // Differences, a rounded inverse, three products and sums: fewer than 64 roundings,
+        // relative to the distance to the origin. The sum of the coordinates is at least 1 / 2 of
+        // that distance.
         const double size = low_.cwiseAbs().cwiseMax(high_.cwiseAbs()).sum() + shift.lpNorm<1>();
         for (std::size_t i = 0; i < 3; ++i) {
             const auto k = static_cast<Eigen::Index>(i);
@@ -110,7 +111,8 @@ Obb Obb::merge(const Obb& a, const Obb& b) {
         BoxFit fit(axes, corners[0]);
         for (const Vec3& p : corners)
             fit.add(p);
-        const Obb box = fit.box(8 * 0x1p-53 * size); // what the corners may be off by
+        const Obb box = fit.box(8 * 0x1p-53 * size); // the margin bounds the rounding of the
+                                                     // corners
         if (!(volume_of(box) >= least))
             best = box, least = volume_of(box);
     }
@@ -142,13 +144,14 @@ ObbImage image_of(const Obb& volume, const RelativePose& pose) {
         const Float3 across = cross(e[k], e[l]);
         const float sine = std::sqrt(dot(across, across));
         image.normal[i] = scaled(sine > 0 ? 1 / sine : 0, across);
-        // All three: of edges that are almost parallel, the normal is not at right angles to them.
+        // Sums over all three edges: the normal of two almost parallel edges is not orthogonal to
+        // them.
         for (std::size_t j = 0; j < 3; ++j)
             image.normal_half[i] += image.half[j] * std::abs(dot(image.normal[i], e[j]));
         image.half_across[k][l] = image.half[l] * sine;
         image.half_across[l][k] = image.half[k] * sine;
     }
-    // Gershgorin discs of the matrix of the normals' dot products.
+    // Gershgorin's bound of the largest eigenvalue of the matrix of the normals' dot products.
     const auto& n = image.normal;
     const float xy = std::abs(dot(n[0], n[1])), yz = std::abs(dot(n[1], n[2])),
                 zx = std::abs(dot(n[2], n[0]));

@@ -14,21 +14,20 @@ namespace abut {
 
 namespace {
 
-// Up to this many triangles (a leaf and a little more), setting up a hull costs more than it gains.
+// With at most this many triangles (a leaf and a little more), a hull costs more than it gains.
 constexpr std::size_t kFew = 8;
-// Flatter than this, measured by deviations along the axes, a set has no hull worth the name.
+// A set flatter than this ratio of standard deviations has no useful hull.
 constexpr double kFlat = 1e-6;
-// A hull costs some 4 us a vertex. Of more points than this, the hull is built of the extreme ones
-// along so many directions: enough for a covariance.
+// A hull costs about 4 us a vertex. With more than kManyPoints points, the hull is built of the
+// extreme points along kDirections directions, which is enough for a covariance.
 constexpr std::size_t kManyPoints = 384, kDirections = 64;
 
 struct Principal {
     Axes axes;
-    double thinness = 0; ///< of the least to the largest standard deviation
+    double thinness = 0; ///< ratio of the least to the largest standard deviation
 };
 
-/// The first axis is kept; the others are turned until they are at right angles to what comes
-/// before.
+/// Keeps the first axis, and makes each further axis orthogonal to those before it.
 Axes orthonormal(const Eigen::Matrix3d& v) {
     const Vec3 x{v(0, 2), v(1, 2), v(2, 2)}, y{v(0, 1), v(1, 1), v(2, 1)};
     const Vec3 first = normalized_or_zero(x);
@@ -36,7 +35,7 @@ Axes orthonormal(const Eigen::Matrix3d& v) {
     return {first, second, cross(first, second)};
 }
 
-/// Sums weighted points about an origin, and finds the axes of their covariance.
+/// Sums weighted points about an origin and computes the principal axes of their covariance.
 class Covariance {
 public:
     void add(const Vec3& p, double weight) {
@@ -44,7 +43,7 @@ public:
         sum_ += weight * v * v.transpose();
     }
     [[nodiscard]] Principal principal() const {
-        // Products of very large or very small coordinates may leave the range of doubles.
+        // Products of very large or very small coordinates may overflow or underflow.
         const double size = sum_.cwiseAbs().maxCoeff();
         if (!(size > 0) || !sum_.allFinite())
             return {{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, 0};
@@ -88,7 +87,7 @@ std::array<Vec3, kDirections> spiral() {
     return directions;
 }
 
-/// Every point once; of many, those that lie farthest one way or the other.
+/// The distinct points. If there are many, only those that are extreme along some direction.
 std::vector<Vec3> candidates_for_hull(std::vector<Vec3> points) {
     const auto key = [](const Vec3& p) { return std::tie(p.x, p.y, p.z); };
     if (points.size() > kManyPoints) {
@@ -126,8 +125,8 @@ Principal principal_of(std::span<const Triangle> surface) {
     if (!(area > 0))
         return principal_of(vertices_of(surface));
     mean = origin + (1 / area) * mean;
-    // Integral of x x^T over a triangle: (9 c c^T + p p^T + q q^T + r r^T) area / 12, c the
-    // centroid.
+    // The integral of x x^T over a triangle is (9 c c^T + p p^T + q q^T + r r^T) area / 12, where c
+    // is the centroid.
     Covariance covariance;
     for (const Triangle& t : surface) {
         const double w = length(cross(t[1] - t[0], t[2] - t[0])) / area;

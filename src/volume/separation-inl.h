@@ -1,4 +1,4 @@
-// Gaps between volumes: what their kernels return.
+// The result of the kernels that compute gaps between volumes.
 
 // Included once for each target.
 #if defined(ABUT_VOLUME_SEPARATION_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -13,14 +13,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
-/// A gap between two volumes of each lane: along one direction, and squared of several together.
+/// Gaps between two volumes in each lane.
 template <class D>
 struct Separation {
-    hn::Vec<D> gap;      ///< widest along a direction; margin taken off
-    hn::Vec<D> lower_sq; ///< squared distance, at least
+    hn::Vec<D> gap;      ///< the widest along a direction, less the margin
+    hn::Vec<D> lower_sq; ///< lower bound of the squared distance
 };
 
-/// Squares of gaps are rounded a few times.
+/// Covers the rounding of the few operations that square a gap.
 constexpr float kSquareRounding = 1 - 32 * 0x1p-24F;
 
 template <class D>

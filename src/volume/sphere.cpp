@@ -12,8 +12,8 @@ namespace abut {
 
 namespace {
 
-/// The smallest ball with some points on its surface; none: empty, of negative radius. A point that
-/// lies in the affine hull of those before it adds nothing.
+/// The smallest ball with some points on its surface. Without points, it excludes every point. A
+/// point in the affine hull of those before it is ignored.
 class Support {
 public:
     [[nodiscard]] Support with(const Vec3& p) const {
@@ -23,8 +23,8 @@ public:
             next.count_ = 1;
             return next;
         }
-        // The new centre lies on the normal, in the span of all points, of the span of the old
-        // ones through the old centre.
+        // The new centre lies on a line through the old centre. The line is orthogonal to the
+        // affine hull of the old points and lies in that of all points.
         const Vec3 d = p - ball_.centre;
         Vec3 normal = p - origin();
         for (std::size_t i = 0; i + 1 < count_; ++i)
@@ -57,7 +57,7 @@ private:
     std::array<Vec3, 3> basis_;
 };
 
-/// The smallest ball around the points with those of `support` on its surface.
+/// The smallest ball around the points that has those of `support` on its surface.
 Support smallest_ball(std::span<const Vec3> points, const Support& support) {
     Support best = support;
     if (support.full())
@@ -68,7 +68,7 @@ Support smallest_ball(std::span<const Vec3> points, const Support& support) {
     return best;
 }
 
-/// The vertices that lie farthest both ways along the axes and diagonals of the cube.
+/// The vertices that are extreme, in both senses, along the axes and diagonals of the cube.
 std::vector<Vec3> extreme_vertices(std::span<const Triangle> triangles) {
     constexpr std::array<Vec3, 13> kWays{
         Vec3{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0},  {1, -1, 0}, {1, 0, 1}, {1, 0, -1},
@@ -104,7 +104,7 @@ BoundingSphere BoundingSphere::fit(std::span<const Triangle> triangles, double m
                 ball.radius = grown;
             }
         }
-    // Whatever was rounded until here, the distance from the centre as it is stored counts.
+    // Corrects all rounding so far: the radius is measured from the centre as it is stored.
     BoundingSphere sphere;
     sphere.centre = to_float(ball.centre);
     double radius = 0;
@@ -118,7 +118,7 @@ BoundingSphere BoundingSphere::fit(std::span<const Triangle> triangles, double m
 BoundingSphere BoundingSphere::merge(const BoundingSphere& a, const BoundingSphere& b) {
     const Vec3 ca = to_double(a.centre), cb = to_double(b.centre);
     const double apart = length(cb - ca);
-    // Ends of both balls on the line through the centres, from a's.
+    // The extreme points of both balls on the line through the centres, measured from a's centre.
     const double low = std::min(-double{a.radius}, apart - b.radius),
                  high = std::max(double{a.radius}, apart + b.radius);
     BoundingSphere sphere;

@@ -4,7 +4,8 @@
 
 namespace abut {
 
-/// A ball: the same volume as a point swept sphere, fitted as small as can be.
+/// A ball that is fitted nearly as small as possible. Its representation is that of a point swept
+/// sphere.
 struct BoundingSphere : Pss {
     BoundingSphere() = default;
     explicit BoundingSphere(const Pss& ball) : Pss(ball) {}

@@ -14,12 +14,13 @@
 #define ABUT_SUPPORT_BOUND_ONCE
 namespace abut {
 
-/// So many points at a time, a multiple of all lanes.
+/// Number of points processed at a time, a multiple of all lane counts.
 inline constexpr std::size_t kPointsOfBlock = 256;
 /// Coordinates of points.
 using PointBlock = std::array<std::array<float, kPointsOfBlock>, 3>;
 
-/// Of the nodes of a face that have one v: along the directions to them and to the nodes opposite.
+/// Extreme heights of points along the directions to the nodes of a face with the same v. The
+/// lowest ones give the heights along the opposite nodes.
 struct RowHeights {
     std::array<float, SupportBound::kNodes> highest, lowest;
 };
@@ -36,7 +37,7 @@ HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Takes a block's points into the heights of the nodes (1, u_i, v) of an axis.
+/// Extends the heights of the nodes (1, u_i, v) of an axis by a block's points.
 void extend_row(const PointBlock& block, std::size_t axis, float v, RowHeights& heights) {
     const hn::CappedTag<float, 16> d;
     using V = hn::VFromD<decltype(d)>;
@@ -74,7 +75,7 @@ HWY_EXPORT(extend_row);
 
 namespace {
 
-/// Points relative to the middle, scaled; the last one fills the block.
+/// Fills a block with points, relative to the middle and scaled. The last point is repeated.
 void fill(PointBlock& block, std::span<const Vec3> points, const Vec3& middle,
           const PowerOfTwo& scale) {
     for (std::size_t lane = 0; lane < kPointsOfBlock; ++lane) {
@@ -104,7 +105,7 @@ SupportBound::SupportBound(std::span<const Vec3> points) {
         row.highest.fill(kNothing);
         row.lowest.fill(-kNothing);
     }
-    // To about 1, far from where single precision ends.
+    // Coordinates are scaled to about 1, far from the limits of single precision.
     const int exponent = size_ > 0 ? std::ilogb(size_) : 0;
     const PowerOfTwo size(exponent), inverse(-exponent);
     PointBlock block;
@@ -115,7 +116,7 @@ SupportBound::SupportBound(std::span<const Vec3> points) {
             HWY_DYNAMIC_DISPATCH(extend_row)
         (block, row / kNodes, grid_line(row % kNodes), rows[row]);
     }
-    // Five roundings to single precision of at most size().
+    // Covers five roundings in single precision of values of at most size().
     const double rounding = 0x1p-21 * size_;
     for (std::size_t row = 0; row < rows.size(); ++row)
         for (std::size_t i = 0; i < kNodes; ++i) {

@@ -10,30 +10,30 @@
 
 namespace abut {
 
-/// How far points reach in any direction, bounded by how far they reach in 98.
+/// Upper bound of how far points reach in any direction, from how far they reach in 98 directions.
 ///
-/// These directions are the nodes of a grid of 4 x 4 cells on each face of a cube. A direction n
-/// lies in the cone of three nodes, of a cell that is cut in two,
+/// These 98 directions are the nodes of a grid of 4 x 4 cells on each face of a cube. Each cell is
+/// cut into two triangles. A direction n lies in the cone of the three nodes of a triangle:
 ///
-///     n = w_0 n_0 + w_1 n_1 + w_2 n_2, no weight negative,
+///     n = w_0 n_0 + w_1 n_1 + w_2 n_2, no weight negative.
 ///
-/// and no point reaches farther than the same sum of the heights along the nodes.
-/// Source      [Klosowski et al. 1998], the k-DOP. Differs: no vertices of it are asked for.
+/// No point reaches farther along n than the same sum of the heights along the nodes.
+/// Source      [Klosowski et al. 1998], the k-DOP. Differs: its vertices are not computed.
 class SupportBound {
 public:
     static constexpr std::size_t kCells = 4; ///< along a face's edge
     static constexpr std::size_t kNodes = kCells + 1;
 
-    /// In          finite points. Of none, heights are not finite.
+    /// In          finite points. If there are none, heights are not finite.
     explicit SupportBound(std::span<const Vec3> points);
 
-    /// The middle of the points' box; heights are measured from it.
+    /// The middle of the points' box, from which heights are measured.
     [[nodiscard]] const Vec3& middle() const { return middle_; }
     /// Half the extents of the points' box, summed over the axes.
     [[nodiscard]] double size() const { return size_; }
 
-    /// n . (p - middle) is not larger for any of the points p, to rounding: 2^-49 size() times the
-    /// sum of the sizes of n's coordinates. Not a number where n is not finite.
+    /// Upper bound of n . (p - middle) for all points p, up to rounding: 2^-49 size() times the sum
+    /// of the magnitudes of n's coordinates. Not a number where n is not finite.
     [[nodiscard]] double height(const Vec3& n) const {
         const Cone c = cone_of(n);
         return c.size * c.height + c.far * c.first_way + c.near * c.second_way +
@@ -45,7 +45,7 @@ public:
         const Cone c = cone_of(n);
         const double along_u = c.u_first ? c.first_way : c.second_way,
                      along_v = c.u_first ? c.second_way : c.first_way;
-        // What the height gains from the middle of the face to the cell, it loses on the way back.
+        // Extrapolates the height, linear within a cell, to the middle of the face.
         const double forward = c.height + c.to_middle_u * along_u + c.to_middle_v * along_v;
         std::array<double, 3> s{};
         s[c.axis] = c.negative ? -forward : forward;
@@ -57,21 +57,25 @@ public:
 private:
     static constexpr double kHalf = 0.5 * kCells;
 
-    /// Where a direction leaves the cube. On its face, both other axes, u and v, are measured in
-    /// cells. From a cell's first corner, the way to the direction goes along the axis on which it
-    /// is farther, and then along the other: heights are linear in both.
+    /// Where a direction leaves the cube, and the heights there. On the cube's face, the two other
+    /// axes, u and v, are measured in cells. From the cell's first corner a path leads to the
+    /// direction, first along the axis with the larger coordinate, then along the other. The height
+    /// is linear along both.
     struct Cone {
         std::size_t axis; ///< of the face
-        bool negative;    ///< of its two faces
+        bool negative;    ///< which of the axis's two faces
         bool u_first;
-        double to_middle_u, to_middle_v; ///< cells from the first corner to the face's middle
-        double size;                     ///< of the direction: its largest coordinate's
-        double far, near;                ///< how far along both axes, times the size
+        double to_middle_u, to_middle_v; ///< cells from the cell's first corner to the face's
+                                         ///< middle
+        double size;                     ///< largest magnitude of the direction's coordinates
+        double far, near;                ///< the larger and the smaller coordinate in the cell,
+                                         ///< times `size`
         double height;                   ///< at the first corner
-        double first_way, second_way;    ///< what a whole cell's way adds to it
+        double first_way, second_way;    ///< the height's change over a whole cell, along the first
+                                         ///< and the second axis
     };
-    // Without branches, since what comes in has no order that could be foretold, and without
-    // quotients, since all else would wait for them.
+    // No branches, since the order of the directions is unpredictable. No quotients, since
+    // everything else would wait for them.
     [[nodiscard]] Cone cone_of(const Vec3& n) const {
         const std::array<double, 5> c{n.x, n.y, n.z, n.x, n.y};
         const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z), xy = std::max(x, y);
@@ -101,8 +105,9 @@ private:
 
     Vec3 middle_;
     double size_ = 0;
-    /// At each node of the positive and the negative face of each axis, v by v: along the direction
-    /// to that node, 1 to the face; rounded up.
+    /// Heights at the nodes of each axis's positive and negative face, row by row in v: how far
+    /// points reach along the node's direction, whose component along the axis is 1 or -1. Rounded
+    /// up.
     std::array<float, 6 * kNodes * kNodes> heights_{};
 };
 

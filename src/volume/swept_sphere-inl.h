@@ -1,4 +1,4 @@
-// Gaps between swept spheres: of one and several.
+// Gaps between one swept sphere and several.
 
 // Included once for each target.
 #if defined(ABUT_VOLUME_SWEPT_SPHERE_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -16,15 +16,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
-/// The core of swept spheres: directions and half lengths.
+/// The cores of swept spheres: directions and half lengths.
 template <class D, std::size_t n>
 struct Core {
-    // Never empty: a point's core has none.
+    // One element more than needed: a point's core has no direction, and arrays cannot be empty.
     Lanes3<D> direction[n + 1], dual[n + 1];
     hn::Vec<D> half[n + 1];
 };
 
-/// The shortest vector so far from a point of the one core to a point of the other.
+/// The shortest vector found so far from a point of one core to a point of the other.
 template <class D>
 struct Shortest {
     Lanes3<D> vector;
@@ -38,23 +38,25 @@ struct Shortest {
     }
 };
 
-/// v, cut off at -half and half.
+/// Clamps v to [-half, half].
 template <class D>
 HWY_INLINE hn::Vec<D> clamp_to(hn::Vec<D> v, hn::Vec<D> half) {
     return hn::Max(hn::Neg(half), hn::Min(v, half));
 }
 
-/// What segments of two given directions have in common, however they lie.
+/// Quantities that depend on the directions and lengths of two segments, but not on their
+/// positions.
 template <class D>
 struct SegmentPair {
     Lanes3<D> a, b;
     hn::Vec<D> half_a, half_b, cosine;
-    Lanes3<D> to_a; ///< w . to_a is where a's line is nearest to b's, for w from a's middle to b's
+    Lanes3<D> to_a; ///< w . to_a is the parameter at which a's line is nearest to b's, where w goes
+                    ///< from a's middle to b's
 
     HWY_INLINE SegmentPair(D d, const Lanes3<D>& direction_a, hn::Vec<D> length_a,
                            const Lanes3<D>& direction_b, hn::Vec<D> length_b)
         : a(direction_a), b(direction_b), half_a(length_a), half_b(length_b), cosine(dot(a, b)) {
-        // s = w . (b x (a x b)) / |a x b|^2; parallel lines are nearest everywhere.
+        // s = w . (b x (a x b)) / |a x b|^2. For parallel lines every s is nearest; 0 is taken.
         const Lanes3<D> across = cross(a, b);
         const auto sine_sq = dot(across, across);
         const auto inverse = hn::IfThenElseZero(hn::Gt(sine_sq, hn::Set(d, 0x1p-40F)),
@@ -63,7 +65,7 @@ struct SegmentPair {
         to_a = {hn::Mul(inverse, m.x), hn::Mul(inverse, m.y), hn::Mul(inverse, m.z)};
     }
 
-    /// The shortest vector from the one segment to the other.
+    /// The shortest vector from segment a to segment b. `w` goes from a's middle to b's.
     HWY_INLINE Lanes3<D> shortest(const Lanes3<D>& w) const {
         auto s = clamp_to<D>(dot(w, to_a), half_a);
         const auto p = clamp_to<D>(hn::MulSub(s, cosine, dot(w, b)), half_b);
@@ -72,8 +74,8 @@ struct SegmentPair {
     }
 };
 
-/// The shortest vector between two rectangles that do not cross: of two edges, or of a corner and a
-/// face. `w` goes from a's middle to b's.
+/// The shortest vector between two rectangles that do not cross. It connects two edges, or a corner
+/// and a face. `w` goes from a's middle to b's.
 template <class D>
 HWY_INLINE Lanes3<D> shortest_vector(D d, const Core<D, 2>& a, const Core<D, 2>& b,
                                      const Lanes3<D>& w) {
@@ -114,8 +116,8 @@ HWY_INLINE Lanes3<D> shortest_vector(D, const Core<D, 0>&, const Core<D, 0>&, co
     return w;
 }
 
-/// Takes off what a vector has along the directions that it is at right angles to but for rounding:
-/// a core's support along it is as wide as what is left there.
+/// Removes from v its components along those core directions to which it is orthogonal up to
+/// rounding. What remained would widen the core's extent along v and so narrow the gap.
 template <class D, std::size_t n>
 HWY_INLINE void straighten(Lanes3<D>& v, const Core<D, n>& core, hn::Vec<D> rounding) {
     for (std::size_t i = 0; i < n; ++i) {
@@ -125,7 +127,7 @@ HWY_INLINE void straighten(Lanes3<D>& v, const Core<D, n>& core, hn::Vec<D> roun
     }
 }
 
-/// The gap of two cores along a direction: (v . w - sum_i half_i |v . direction_i|) / |v|.
+/// The gap between two cores along v: (v . w - sum_i half_i |v . direction_i|) / |v|.
 template <class D, std::size_t n>
 HWY_INLINE hn::Vec<D> gap_along(D d, const Lanes3<D>& v, const Core<D, n>& a, const Core<D, n>& b,
                                 const Lanes3<D>& w) {
@@ -155,7 +157,7 @@ HWY_INLINE Separation<D> separation_of_cores(D d, const float (*row)[VolumeBound
     Lanes3<D> v = shortest_vector(d, a, b, w);
     auto gap = gap_along(d, v, a, b, w);
     if constexpr (n > 0) {
-        // Twice: the directions of the one are not at right angles to those of the other.
+        // Twice, because the directions of one core are not orthogonal to those of the other.
         const auto rounding = hn::Mul(size, hn::Set(d, 16 * 0x1p-24F));
         for (int i = 0; i < 2; ++i) {
             straighten(v, a, rounding);

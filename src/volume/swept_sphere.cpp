@@ -22,7 +22,7 @@ struct Extent {
     [[nodiscard]] double half() const { return std::max(0.0, 0.5 * high - 0.5 * low); }
 };
 
-/// Balls in the frame of the axes that fit them, widest extent first.
+/// Balls in the frame of given axes, which are reordered so that the widest extent comes first.
 struct AlignedBalls {
     Axes axes;
     Vec3 origin;
@@ -51,17 +51,18 @@ struct AlignedBalls {
     }
 };
 
-/// How far along a core axis a ball of the sweep reaches if it is `off` from the core otherwise.
+/// Reach of a swept ball along a core axis, at a distance `off` from that axis.
 double reach_at(double radius, double off) {
     return std::sqrt(std::max(0.0, radius * radius - off * off));
 }
 
-/// Where the core ends on each of its axes: as far in as the radius allows, but for corners.
+/// Where the core ends on each of its axes: as far inside as the radius allows, ignoring the
+/// corners.
 template <std::size_t dimension>
 std::array<Extent, dimension> inset_extents(const AlignedBalls& aligned, double radius) {
     std::array<Extent, dimension> core{};
     for (std::size_t i = 0; i < dimension; ++i) {
-        // No ball sticks out farther than the sweep's ends reach there.
+        // The ends must be so far out that the swept ball covers every given ball.
         Extent ends;
         for (const Ball& ball : aligned.balls) {
             const std::array x{ball.centre.x, ball.centre.y, ball.centre.z};
@@ -78,9 +79,10 @@ std::array<Extent, dimension> inset_extents(const AlignedBalls& aligned, double 
     return core;
 }
 
-/// Moves a rectangle's corners out, along their diagonals, until the balls beyond them are reached.
+/// Moves a rectangle's corners out along their diagonals until the sweep covers the balls beyond
+/// them. With a ball's offsets x, y, z from the corner, m is the smaller solution of
 ///
-///     (x - m)^2 + (y - m)^2 + z^2 = r^2 for a ball's offsets x, y, z from the corner; the smaller m
+///     (x - m)^2 + (y - m)^2 + z^2 = r^2
 void reach_corners(const AlignedBalls& aligned, double radius, std::array<Extent, 2>& core) {
     std::array<Extent, 2> grown = core;
     for (const Ball& ball : aligned.balls) {
@@ -105,7 +107,7 @@ void reach_corners(const AlignedBalls& aligned, double radius, std::array<Extent
     core = grown;
 }
 
-/// Distance of a point from some point of the core, the nearest one to rounding.
+/// Distance of a point from a point of the core: from the nearest one, up to rounding.
 template <std::size_t dimension>
 double distance_from_core(const SweptSphere<dimension>& swept, const Vec3& point) {
     Vec3 d = point - to_double(swept.centre);
@@ -139,9 +141,9 @@ SweptSphere<dimension> fit_balls(std::span<const Ball> balls, const Axes& axes) 
         swept.axes[i] = {to_float(aligned.axes[i]), to_float({core[i].half(), 0, 0})[0]};
     }
     swept.centre = to_float(centre);
-    // Whatever was rounded or estimated until here: the radius makes it a sound volume. Differences,
-    // two subtracted multiples, a length: fewer than 64 roundings, relative to the point's distance
-    // from the centre.
+    // This radius makes the volume enclose the balls, whatever was rounded or estimated before. Its
+    // own error comes from differences, two subtracted multiples and a length: fewer than 64
+    // roundings, relative to the point's distance from the centre.
     double largest = 0;
     for (const Ball& ball : balls)
         largest =
@@ -151,7 +153,7 @@ SweptSphere<dimension> fit_balls(std::span<const Ball> balls, const Axes& axes) 
     return swept;
 }
 
-/// Balls whose convex hull is the volume.
+/// Adds the balls whose convex hull is the volume.
 template <std::size_t dimension>
 void add_corners(const SweptSphere<dimension>& swept, std::vector<Ball>& balls) {
     for (unsigned corner = 0; corner < 1U << dimension; ++corner) {
@@ -175,7 +177,8 @@ SweptSphere<dimension> SweptSphere<dimension>::fit(std::span<const Triangle> tri
     vertices.reserve(3 * triangles.size());
     for (const Triangle& t : triangles)
         for (const Vec3& p : t)
-            vertices.push_back({p, 2 * margin}); // sqrt(3) at most
+            vertices.push_back({p, 2 * margin}); // each coordinate may be off by margin: sqrt(3)
+                                                 // margin at most
     return fit_balls<dimension>(vertices, hull_axes(triangles));
 }
 

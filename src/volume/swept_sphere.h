@@ -8,7 +8,7 @@
 
 namespace abut {
 
-/// A ball: in double precision what a swept sphere encloses.
+/// A ball in double precision. Swept spheres are fitted to balls.
 struct Ball {
     Vec3 centre;
     double radius = 0;
@@ -35,21 +35,21 @@ struct SweptSphere {
     };
     std::array<float, 3> centre{};
     float radius = 0;
-    std::array<Axis, dimension> axes{}; ///< at right angles to rounding
+    std::array<Axis, dimension> axes{}; ///< orthogonal up to rounding
 
     /// In          at least one triangle, finite; each coordinate may be off by `margin`.
     /// Accuracy    encloses the triangles: the radius is the largest distance of a vertex from the
-    ///             core as it is stored, rounded up.
-    /// Source      [Larsen et al. 1999]. Differs: axes from the convex hull; the point is the
-    ///             middle of the extents.
+    ///             stored core, rounded up.
+    /// Source      [Larsen et al. 1999]. Differs: axes from the convex hull; the core of a PSS is
+    ///             the middle of the extents.
     static SweptSphere fit(std::span<const Triangle> triangles, double margin = 0);
 
-    /// Encloses both.
+    /// Encloses both volumes.
     static SweptSphere merge(const SweptSphere& a, const SweptSphere& b);
 
-    /// No point of the volume is farther from the frame's origin.
+    /// Upper bound of the distance of the volume's points from the frame's origin.
     [[nodiscard]] double reach() const;
-    /// No point of the volume is farther from its centre.
+    /// Upper bound of the distance of the volume's points from its centre.
     [[nodiscard]] float circumradius() const;
 };
 
@@ -61,14 +61,14 @@ extern template struct SweptSphere<0>;
 extern template struct SweptSphere<1>;
 extern template struct SweptSphere<2>;
 
-/// A swept sphere seen from another frame. If the pose is not rigid, the rectangle may have become
-/// a parallelogram, and the radius stands for the largest of the ellipsoid.
+/// A swept sphere in another frame. If the pose is not rigid, a rectangle may become a
+/// parallelogram. The ball may become an ellipsoid, whose largest radius is then used.
 template <std::size_t dimension>
 struct SweptSphereImage {
     SweptSphere<dimension> swept;
-    /// Vectors of the core's plane with dual_i . direction_k = 1 if i = k, else 0.
+    /// Vectors in the core's plane with dual_i . direction_k = 1 if i = k, else 0.
     std::array<std::array<float, 3>, dimension> dual{};
-    float circumradius = 0; ///< no point is farther from the centre
+    float circumradius = 0; ///< upper bound of a point's distance from the centre
     float margin = 0;
 };
 

@@ -7,8 +7,8 @@
 
 namespace abut {
 
-/// Eight volumes side by side: lane i of every row belongs to volume i. What the rows are is the
-/// order of the volume's members, which are floats.
+/// Eight volumes in SIMD order: lane i of every row belongs to volume i. The rows are the volume's
+/// members in order. All members are floats.
 template <typename V>
 struct alignas(32) VolumeBlock {
     static constexpr std::size_t kLanes = 8;

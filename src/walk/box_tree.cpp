@@ -25,7 +25,7 @@ std::vector<std::uint32_t> BoxTree::build(std::span<const Aabb> boxes) {
     {
         std::vector<Middle> middles;
         middles.reserve(boxes.size());
-        std::size_t last = boxes.size(); // empty boxes come last
+        std::size_t last = boxes.size(); // empty boxes are placed last
         for (std::uint32_t i = 0; i < boxes.size(); ++i)
             if (is_empty(boxes[i]))
                 order[--last] = i;

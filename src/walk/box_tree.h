@@ -16,14 +16,14 @@
 
 namespace abut {
 
-/// A tree over boxes for questions of the kind "what is near?". Level 0 is blocks of 16 boxes, in an
-/// order that keeps neighbours together; lane i of block b at level k + 1 bounds block 16 b + i of level
-/// k. No links are stored: 26 bytes a box.
+/// A tree over boxes that finds near boxes. Level 0 consists of batches of 16 boxes (`BoxBlock`),
+/// in an order that keeps neighbours together. Lane i of batch b at level k + 1 bounds batch
+/// 16 b + i of level k. No links are stored, so that a box takes 26 bytes.
 class BoxTree {
 public:
     static constexpr std::uint32_t kWidth = BoxBlock::kWidth;
 
-    /// Returns the order: the index of the box in each lane. An empty box is never found.
+    /// Builds the tree. Returns the index of the box in each lane. An empty box is never found.
     std::vector<std::uint32_t> build(std::span<const Aabb> boxes);
     void set(std::uint32_t lane, const Aabb& box);
 
@@ -39,10 +39,10 @@ private:
     std::vector<std::vector<BoxBlock>> levels_;
 };
 
-/// A lower bound for each lane of a block; infinite for an empty box.
+/// A lower bound for each lane of a batch of boxes; infinite for an empty box.
 using LaneKeys = std::array<float, BoxBlock::kWidth>;
 
-/// How far boxes are from one box, squared: never more than it is.
+/// Computes lower bounds of the squared distances from one box to a batch of boxes.
 struct GapToBox {
     Aabb query;
 
@@ -62,8 +62,8 @@ struct GapToBox {
     }
 };
 
-/// The lanes of a tree, those of least key first. A key of a block's bounds is at most that of a box in
-/// it.
+/// Visits the lanes of a tree by ascending key. The key of a batch's bounds must be at most the key
+/// of each box in it.
 template <typename Metric>
 class NearestLanes {
 public:
@@ -77,7 +77,7 @@ public:
             open(tree.levels().size() - 1, 0);
     }
 
-    /// Lanes with a key above it are of no interest any more.
+    /// From now on, lanes whose key exceeds the limit are skipped.
     void set_limit(float key) { limit_ = key; }
 
     std::optional<Lane> next() {
@@ -94,7 +94,7 @@ public:
 private:
     struct Waiting {
         float key;
-        std::uint32_t level; ///< 0: a box; k: a block of level k - 1
+        std::uint32_t level; ///< 0: a box; k: a batch of level k - 1
         std::uint32_t index;
         friend bool operator<(const Waiting& a, const Waiting& b) { return a.key > b.key; }
     };

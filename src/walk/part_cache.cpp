@@ -11,7 +11,8 @@ namespace abut {
 
 namespace {
 
-/// What an entry takes besides its piece, and a piece besides its model: nodes of tables, counts.
+/// Overhead of an entry without its stored piece, and of a piece without its model: map nodes,
+/// reference counts.
 constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 128, kPieceBytes = 1536;
 
 } // namespace
@@ -66,7 +67,8 @@ PartCache::Pin PartCache::load(std::uint32_t entry) {
     return pin(brought);
 }
 
-/// Room for whoever waits can only come from a piece that is being read: then its reserve is given back.
+/// Waits until a read ends, since that returns its reserve. Throws if none is under way: then no
+/// more room can become free.
 void PartCache::wait_for_a_load(Lock& lock) {
     if (loading_.empty())
         throw Error(ErrorCode::bad_argument, store_.path(),
@@ -110,13 +112,13 @@ bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
             return true;
         if (!loading_.contains(piece))
             break;
-        changed_.wait(lock); // a query reads it
+        changed_.wait(lock); // a query is reading it
     }
     const bool is_urgent = urgency == Urgency::asked_for;
     if (!make_room_for(piece, is_urgent ? Expendable::anything : Expendable::beyond_plan, garbage))
         return false;
     Resident& resident = bring(lock, entry, garbage);
-    if (removed_.contains(entry)) { // while it was read
+    if (removed_.contains(entry)) { // it was removed while it was read
         evict(residents_.find(entry), garbage);
         return true;
     }
@@ -166,7 +168,7 @@ CacheCounters PartCache::counters() const {
 }
 
 std::uint64_t PartCache::least_memory(std::uint64_t bytes) {
-    return kEntryBytes + kPieceBytes + 3 * bytes; // with what it learns of itself as a solid
+    return kEntryBytes + kPieceBytes + 3 * bytes; // twice to read it, once for its data as a solid
 }
 std::uint64_t PartCache::bytes_to_load(std::uint32_t piece) const {
     if (pieces_.contains(piece))
@@ -174,14 +176,14 @@ std::uint64_t PartCache::bytes_to_load(std::uint32_t piece) const {
     return kEntryBytes + kPieceBytes + std::uint64_t{2} * table_.piece(piece).bytes;
 }
 
-/// In: there is room. The lock is left while the store is read.
+/// Reads an entry. The caller has made room. The lock is released while the store is read.
 Resident& PartCache::bring(Lock& lock, std::uint32_t entry, Garbage& garbage) {
     const std::uint32_t piece = table_.piece_of(entry);
     const std::uint64_t reserved = bytes_to_load(piece);
     add_bytes(reserved);
     loading_.insert(piece);
     SharedPiece& shared = pieces_[piece];
-    ++shared.users; // so it stays
+    ++shared.users; // keeps the piece in the table
     std::shared_ptr<LoadedPiece> loaded = shared.piece;
     const bool is_new = loaded == nullptr;
     const bool is_placed = placements_.contains(entry);
@@ -230,7 +232,7 @@ std::shared_ptr<LoadedPiece> PartCache::read(const StoredPiece& piece) {
     return loaded;
 }
 
-/// Room to read a piece.
+/// Makes room to read a stored piece.
 bool PartCache::make_room_for(std::uint32_t piece, Expendable expendable, Garbage& garbage) {
     for (;;) {
         const std::uint64_t bytes = bytes_to_load(piece);
@@ -238,13 +240,14 @@ bool PartCache::make_room_for(std::uint32_t piece, Expendable expendable, Garbag
             return false;
         if (bytes_to_load(piece) == bytes)
             return true;
-        // It was in memory for another part, and has gone with that.
+        // The piece was in memory for another part and was evicted with it: more room is needed.
     }
 }
 
-/// False if what may go is not enough.
+/// Evicts entries until `bytes` are free. Returns false if there is not enough to evict.
 bool PartCache::make_room(std::uint64_t bytes, Expendable expendable, Garbage& garbage) {
-    // So many that were used by the last queries are spared; more, and memory is too little for them.
+    // At most this many recently used entries are spared. If there are more, the memory is too
+    // small to keep all of them.
     constexpr int kMostSpared = 64;
     int spared = 0;
     while (counters_.bytes + bytes > memory_) {
@@ -267,7 +270,8 @@ bool PartCache::make_room(std::uint64_t bytes, Expendable expendable, Garbage& g
     return true;
 }
 
-/// The plan has come to it: of those that it has reached it is the farthest.
+/// Marks an entry as reached by the plan. It becomes the farthest of those that the plan has
+/// reached.
 void PartCache::reach(Resident& resident) {
     if (resident.plan == plan_)
         return;
@@ -276,14 +280,14 @@ void PartCache::reach(Resident& resident) {
     resident.plan = plan_;
 }
 
-/// As if it were the nearest.
+/// Treats an entry as the nearest of the plan.
 void PartCache::move_to_end(Resident& resident) {
     take_out(resident);
     order_.splice(order_.end(), order_, resident.place);
     resident.plan = plan_;
 }
 
-/// It is to leave its place.
+/// Prepares an entry to leave its place in order_.
 void PartCache::take_out(const Resident& resident) {
     if (farthest_ == resident.place)
         ++farthest_;

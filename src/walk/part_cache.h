@@ -18,55 +18,55 @@
 
 namespace abut {
 
-/// A piece in memory: a model, shared by all parts that show it.
+/// A stored piece in memory. All parts that refer to it share it.
 struct LoadedPiece {
     explicit LoadedPiece(Model model) : shape(std::move(model)) {}
 
     BodyShape shape; ///< a Model
-    /// Of a block: the numbers of its triangles in the mesh. Empty for a whole mesh.
+    /// For a mesh block: the index in the whole mesh of each triangle. Empty for a whole mesh.
     std::vector<std::uint32_t> triangle_ids;
     bool is_block = false;
     std::uint64_t bytes = 0;
-    bool counts_solid = false; ///< `bytes` has what the model learns of itself as a solid
+    bool counts_solid = false; ///< `bytes` includes the model's data as a solid
 };
 
-/// A part's piece in memory, and where it is.
+/// An entry in memory: its stored piece and its transform.
 struct Resident {
     Transform world_from_mesh;
     std::shared_ptr<LoadedPiece> piece;
-    std::list<std::uint32_t>::iterator place; ///< in the order of eviction
-    std::uint64_t last_use = 0;               ///< number of the lookup
-    std::uint64_t plan = 0;                   ///< the last one that reached it
+    std::list<std::uint32_t>::iterator place; ///< position in the order of eviction
+    std::uint64_t last_use = 0;               ///< number of the last lookup that used it
+    std::uint64_t plan = 0;                   ///< the last plan that reached it
     std::uint32_t pins = 0;
 };
 
 struct CacheCounters {
     std::uint64_t read_ahead = 0, read_in_query = 0, evicted = 0;
     std::uint64_t residents = 0;
-    std::uint64_t bytes = 0, peak_bytes = 0; ///< with the tables
+    std::uint64_t bytes = 0, peak_bytes = 0; ///< including the tables
 };
 
-/// Entries of a table in memory, which is bounded. What was used by the last queries stays; of the rest,
-/// what is farthest from the predicted path goes first.
+/// A cache of the entries of a table, in bounded memory. Entries that recent queries used stay. Of
+/// the others, the one that is farthest from the predicted path is evicted first.
 ///
-/// A plan goes through entries, nearest first. So a list has them in the order in which they are to go,
-/// and no distance need be kept:
+/// A plan is one pass over the entries near the predicted path, nearest first. A list keeps the
+/// order of eviction, so that no distances need be stored:
 ///
 ///     [ reached by older plans | by the last one, far to near | by this one, far to near ]
-///       first to go
+///       evicted first
 ///
-/// and where the first to go belongs to this plan, memory holds nothing that is farther than what comes
-/// next.
+/// If the first one belongs to this plan, memory holds nothing that is farther than the next entry
+/// of the plan.
 ///
-/// Two threads: one that asks (find, load and what changes parts), one that reads ahead (begin_plan,
-/// prefetch). Neither holds the lock for long. While a piece is read, room for twice its size is kept: for
-/// the bytes that the model is made of.
+/// Two threads use the cache: one queries (find, load and functions that change parts), one reads
+/// ahead (begin_plan, prefetch). Neither holds the lock for long. While a stored piece is read,
+/// twice its size is reserved, because the bytes that the model is built from are in memory too.
 class PartCache {
 public:
-    /// In          store, table: must outlive the cache; memory: bytes, of which the tables take some.
+    /// In          store, table: must outlive the cache; memory: bytes, tables included.
     PartCache(StoreFile& store, const PartTable& table, std::uint64_t memory);
 
-    /// Keeps an entry in memory while it lives.
+    /// Keeps an entry in memory for its own lifetime.
     class Pin {
     public:
         Pin() = default;
@@ -87,38 +87,40 @@ public:
     };
 
     [[nodiscard]] bool has(std::uint32_t entry) const;
-    /// Empty if the entry is not in memory.
+    /// Pins an entry that is in memory. Returns an empty pin if it is not.
     Pin find(std::uint32_t entry);
-    /// Reads it if it is not in memory.
+    /// Pins an entry, and reads it first if it is not in memory.
     ///
     /// Errors      those of the store.
     Pin load(std::uint32_t entry);
-    /// Makes room for what the model learns of itself as a solid when it is first asked for that.
+    /// Makes room for the data that a model computes when it is first queried as a solid.
     void count_solid(const Pin& pin);
 
-    /// From now on, the first entry that is prefetched is the nearest.
+    /// Begins a new plan. Its entries are then prefetched, nearest first.
     void begin_plan();
     enum class Urgency : std::uint8_t {
-        at_its_place, ///< planned, where the table has it: not if it was moved
+        at_its_place, ///< planned at its place in the table; ignored if the part was moved
         planned,
-        asked_for,
+        asked_for, ///< requested by a query
     };
-    /// Brings an entry into memory if it is not there: as planned, instead of what the plan has not
-    /// reached; if it was asked for, instead of anything. False if there is no such thing any more.
+    /// Reads an entry if it is not in memory. A planned entry may evict only entries that the plan
+    /// has not reached; a requested one may evict any. Returns false if there is not enough to
+    /// evict.
     ///
     /// Errors      those of the store.
     bool prefetch(std::uint32_t entry, Urgency urgency);
-    /// Another frame has begun.
+    /// Begins another tick of the walk.
     void begin_frame();
 
-    /// The entry is elsewhere than the store has it.
+    /// Gives an entry another transform than the store has.
     void place(std::uint32_t entry, const Transform& world_from_mesh);
-    /// The entry is not to be had any more.
+    /// Removes an entry. It is not read again.
     void remove(std::uint32_t entry);
 
-    /// Of the memory, so much is taken by tables.
+    /// Sets how much of the memory the tables take, and makes room for them.
     void set_table_bytes(std::uint64_t bytes);
-    /// What the tables must leave at least for a piece whose model takes so much.
+    /// Returns the memory that must remain beside the tables for a stored piece whose model takes
+    /// `bytes`.
     static std::uint64_t least_memory(std::uint64_t bytes);
     [[nodiscard]] CacheCounters counters() const;
 
@@ -127,10 +129,10 @@ private:
         std::shared_ptr<LoadedPiece> piece;
         std::uint32_t users = 0;
     };
-    /// What room may be made from.
+    /// Which entries may be evicted.
     enum class Expendable : std::uint8_t { anything, beyond_plan };
     using Lock = std::unique_lock<std::mutex>;
-    /// What is freed when the lock has been left.
+    /// Evicted pieces, which are freed after the lock is released.
     using Garbage = std::vector<std::shared_ptr<LoadedPiece>>;
 
     Pin pin(Resident& resident);
@@ -153,19 +155,19 @@ private:
     ModelReader reader_;
     const PartTable& table_;
     mutable std::mutex mutex_;
-    std::condition_variable changed_; ///< something has been read, or could not be
+    std::condition_variable changed_; ///< a read has ended or failed
     std::uint64_t memory_, table_bytes_ = 0;
     std::unordered_map<std::uint32_t, Resident> residents_;   ///< by entry
     std::unordered_map<std::uint32_t, SharedPiece> pieces_;   ///< by piece
-    std::unordered_set<std::uint32_t> loading_;               ///< pieces
-    std::unordered_map<std::uint32_t, Transform> placements_; ///< of entries that were moved
-    std::unordered_set<std::uint32_t> removed_;               ///< entries
-    std::list<std::uint32_t> order_;                          ///< residents, first to go first
-    std::list<std::uint32_t>::iterator farthest_;             ///< of this plan; or the end
+    std::unordered_set<std::uint32_t> loading_;               ///< stored pieces that are being read
+    std::unordered_map<std::uint32_t, Transform> placements_; ///< of moved entries
+    std::unordered_set<std::uint32_t> removed_;               ///< removed entries
+    std::list<std::uint32_t> order_;              ///< residents in the order of eviction
+    std::list<std::uint32_t>::iterator farthest_; ///< the first of this plan, or the end
     std::uint64_t plan_ = 1;
-    std::size_t pinned_ = 0; ///< residents
+    std::size_t pinned_ = 0; ///< number of pinned residents
     std::uint64_t lookups_ = 0, frames_ = 0;
-    std::uint64_t recent_ = 0, next_recent_ = 0; ///< lookups after it are recent
+    std::uint64_t recent_ = 0, next_recent_ = 0; ///< lookups after recent_ are recent
     CacheCounters counters_;
 };
 

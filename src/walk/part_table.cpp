@@ -17,7 +17,7 @@ struct StoredMeshPieces {
     std::uint32_t first_piece = 0, pieces = 0;
 };
 
-/// The meshes of a store and their pieces, in the order of their numbers.
+/// The meshes of a store and their stored pieces, sorted by mesh number.
 class MeshPieces {
 public:
     explicit MeshPieces(StoreFile& store) {
@@ -35,7 +35,7 @@ public:
         for (const MeshRow& mesh : cut) {
             std::uint32_t piece = of(mesh.mesh, store).first_piece;
             for (const BlockRow& block : store.blocks(mesh)) {
-                // Some blocks hold vertices alone.
+                // Some blocks hold vertices only.
                 if (block.triangles > 0)
                     boxes.emplace(piece, block.box);
                 pieces[piece++] = {block.block, bytes_of(block.triangles, block.vertices), true};
@@ -53,7 +53,7 @@ public:
     }
 
     std::vector<StoredPiece> pieces;
-    std::unordered_map<std::uint32_t, Box3> boxes; ///< of blocks, in the frame of their meshes
+    std::unordered_map<std::uint32_t, Box3> boxes; ///< of mesh blocks, in the mesh's frame
 
 private:
     static std::uint32_t bytes_of(std::uint64_t triangles, std::uint64_t vertices) {
@@ -142,7 +142,7 @@ std::size_t PartTable::bytes() const {
 }
 
 Aabb PartTable::narrow(const Box3& box) const {
-    // What the subtraction rounds.
+    // The box is enlarged by the rounding error of the subtraction.
     const double size = max_abs(box.lower) + max_abs(box.upper) + max_abs(middle_);
     return Aabb({box.lower - middle_, box.upper - middle_}, 0x1p-52 * size);
 }

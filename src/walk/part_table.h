@@ -11,19 +11,19 @@
 
 namespace abut {
 
-/// What is read from the store at once: a mesh that lies whole in one block, or one block of a larger
-/// mesh.
+/// The unit that is read from the store at once: a mesh that is stored in one block, or one mesh
+/// block of a larger mesh.
 struct StoredPiece {
-    std::int64_t number = 0; ///< of the mesh, or the block
-    std::uint32_t bytes = 0; ///< of a Model of it, at most
+    std::int64_t number = 0; ///< number of the mesh or the mesh block
+    std::uint32_t bytes = 0; ///< upper bound of the size of its Model
     bool is_block = false;
 };
 
-/// All parts of a store by their boxes. A part whose mesh was cut has an entry for each piece, any
-/// other one. Entries are numbered as the lanes of their tree are. Never changes once made: any thread
-/// may read it.
+/// All parts of a store, found by their boxes. A part has one entry, or one for each mesh block if
+/// its mesh was cut. Entries are numbered as the lanes of the tree. The table never changes, so any
+/// thread may read it.
 ///
-/// Some 45 bytes an entry and 16 a piece stay in memory.
+/// It takes some 45 bytes per entry and 16 per stored piece.
 class PartTable {
 public:
     /// Errors      those of the store; Error{bad_argument}, naming it, if an import has not ended.
@@ -31,18 +31,18 @@ public:
 
     [[nodiscard]] const BoxTree& tree() const { return tree_; }
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
-    /// The row of its part.
+    /// The store row of the entry's part.
     [[nodiscard]] std::int64_t row(std::uint32_t entry) const { return rows_[entry]; }
     [[nodiscard]] std::uint32_t piece_of(std::uint32_t entry) const { return pieces_of_[entry]; }
     [[nodiscard]] const StoredPiece& piece(std::uint32_t piece) const { return pieces_[piece]; }
-    /// The entries of the part with a row; empty if there is none.
+    /// Returns the entries of the part with this row; empty if there is no such part.
     [[nodiscard]] std::span<const std::uint32_t> entries(std::int64_t row) const;
-    /// Bytes of the largest piece.
+    /// Bytes of the largest stored piece.
     [[nodiscard]] std::uint64_t largest_piece() const;
     [[nodiscard]] std::size_t bytes() const;
 
-    /// Boxes of the tree are about the middle of the parts, so that single precision is spent where they
-    /// are. Encloses the box.
+    /// Returns a single-precision box of the tree that encloses the box. The tree's frame has its
+    /// origin in the middle of the first part, so that single precision is spent near the parts.
     [[nodiscard]] Aabb narrow(const Box3& box) const;
     [[nodiscard]] Vec3 narrow(const Vec3& point) const { return point - middle_; }
 
@@ -51,7 +51,7 @@ private:
     BoxTree tree_;
     std::vector<std::int64_t> rows_;       ///< by entry
     std::vector<std::uint32_t> pieces_of_; ///< by entry
-    std::vector<std::uint32_t> by_row_;    ///< entries
+    std::vector<std::uint32_t> by_row_;    ///< entries, sorted by row
     std::vector<StoredPiece> pieces_;
 };
 

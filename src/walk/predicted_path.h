@@ -11,11 +11,12 @@
 
 namespace abut {
 
-/// Where someone will be in the next seconds if velocity stays what it is, and what is near to that. In
-/// the frame of the boxes.
+/// The positions of the next seconds if the velocity stays constant, in the frame of the boxes. It
+/// gives each box a key, by which parts are read ahead.
 ///
-/// The key of a box is the least, over points of the path, of how far it is from there, and a share of
-/// the way to there: what is beside comes before what is far ahead.
+/// The key of a box is the minimum, over points of the path, of the distance from the point plus a
+/// share of the path up to the point. Boxes beside the current position therefore come before boxes
+/// far ahead.
 class PredictedPath {
 public:
     PredictedPath() = default;
@@ -43,7 +44,8 @@ public:
                                                            square_of_gap(block, 2, lane, z_[i])));
         return keys;
     }
-    /// How far some point of the path is from where the other path has it.
+    /// Returns the largest distance between points of both paths at the same time. The paths are
+    /// straight, so it occurs at one of their ends.
     [[nodiscard]] float difference(const PredictedPath& other) const {
         if (points_ == 0 || other.points_ == 0)
             return std::numeric_limits<float>::infinity();

@@ -9,7 +9,7 @@ namespace abut {
 
 Prefetcher::Prefetcher(PartCache& cache, const PartTable& table)
     : cache_(cache), table_(table), thread_([this] {
-          // Building models in parallel would take the other threads away from the frame.
+          // Building models in parallel would take threads away from the caller.
           tbb::task_arena alone(1);
           alone.execute([this] { run(); });
       }) {}
@@ -71,7 +71,7 @@ void Prefetcher::run() {
         const bool done = !replan || carry_out(moved);
         lock.lock();
         if (!done)
-            tolerance_ = -1; // there is more to do even if the path is what it was again
+            tolerance_ = -1; // a new plan is needed even if the path changes back
         is_busy_ = false;
         idle_.notify_all();
     }
@@ -94,12 +94,12 @@ bool Prefetcher::bring(std::uint32_t entry, PartCache::Urgency urgency) {
     } catch (const std::bad_alloc&) {
         return false;
     } catch (const std::exception&) {
-        return true; // a query that needs it will say what is wrong
+        return true; // a query that needs the entry will report the error
     }
 }
 
 bool Prefetcher::carry_out(const std::vector<std::uint32_t>& moved) {
-    // A path that is off by so small a share of how far one has got is the same for what comes next.
+    // The plan stays valid while the path changes by less than this share of the reach so far.
     constexpr float kShare = 1.0F / 16;
     cache_.begin_plan();
     for (const std::uint32_t entry : moved)

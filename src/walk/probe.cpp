@@ -8,7 +8,7 @@ namespace abut {
 namespace {
 
 bool is_rigid(const Transform& t) {
-    constexpr double kRounding = 0x1p-40; // of a rotation made from a quaternion, and then some
+    constexpr double kRounding = 0x1p-40; // more than a rotation from a quaternion has
     const auto& m = t.m;
     const Vec3 x{m[0], m[1], m[2]}, y{m[3], m[4], m[5]}, z{m[6], m[7], m[8]};
     const auto is = [](double value, double wanted) {

@@ -7,7 +7,7 @@
 
 namespace abut {
 
-/// A probe's shape, and its box in its own frame.
+/// A probe's shape and its box, both in the probe's frame.
 class ProbeData {
 public:
     explicit ProbeData(BodyShape shape)
@@ -15,7 +15,7 @@ public:
 
     [[nodiscard]] const BodyShape& shape() const { return shape_; }
     [[nodiscard]] const Box3& own_bounds() const { return own_bounds_; }
-    /// How far below the distance of boxes a distance may be.
+    /// The radius of a sphere or capsule, else 0. A signed distance may be as low as -radius().
     [[nodiscard]] double radius() const {
         const auto* rounded = std::get_if<RoundedBox>(&shape_);
         return rounded != nullptr ? rounded->radius : 0;
@@ -26,16 +26,16 @@ private:
     Box3 own_bounds_;
 };
 
-/// A probe at its place.
+/// A probe with its transform. Both must outlive it.
 class PlacedProbe {
 public:
-    /// Errors      Error{bad_argument} as the queries of a walk.
+    /// Errors      Error{bad_argument}, as for the queries of a walk.
     PlacedProbe(const Probe& probe, const Transform& world_from_probe);
 
     [[nodiscard]] PlacedBody body() const { return {data_.shape(), world_from_probe_}; }
     [[nodiscard]] const Box3& box() const { return box_; } ///< world; empty for an empty model
     [[nodiscard]] double radius() const { return data_.radius(); }
-    /// Whether it is asked what lies inside of it or of parts.
+    /// Whether queries with this probe use the models of parts as solids.
     [[nodiscard]] bool asks_for_solids() const {
         return std::holds_alternative<ConvexShape>(data_.shape());
     }

@@ -13,7 +13,7 @@ namespace abut {
 
 namespace {
 
-/// A part, or a piece of one, in memory.
+/// A part in memory, or a mesh block of one.
 struct NearEntry {
     WalkPart part;
     const BodyShape& shape;
@@ -23,8 +23,8 @@ struct NearEntry {
     [[nodiscard]] PlacedBody body() const { return {shape, world}; }
 };
 
-/// One query: the entries in reach, nearest boxes first; of those that are not in memory, what the
-/// caller wants done.
+/// The traversal of one query. It visits the entries in reach, nearest boxes first. Entries that
+/// are not in memory are read or skipped, as the query asks.
 class Reach {
 public:
     Reach(WalkData& walk, const PlacedProbe& probe, const WalkQuery& query, Depths depths,
@@ -32,7 +32,7 @@ public:
         : walk_(walk), probe_(probe), query_(query),
           asks_for_solids_(depths == Depths::yes || probe.asks_for_solids()), answer_(answer) {}
 
-    /// Calls visit(entry), which returns the reach from then on.
+    /// Calls visit(entry) for each entry in reach. visit returns the reach from then on.
     template <typename Visit>
     void visit(double reach, const Visit& visit) {
         if (is_empty(probe_.box()))
@@ -62,7 +62,7 @@ public:
         });
     }
 
-    /// No part that was skipped is nearer.
+    /// Lower bound of the distances of all skipped parts.
     [[nodiscard]] double least_skipped() const { return least_skipped_; }
 
 private:
@@ -101,9 +101,10 @@ WalkGap gap_to(const NearEntry& entry, const PlacedProbe& probe, Depths depths) 
     return result;
 }
 
-/// The gap, if it may be at most so large. A bound decides which of several pairs of triangles at the same
-/// distance is found, and so the last bits: what is reported has none, and is the same whichever parts
-/// were looked at before.
+/// Returns the gap of an entry, or none if it is proven to exceed the bound. The bound is used only
+/// to reject. With a bound, the last bits of a gap could depend on which of several equally near
+/// pairs of triangles is found. The reported gap is therefore measured without one, and does not
+/// depend on the parts visited before.
 std::optional<WalkGap> gap_up_to(const NearEntry& entry, const PlacedProbe& probe, double bound) {
     if (bound < HUGE_VAL) {
         const double above = bound + std::max(0x1p-40 * std::abs(bound), 0x1p-1000);
@@ -118,7 +119,7 @@ bool touches(const NearEntry& entry, const PlacedProbe& probe) {
     return touch(entry.body(), probe.body(), workspace);
 }
 
-/// Of several pieces of a part, the nearest.
+/// Keeps only the nearest entry of each part. Sorts by part.
 void keep_one_a_part(std::vector<WalkGap>& gaps) {
     std::sort(gaps.begin(), gaps.end(), [](const WalkGap& a, const WalkGap& b) {
         return a.part != b.part ? a.part < b.part
@@ -168,7 +169,7 @@ NearestPart Walk::distance(const Probe& probe, const Transform& world_from_probe
         return reach;
     });
     answer.at_least = std::min(reach, search.least_skipped());
-    // A part that was skipped, but is farther than the nearest, did not matter.
+    // The answer is complete if all skipped parts are farther than the nearest one.
     answer.complete = answer.complete || search.least_skipped() > reach;
     return answer;
 }

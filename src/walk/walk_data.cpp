@@ -35,7 +35,7 @@ WalkData::WalkData(const Store& store, const WalkOptions& options)
 }
 
 std::uint64_t WalkData::table_bytes() const {
-    constexpr std::uint64_t kNode = 64; // of a map
+    constexpr std::uint64_t kNode = 64; // bytes of a map's node
     const std::uint64_t bytes = table_.bytes() + away_.size() / 8 + loose_.bytes() +
                                 added_.size() * (sizeof(AddedPart) + kNode);
     return bytes + moved_.size() * (sizeof(MovedPart) + kNode) + loose_.size() * sizeof(Box3);
@@ -47,7 +47,7 @@ bool WalkData::has_room_for(std::uint64_t more) const {
 }
 
 void WalkData::require_room_for_a_part(std::size_t entries) const {
-    constexpr std::uint64_t kOfPart = 512, kOfEntry = 256; // at least what table_bytes() says
+    constexpr std::uint64_t kOfPart = 512, kOfEntry = 256; // at least what table_bytes() adds
     require(has_room_for(kOfPart + kOfEntry * entries),
             "the memory of the walk does not hold another part that was added or moved");
 }
@@ -57,7 +57,7 @@ Vec3 WalkData::velocity_at(const Vec3& position) {
     std::rotate(velocities_.begin(), velocities_.begin() + 1, velocities_.end());
     velocities_.back() =
         position_ && seconds > 0 ? (1 / seconds) * (position - *position_) : Vec3{};
-    // Neither a jump nor a frame that was late says how one moves.
+    // The median of three ticks ignores a single jump or a late tick.
     const auto& [a, b, c] = velocities_;
     return {median(a.x, b.x, c.x), median(a.y, b.y, c.y), median(a.z, b.z, c.z)};
 }

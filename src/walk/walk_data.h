@@ -21,21 +21,21 @@
 
 namespace abut {
 
-/// A part that was added: an entry beyond those of the table.
+/// A part that was added to the walk. Its entry number follows those of the table.
 struct AddedPart {
     BodyShape shape; ///< a Model
     Transform world_from_part;
     Box3 own_box;
 };
 
-/// A part of the store that is elsewhere.
+/// A part of the store that was moved within the walk.
 struct MovedPart {
     Transform world_from_part;
     std::vector<Box3> own_boxes; ///< of its entries, in the part's frame
 };
 
-/// The parts of a walk, wherever they are: those of the store where it has them, in a tree that never
-/// changes, and loose ones, that were added or moved.
+/// The parts of a walk. Parts at their place in the store are in a tree that never changes. Parts
+/// that were added or moved are loose, in a tree of their own.
 class WalkData {
 public:
     WalkData(const Store& store, const WalkOptions& options);
@@ -50,12 +50,12 @@ public:
     Model model(WalkPart part);
     [[nodiscard]] WalkStatistics statistics() const;
 
-    /// Calls visit(entry, key) for the entries whose boxes may be at most `reach` from a box of the
-    /// world, nearest first; visit returns the reach from then on. The key is a lower bound of the
-    /// squared distance.
+    /// Calls visit(entry, key) for the entries whose boxes may be at most `reach` from a box in the
+    /// world frame, nearest first. The key is a lower bound of the squared distance. visit returns
+    /// the reach from then on.
     template <typename Visit>
     void for_each_near(const Box3& box, double reach, const Visit& visit);
-    /// A reach that ends it.
+    /// The reach that ends the traversal.
     static constexpr double kEnough = -HUGE_VAL;
 
     [[nodiscard]] bool is_added(std::uint32_t entry) const { return entry >= table_.size(); }
@@ -64,24 +64,26 @@ public:
         return {is_added(entry) ? std::int64_t{table_.size()} - 1 - std::int64_t{entry}
                                 : table_.row(entry)};
     }
-    /// An entry of the store in memory; empty if it is not, and `missing` says skip.
+    /// Pins an entry of the store. If it is not in memory, it is read; with MissingParts::skip it
+    /// is requested instead, and the pin is empty.
     PartCache::Pin lookup(std::uint32_t entry, MissingParts missing);
     [[nodiscard]] std::uint64_t misses() const { return misses_; }
     [[nodiscard]] PartCache& cache() { return cache_; }
 
 private:
-    /// Errors      Error{bad_argument} if the part is not there.
+    /// Errors      of this and the next function: Error{bad_argument} if there is no such part.
     [[nodiscard]] std::uint32_t added_entry(WalkPart part) const;
     [[nodiscard]] std::span<const std::uint32_t> stored_entries(WalkPart part) const;
-    /// Of the entries of a part of the store, in the part's frame.
+    /// Returns the boxes of the entries of a part of the store, in the part's frame.
     [[nodiscard]] std::vector<Box3> own_boxes(WalkPart part,
                                               std::span<const std::uint32_t> entries) const;
     void move_stored(WalkPart part, const Transform& world_from_part);
     Vec3 velocity_at(const Vec3& position);
-    /// Some entries of the store that were moved and are near to the path, and whether one is missing.
+    /// Returns the moved entries that are nearest to the path, and whether one of them is not in
+    /// memory.
     std::pair<std::vector<std::uint32_t>, bool> moved_near(const PredictedPath& path);
     [[nodiscard]] std::uint64_t table_bytes() const;
-    /// Whether the memory holds the tables, so much more, and the largest mesh.
+    /// Whether the memory can hold the tables, `more` bytes and the largest stored piece.
     [[nodiscard]] bool has_room_for(std::uint64_t more) const;
     void require_room_for_a_part(std::size_t entries) const;
 
@@ -92,14 +94,14 @@ private:
     LooseBoxes loose_;
     std::unordered_map<std::uint32_t, AddedPart> added_;
     std::unordered_map<std::int64_t, MovedPart> moved_; ///< by row
-    std::uint32_t next_entry_;                          ///< for a part that is added
+    std::uint32_t next_entry_;                          ///< entry of the next part that is added
     std::optional<Vec3> position_;
     StopWatch since_move_;
-    std::array<Vec3, 3> velocities_{}; ///< of the last steps
+    std::array<Vec3, 3> velocities_{}; ///< of the last three ticks
     std::uint64_t lookups_ = 0, misses_ = 0;
     double seconds_waited_ = 0;
     PartCache cache_;
-    std::unique_ptr<Prefetcher> prefetcher_; ///< null if there is none
+    std::unique_ptr<Prefetcher> prefetcher_; ///< null without prefetching
 };
 
 template <typename Visit>

@@ -7,11 +7,11 @@ namespace abut {
 
 namespace {
 
-/// The tree, with hubs apart, which is good at everything; for small worlds in slow motion three sorted
-/// axes, for which next to nothing changes.
+/// Uses the tree search with hubs, which is good in all cases. For small worlds in slow motion it
+/// uses three sorted axes, on which almost nothing changes.
 ///
-/// How much changes places is known once the axes are sorted. So they are tried, with a limit at
-/// which the try is given up; each time it fails, more steps pass before the next one.
+/// How many ends change places is known only once the axes are sorted. A try therefore has a limit
+/// at which it is given up. Each failed try doubles the number of steps before the next one.
 class AutomaticSearch final : public PairSearch {
 public:
     explicit AutomaticSearch(const PairFilter& wanted)
@@ -44,8 +44,9 @@ public:
     }
 
 private:
-    // Where both take about as long. The tree finds every pair anew in each step, which takes as long as
-    // an end that changes places: of pairs beyond what boxes commonly have, half are counted.
+    // Limits at which both methods take about the same time. The tree finds every pair anew in each
+    // step, which costs about as much as one change of places. Half of the pairs beyond the usual
+    // number for each box are counted.
     static constexpr std::size_t kMostBoxes = 4096;
     static constexpr std::size_t kMovesOfBox = 2;
     static constexpr std::size_t kManyPairs = 8;
@@ -64,9 +65,9 @@ private:
     std::unique_ptr<PairSearch> tree_;
     SweepAndPrune axes_;
     bool on_axes_ = false;
-    bool tree_is_current_ = true;        ///< as of the last step
-    std::size_t pause_ = kShortestPause; ///< steps with the tree after a try has failed
-    std::size_t left_ = kShortestPause;  ///< of these
+    bool tree_is_current_ = true;        ///< up to date with the last step
+    std::size_t pause_ = kShortestPause; ///< steps with the tree after a failed try
+    std::size_t left_ = kShortestPause;  ///< steps left until the next try
 };
 
 } // namespace

@@ -21,13 +21,13 @@ Middle middle_of(const Aabb& box, std::uint32_t index) {
     return middle;
 }
 
-/// Both cache lines that a box may lie in.
+/// Prefetches both cache lines that a box may lie in.
 void prefetch(const Box3* box) {
     hwy::Prefetch(&box->lower);
     hwy::Prefetch(&box->upper.z);
 }
 
-/// Sum of the edges; 0 if empty.
+/// Sum of the edge lengths; 0 if the box is empty.
 float size_of(const Aabb& box) {
     float size = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -69,7 +69,7 @@ void BlockTree::refit(std::span<const Box3> boxes, std::span<const std::uint32_t
         wear_ = 2 * most_wear();
         return;
     }
-    // Beyond some share it is cheaper to go through all blocks in their order.
+    // If many boxes have changed, it is cheaper to go through all blocks in order.
     constexpr std::size_t kFew = 16;
     if (changed.size() * kFew > order_.size()) {
         refit_all(boxes);
@@ -105,7 +105,7 @@ void BlockTree::append(std::size_t count) {
               static_cast<std::uint32_t>(old));
     const std::size_t parents = levels_.size();
     resize_levels();
-    if (levels_.size() != parents) // a new root: it has bounds of the old one to take over
+    if (levels_.size() != parents) // a new root must take over the bounds of the old one
         for (std::size_t level = 1; level < levels_.size(); ++level)
             fit_parents(level);
     built_size_.resize(levels_[0].blocks.size(), 0);
@@ -115,7 +115,7 @@ void BlockTree::fit_block(std::span<const Box3> boxes, std::size_t block) {
     BoxBlock& to = levels_[0].blocks[block];
     const std::size_t first = block * kWidth, ahead = first + 2 * kWidth;
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
-        // Neighbours in space lie anywhere in memory.
+        // Neighbours in space are not neighbours in memory.
         if (ahead + lane < order_.size())
             prefetch(&boxes[order_[ahead + lane]]);
         to.set(lane,
@@ -189,7 +189,7 @@ double BlockTree::excess(std::size_t block, const Aabb& bounds) const {
     const float size = size_of(bounds);
     if (!(size > built_size_[block]))
         return 0;
-    // About as many more blocks are met as there is more volume.
+    // The number of additional block pairs is about proportional to the additional volume.
     const auto most = static_cast<float>(built_size_.size());
     const float growth = built_size_[block] > 0 ? size / built_size_[block] : most;
     return double{std::min(growth * growth * growth, most)} - 1;
@@ -216,7 +216,7 @@ double BlockTree::sampled_wear(std::span<const Box3> boxes) {
 }
 
 double BlockTree::most_wear() const {
-    // To order a block's boxes takes about as long as to test it against so many others.
+    // Ordering the boxes of a block takes about as long as testing it against this many others.
     constexpr double kBlockPairsOfBuild = 12;
     return kBlockPairsOfBuild * static_cast<double>(built_size_.size());
 }

@@ -11,28 +11,30 @@
 
 namespace abut {
 
-/// A tree over boxes that move. Level 0 is blocks of 16 boxes, in an order that keeps neighbours
-/// together; lane i of block b at level k + 1 bounds block 16 b + i of level k. The last level is one
-/// block. No links are stored.
+/// A tree over moving boxes. Level 0 consists of blocks of 16 boxes, in an order that keeps
+/// neighbours together. Lane i of block b at level k + 1 bounds block 16 b + i of level k. The last
+/// level is a single block. No links are stored.
 ///
-/// Every lane carries a mark: that its box, or one below it, has changed since the last step.
+/// Every lane has a mark, which says that its box, or a box below it, has changed since the last
+/// step.
 class BlockTree {
 public:
     static constexpr std::size_t kWidth = BoxBlock::kWidth;
 
     struct Level {
         std::vector<BoxBlock> blocks;
-        std::vector<std::uint32_t> marks; ///< bit i: of lane i
+        std::vector<std::uint32_t> marks; ///< bit i belongs to lane i
     };
 
-    /// Orders the boxes and fits all blocks. All are marked.
+    /// Orders the boxes and fits all blocks. All lanes are marked.
     void build(std::span<const Box3> boxes);
-    /// Fits the blocks of boxes that have changed or are new, and marks them; but where all have changed
-    /// so much that the tree is worn by this step alone, it only becomes worn.
+    /// Refits the blocks of boxes that have changed or are new, and marks them. If all boxes have
+    /// changed so much that this step alone makes the tree worn, the tree only becomes worn.
     void refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
 
-    /// Whether it pays to build anew before the next pairs are found: blocks have grown so much
-    /// since then that the pairs of them too many, summed over the steps, outweigh it.
+    /// Whether a rebuild pays before pairs are searched again. Blocks grow after a build and meet
+    /// more blocks. The tree is worn when the tests of these additional pairs, summed over the
+    /// steps, cost more than a build.
     [[nodiscard]] bool is_worn() const;
 
     [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
@@ -51,10 +53,10 @@ private:
     void fit_parents(std::size_t level);
     void forget_marks();
     void mark(std::span<const std::uint32_t> changed);
-    /// Pairs of a block too many, with these bounds.
+    /// Number of additional pairs that a block with these bounds meets.
     [[nodiscard]] double excess(std::size_t block, const Aabb& bounds) const;
     void add_wear();
-    /// About what `add_wear` will add if all boxes have changed; fits some blocks.
+    /// An estimate of what `add_wear` will add if all boxes have changed. Refits some blocks.
     double sampled_wear(std::span<const Box3> boxes);
     [[nodiscard]] double most_wear() const;
 
@@ -62,8 +64,9 @@ private:
     std::vector<std::uint32_t> order_; ///< lane of level 0 -> box
     std::vector<std::uint32_t> lane_;  ///< box -> lane of level 0
     std::vector<Level> levels_;
-    std::vector<float> built_size_; ///< of each block of level 0 when it was built
-    double wear_ = 0;               ///< pairs of blocks too many, over the steps since
+    std::vector<float> built_size_; ///< size of each block of level 0 at the last build
+    double wear_ = 0;               ///< additional block pairs, summed over the steps since the
+                                    ///< build
 };
 
 } // namespace abut

@@ -14,7 +14,7 @@ namespace abut {
 
 namespace {
 
-/// What a coordinate may be off by that was computed from others of this size.
+/// Relative error of a computed coordinate.
 constexpr double kBoxRounding = 0x1p-48;
 
 Box3 grown(const Vec3& centre, const Vec3& half) {
@@ -34,7 +34,7 @@ Box3 bounds_of_rounded(const RoundedBox& box) {
     return grown(box.centre, half);
 }
 
-/// The box of the vertices that are farthest along the axes: tight.
+/// The box of the vertices that are extreme along the axes. It is tight.
 Box3 bounds_of_convex(const ConvexData& convex, const Transform& world_from_body) {
     const Polytope& polytope = convex.levels.front().polytope;
     const auto& m = world_from_body.m;
@@ -44,7 +44,8 @@ Box3 bounds_of_convex(const ConvexData& convex, const Transform& world_from_body
             const Vec3 along{sign * m[axis], sign * m[axis + 3], sign * m[axis + 6]};
             extend(box, apply(world_from_body, polytope.vertices[farthest(polytope, along)].at));
         }
-    // What is farthest is so to rounding of the sums, which may be larger than they are.
+    // The extreme vertex is found up to the rounding of sums, whose terms may be larger than the
+    // sum.
     double size = max_abs({m[9], m[10], m[11]});
     for (std::size_t i = 0; i < 9; ++i)
         size = std::max(size, std::abs(m[i]) * convex.reach);
@@ -93,7 +94,7 @@ BodyShape shape_of(const Capsule& capsule) {
     box.half[2] = length(half);
     if (box.half[2] > 0) {
         const Vec3 z = (1 / box.half[2]) * half;
-        // Any vector that is not along z tells the other two axes.
+        // Any vector that is not parallel to z determines the other two axes.
         const Vec3 other = std::abs(z.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
         const Vec3 x = normalized_or_zero(cross(other, z));
         box.axis = {x, cross(z, x), z};
@@ -157,7 +158,7 @@ Box3 placed_bounds(const Box3& own_bounds, const Transform& world_from_body) {
     const Vec3 turned = half.x * absolute({m[0], m[1], m[2]}) +
                         half.y * absolute({m[3], m[4], m[5]}) +
                         half.z * absolute({m[6], m[7], m[8]});
-    // Positions are rounded as the sum of their parts is, which may be larger than they are.
+    // The rounding of a position is relative to its terms, which may be larger than their sum.
     const double stretch = *std::max_element(
         m.begin(), m.begin() + 9, [](double a, double b) { return std::abs(a) < std::abs(b); });
     const double size = std::max(1.0, std::abs(stretch)) * (max_abs(centre) + max_abs(half)) +

@@ -16,7 +16,7 @@
 
 namespace abut {
 
-/// A model of a deformable surface, as it is at the start of its step; made when first asked for.
+/// A model of a deformable surface at the start of its step. It is built on first use.
 class Snapshot {
 public:
     explicit Snapshot(const Deformable& surface) : surface_(surface) {}
@@ -28,7 +28,7 @@ private:
     mutable std::optional<Model> model_;
 };
 
-/// A deformable surface: a new snapshot with each of its steps.
+/// A deformable surface. Each of its steps gets a new snapshot.
 struct DeformableShape {
     const Deformable* surface;
     std::shared_ptr<const Snapshot> snapshot;
@@ -40,30 +40,30 @@ struct ConvexShape {
     Model surface;
 };
 
-/// What a body is, in its own frame.
+/// The shape of a body, in the body's frame.
 using BodyShape = std::variant<Model, ConvexShape, RoundedBox, DeformableShape>;
 
 inline bool is_deformable(const BodyShape& shape) {
     return std::holds_alternative<DeformableShape>(shape);
 }
 
-/// Errors, of all: Error{bad_argument} for values that are not finite or out of range.
+/// All overloads throw Error{bad_argument} if a value is not finite or out of range.
 BodyShape shape_of(const Convex& convex);
 BodyShape shape_of(const Sphere& sphere);
 BodyShape shape_of(const Capsule& capsule);
 BodyShape shape_of(const Box3& box);
 BodyShape shape_of(const Deformable& surface);
 
-/// The solid in the world.
+/// The rounded box under a transform, in the world.
 RoundedBox placed(const RoundedBox& box, const Transform& world_from_body);
 
-/// Box of a shape in its own frame; empty for a model without triangles.
+/// The box of a shape in its own frame; empty for a model without triangles.
 Box3 bounds_of(const BodyShape& shape);
-/// Encloses the shape under its transform, whatever rounds.
+/// A box that encloses the shape under its transform, rounding included.
 Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& world_from_body);
-/// Encloses all points of a box under any transform, whatever rounds. In: not empty.
+/// A box that encloses all points of a box under any transform, rounding included. In: not empty.
 Box3 placed_bounds(const Box3& own_bounds, const Transform& world_from_body);
-/// No point of the shape is farther from a point of its frame.
+/// Upper bound of the distance of the shape's points from a point of its frame.
 double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& point);
 
 } // namespace abut

@@ -13,13 +13,13 @@ namespace abut {
 
 namespace {
 
-/// A radius around the centre of the motion, in the body's frame, that no point lies beyond.
+/// Radius of a ball around the motion's centre, in the body's frame, that encloses the body.
 double reach_of(const MovingBody& body) {
     const Transform start = body.motion.start;
     return reach_from(body.shape, body.own_bounds, apply(inverse(start), body.motion.centre));
 }
 
-/// What rounding takes from a distance or a time, relative to what it was computed from.
+/// Rounding error of a distance or a time, relative to the quantities it was computed from.
 constexpr double kRounding = 0x1p-44;
 
 class Advancement {
@@ -55,7 +55,7 @@ private:
             const double free = gap.distance - kRounding * scale_;
             if (speed <= 0 || time + free / speed > 1)
                 return miss();
-            // Stops short by half of the tolerance, so that what is reported is before contact.
+            // Stops short by half of the tolerance, so that the reported time is before contact.
             time += (free - 0.5 * tolerance_) / speed * (1 - kRounding);
             gap = gap_at(time);
         }
@@ -71,8 +71,9 @@ private:
                            workspace);
     }
 
-    /// No faster do points of the bodies come nearer: at all, or along the gap, beyond which neither
-    /// of two convex bodies reaches.
+    /// Upper bound of the speed at which points of the two bodies approach each other. For two
+    /// convex bodies only the speed along the gap counts, since neither reaches beyond its plane
+    /// across the gap.
     [[nodiscard]] double closing_speed(const BodyGap& gap) const {
         const Vec3 relative = a_.motion.velocity - b_.motion.velocity;
         const Vec3 &turn_a = a_.motion.angular_velocity, &turn_b = b_.motion.angular_velocity;
@@ -99,7 +100,7 @@ private:
             }
         return impact;
     }
-    /// When the gap may be closed, and a little more.
+    /// A time slightly after the gap may have closed.
     [[nodiscard]] double time_beyond(double time, const BodyGap& gap) const {
         const double speed = closing_speed(gap);
         return speed > 0 ? std::min(1.0, time + 2 * tolerance_ / speed) : 1;
@@ -109,7 +110,7 @@ private:
     const ImpactOptions& options_;
     double reach_a_, reach_b_;
     bool convex_;
-    double scale_ = 0; ///< of the coordinates
+    double scale_ = 0; ///< magnitude of the coordinates
     double asked_tolerance_ = 0, tolerance_ = 0;
 };
 
@@ -124,10 +125,10 @@ Box3 swept_bounds(const MovingBody& body) {
     const Box3 box = bounds_of(body.shape, body.own_bounds, start);
     if (is_empty(box))
         return box;
-    if (is_deformable(body.shape)) // its box holds the step but for rounding
+    if (is_deformable(body.shape)) // its box encloses the step except for rounding
         return grown(box, kRounding * (max_abs(box.lower) + max_abs(box.upper)));
     const double reach = reach_of(body);
-    // A point turns by at most the arc, and stays on its sphere.
+    // A point moves by at most the arc of its rotation, and by at most the diameter of its sphere.
     const double turned = std::min(length(body.motion.angular_velocity), 2.0) * reach;
     const double by = turned + kRounding * (max_abs(box.lower) + max_abs(box.upper) + turned +
                                             max_abs(body.motion.velocity));

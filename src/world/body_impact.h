@@ -6,22 +6,22 @@
 
 namespace abut {
 
-/// A shape and how it moves; a deformable as its step says, whatever the motion.
+/// A shape and its motion. A deformable moves by its own step, whatever `motion` says.
 struct MovingBody {
     const BodyShape& shape;
     const Box3& own_bounds;
     const Motion& motion;
 };
 
-/// Encloses a shape throughout its motion.
+/// A box that encloses a shape throughout its motion.
 Box3 swept_bounds(const MovingBody& body);
 
-/// When two bodies first meet.
+/// The first impact of two bodies.
 ///
-/// Accuracy    never later than the first contact, and none is missed.
-/// Source      two models: `time_of_impact`; with deformables: `deforming_impact`; else conservative
-///             advancement [Mirtich 1996], between two convex bodies along the direction in which they are
-///             apart [Zhang, Lee, Kim 2006].
+/// Accuracy    never later than the first contact, and no contact is missed.
+/// Source      two models: `time_of_impact`; with deformables: `deforming_impact`; else
+///             conservative advancement [Mirtich 1996]. Between two convex bodies it uses the speed
+///             along the direction in which they are apart [Zhang, Lee, Kim 2006].
 Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options);
 
 } // namespace abut

@@ -10,7 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "world/box_block.cpp"
 #include "simd/foreach_target.h"
-// Once for each target:
+// Compiled once for each target.
 #include "math/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,8 +19,8 @@ namespace abut::HWY_NAMESPACE {
 using D = hn::CappedTag<float, BoxBlock::kWidth>;
 using V = hn::Vec<D>;
 
-/// How far a box and those in some lanes of a block go into each other, on the axis where that is
-/// least; negative where they are apart.
+/// How deep a box overlaps the boxes in some lanes of a block, on the axis of least overlap.
+/// Negative if they are apart.
 HWY_INLINE V least_overlap(const BoxBlock& block, std::size_t lane, const V (&lower)[3],
                            const V (&upper)[3]) {
     const D d;
@@ -35,7 +35,7 @@ struct RowBits {
     std::uint32_t meet = 0, touch = 0;
 };
 
-/// One box against all of a block.
+/// Tests one box against all boxes of a block.
 HWY_INLINE RowBits meet_row(const BoxBlock& block, const V (&lower)[3], const V (&upper)[3]) {
     const D d;
     const auto zero = hn::Zero(d);
@@ -78,7 +78,7 @@ HWY_EXPORT(find_meetings_simd);
 
 namespace {
 
-/// The median of a sample.
+/// The median of a sample of the boxes' centres.
 double middle_of(std::span<const Box3> boxes, int axis) {
     std::vector<double> sample;
     const std::size_t stride = std::max<std::size_t>(boxes.size() / 64, 1);

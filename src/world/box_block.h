@@ -14,8 +14,8 @@
 
 namespace abut {
 
-/// Whether the box has a point: lower <= upper on every axis, and some of it is not at infinity. False
-/// for one that is not a number, too.
+/// Whether the box has a point: lower <= upper on every axis, and part of it is at finite
+/// coordinates. False if a bound is not a number.
 inline bool takes_part(const Box3& box) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const auto along = [](double lower, double upper) {
@@ -30,15 +30,18 @@ inline bool meet(const Box3& a, const Box3& b) {
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-/// Boxes in single precision about a centre, for comparisons that are exact where they decide.
+/// Converts boxes to single precision relative to a centre, for comparisons that are exact where
+/// they decide.
 ///
-/// One monotone map takes all bounds, lower and upper: x -> float(x - centre). So f(x) < f(y) proves
-/// x < y, and only bounds that become equal are left to double precision. Nothing is rounded outward.
+/// The same monotone map f applies to all bounds, lower and upper: x -> float(x - centre). So
+/// f(x) < f(y) proves x < y. Only bounds that become equal are left to double precision. Nothing is
+/// rounded outward.
 class NarrowFrame {
 public:
     NarrowFrame() = default;
     explicit NarrowFrame(const Vec3& centre) : centre_(centre) {}
-    /// About where most of the boxes lie: so that a few far away do not cost the others their precision.
+    /// Takes a centre near most of the boxes, so that a few distant ones do not cost the others
+    /// precision.
     static NarrowFrame about(std::span<const Box3> boxes);
 
     [[nodiscard]] Aabb narrow(const Box3& box) const {
@@ -54,7 +57,8 @@ private:
     [[nodiscard]] std::array<float, 3> narrow(const Vec3& p) const {
         return {narrow(p.x - centre_.x), narrow(p.y - centre_.y), narrow(p.z - centre_.z)};
     }
-    /// Finite, so that differences are numbers: only empty boxes have infinite bounds.
+    /// The result is finite, so that differences are numbers. Only empty boxes have infinite
+    /// bounds.
     static float narrow(double x) {
         constexpr double kMost = std::numeric_limits<float>::max();
         return to_float(std::clamp(x, -kMost, kMost));
@@ -63,7 +67,8 @@ private:
     Vec3 centre_;
 };
 
-/// Sixteen boxes side by side: lane i of every row belongs to box i. Unused lanes hold an empty box.
+/// Sixteen boxes in SIMD order: lane i of every row belongs to box i. Unused lanes hold an empty
+/// box.
 struct alignas(64) BoxBlock {
     static constexpr std::size_t kWidth = 16;
     static constexpr std::uint32_t kAllLanes = (1U << kWidth) - 1;
@@ -84,7 +89,7 @@ struct alignas(64) BoxBlock {
         }
         return result;
     }
-    /// Of all lanes.
+    /// The box that encloses all lanes.
     [[nodiscard]] Aabb bounds() const {
         Aabb result;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -95,16 +100,19 @@ struct alignas(64) BoxBlock {
     }
 };
 
-/// Which boxes of two blocks meet. Bit k of row i: box i of the first and box k of the second.
+/// Which boxes of two blocks meet. Bit k of row i stands for box i of the first block and box k of
+/// the second.
 struct BlockMeetings {
-    std::uint32_t rows = 0; ///< bit i: row i below is set; the others are unspecified
+    std::uint32_t rows = 0; ///< bit i: row i of `meet` and `touch` is set; other rows are
+                            ///< unspecified
     std::uint32_t meet[BoxBlock::kWidth];
-    std::uint32_t touch[BoxBlock::kWidth]; ///< of `meet`: some two bounds are equal
+    std::uint32_t touch[BoxBlock::kWidth]; ///< those bits of `meet` for which two bounds are equal
 };
 
-/// In          bounds_b: of b; rows: which boxes of a to look at. Those that miss the bounds are left
-///             out.
-/// Accuracy    exact for single precision.
+/// Finds the pairs of boxes of two blocks that meet.
+/// In          bounds_b: the bounds of b; rows: the boxes of a to test. Boxes that miss the bounds
+///             are left out.
+/// Accuracy    exact for the bounds in single precision.
 void find_meetings(const BoxBlock& a, std::uint32_t rows, const BoxBlock& b, const Aabb& bounds_b,
                    BlockMeetings& meetings);
 

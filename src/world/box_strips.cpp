@@ -13,9 +13,9 @@ namespace abut {
 
 namespace {
 
-/// A bound moved outwards by half of the gap or a little more, so that boxes at most `gap` apart
-/// overlap: 0x1p-50 outweighs the rounding of normal numbers; of those near zero, sums are exact, and
-/// half of a gap is off by less than the least number.
+/// Moves a bound outward by slightly more than half of the gap, so that boxes at most `gap` apart
+/// overlap. The factor 0x1p-50 exceeds the rounding of normal numbers. For numbers near zero, sums
+/// are exact, and the error of half the gap is below the smallest subnormal number.
 double lowered(double x, double gap) {
     constexpr double kLeast = std::numeric_limits<double>::denorm_min();
     return x - (0.5 * gap + kLeast + 0x1p-50 * (std::abs(x) + gap));
@@ -31,10 +31,11 @@ Box3 widened(const Box3& box, double gap) {
 /// In          a is below infinity, b above minus infinity; gap is finite.
 bool differ_by_at_most(double a, double b, double gap) {
     const double difference = a - b;
-    // Rounding is monotone: only what is rounded to the gap itself may lie on either side of it.
+    // Rounding is monotone, so only if the difference rounds to the gap itself is the answer
+    // uncertain.
     if (difference != gap)
         return difference < gap;
-    // The error of a difference is a double, and this gives it. [Dekker 1971]
+    // The rounding error of a difference is itself a double, computed here. [Dekker 1971]
     const double error = std::abs(a) >= std::abs(b) ? (a - difference) - b : a - (difference + b);
     return error <= 0;
 }
@@ -50,7 +51,7 @@ bool are_near(const Box3& p, const Box3& q, double gap) {
     return true;
 }
 
-/// Searches strip after strip.
+/// Searches one strip after the other.
 class Strips {
 public:
     Strips(std::span<const Box3> boxes, double gap, const PairFilter& wanted)
@@ -82,7 +83,7 @@ private:
         return gap_ == 0 ? bound : lowered(bound, gap_);
     }
 
-    /// The one along which boxes are short compared with the room that they are in.
+    /// The axis along which boxes are short compared with the extent of all boxes.
     [[nodiscard]] int least_crowded_axis() const {
         std::array<double, 3> crowd{};
         for (int axis = 0; axis < 3; ++axis) {
@@ -93,13 +94,13 @@ private:
                 low = std::min(low, l), high = std::max(high, l);
                 sum += u - l;
             }
-            const double crowded = sum / (high - low); // no number where boxes are endless
+            const double crowded = sum / (high - low); // not a number if boxes are unbounded
             crowd.at(static_cast<std::size_t>(axis)) = crowded >= 0 ? crowded : HUGE_VAL;
         }
         return static_cast<int>(std::min_element(crowd.begin(), crowd.end()) - crowd.begin());
     }
 
-    /// Halves of the boxes, until they are strips; these are searched from the lowest on.
+    /// Halves a part until its parts are strips. Strips are searched in ascending order.
     void cut(Indices part, std::size_t strip) {
         if (part.size() <= strip) {
             search(part);
@@ -112,7 +113,7 @@ private:
         cut({middle, part.end()}, strip);
     }
 
-    /// A pair is found in the strip of the later of its boxes.
+    /// Finds the pairs of a strip. A pair belongs to the strip of its later box.
     void search(Indices strip) {
         double begin = HUGE_VAL;
         for (const std::uint32_t i : strip)
@@ -143,9 +144,9 @@ private:
     double gap_;
     const PairFilter& wanted_;
     int axis_ = 0;
-    std::vector<std::uint32_t> order_; ///< of boxes that take part, strip by strip
+    std::vector<std::uint32_t> order_; ///< the boxes that take part, strip by strip
     std::vector<std::uint32_t>
-        reaching_; ///< boxes that may reach into the strip, from before or in it
+        reaching_; ///< boxes that may reach into the strip, from earlier ones or in it
     std::vector<std::vector<IndexPair>> found_;
 };
 

@@ -11,15 +11,15 @@
 
 namespace abut {
 
-/// Boxes that meet are searched in strips of so many: some 10 MB at a time.
+/// Number of boxes in a strip. A search then needs about 10 MB at a time.
 inline constexpr std::size_t kBoxesOfStrip = std::size_t{1} << 16;
 
-/// As overlapping_boxes, for bounds that are numbers, in memory for one strip and the pairs: the boxes
-/// are cut into strips by their lower bounds along one axis, and each strip is searched with what reaches into
-/// it from those before.
+/// Finds the same pairs as overlapping_boxes, for bounds that are numbers. It needs memory only for
+/// one strip and for the pairs. Strips are ranges of the boxes' lower bounds along one axis. Each
+/// strip is searched together with the boxes that reach into it from earlier strips.
 ///
-/// In          strip: boxes of one, at least 1.
-/// Cost        O(n log n + pairs) where few boxes reach through many strips.
+/// In          strip: number of boxes in a strip, at least 1.
+/// Cost        O(n log n + pairs) if few boxes extend through many strips.
 std::vector<IndexPair> overlaps_by_strips(std::span<const Box3> boxes, double gap,
                                           const PairFilter& wanted,
                                           std::size_t strip = kBoxesOfStrip);

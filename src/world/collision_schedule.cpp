@@ -14,8 +14,9 @@ namespace abut {
 
 namespace {
 
-/// What a caller's rounding may put a body off its course by, relative to its coordinates; and what is
-/// taken off lengths and times to be safe from that, and from rounding here.
+/// kOffCourse bounds how far the caller's rounding may move a body off its course, relative to the
+/// coordinates. kGapRounding is subtracted from lengths and times to cover that and this file's
+/// rounding.
 constexpr double kOffCourse = 0x1p-48;
 constexpr double kGapRounding = 0x1p-40;
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -52,7 +53,7 @@ void CollisionSchedule::set_speed(std::uint32_t body, const SpeedBounds& bounds)
     const SpeedBounds& old = course.bounds;
     const double t = now_ - course.since;
     const Vec3 off = bounds.velocity - old.velocity - t * old.acceleration;
-    // What follows from what was known leaves the times that are due as they are.
+    // If the new bounds follow from the old ones, the pairs' due times remain valid.
     course.known = course.known && course.generation == world_.bodies()[body].generation &&
                    keeps_course(body) && bounds.acceleration == old.acceleration &&
                    bounds.acceleration_bound <= old.acceleration_bound &&
@@ -70,7 +71,8 @@ bool CollisionSchedule::keeps_course(std::uint32_t body) const {
                                         kOffCourse * (max_abs(is) + max_abs(expected));
 }
 
-/// The bodies of which nothing is known that their pairs' times still rest on.
+/// The bodies whose pairs' due times have become invalid: bodies with new bounds, off their course,
+/// added or removed.
 std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
     courses_.resize(world_.bodies().size());
     swept_.resize(world_.bodies().size());
@@ -81,7 +83,7 @@ std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
         if (!exists && !existed)
             continue;
         const std::uint32_t generation = world_.bodies()[body].generation;
-        if (course.generation != generation) // another body, never told how it moves
+        if (course.generation != generation) // a new body, whose motion is not known
             course = {now_, origin_of(body), {}, generation, false};
         if (exists && existed && course.known && keeps_course(body))
             continue;
@@ -100,7 +102,8 @@ double CollisionSchedule::chosen_horizon(double step) const {
             size += reach_of(body);
             speed += length(bounds.velocity) + reach_of(body) * bounds.angular_speed;
         }
-    // Boxes of twice the size cost little more to keep; half of them would have to be kept twice.
+    // A body moves by about its own size until the horizon. Larger swept boxes cost little more,
+    // and half the horizon would require two sweeps.
     return std::max(step, speed > 0 ? 2 * size / speed : 16 * step);
 }
 
@@ -112,7 +115,7 @@ Box3 CollisionSchedule::swept_box(std::uint32_t body) const {
     const double begin = now_ - course.since, end = horizon_ - course.since;
     const Vec3 here = moved_by(bounds, begin);
     const double most = length(bounds.velocity) + length(bounds.acceleration) * end;
-    // Where the parabola turns between both ends, no farther off than the sagitta.
+    // The path is a parabola. Between its ends, it deviates from the chord by at most the sagitta.
     const double span = end - begin, sagitta = length(bounds.acceleration) * span * span / 8;
     const double by = 0.5 * bounds.acceleration_bound * end * end + sagitta +
                       std::min(bounds.angular_speed * span, 2.0) * reach_of(body) +
@@ -148,7 +151,7 @@ void CollisionSchedule::make_due(std::size_t pair, double time) {
     queue_.push({time, broad_phase_.pairs()[pair]});
 }
 
-/// The pairs that are due, and those that touched; sorted, each once.
+/// The pairs that are due or that touched at the last step, sorted, each once.
 std::vector<IndexPair> CollisionSchedule::take_due() {
     std::vector<IndexPair> due = std::exchange(touching_, {});
     while (!queue_.empty() && queue_.top().time <= now_) {
@@ -160,7 +163,8 @@ std::vector<IndexPair> CollisionSchedule::take_due() {
     return due;
 }
 
-// t = (sqrt(v^2 + 2 a d) - v) / a, without its cancellation.
+// The solution of d = v t + a t^2 / 2, which is t = (sqrt(v^2 + 2 a d) - v) / a, without
+// cancellation.
 double CollisionSchedule::time_to_collision(IndexPair pair, double distance) const {
     const Course &a = courses_[pair.a()], &b = courses_[pair.b()];
     const double since_a = now_ - a.since, since_b = now_ - b.since;

@@ -11,34 +11,36 @@
 
 namespace abut {
 
-/// When which pair of bodies must be looked at again: not before it can have met.
+/// Schedules when each pair of bodies must be tested again: not before it may have met.
 ///
-/// Up to a horizon, only pairs matter whose boxes, swept by all that the bounds allow, overlap; each of
-/// these has a time at which it is due. Beyond it, boxes are swept anew.
+/// Each body's box is swept by all the motion that its bounds allow until a horizon. Until then
+/// only pairs of overlapping swept boxes matter, and each has a time at which it is due. After the
+/// horizon, the boxes are swept anew.
 class CollisionSchedule {
 public:
     explicit CollisionSchedule(const WorldData& world);
 
     void set_speed(std::uint32_t body, const SpeedBounds& bounds);
-    /// Finds everything anew in the next step: who may meet whom has changed.
+    /// The next step finds all pairs anew, because the rules about which bodies may meet have
+    /// changed.
     void forget() { broad_phase_.forget(), horizon_ = -1; }
     std::vector<BodyPair> advance(double time);
     [[nodiscard]] double next_event() const;
     [[nodiscard]] const ScheduleCounters& counters() const { return counters_; }
 
 private:
-    /// What is known of a body's motion.
+    /// The known motion of a body.
     struct Course {
-        double since = 0; ///< a time; the rest is of that time
+        double since = 0; ///< time to which the other members refer
         Vec3 origin;
         SpeedBounds bounds;
         std::uint32_t generation = 0;
-        bool known = false; ///< false: its pairs are to be looked at
+        bool known = false; ///< false: its pairs must be tested
     };
     struct Due {
         double time = 0;
         IndexPair pair;
-        bool operator<(const Due& other) const { // the first one on top
+        bool operator<(const Due& other) const { // the earliest pair comes first
             return time != other.time ? time > other.time : other.pair < pair;
         }
     };
@@ -58,13 +60,14 @@ private:
 
     const WorldData& world_;
     double now_ = 0;
-    double horizon_ = -1; ///< no body's swept box is valid beyond
+    double horizon_ = -1; ///< the swept boxes are valid until this time
     std::vector<Course> courses_;
     std::vector<Box3> swept_;
     BroadPhase broad_phase_;
-    std::vector<double> due_;         ///< of the broad phase's pairs
-    std::priority_queue<Due> queue_;  ///< also of times that `due_` does not hold any more
-    std::vector<IndexPair> touching_; ///< at the last step: always due, and in no queue
+    std::vector<double> due_;         ///< one for each pair of the broad phase
+    std::priority_queue<Due> queue_;  ///< may hold outdated times that `due_` no longer has
+    std::vector<IndexPair> touching_; ///< pairs that touched at the last step: always due, and not
+                                      ///< in the queue
     ScheduleCounters counters_;
 };
 

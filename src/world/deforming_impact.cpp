@@ -29,8 +29,9 @@ Box3 united(Box3 a, const Box3& b) {
     return a;
 }
 
-/// Leaves of a range of shares, from 0 to 1, those where a quantity is not above 0 that goes from `start`
-/// to `end` in a straight line, and a little around them for rounding. False if none is left.
+/// Restricts a range within [0, 1] to the shares of time at which a quantity is not above 0. The
+/// quantity changes linearly from `start` to `end`. The range is slightly enlarged for rounding.
+/// Returns false if nothing is left.
 bool keep_below_zero(double start, double end, TimeRange& shares) {
     constexpr double kMore = 0x1p-40;
     const double zero = start / (start - end);
@@ -41,8 +42,8 @@ bool keep_below_zero(double start, double end, TimeRange& shares) {
     return shares.begin <= shares.end;
 }
 
-/// When boxes overlap, of which one's bounds move from `start` to `end` in straight lines, within the
-/// range of time that they take.
+/// The part of a time range in which a moving box overlaps a fixed one. The moving box's bounds
+/// change linearly from `start` to `end` during the range.
 std::optional<TimeRange> overlap_time(const Box3& start, const Box3& end, const Box3& other,
                                       const TimeRange& range) {
     TimeRange shares;
@@ -58,7 +59,8 @@ std::optional<TimeRange> overlap_time(const Box3& start, const Box3& end, const 
     return TimeRange{range.begin + shares.begin * length, range.begin + shares.end * length};
 }
 
-/// The earliest contact of a deformable surface and a rigid body that do not meet at the start.
+/// Finds the earliest contact of a deformable surface and a rigid body that do not touch at the
+/// start.
 class DeformingSearch {
 public:
     DeformingSearch(const DeformingPair& pair, const ImpactOptions& options)
@@ -83,33 +85,34 @@ public:
     }
 
 private:
-    /// Of two triangles. What is left then is reported as a hit, to be safe.
+    /// Maximum number of steps for two triangles. A pair that reaches it is reported as a hit, to
+    /// be safe.
     static constexpr int kMostSteps = 1000;
-    /// Shorter ranges of time are not halved.
+    /// Shorter time ranges are not halved.
     static constexpr double kShortestRange = 0x1p-12;
 
-    /// Two boxes by their names, and when they may meet.
+    /// Two boxes, given by their names, and the time range in which they may meet.
     struct Waiting {
         TimeRange range;
         std::uint32_t a, b;
     };
-    /// The earliest range first; of the same, one that is deeper in the trees.
+    /// Orders by the earliest range. For equal ranges, the pair deeper in the trees comes first.
     struct Later {
         bool operator()(const Waiting& x, const Waiting& y) const {
-            // The root's name is the largest; one more is 0.
+            // The root's name is the largest number; adding one makes it 0.
             return std::tuple(x.range.begin, x.range.end, y.a + 1, y.b + 1) >
                    std::tuple(y.range.begin, y.range.end, x.a + 1, x.b + 1);
         }
     };
-    /// Two triangles that come near each other; b by its slot.
+    /// Two triangles that come near each other. b is given by its slot.
     struct Found {
         double time = kNoContact;
         std::uint32_t a = 0, b = 0;
         ClosestPoints closest{};
-        double speed = 0; ///< at which they seemed to approach each other
+        double speed = 0; ///< estimated closing speed
     };
 
-    /// For as long as the boxes overlap.
+    /// Queues a pair for the time in which its boxes overlap.
     void keep_if_near(const Waiting& pair) {
         ++counters_.volume_tests;
         const TimeRange& range = pair.range;
@@ -122,7 +125,7 @@ private:
         std::push_heap(queue_.begin(), queue_.end(), Later{});
     }
 
-    /// Replaces a pair of boxes by halves of its time, or by the pairs below it.
+    /// Replaces a pair of boxes by two halves of its time range, or by the pairs below it.
     void open(const Waiting& pair) {
         const NodeRef a = tree_a_.named(pair.a), b = tree_b_.named(pair.b);
         if (a.is_leaf() && b.is_leaf()) {
@@ -164,7 +167,7 @@ private:
                 advance(triangle, slot, range);
     }
 
-    /// Lets two triangles move on for as long as they are certainly apart.
+    /// Advances two triangles in time while they are certainly apart.
     void advance(std::uint32_t triangle, std::uint32_t slot, const TimeRange& range) {
         Found pair{range.begin, triangle, slot, {}, 0};
         for (int step = 0; pair.time <= std::min(range.end, found_.time); ++step) {
@@ -218,7 +221,7 @@ private:
                                                             : Status::converged;
         return impact;
     }
-    /// A time at which the two triangles meet, if they do so where it is expected.
+    /// A time at which the two triangles meet, if they do so about when expected.
     [[nodiscard]] double contact_time() const {
         const double expected = found_.speed > 0 ? tolerance_ / found_.speed : 0;
         for (const double part : {0.0, 1.0, 2.0, 4.0, 16.0}) {
@@ -234,7 +237,7 @@ private:
     const Tree& tree_b_;
     double asked_tolerance_, tolerance_;
     SearchSteps steps_;
-    bool is_refused_ = false;    ///< a step
+    bool is_refused_ = false;    ///< whether the step limit refused a step
     std::vector<Waiting> queue_; ///< a heap
     Found found_;
     Counters counters_;
@@ -252,7 +255,7 @@ Impact turned_round(Impact impact) {
     return impact;
 }
 
-/// Of bodies that share a point where they start.
+/// The impact of bodies that already share a point at the start; none if they do not.
 std::optional<Impact> impact_at_start(const MovingBody& a, const MovingBody& b) {
     const Transform world_from_a = a.motion.start, world_from_b = b.motion.start;
     PairWorkspace workspace;

@@ -11,10 +11,10 @@ namespace abut {
 
 namespace {
 
-/// What rounding takes from a length, relative to what it was computed from.
+/// Rounding error of a length, relative to the quantities it was computed from.
 constexpr double kStepRounding = 0x1p-44;
-/// What a box moves by, relative to its coordinates, on its way from a node's axes to its tree's: they
-/// are at right angles to single precision.
+/// Error of a box that is transformed from a node's axes to its tree's, relative to its
+/// coordinates. The axes are orthogonal only to single precision.
 constexpr double kNodeRounding = 0x1p-19;
 
 Box3 widened(const Aabb& box, double margin) {
@@ -98,7 +98,7 @@ Box3 DeformingPair::box_b(std::uint32_t name, const TimeRange& range) const {
     const Vec3 centre = turning_.centre(0);
     const double reach = length(max(max(box.lower - centre, centre - box.lower),
                                     max(box.upper - centre, centre - box.upper)));
-    // A point turns by at most the arc, and stays on its sphere.
+    // A point moves by at most the arc of its rotation, and by at most the diameter of its sphere.
     const double turned = std::min(half * turning_.speed_of_rotation(), 2.0) * reach;
     return grown(box, turned + b_.radius + margin_);
 }
@@ -130,7 +130,7 @@ double DeformingPair::free_time(std::uint32_t triangle_a, const Triangle& a, con
         way_b = std::max(way_b, -dot(turning_.velocity_at(b[i], time), n));
         most_a = std::max(most_a, length(way));
     }
-    // Beyond the plane across the direction that both are apart in, neither reaches.
+    // Projected onto n, a ends at `high` and b begins at `low`.
     Approach along;
     along.gap = low - high - b_.radius - taken;
     along.closing = way_a + way_b + margin_;

@@ -21,48 +21,50 @@ struct TimeRange {
 
 /// A deformable surface and the surface of a rigid body, both in motion.
 ///
-/// Places are seen from a frame that goes straight on with the centre of the body's motion: there the
-/// body only turns, about `centre`, and the vertices of the surface still move in straight lines.
+/// Positions are given in a frame that moves in a straight line with the centre of the body's
+/// motion. In this frame the body only rotates about `centre`, and the surface's vertices still
+/// move in straight lines.
 class DeformingPair {
 public:
     DeformingPair(const DeformableData& deformable, const MovingBody& body);
 
     [[nodiscard]] const MovingTree& tree_a() const { return a_.swept.tree; }
     [[nodiscard]] const Tree& tree_b() const { return b_.surface.data().tree(); }
-    /// The triangles of a leaf of the deformable.
+    /// The triangles of a leaf of the deformable's tree.
     [[nodiscard]] std::span<const std::uint32_t> triangles_a(NodeRef leaf) const;
 
-    /// Encloses what lies below a child of a's tree, whatever rounds; between two times the bounds move
-    /// in straight lines.
+    /// A box that encloses all below a child of a's tree, rounding included. Between two times its
+    /// bounds change linearly.
     [[nodiscard]] Box3 box_a(std::uint32_t name, double time) const;
-    /// The same of b's tree, within b's radius, while time passes through the range.
+    /// A box that encloses all below a child of b's tree, enlarged by b's radius, throughout a time
+    /// range.
     [[nodiscard]] Box3 box_b(std::uint32_t name, const TimeRange& range) const;
 
     [[nodiscard]] Triangle triangle_a(std::uint32_t triangle, double time) const;
     [[nodiscard]] Triangle triangle_b(std::uint32_t slot, double time) const;
-    /// Their closest points are farther apart than their bodies, by this.
+    /// The bodies are closer than the triangles by this offset.
     [[nodiscard]] double radius() const { return b_.radius; }
-    /// From where they are now the two triangles stay apart for at least this long, and a gap of half
-    /// of the tolerance is left then.
+    /// Lower bound of the time for which the two triangles stay apart. At its end a gap of half the
+    /// tolerance is left.
     [[nodiscard]] double free_time(std::uint32_t triangle_a, const Triangle& a, const Triangle& b,
                                    const ClosestPoints& closest, double time,
                                    double tolerance) const;
 
-    /// Whether the triangles share a point where `at` takes them: exact where the radius is 0.
+    /// Whether the triangles share a point at their places in the world. Exact if the radius is 0.
     [[nodiscard]] bool meet(std::uint32_t triangle_a, std::uint32_t slot, double time) const;
-    /// Where the frame has come to.
+    /// How far the frame has moved.
     [[nodiscard]] Vec3 shift(double time) const { return time * velocity_; }
-    /// The body's own number of the triangle: of models and their like; else 0.
+    /// The triangle's number in the body, if it is a model or a convex body; else 0.
     [[nodiscard]] std::uint32_t number_b(std::uint32_t slot) const;
-    /// A length below which nothing is known, for rounding.
+    /// Rounding error of lengths: shorter ones are not certain.
     [[nodiscard]] double margin() const { return margin_; }
-    /// The larger one's, about: half of its diagonal.
+    /// Half the diagonal, approximately, of the larger of the two.
     [[nodiscard]] double size() const { return size_; }
 
 private:
     const DeformableData& a_;
     OffsetSurface b_;
-    bool is_model_; ///< b has triangles that a caller knows
+    bool is_model_; ///< whether b's triangles are known to the caller
     Trajectory moving_, turning_;
     Vec3 velocity_;
     double size_ = 0, margin_ = 0;

@@ -13,7 +13,7 @@ namespace {
 
 using Bits = std::uint32_t;
 
-/// Calls visit(lane) for each bit.
+/// Calls visit(lane) for each set bit.
 template <typename Visit>
 void for_each_lane(Bits bits, const Visit& visit) {
     for (; bits != 0; bits &= bits - 1)
@@ -26,15 +26,15 @@ constexpr Bits first_lanes(std::size_t count) {
 
 } // namespace
 
-/// Boxes of one block, by sorted indices.
+/// The boxes of one block, in ascending order of their indices.
 struct HubRows::Side {
     const BoxBlock& block;
     Aabb bounds;
     std::array<std::uint32_t, kWidth> boxes{};
     std::size_t count;
-    Bits rows = 0; ///< those that are compared with others
+    Bits rows = 0; ///< boxes that are compared with others
 
-    /// In          box_at(lane): the index.
+    /// In          box_at(lane) returns the index of a lane's box.
     template <typename BoxAt>
     Side(const BoxBlock& fitted, std::size_t boxes_in_block, const BoxAt& box_at)
         : block(fitted), bounds(fitted.bounds()), count(boxes_in_block) {
@@ -43,7 +43,7 @@ struct HubRows::Side {
     }
     [[nodiscard]] std::uint32_t lowest() const { return boxes.front(); }
     [[nodiscard]] std::uint32_t highest() const { return boxes[count - 1]; }
-    /// Lanes of boxes with a higher index.
+    /// Lanes of the boxes with an index above `box`.
     [[nodiscard]] Bits above(std::uint32_t box) const {
         if (box < lowest())
             return first_lanes(count);
@@ -59,7 +59,8 @@ public:
                BitTable& begun, BitTable& ended)
         : boxes_(boxes), wanted_(wanted), now_(now), begun_(begun), ended_(ended) {}
 
-    /// Boxes against those with a higher index. In: the first one's row, and the column of the others.
+    /// Compares the boxes of a with those boxes of b that have a higher index. In: the row of a's
+    /// first box, and the column of b's boxes.
     void compare(const Side& a, std::size_t row, const Side& b, std::size_t column) const {
         if (a.lowest() >= b.highest())
             return;
@@ -86,7 +87,7 @@ private:
                 if (!wanted_(box, partners[lane]))
                     meet &= ~(Bits{1} << lane);
             });
-        if (meet == last) // the bits of what begins and ends are zero
+        if (meet == last) // the bits in begun_ and ended_ are already zero
             return;
         now_.bits[at] = static_cast<std::uint16_t>(meet);
         begun_.bits[at] = static_cast<std::uint16_t>(meet & ~last);
@@ -108,7 +109,7 @@ void HubRows::assign(HubSet hubs, std::span<const IndexPair> pairs) {
     is_new_ = true;
 }
 
-/// Puts the boxes that have changed into their blocks, and marks these.
+/// Stores the changed boxes in their blocks, and marks these blocks.
 void HubRows::fit(const BoxStep& step) {
     const std::vector<std::uint32_t>& hubs = hubs_.hubs();
     const auto blocks_of = [](std::size_t boxes) { return (boxes + kWidth - 1) / kWidth; };

@@ -14,20 +14,22 @@
 
 namespace abut {
 
-/// The pairs of hubs. Hubs are tested against all boxes in the order of their indices, sixteen at a
-/// time: so their pairs need not be sorted, and what begins and ends is where bits differ.
+/// The pairs that contain a hub. Hubs are tested against all boxes, sixteen at a time, in the order
+/// of the boxes' indices. Their pairs therefore need no sorting, and differing bits tell which
+/// pairs begin and end.
 class HubRows {
 public:
-    /// In          pairs: of the last step; those with a hub are taken over.
+    /// In          pairs: the pairs of the last step; those with a hub are stored.
     void assign(HubSet hubs, std::span<const IndexPair> pairs);
     [[nodiscard]] const HubSet& hubs() const { return hubs_; }
 
-    /// Brings the pairs to this step.
-    /// Cost        a SIMD test for 16 pairs of a hub, where one of them or the hub has changed.
+    /// Updates the pairs to this step.
+    /// Cost        a SIMD test for each 16 pairs of a hub, if one of the boxes or the hub has
+    ///             changed.
     void update(const BoxStep& step, const PairFilter& wanted);
 
     [[nodiscard]] const PairBits& pairs() const { return bits_.now; }
-    /// By the last update.
+    /// Pairs that began or ended with the last update.
     [[nodiscard]] const PairBits& begun() const { return bits_.begun; }
     [[nodiscard]] const PairBits& ended() const { return bits_.ended; }
 
@@ -45,7 +47,7 @@ private:
     NarrowFrame frame_;
     std::vector<BoxBlock> boxes_, hub_boxes_;    ///< in the order of their indices
     BoxMarks is_changed_, is_hub_block_changed_; ///< by block
-    bool is_new_ = true;                         ///< boxes are yet to be fitted
+    bool is_new_ = true;                         ///< the boxes have not been fitted yet
 };
 
 } // namespace abut

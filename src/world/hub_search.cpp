@@ -9,12 +9,13 @@ namespace abut {
 
 namespace {
 
-/// Which boxes are hubs, by how many pairs each has. What are hubs stay so for longer than they would
-/// become such.
+/// Chooses hubs by the number of pairs of each box. The threshold for staying a hub is lower than
+/// the one for becoming a hub.
 std::vector<std::uint32_t> choose_hubs(std::span<const IndexPair> pairs, std::size_t boxes,
                                        const std::vector<std::uint32_t>& hubs) {
-    // Measured where all boxes go elsewhere, which is the least favourable. A row of bits then takes as
-    // long as the pairs with a quarter of all boxes; two lists, as three pairs a box.
+    // Measured in the least favourable case, in which all boxes move far. A row of bits then takes
+    // as long as the pairs with a quarter of all boxes. Merging two lists takes as long as three
+    // pairs for each box.
     constexpr std::size_t kShare = 4, kShareOfHub = 8, kPairs = 3, kPairsOfHubs = 2;
     const std::size_t least_pairs = boxes * (hubs.empty() ? kPairs : kPairsOfHubs);
     if (pairs.size() < least_pairs)
@@ -33,7 +34,7 @@ std::vector<std::uint32_t> choose_hubs(std::span<const IndexPair> pairs, std::si
     return pairs_of_hubs < least_pairs ? std::vector<std::uint32_t>() : chosen;
 }
 
-/// Takes hubs out of the boxes that another search is given.
+/// Removes hubs from the boxes that another search sees, and handles them with HubRows.
 class HubSearch final : public PairSearch {
 public:
     HubSearch(std::unique_ptr<PairSearch> others, PairFilter wanted)
@@ -61,12 +62,12 @@ public:
     }
 
 private:
-    /// Counting costs little, compared with so many steps.
+    /// Counting is cheap compared with this number of steps.
     static constexpr std::size_t kStepsOfChoice = 16;
 
     [[nodiscard]] const std::vector<std::uint32_t>& hubs() const { return rows_.hubs().hubs(); }
 
-    /// The last step's pairs, as if these had been the hubs then.
+    /// Splits the last step's pairs as if the newly chosen hubs had been the hubs then.
     void take_apart(std::size_t boxes, const PairList& list) {
         const bool are_others_same = chosen_ == hubs();
         rows_.assign({chosen_, boxes}, list.pairs());
@@ -114,14 +115,14 @@ private:
             boxes_[hub] = Box3();
     }
 
-    std::unique_ptr<PairSearch> search_; ///< of all but hubs
+    std::unique_ptr<PairSearch> search_; ///< for all boxes but hubs
     PairFilter wanted_;
-    bool is_current_ = false;           ///< `search_`, as of the last step
+    bool is_current_ = false;           ///< whether `search_` is up to date with the last step
     std::vector<std::uint32_t> chosen_; ///< the hubs of the next step
-    std::size_t left_ = kStepsOfChoice; ///< steps to the next choice
+    std::size_t left_ = kStepsOfChoice; ///< steps until the next choice
     HubRows rows_;
-    PairList others_;         ///< pairs without hubs, where there are any
-    std::vector<Box3> boxes_; ///< hubs empty
+    PairList others_;         ///< pairs without hubs; used only if there are hubs
+    std::vector<Box3> boxes_; ///< the boxes, hubs replaced by empty ones
     std::vector<IndexPair> pairs_;
 };
 

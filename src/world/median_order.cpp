@@ -12,7 +12,7 @@ namespace {
 
 using Run = std::span<Middle>;
 
-/// About: by a sample spread over the run.
+/// The widest axis, estimated from a sample spread over the run.
 std::size_t widest_axis(Run run) {
     constexpr std::size_t kSample = 64;
     const std::size_t stride = std::max<std::size_t>(run.size() / kSample, 1);
@@ -29,7 +29,8 @@ std::size_t widest_axis(Run run) {
     return widest;
 }
 
-/// Moves what `belongs` to the front and returns how many. Without a branch on the data.
+/// Moves the elements that `belong` to the front and returns their number. Has no branch on the
+/// data.
 template <typename Belongs>
 std::size_t partition(Run run, const Belongs& belongs) {
     std::size_t count = 0;
@@ -42,7 +43,7 @@ std::size_t partition(Run run, const Belongs& belongs) {
     return count;
 }
 
-/// About what the element of a rank has on the axis: from a sample spread over the run.
+/// Estimates the coordinate of the element of a given rank, from a sample spread over the run.
 float pivot(Run run, std::size_t axis, std::size_t rank) {
     std::array<float, 31> sample{};
     for (std::size_t i = 0; i < sample.size(); ++i)
@@ -53,7 +54,7 @@ float pivot(Run run, std::size_t axis, std::size_t rank) {
     return *chosen;
 }
 
-/// Puts the `rank` lowest along the axis in front. Source: quickselect [Hoare 1961].
+/// Moves the `rank` lowest elements along the axis to the front. Source: quickselect [Hoare 1961].
 void select(Run run, std::size_t axis, std::size_t rank) {
     constexpr std::size_t kSmall = 64;
     while (run.size() > kSmall && rank > 0 && rank < run.size()) {
@@ -79,7 +80,7 @@ void select(Run run, std::size_t axis, std::size_t rank) {
             [&](const Middle& a, const Middle& b) { return a.point[axis] < b.point[axis]; });
 }
 
-/// Cuts a run of more than 16 in about the middle; returns where.
+/// Cuts a run of more than 16 elements near its middle. Returns the place of the cut.
 std::size_t cut(Run run) {
     constexpr std::size_t kWidth = BoxBlock::kWidth;
     std::size_t unit = kWidth;
@@ -101,7 +102,8 @@ void order_run(Run run) {
 } // namespace
 
 void order_by_medians(std::vector<Middle>& middles) {
-    // Runs small enough to share out; the cuts above them one after the other.
+    // The first cuts are made one after the other, until the runs are small enough for parallel
+    // tasks.
     constexpr std::size_t kRunOfTask = 4096;
     std::vector<Run> runs{Run(middles)};
     for (std::size_t i = 0; i < runs.size(); ++i)

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
-// The table of pairs: one overload of `meet` and of `measure` for each pair of kinds of shape, surfaces
-// before convex bodies before rounded boxes; the other order is turned round. A deformable is a model
-// here.
+// The table of shape pairs: an overload of `meet` and of `measure` for each pair of kinds. Surfaces
+// come before convex bodies, and these before rounded boxes. For the opposite order, the result is
+// swapped. A deformable counts as a model here.
 namespace abut {
 
 namespace {
@@ -37,14 +37,14 @@ Segment axis_of(const RoundedBox& capsule) {
     return {capsule.centre - along, capsule.centre + along};
 }
 
-/// The box of a body that is one, in the body's frame, where its axes are the frame's.
+/// The box of a body that is a plain box, in the body's frame, whose axes are the box's.
 Box3 own_box(const RoundedBox& box) {
     const Vec3 half{box.half[0], box.half[1], box.half[2]};
     return {box.centre - half, box.centre + half};
 }
 
-/// A rounded box without its radius: the convex hull of the points at -1 and 1 on the axes along which
-/// it extends, under a transform.
+/// A rounded box without its radius. It is the image of a point, a segment or a cube whose
+/// coordinates are -1 or 1, under a transform.
 struct Core {
     const Convex& convex;
     Transform world;
@@ -52,7 +52,7 @@ struct Core {
 Core core_of(const RoundedBox& solid) {
     static const Convex point(std::vector<Vec3>{{}}), cube(unit_cube().mesh().positions),
         segment(std::vector<Vec3>{{-1, -1, -1}, {1, 1, 1}});
-    // A flat box is a cube without extent on an axis.
+    // A flat box is a cube without extent along one axis.
     return {dimension(solid) == 0   ? point
             : dimension(solid) == 1 ? segment
                                     : cube,
@@ -67,13 +67,13 @@ BodyGap from_rigid(const Gap& gap) {
     BodyGap result{{},          {}, gap.distance,   gap.point_a,
                    gap.point_b, {}, gap.triangle_a, gap.triangle_b,
                    gap.status};
-    // Of bodies that meet, moving b brings its point to a's.
+    // If the bodies overlap, moving b along the normal brings its point to a's point.
     const Vec3 way = gap.point_b - gap.point_a;
     result.normal = normalized_or_zero(gap.distance < 0 ? -way : way);
     return result;
 }
 
-/// Of two solids: minus the depth where they meet.
+/// The gap of two convex solids; minus the depth if they overlap.
 BodyGap measure_solids(const Convex& a, const Transform& world_from_a, const Convex& b,
                        const Transform& world_from_b, ConvexWorkspace& workspace) {
     ConvexDistanceOptions options;
@@ -104,7 +104,7 @@ BodyGap measure_models(const Model& a, const Transform& world_from_a, const Mode
     return from_rigid(distance(a, world_from_a, b, world_from_b, options));
 }
 
-/// Of a point, a segment or a box with a distance from a surface or a solid, and a radius around it.
+/// Subtracts a radius around b's core, which is a point, a segment or a box.
 BodyGap with_radius(BodyGap core, double radius) {
     core.distance -= radius;
     core.point_b = core.point_b - radius * core.normal;
@@ -169,7 +169,7 @@ BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_boun
                 PairWorkspace& workspace) {
     BodyGap gap =
         measure_models(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths, workspace);
-    // A surface inside the solid is none that its faces are near to.
+    // A surface wholly inside the solid may be far from its faces, but is in contact.
     if (gap.distance > 0 && meet(a, b, workspace))
         gap.distance = 0, gap.normal = {};
     return gap;
@@ -206,7 +206,7 @@ BodyGap measure_point(const PlacedSurface& a, const Vec3& centre, double upper_b
 BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bound, Depths depths,
                 PairWorkspace& workspace) {
     const RoundedBox solid = placed(b.shape, b.world);
-    // More by what rounding takes when the radius is subtracted again.
+    // Enlarged to cover the rounding when the radius is subtracted again.
     const double bound = (std::max(upper_bound, 0.0) + solid.radius) * (1 + 0x1p-50);
     switch (dimension(solid)) {
     case 0:
@@ -215,7 +215,7 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         DistanceOptions options;
         options.upper_bound = bound;
         BodyGap core = from_rigid(distance(a.shape, a.world, axis_of(solid), options));
-        // Where the axis crosses the surface, the radius is part of the depth.
+        // If the axis crosses the surface, the radius is only part of the depth.
         if (core.distance == 0)
             core.status = Status::bound_only;
         return with_radius(core, solid.radius);
@@ -225,7 +225,7 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         BodyGap gap = measure_models(a.shape, a.world, faces.surface,
                                      compose(b.world, faces.body_from_surface), upper_bound, depths,
                                      workspace);
-        // A surface inside the box is none that its faces are near to.
+        // A surface wholly inside the box may be far from its faces, but is in contact.
         if (gap.distance > 0 && meet(a, b, workspace))
             gap.distance = 0, gap.normal = {};
         return gap;
@@ -260,13 +260,14 @@ const RoundedBox& surface_of(const RoundedBox& box) {
     return box;
 }
 
-/// In which order kinds of shape come in the table.
+/// Position of a kind of shape in the table's order.
 template <typename Kind>
 constexpr int kRank = std::is_same_v<Kind, Model>         ? 0
                       : std::is_same_v<Kind, ConvexShape> ? 1
                                                           : 2;
 
-/// Calls query(a, b) with the shapes in the table's order; turn(result) where that has changed the order.
+/// Calls query(a, b) with the shapes in the table's order. If that swaps them, returns
+/// turn(result).
 template <typename Query, typename Turn>
 auto with_shapes(const PlacedBody& a, const PlacedBody& b, const Query& query, const Turn& turn) {
     return std::visit(

@@ -6,13 +6,13 @@
 
 namespace abut {
 
-/// A shape and where it is.
+/// A shape and its transform.
 struct PlacedBody {
     const BodyShape& shape;
     const Transform& world_from_body;
 };
 
-/// What queries remember of two bodies, whatever their shapes.
+/// Data kept from one query of two bodies to the next, for all kinds of shape.
 struct PairWorkspace {
     Workspace surfaces;
     ConvexWorkspace solids;
@@ -21,19 +21,19 @@ struct PairWorkspace {
 /// Whether two bodies share a point.
 bool touch(const PlacedBody& a, const PlacedBody& b, PairWorkspace& workspace);
 
-/// What a gap is to tell of bodies that meet.
+/// What gap_between returns for bodies that overlap.
 enum class Depths : std::uint8_t {
-    no,  ///< 0 for models is enough
+    no,  ///< 0 is sufficient for models
     yes, ///< minus the depth
 };
 
-/// How far two bodies are apart. The ids are not set.
+/// The gap between two bodies. The ids are not set.
 ///
-/// In          upper_bound: beyond it, any distance larger than it will do.
+/// In          upper_bound: if the gap is larger, any distance above the bound may be returned.
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
                     PairWorkspace& workspace);
 
-/// Whether no two points of the body see each other through its outside.
+/// Whether the kind of shape is convex. Models count as not convex.
 inline bool is_convex(const BodyShape& shape) {
     return std::holds_alternative<RoundedBox>(shape) || std::holds_alternative<ConvexShape>(shape);
 }

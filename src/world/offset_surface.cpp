@@ -12,7 +12,7 @@ const Model& unit_point() {
     return model;
 }
 
-/// Along whichever axis has a length.
+/// A segment along the diagonal, which a transform maps to the one axis with a length.
 const Model& unit_segment() {
     static const Model model(Mesh{{{-1, -1, -1}, {1, 1, 1}}, {{0, 1, 1}}});
     return model;

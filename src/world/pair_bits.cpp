@@ -10,7 +10,7 @@ namespace abut {
 
 namespace {
 
-/// Writes the pairs of a box with those partners whose bits are set.
+/// Writes the pairs of a box with the partners whose bits are set.
 template <typename Partner>
 IndexPair* write_bits(std::uint32_t box, std::uint32_t bits, const Partner& partner,
                       IndexPair* to) {
@@ -22,7 +22,7 @@ IndexPair* write_bits(std::uint32_t box, std::uint32_t bits, const Partner& part
             to[lane] = pair(lane);
         return to + BoxBlock::kWidth;
     }
-    // Without a branch on the data: what is no pair is written over. The last one is a pair.
+    // Has no branch on the data: an entry that is no pair is overwritten. The last entry is a pair.
     for (std::uint32_t lane = 0; bits != 0; ++lane, bits >>= 1) {
         *to = pair(lane);
         to += bits & 1;
@@ -30,11 +30,12 @@ IndexPair* write_bits(std::uint32_t box, std::uint32_t bits, const Partner& part
     return to;
 }
 
-/// Puts others between sorted pairs. There is room for them in front of the pairs, from `to` on.
+/// Merges `others` into sorted pairs in place. The result begins at `to`; the room before the pairs
+/// is exactly large enough for the others.
 void put_between(std::span<const IndexPair> others, std::span<IndexPair> pairs, IndexPair* to) {
     IndexPair* from = pairs.data();
     for (const IndexPair other : others) {
-        // As std::lower_bound, without a branch on the data.
+        // std::lower_bound without a branch on the data.
         IndexPair* next = from;
         for (std::ptrdiff_t left = pairs.data() + pairs.size() - from; left > 0;) {
             const std::ptrdiff_t half = (left + 1) / 2;
@@ -61,7 +62,7 @@ std::size_t HubSet::rank_of(std::uint32_t box) const {
 }
 
 void BitTable::assign(std::size_t rows, std::size_t lanes) {
-    // Whole words, for count.
+    // Rounded up to whole 64-bit words for `count`.
     constexpr std::size_t kWord = 64;
     columns = (lanes + kWord - 1) / kWord * (kWord / kWidth);
     bits.assign(rows * columns, 0);
@@ -141,7 +142,7 @@ void PairBits::write_part(const HubSet& hubs, std::size_t part, std::span<const 
 void PairBits::write(const HubSet& hubs, std::span<const IndexPair> others,
                      std::vector<IndexPair>& pairs) const {
     const std::size_t parts = pairs_of_part.size();
-    // Of each part, and the end.
+    // The first entry of each part, and the end.
     std::vector<std::size_t> first_other(parts + 1, others.size()), first(parts + 1, 0);
     parallel_for(parts, kPartsOfTask, [&](std::size_t part) {
         const auto box = static_cast<std::uint32_t>(part * kBoxesOfPart);

@@ -12,22 +12,22 @@
 
 namespace abut {
 
-/// Which boxes of a step are hubs: boxes that meet a large share of all others.
+/// The hubs of a step: boxes that meet a large share of all others.
 class HubSet {
 public:
     HubSet() = default;
-    /// In          hubs: sorted; boxes: the number of all.
+    /// In          hubs: sorted; boxes: the number of all boxes.
     HubSet(std::vector<std::uint32_t> hubs, std::size_t boxes);
 
     [[nodiscard]] const std::vector<std::uint32_t>& hubs() const { return hubs_; }
     /// The number of all boxes.
     [[nodiscard]] std::size_t boxes() const { return is_hub_.size(); }
     [[nodiscard]] bool contains(std::size_t box) const { return is_hub_[box] != 0; }
-    /// Whether either is one.
+    /// Whether at least one of the two is a hub.
     [[nodiscard]] bool has(IndexPair pair) const {
         return contains(pair.a()) || contains(pair.b());
     }
-    /// How many hubs come before a box.
+    /// The number of hubs with a lower index than the box.
     [[nodiscard]] std::size_t rank_of(std::uint32_t box) const;
 
 private:
@@ -35,13 +35,13 @@ private:
     BoxMarks is_hub_;
 };
 
-/// Rows of bits; sixteen, as many as a block has boxes, to a column.
+/// Rows of bits. A column holds sixteen bits, as many as a block has boxes.
 struct BitTable {
     static constexpr std::size_t kWidth = BoxBlock::kWidth;
     std::size_t columns = 0;
     std::vector<std::uint16_t> bits{};
 
-    /// All zero.
+    /// Resizes the table and sets all bits to zero.
     void assign(std::size_t rows, std::size_t lanes);
     void set(std::size_t row, std::size_t lane) {
         bits[row * columns + lane / kWidth] |= static_cast<std::uint16_t>(1U << lane % kWidth);
@@ -52,21 +52,22 @@ struct BitTable {
     [[nodiscard]] std::size_t count(std::size_t row) const;
 };
 
-/// Pairs with a hub, a bit each. The row of a hub says which boxes of a higher index it is paired with;
-/// the row of any other box, which hubs of a higher index: so rows in the order of the boxes are the
-/// sorted pairs.
+/// The pairs that contain a hub, as bits. The row of a hub has bits for its partners with a higher
+/// index. The row of any other box has bits for the hubs with a higher index among its partners.
+/// Reading the rows in the order of the boxes therefore gives sorted pairs.
 struct PairBits {
     BitTable of_hubs;                       ///< rows: hubs; lanes: boxes
-    BitTable of_boxes;                      ///< rows: boxes, those of hubs empty; lanes: hubs
-    std::vector<std::size_t> pairs_of_part; ///< of each so many boxes
+    BitTable of_boxes;                      ///< rows: boxes, empty for hubs; lanes: hubs
+    std::vector<std::size_t> pairs_of_part; ///< for each part of kBoxesOfPart boxes
     static constexpr std::size_t kBoxesOfPart = 64;
 
-    /// None.
+    /// Resizes the tables, without any pair.
     void assign(const HubSet& hubs);
     void insert(const HubSet& hubs, IndexPair pair);
-    /// Counts the pairs of each part, after bits have changed.
+    /// Counts the pairs of each part. Call it after bits have changed.
     void count(const HubSet& hubs);
-    /// All pairs, these and others, sorted. In: others: sorted, without a hub; counted.
+    /// Writes all pairs, these merged with others, sorted. In: `others` are sorted and contain no
+    /// hub; `count` has been called.
     ///
     /// Cost        linear in the pairs and in the words of bits, in parallel.
     void write(const HubSet& hubs, std::span<const IndexPair> others,

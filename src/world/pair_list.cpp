@@ -11,14 +11,14 @@ namespace {
 
 using Pairs = std::span<const IndexPair>;
 
-/// What only one of two sorted lists has.
+/// The pairs that are in only one of two sorted lists.
 struct Differences {
     std::vector<IndexPair> only_a, only_b;
 };
 
-/// Without a branch on the data: which list comes next is anybody's guess.
+/// Compares two sorted lists without branching on the data, as the outcomes are unpredictable.
 Differences find_differences(Pairs a, Pairs b) {
-    // One more than can be: what does not belong is written, and written over.
+    // One element more than needed: a pair that does not belong is written and then overwritten.
     Differences result{std::vector<IndexPair>(a.size() + 1), std::vector<IndexPair>(b.size() + 1)};
     std::size_t i = 0, k = 0, count_a = 0, count_b = 0;
     while (i < a.size() && k < b.size()) {
@@ -37,7 +37,7 @@ Differences find_differences(Pairs a, Pairs b) {
     return result;
 }
 
-/// One list of all the parts that `part` names.
+/// Concatenates the member `part` of all elements.
 void join(const std::vector<Differences>& all, std::vector<IndexPair> Differences::*part,
           std::vector<IndexPair>& to) {
     std::size_t count = 0;
@@ -55,7 +55,7 @@ void PairList::find_changes() {
     constexpr std::size_t kPairsOfTask = 1 << 14;
     const std::size_t tasks = pairs_.size() / kPairsOfTask + 1;
     std::vector<Differences> changes(tasks);
-    // Cuts of the last list at the pairs where this one is cut.
+    // Cuts the last list at the pairs at which the new list is cut.
     const auto cut = [&](std::size_t task) {
         if (task == 0)
             return last_.begin();

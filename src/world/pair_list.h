@@ -10,27 +10,27 @@
 
 namespace abut {
 
-/// Some boxes of a set, marked.
+/// A mark for each box; not 0 if marked.
 using BoxMarks = std::vector<std::uint8_t>;
 
-/// The sorted pairs of this step, and in what they differ from the last step's.
+/// The sorted pairs of this step, and the pairs that began or ended since the last step.
 class PairList {
 public:
     [[nodiscard]] const std::vector<IndexPair>& pairs() const { return pairs_; }
     [[nodiscard]] const std::vector<IndexPair>& begun() const { return begun_; }
     [[nodiscard]] const std::vector<IndexPair>& ended() const { return ended_; }
 
-    /// The pairs of the last step, sorted.
+    /// Sets the pairs of the last step, which must be sorted.
     void assign(std::vector<IndexPair> pairs);
-    /// All pairs are those in `found`, in any order, each once; `found` is used up.
-    /// `boxes`: all indices are less.
+    /// Replaces all pairs by those in `found`, which may be in any order, but each only once.
+    /// `found` is consumed. All indices are below `boxes`.
     void replace_all(std::vector<std::vector<IndexPair>>& found, std::size_t boxes);
-    /// The pairs with a marked box are those in `found`; the others stay.
+    /// Replaces the pairs with a marked box by those in `found`. Other pairs stay.
     void replace_marked(std::vector<std::vector<IndexPair>>& found, const BoxMarks& marks);
-    /// The pairs, sorted, and in what they differ; in exchange for the storage of others.
+    /// Sets the sorted pairs and the changes. `pairs` receives the storage of the former pairs.
     void replace(std::vector<IndexPair>& pairs, std::vector<IndexPair> begun,
                  std::vector<IndexPair> ended);
-    /// These pairs begin and end; both sorted, each once.
+    /// Adds and removes pairs. Both lists are sorted and have each pair once.
     void change(std::vector<IndexPair> begun, std::vector<IndexPair> ended);
 
 private:
@@ -39,8 +39,8 @@ private:
     std::vector<IndexPair> pairs_, last_, begun_, ended_;
 };
 
-/// Sorts pairs, which lie in several lists, into one; in parallel. Source: radix sort: by the higher
-/// digits of a into runs that fit a cache, then these by the lower ones.
+/// Sorts pairs from several lists into one, in parallel. Source: radix sort, first by the higher
+/// digits of a into runs that fit a cache, then each run by the lower digits.
 void sort_pairs(const std::vector<std::vector<IndexPair>>& lists, std::size_t boxes,
                 std::vector<IndexPair>& sorted);
 

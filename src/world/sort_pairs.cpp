@@ -10,8 +10,8 @@ namespace abut {
 
 namespace {
 
-/// Pairs are dealt out to runs by the higher bits of a; each run then fits a cache and is sorted by
-/// what is left of the key: the lower bits of a, and b.
+/// Distributes pairs to runs by the higher bits of a. Each run fits a cache and is sorted by the
+/// rest of the key: the lower bits of a, and b.
 class Runs {
 public:
     Runs(std::size_t boxes, std::size_t pairs)
@@ -22,10 +22,10 @@ public:
     }
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] std::size_t of(IndexPair pair) const { return pair.a() >> shift_; }
-    /// How many boxes a pair of one run may have first, and which of them it has.
+    /// Number of different first boxes a in one run, and which of them a pair has.
     [[nodiscard]] std::size_t rows() const { return std::size_t{1} << shift_; }
     [[nodiscard]] std::size_t row(IndexPair pair) const { return pair.a() & (rows() - 1); }
-    /// How many bits, and which, distinguish the pairs of one run.
+    /// Number of key bits that distinguish the pairs of one run, and these bits of a pair.
     [[nodiscard]] int rest_bits() const { return shift_ + index_bits_; }
     [[nodiscard]] std::uint64_t rest(IndexPair pair) const {
         const std::uint64_t low_a = pair.a() & ((std::uint64_t{1} << shift_) - 1);
@@ -44,8 +44,8 @@ struct SortScratch {
     std::vector<std::uint32_t> first;
 };
 
-/// Pairs of one box, each to the place that as many as are less leave for it. Without a branch on the
-/// data.
+/// Sorts the pairs of one box by rank: a pair's place is the number of smaller pairs. Has no branch
+/// on the data.
 void sort_row(std::span<const IndexPair> row, IndexPair* to) {
     for (const IndexPair pair : row) {
         std::size_t rank = 0;
@@ -55,7 +55,8 @@ void sort_row(std::span<const IndexPair> row, IndexPair* to) {
     }
 }
 
-/// Of few pairs a box: dealt out to the boxes.
+/// Sorts a run with few pairs for each box: distributes the pairs to the boxes, then sorts each
+/// box's.
 void sort_rows(std::span<IndexPair> run, const Runs& runs, SortScratch& scratch) {
     constexpr std::size_t kLongRow = 24;
     scratch.first.assign(runs.rows() + 1, 0);
@@ -65,7 +66,7 @@ void sort_rows(std::span<IndexPair> run, const Runs& runs, SortScratch& scratch)
         scratch.first[row] += scratch.first[row - 1];
     for (const IndexPair pair : run)
         scratch.pairs[scratch.first[runs.row(pair)]++] = pair;
-    // Now each has come to where the next one begins.
+    // Each entry now is where the next box's pairs begin.
     std::uint32_t begin = 0;
     for (std::size_t row = 0; row < runs.rows(); ++row) {
         const std::uint32_t end = scratch.first[row];
@@ -80,7 +81,7 @@ void sort_rows(std::span<IndexPair> run, const Runs& runs, SortScratch& scratch)
     }
 }
 
-/// Least significant digit first.
+/// Sorts a run by radix sort, least significant digit first.
 void sort_run(std::span<IndexPair> run, const Runs& runs, SortScratch& scratch) {
     constexpr int kMostBits = 10;
     constexpr std::size_t kSmall = 128;
@@ -115,8 +116,9 @@ void sort_run(std::span<IndexPair> run, const Runs& runs, SortScratch& scratch) 
 
 using Lists = std::vector<std::vector<IndexPair>>;
 
-/// Deals the pairs of all lists out to the runs; returns where each run begins, and the end. Some
-/// lists at a time share one count of what goes where, so that they need not wait for each other.
+/// Distributes the pairs of all lists to the runs. Returns where each run begins, and the end. The
+/// lists are divided into groups with their own counts, so that groups need not wait for each
+/// other.
 std::vector<std::size_t> deal(const Lists& lists, const Runs& runs, std::span<IndexPair> to) {
     constexpr std::size_t kMostGroups = 64, kPairsOfGroup = 1 << 14;
     const std::size_t groups = std::min(kMostGroups, to.size() / kPairsOfGroup + 1);

@@ -14,7 +14,7 @@ namespace abut {
 
 namespace {
 
-/// Some triangle that has these vertices, the n first of the array.
+/// The first triangle that has all of these vertices.
 std::uint32_t triangle_with(const DeformableData& data, std::span<const std::uint32_t> vertices) {
     const auto has_all = [&](const IndexTriangle& t) {
         return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
@@ -26,7 +26,7 @@ std::uint32_t triangle_with(const DeformableData& data, std::span<const std::uin
         data.triangles.begin());
 }
 
-/// A point of a feature, and a triangle that the feature belongs to.
+/// A point of a feature, and a triangle to which the feature belongs.
 struct FeaturePoint {
     Vec3 point;
     std::uint32_t triangle = 0;
@@ -41,7 +41,7 @@ FeaturePoint on_feature(const DeformableData& data, std::span<const std::uint32_
     return result;
 }
 
-/// Exact times are less than this before the contact.
+/// Upper bound of how long before the contact an exact time is reported.
 constexpr double kTimeError = 1e-9;
 
 Impact impact_of_features(const DeformableData& a, const DeformableData& b,
@@ -82,7 +82,7 @@ Impact surface_impact(const Deformable& a, const Deformable& b) {
         const auto found = first_impact(a, b);
         return found ? impact_of_features(a.data(), b.data(), *found) : Impact();
     }
-    // Schemes that cannot be mixed: b's surface once more, with that of a.
+    // The two schemes cannot be mixed. Rebuilds b's surface with the scheme of a.
     Mesh start;
     std::vector<Vec3> end;
     for (const MovingVertex& vertex : b.data().vertices)

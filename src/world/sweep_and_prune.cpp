@@ -23,8 +23,9 @@ bool share_a_point(const Box3& a, const Box3& b) {
 
 SweepAndPrune::End SweepAndPrune::end_of(const Box3& box, std::uint32_t name, int axis) {
     const bool is_upper = (name & 1) != 0;
-    // An empty box ends before all others and begins behind them, other empty ones included: whatever
-    // becomes empty changes places with what it overlapped.
+    // An empty box has its upper end below all other ends and its lower end above them, those of
+    // other empty boxes included. A box that becomes empty thus changes places with all that it
+    // overlapped.
     constexpr double kBeyond = std::numeric_limits<double>::infinity(),
                      kMost = std::numeric_limits<double>::max();
     if (!takes_part(box))
@@ -49,7 +50,7 @@ void SweepAndPrune::restart(std::span<const Box3> boxes, PairList& list) {
 }
 
 void SweepAndPrune::update(const BoxStep& step, PairList& list) {
-    // Beyond that, sorting anew and comparing on one axis is faster.
+    // If more ends change places, sorting anew and comparing on one axis is faster.
     constexpr std::size_t kMovesOfBox = 64;
     if (!try_update(step, list, kMovesOfBox * step.boxes.size()))
         restart(step.boxes, list);

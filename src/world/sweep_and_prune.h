@@ -9,12 +9,12 @@
 
 namespace abut {
 
-/// The ends of all boxes, sorted on each of three axes from step to step. Boxes begin or cease to
-/// overlap only where an end of one changes places with an end of the other, so what changes places
-/// is all that is looked at.
+/// Keeps the ends of all boxes sorted along three axes from step to step. Two boxes can begin or
+/// cease to overlap only if an end of one changes places with an end of the other, so only these
+/// pairs are tested.
 ///
-/// Source      [Cohen, Lin, Manocha, Ponamgi 1995], I-COLLIDE. Differs: what many boxes at a time
-///             would do to the insertion sort is found out while it sorts, and sorted in bulk.
+/// Source      [Cohen, Lin, Manocha, Ponamgi 1995], I-COLLIDE. Differs: if too many ends change
+///             places, the insertion sort stops, and the axes are sorted anew.
 class SweepAndPrune final : public PairSearch {
 public:
     explicit SweepAndPrune(PairFilter wanted)
@@ -23,10 +23,10 @@ public:
     void restart(std::span<const Box3> boxes, PairList& list) override;
     void update(const BoxStep& step, PairList& list) override;
 
-    /// Sorts the axes, without a look at pairs.
+    /// Sorts the axes without searching pairs.
     void sort_axes(std::span<const Box3> boxes);
-    /// As `update`; but if more ends would change places than `most`, false, and the axes are of no
-    /// use until they are sorted.
+    /// Like `update`, but returns false if more than `most` ends would change places. The axes must
+    /// then be sorted again before further use.
     bool try_update(const BoxStep& step, PairList& list, std::size_t most);
 
 private:
@@ -36,7 +36,7 @@ private:
         std::uint32_t name; ///< box * 2, plus 1 for the upper end
         [[nodiscard]] std::uint32_t box() const { return name / 2; }
         [[nodiscard]] bool is_upper() const { return (name & 1) != 0; }
-        /// At the same place, lower ends come first: boxes that touch overlap.
+        /// At equal coordinates, lower ends come first, because boxes that touch overlap.
         [[nodiscard]] bool before(const End& other) const {
             return at != other.at ? at < other.at : !is_upper() && other.is_upper();
         }
@@ -49,7 +49,7 @@ private:
     PairFilter wanted_;
     std::unique_ptr<PairSearch> bulk_;
     std::vector<End> ends_[3];
-    std::vector<Box3> last_; ///< boxes of the last step
+    std::vector<Box3> last_; ///< the boxes of the last step
     std::vector<IndexPair> begun_, ended_;
 };
 

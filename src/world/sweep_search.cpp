@@ -12,7 +12,8 @@ namespace abut {
 
 namespace {
 
-/// Of boxes that take part. Infinite ones count as in the middle.
+/// The axis along which the boxes' centres have the largest variance. A centre that is not finite
+/// counts as 0.
 int widest_axis(std::span<const Box3> boxes) {
     std::array<double, 3> sum{}, sum_sq{};
     double count = 0;
@@ -35,8 +36,8 @@ int widest_axis(std::span<const Box3> boxes) {
     return static_cast<int>(std::max_element(variance.begin(), variance.end()) - variance.begin());
 }
 
-/// Boxes in the order in which they begin on one axis; each is compared with those that begin
-/// before it ends, sixteen at a time. The order is kept from step to step.
+/// Keeps boxes in the order in which they begin on one axis. Each box is compared with those that
+/// begin before it ends, sixteen at a time. The order is kept from step to step.
 /// Source      [Baraff 1992], one axis.
 class SweepSearch final : public PairSearch {
 public:
@@ -61,13 +62,13 @@ public:
 private:
     static constexpr std::size_t kWidth = BoxBlock::kWidth;
 
-    /// Empty boxes come last.
+    /// The box's lower bound on the axis; empty boxes come last.
     [[nodiscard]] double begin_of(const Box3& box) const {
         return takes_part(box) ? component(box.lower, axis_)
                                : std::numeric_limits<double>::infinity();
     }
 
-    /// By insertion, as long as little has changed places.
+    /// Sorts by insertion. Returns false as soon as too much has changed places.
     bool sort_again(std::span<const Box3> boxes) {
         begins_.resize(order_.size());
         for (std::size_t i = 0; i < order_.size(); ++i)
@@ -109,7 +110,7 @@ private:
         list.replace_all(found_, boxes.size());
     }
 
-    /// One block against itself and all that begin before it ends.
+    /// Compares a block with itself and with all blocks that begin before it ends.
     void sweep(std::span<const Box3> boxes, std::size_t block,
                std::vector<IndexPair>& found) const {
         const auto axis = static_cast<std::size_t>(axis_);

@@ -11,12 +11,12 @@ namespace abut {
 
 namespace {
 
-/// Two blocks of one level, the first not after the second.
+/// Two blocks of one level. The first does not come after the second.
 struct BlockPair {
     std::uint32_t a, b;
 };
 
-/// Pairs of one task, each with a marked box.
+/// Collects the pairs of one task that have a marked box.
 class MarkedPairs {
 public:
     MarkedPairs(const BlockTree& tree, std::span<const Box3> boxes, const PairFilter& wanted,
@@ -31,7 +31,7 @@ public:
         for_each_child_pair(tree_, level, pair, [&](BlockPair child) { visit(level - 1, child); });
     }
 
-    /// Calls visit(children) for pairs of blocks of the level below that meet, with a mark.
+    /// Calls visit(children) for each pair of blocks of the level below that meet and have a mark.
     template <typename Visit>
     static void for_each_child_pair(const BlockTree& tree, std::size_t level, BlockPair pair,
                                     const Visit& visit) {
@@ -55,7 +55,7 @@ private:
     static void find(const BlockTree& tree, std::size_t level, BlockPair pair,
                      BlockMeetings& meetings) {
         const BlockTree::Level& here = tree.levels()[level];
-        // Where nothing in b has changed, only what has in a is of interest.
+        // If no box of b has changed, only the changed boxes of a need testing.
         const std::uint32_t rows =
             here.marks[pair.b] != 0 ? BoxBlock::kAllLanes : here.marks[pair.a];
         const Aabb bounds =
@@ -105,7 +105,7 @@ private:
     const PairFilter& wanted_;
     std::vector<IndexPair>& found_;
     std::array<IndexPair, std::size_t{kWidth} * kWidth>
-        pairs_; ///< of two blocks, before the filter
+        pairs_; ///< pairs of two blocks, before the filter
 };
 
 class TreeSearch final : public PairSearch {
@@ -138,7 +138,7 @@ public:
     }
 
 private:
-    /// Gathers the pairs of marked boxes.
+    /// Collects the pairs of marked boxes.
     void find(std::span<const Box3> boxes) {
         constexpr std::size_t kPairsOfTask = 16;
         const std::size_t level = tree_.levels().size() > 1 ? 1 : 0;
@@ -155,7 +155,7 @@ private:
         });
     }
 
-    /// Pairs of blocks of a level that meet, with a mark.
+    /// Pairs of blocks of a level that meet and have a mark.
     [[nodiscard]] std::vector<BlockPair> block_pairs(std::size_t level) const {
         std::vector<BlockPair> pairs{{0, 0}}, children;
         for (std::size_t above = tree_.levels().size() - 1; above > level; --above) {

@@ -21,7 +21,7 @@ namespace abut {
 
 namespace {
 
-/// Calls work(); an error's message then begins with the body's index.
+/// Calls work() and prefixes the message of an error with the body's index.
 template <typename Work>
 auto naming(BodyId id, const Work& work) {
     try {
@@ -52,7 +52,8 @@ std::vector<BodyPair> with_ids(const WorldData& data, const std::vector<IndexPai
     return result;
 }
 
-/// find(pair, k) for the k-th of all pairs, in parallel; the results that are something, in order.
+/// Calls find(pair, k) for the k-th pair, in parallel. Returns the results that are not empty, in
+/// order.
 template <typename Result, typename Find>
 std::vector<Result> results_of(const std::vector<IndexPair>& pairs, const Find& find) {
     constexpr std::size_t kPairsOfTask = 16;
@@ -103,7 +104,7 @@ BodyId World::add(const Deformable& surface, const BodyOptions& options) {
 }
 
 void World::move(BodyId body, const Pose& pose) {
-    const Body& moved = data_->body(body); // an id that is not valid has no name
+    const Body& moved = data_->body(body); // outside `naming`: its message names the body
     naming(body, [&] {
         require_rigid(moved);
         require_point(pose.translation, "position");
@@ -135,7 +136,7 @@ const Transform& World::world_from_body(BodyId body) const {
     return data_->body(body).world_from_body;
 }
 Box3 World::box(BodyId body) const {
-    static_cast<void>(data_->body(body)); // checks it
+    static_cast<void>(data_->body(body)); // throws if the id is not valid
     return data_->boxes()[body.index];
 }
 
@@ -169,7 +170,7 @@ std::vector<BodyGap> World::contacts() {
         data_->broad_phase().pairs(), [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
             const PlacedBody a = data_->placed(pair.a()), b = data_->placed(pair.b());
             PairWorkspace& workspace = data_->workspaces()[k];
-            // The gap of two convex bodies tells whether they touch.
+            // For two convex bodies, the gap alone tells whether they touch.
             const bool both_convex = is_convex(a.shape) && is_convex(b.shape);
             if (!both_convex && !touch(a, b, workspace))
                 return std::nullopt;
@@ -189,7 +190,8 @@ std::vector<BodyGap> World::closer_than(double distance) {
     return results_of<BodyGap>(
         near, [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyGap> {
             PairWorkspace workspace;
-            // Beyond the bound a distance may be the bound itself: so one just above.
+            // If the true distance exceeds the bound, the result may be the bound itself. The bound
+            // is therefore just above `distance`.
             BodyGap gap = gap_between(data_->placed(pair.a()), data_->placed(pair.b()),
                                       std::nextafter(distance, HUGE_VAL), Depths::no, workspace);
             if (gap.distance > distance)
@@ -206,11 +208,11 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
     std::vector<Motion> motion_of(bodies.size());
     std::vector<std::uint8_t> moves(bodies.size(), 0);
     for (const BodyMotion& each : motions) {
-        static_cast<void>(data_->body(each.body)); // checks it
+        static_cast<void>(data_->body(each.body)); // throws if the id is not valid
         naming(each.body, [&] {
             require_rigid(bodies[each.body.index]);
             require(moves[each.body.index] == 0, "moves twice in one step");
-            static_cast<void>(at(each.motion, 1)); // checks it
+            static_cast<void>(at(each.motion, 1)); // throws if the motion is not valid
         });
         motion_of[each.body.index] = each.motion;
         moves[each.body.index] = 1;
@@ -232,7 +234,7 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
         });
     ProgressMeter meter(options.progress, "impacts", pairs.size());
     ImpactOptions each = options;
-    each.progress.report = nullptr; // one stage for all
+    each.progress.report = nullptr; // progress is reported as one stage for all pairs
     return results_of<BodyImpact>(
         pairs, [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyImpact> {
             const Body &a = bodies[pair.a()], &b = bodies[pair.b()];
@@ -246,7 +248,7 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
 }
 
 void World::set_speed(BodyId body, const SpeedBounds& bounds) {
-    static_cast<void>(data_->body(body)); // checks it
+    static_cast<void>(data_->body(body)); // throws if the id is not valid
     naming(body, [&] {
         require(is_finite(bounds.velocity) && is_finite(bounds.acceleration),
                 "velocity or acceleration is not finite");

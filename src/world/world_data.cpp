@@ -30,7 +30,7 @@ const Body& WorldData::body(BodyId id) const {
     return bodies_[id.index];
 }
 Body& WorldData::changeable(BodyId id) {
-    static_cast<void>(body(id)); // checks it
+    static_cast<void>(body(id)); // throws if the id is not valid
     return bodies_[id.index];
 }
 
@@ -67,7 +67,7 @@ void WorldData::remove(BodyId id) {
 
 void WorldData::move(BodyId id, const Pose& pose) {
     Body& moved = changeable(id);
-    moved.world_from_body = pose; // which may throw
+    moved.world_from_body = pose; // may throw, so nothing is changed before
     moved.pose = pose;
     fit_box(id.index);
 }

@@ -11,7 +11,7 @@
 
 namespace abut {
 
-/// One of a world's bodies, or a free place for one.
+/// A body of a world, or a free place for one.
 struct Body {
     BodyShape shape = RoundedBox();
     Pose pose;
@@ -22,7 +22,7 @@ struct Body {
     bool alive = false;
 };
 
-/// The bodies and their pairs: what the queries of a world work on.
+/// The bodies of a world and the data of their pairs. The world's queries work on these.
 class WorldData {
 public:
     explicit WorldData(WorldOptions options);
@@ -36,7 +36,7 @@ public:
     void set_options(BodyId id, const BodyOptions& options);
     void refilter();
 
-    /// The id that the next body will have.
+    /// The id that the next added body will have.
     [[nodiscard]] BodyId next_id() const;
     [[nodiscard]] bool is_valid(BodyId id) const;
     /// Errors      Error{bad_argument} if the id is not valid.
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
     [[nodiscard]] const std::vector<Box3>& boxes() const { return boxes_; }
     [[nodiscard]] const BroadPhase& broad_phase() const { return broad_phase_; }
-    /// Of `broad_phase().pairs()`, each its own.
+    /// A workspace for each pair of `broad_phase().pairs()`.
     [[nodiscard]] std::vector<PairWorkspace>& workspaces() { return workspaces_; }
 
     [[nodiscard]] PlacedBody placed(std::uint32_t index) const {
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] BodyPair ids_of(IndexPair pair) const {
         return {id_of(pair.a()), id_of(pair.b())};
     }
-    /// Whether options and filter let the bodies meet. In: i < k.
+    /// Whether options and filter allow the bodies to meet. In: i < k.
     [[nodiscard]] bool may_meet(std::uint32_t i, std::uint32_t k) const;
 
 private:
@@ -73,19 +73,19 @@ private:
     std::vector<Body> bodies_;
     std::vector<Box3> boxes_; ///< empty where there is no body
     std::vector<std::uint32_t> free_;
-    /// Removed since the last update, and before it: indices are free again when no list of what has
-    /// ended speaks of them any more.
+    /// Indices removed since the last update, and in the step before it. An index becomes free when
+    /// no list of ended pairs can refer to it any more.
     std::vector<std::uint32_t> removed_, ended_;
-    std::vector<std::uint32_t> changed_; ///< since the last update, each once
+    std::vector<std::uint32_t> changed_; ///< changed since the last update, each once
     std::vector<std::uint8_t> is_changed_;
-    bool refiltered_ = false; ///< since the last update
+    bool refiltered_ = false; ///< whether filters changed since the last update
     std::size_t alive_ = 0;
     BroadPhase broad_phase_;
     std::vector<PairWorkspace> workspaces_;
 };
 
-/// Values of the pairs, each its own: after an update of the broad phase, those of pairs that are new
-/// are `fresh`.
+/// Carries a value for each pair over an update of the broad phase. Values of new pairs are
+/// `fresh`.
 template <typename Value>
 void carry_over(std::vector<Value>& values, const BroadPhase& phase, const Value& fresh) {
     const std::vector<IndexPair>&begun = phase.begun(), &ended = phase.ended();

@@ -157,6 +157,48 @@ TEST(ClassifyBlocks, IsTheVerdictOfTheWhole) {
     EXPECT_LT(far_off, kinds[0] / 20);
 }
 
+/// A translation by multiples of the grid moves every vertex exactly.
+TEST(ClassifyBlocks, DepthsAreTheSameWhereverTheModelsAre) {
+    Random random(6204);
+    constexpr double kGrid = 0x1p-12;
+    const auto on_grid = [](const Vec3& p) {
+        const auto round = [](double v) { return std::round(v / kGrid) * kGrid; };
+        return Vec3{round(p.x), round(p.y), round(p.z)};
+    };
+    const int rounds = many(300);
+    int deep = 0;
+    for (int round = 0; round < rounds; ++round) {
+        const auto mesh_on_grid = [&] {
+            Mesh mesh = some_mesh(random);
+            for (Vec3& p : mesh.positions)
+                p = on_grid(p);
+            return mesh;
+        };
+        const Mesh mesh_a = mesh_on_grid(), mesh_b = mesh_on_grid();
+        const auto most = static_cast<std::uint64_t>(random.integer(1, 80));
+        const Vec3 off = on_grid(random.in_cube(0.8));
+        const int cut = random.integer(1, 3);
+        const auto clash_at = [&](const Vec3& by) {
+            const Vec3 of_b = by + off;
+            const Body a(mesh_a, translation(by.x, by.y, by.z), most),
+                b(mesh_b, translation(of_b.x, of_b.y, of_b.z), most);
+            return classify_pair((cut & 1) != 0 ? a.cut() : a.whole(),
+                                 (cut & 2) != 0 ? b.cut() : b.whole(), 0, 0);
+        };
+        const auto here = clash_at({});
+        if (!here || !(here->distance < 0))
+            continue;
+        ++deep;
+        const auto there =
+            clash_at(on_grid(std::ldexp(1, random.integer(0, 20)) * random.in_cube(1)));
+        ASSERT_TRUE(there.has_value()) << "round " << round;
+        ASSERT_EQ(there->kind, here->kind) << "round " << round;
+        ASSERT_NEAR(there->distance, here->distance, -1e-9 * here->distance) << "round " << round;
+    }
+    std::cout << deep << " of " << rounds << " pairs deep\n";
+    EXPECT_GT(deep, rounds / 4);
+}
+
 /// What the blocks say of the whole.
 TEST(ClassifyBlocks, TheSolidIsThatOfTheWhole) {
     Random random(6202);

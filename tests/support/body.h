@@ -10,7 +10,7 @@
 
 namespace abut::test {
 
-/// A placed mesh with all that questions about solids need.
+/// A placed mesh with the data that tests of solids need.
 struct Body {
     explicit Body(const Mesh& mesh, const Transform& world = {})
         : model(mesh), solid(examine_solid(mesh)), placed(model, solid, world) {}
@@ -24,8 +24,8 @@ struct Body {
 
 struct Outcome {
     std::vector<Contact> contacts;
-    bool go_in = false;       ///< interpenetrate
-    LocalPenetration depth{}; ///< asked for only if so
+    bool go_in = false;       ///< the solids interpenetrate
+    LocalPenetration depth{}; ///< computed only if go_in
 };
 
 inline Outcome meeting(const Body& a, const Body& b, const DepthSearch& options = {}) {

@@ -42,14 +42,14 @@ inline Pairs without(const Pairs& a, const Pairs& b) {
     return rest;
 }
 
-/// What a script's boxes are like.
+/// Properties of a script's boxes.
 struct BoxSceneKind {
     const char* name;
-    double lattice;  ///< coordinates are multiples of this; 0: any
-    double offset;   ///< where the world lies
-    double overlaps; ///< about so many a box
+    double lattice;  ///< coordinates are multiples of this; 0: arbitrary
+    double offset;   ///< position of the world
+    double overlaps; ///< approximate number of overlaps for each box
     bool clustered;
-    double hubs = 0; ///< this share of the boxes is about as large as the world
+    double hubs = 0; ///< share of boxes that are about as large as the world
 };
 
 inline constexpr std::array kBoxSceneKinds{
@@ -72,26 +72,26 @@ public:
 
     [[nodiscard]] const std::vector<Box3>& boxes() const { return boxes_; }
 
-    /// Changes some boxes, or all; returns which.
+    /// Changes some boxes, or all, and returns their indices.
     std::vector<std::uint32_t> step() {
         switch (random_.integer(0, 6)) {
-        case 0: // nothing
+        case 0: // nothing changes
             return {};
-        case 1: // all drift
+        case 1: // all boxes drift
             return change(1, [&](const Box3& box) { return drifted(box, 0.02); });
-        case 2: // all go elsewhere
+        case 2: // all boxes jump
             return change(1, [&](const Box3&) { return anywhere(); });
-        case 3: // a few go elsewhere, or leave
+        case 3: // a few boxes jump or leave
             return change(0.03,
                           [&](const Box3&) { return random_.chance(0.3) ? Box3() : anywhere(); });
-        case 4: // a few coincide with others, or shrink to points
+        case 4: // a few boxes coincide with others or shrink to points
             return change(0.05, [&](const Box3& box) {
                 const Box3& other = boxes_[std::size_t(random_.integer(0, int(boxes_.size()) - 1))];
                 return random_.chance(0.5) ? other : Box3{box.lower, box.lower};
             });
-        case 5: // one spans the world; some are new
+        case 5: // one box spans the world; some boxes are new
             return grown();
-        default: // many move fast
+        default: // many boxes move fast
             return change(0.4, [&](const Box3& box) { return drifted(box, 0.5); });
         }
     }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-/// Answers by looking at every pair of triangles. Only their boxes spare work.
+/// Reference answers from testing every pair of triangles. Only their boxes save work.
 namespace abut::test {
 
 struct PlacedTriangle {
@@ -51,7 +51,7 @@ inline std::vector<TrianglePair> brute_pairs(const std::vector<PlacedTriangle>& 
     return pairs;
 }
 
-/// In: no two triangles meet. Infinite if there are none.
+/// In: no two triangles meet. Returns infinity if there are no triangles.
 inline double brute_distance(const std::vector<PlacedTriangle>& a,
                              const std::vector<PlacedTriangle>& b) {
     double best_sq = HUGE_VAL;

@@ -5,13 +5,13 @@
 
 namespace abut::test {
 
-/// Choices that bytes make; the lowest once there are none left.
+/// Choices determined by bytes. When the bytes are used up, every choice is the lowest.
 class ByteChoices {
 public:
     explicit ByteChoices(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
     [[nodiscard]] bool is_empty() const { return bytes_.empty(); }
 
-    /// So few numbers that some come again.
+    /// Has so few possible values that some are repeated.
     double uniform(double low, double high) {
         const int hundreds = next();
         return low + (256 * hundreds + next()) / 65535.0 * (high - low);

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <ostream>
 
-/// Elementary pairs of all sorts, and ways to write the same pair differently.
+/// Elementary pairs of all sorts, and different ways to write the same pair.
 namespace abut::test {
 
 inline ElementaryKind any_kind(Random& random) {
@@ -25,8 +25,8 @@ ElementaryPair changed(ElementaryPair pair, const Change& change) {
     return pair;
 }
 
-/// Coordinates 0 to n: contacts of all kinds, exact ones, are common. Some move within one plane,
-/// stand still, in part or at all, or have coincident vertices.
+/// Coordinates are integers from 0 to n, so that exact contacts of all kinds are frequent. Some
+/// pairs move within one plane, are partly or wholly at rest, or have coincident vertices.
 inline ElementaryPair lattice_pair(Random& random, int n) {
     ElementaryPair pair{any_kind(random), {}, {}};
     pair = changed(pair, [&](const Vec3&) { return random.on_lattice(n); });
@@ -34,9 +34,9 @@ inline ElementaryPair lattice_pair(Random& random, int n) {
     switch (random.integer(0, 9)) {
     case 0: // in the plane z = 0
         return changed(pair, [](const Vec3& p) { return Vec3{p.x, p.y, 0}; });
-    case 1: // in a plane askew
+    case 1: // in an oblique plane
         return changed(pair, [](const Vec3& p) { return Vec3{p.x, p.y, p.x + p.y}; });
-    case 2: // in a line
+    case 2: // on a line
         return changed(pair, [](const Vec3& p) { return Vec3{p.x, p.x, 0}; });
     case 3:
         pair.end = pair.start;
@@ -46,7 +46,7 @@ inline ElementaryPair lattice_pair(Random& random, int n) {
         pair.end[i] = pair.start[i];
         return pair;
     }
-    case 5: { // a feature that is a point, or an edge of the face
+    case 5: { // a feature degenerates to a point, or an edge of the face does
         const std::size_t i = any(), k = any();
         pair.start[i] = pair.start[k], pair.end[i] = pair.end[k];
         return pair;
@@ -60,7 +60,7 @@ inline ElementaryPair lattice_pair(Random& random, int n) {
     }
 }
 
-/// Everything anywhere; the motion is as large as the features, or smaller.
+/// Arbitrary positions. The motion is as large as the features, or smaller.
 inline ElementaryPair random_pair(Random& random) {
     ElementaryPair pair{any_kind(random), {}, {}};
     const double way = std::pow(10, random.uniform(-3, 0));
@@ -71,7 +71,8 @@ inline ElementaryPair random_pair(Random& random) {
     return pair;
 }
 
-/// Features that meet, up to rounding, at a random time and place: within, or on a border.
+/// Features that meet, up to rounding, at a random time and place: in their interiors or on a
+/// border.
 inline ElementaryPair meeting_pair(Random& random) {
     ElementaryPair pair = random_pair(random);
     const bool face = pair.kind == ElementaryKind::vertex_face;
@@ -92,7 +93,7 @@ inline ElementaryPair meeting_pair(Random& random) {
     return pair;
 }
 
-/// Some coordinates a few units in the last place off, and some exactly equal.
+/// Moves some coordinates by a few units in the last place, and makes some exactly equal.
 inline ElementaryPair mutated(Random& random, ElementaryPair pair) {
     const int kind = random.integer(0, 3);
     return changed(pair, [&](Vec3 p) {
@@ -106,7 +107,7 @@ inline ElementaryPair mutated(Random& random, ElementaryPair pair) {
     });
 }
 
-/// What writes the same pair of moving features differently.
+/// Writes the same pair of moving features differently.
 inline ElementaryPair rewritten(Random& random, ElementaryPair pair) {
     const auto permute = [&](std::size_t i, std::size_t k) {
         std::swap(pair.start[i], pair.start[k]);
@@ -125,7 +126,7 @@ inline ElementaryPair rewritten(Random& random, ElementaryPair pair) {
     }
     const int axis = random.integer(0, 2);
     const double sign = random.chance(0.5) ? 1 : -1;
-    // Powers of two and turns by right angles round nothing.
+    // Scaling by powers of two and rotation by right angles do not round.
     const double scale = std::ldexp(sign, random.integer(-40, 40));
     return changed(pair, [&](const Vec3& p) {
         return scale * (axis == 0 ? p : axis == 1 ? Vec3{p.y, p.z, p.x} : Vec3{-p.y, p.x, p.z});
@@ -137,7 +138,7 @@ inline ElementaryPair reversed(ElementaryPair pair) {
     return pair;
 }
 
-/// Both features' points of impact at the time of an impact.
+/// The points of impact on both features at the time of impact.
 inline std::array<Vec3, 2> impact_points(const ElementaryPair& pair,
                                          const ElementaryImpact& impact) {
     const double t = impact.time;
@@ -148,7 +149,7 @@ inline std::array<Vec3, 2> impact_points(const ElementaryPair& pair,
     return {(1 - b[0]) * at(0) + b[0] * at(1), (1 - b[1]) * at(2) + b[1] * at(3)};
 }
 
-/// Of all coordinates and ways, in magnitude.
+/// The largest magnitude of all coordinates.
 inline double size_of(const ElementaryPair& pair) {
     double size = 0;
     for (const auto* points : {&pair.start, &pair.end})

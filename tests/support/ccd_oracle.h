@@ -11,12 +11,13 @@
 #include <span>
 #include <vector>
 
-/// Whether and when two moving features meet, by integers and a route that shares nothing with the
-/// library's: the point of a face, or the points of two edges, that are nearest by the normal
-/// equations; signs at roots by Sturm sequences and Tarski queries [Basu, Pollack, Roy 2006, 2.2].
+/// Decides whether and when two moving features meet, in integers and independently of the
+/// library's method. The normal equations give the nearest point of a face, or the nearest points
+/// of two edges. Sturm sequences and Tarski queries give signs at roots [Basu, Pollack, Roy 2006,
+/// 2.2].
 namespace abut::test {
 
-/// Coefficients from the constant on; no zero at the end. Empty: the zero polynomial.
+/// Coefficients in ascending order without trailing zeros. The zero polynomial is empty.
 template <typename Int>
 using Poly = std::vector<Int>;
 
@@ -56,7 +57,7 @@ Poly<Int> derived(const Poly<Int>& p) {
         r.push_back(Int(static_cast<int>(i)) * p[i]);
     return r;
 }
-/// Over the greatest common divisor of the coefficients: they stay small.
+/// Divides by the greatest common divisor of the coefficients, which keeps them small.
 template <typename Int>
 Poly<Int> primitive(Poly<Int> p) {
     Int common = 0;
@@ -67,7 +68,7 @@ Poly<Int> primitive(Poly<Int> p) {
             c /= common;
     return p;
 }
-/// Remainder of a positive multiple of a by b; `quotient` gets that multiple's quotient.
+/// Remainder of a positive multiple of a, divided by b. `quotient` receives the quotient.
 template <typename Int>
 Poly<Int> remainder(Poly<Int> a, const Poly<Int>& b, Poly<Int>* quotient = nullptr) {
     const Int square = b.back() * b.back();
@@ -90,7 +91,7 @@ Poly<Int> remainder(Poly<Int> a, const Poly<Int>& b, Poly<Int>* quotient = nullp
     return a;
 }
 
-/// n / 2^k
+/// The time n / 2^k.
 template <typename Int>
 struct DyadicTime {
     Int n;
@@ -109,7 +110,7 @@ int sign_at(const Poly<Int>& p, const DyadicTime<Int>& t) {
     return sign_of(sum);
 }
 
-/// p, q, and the negated remainders of each two.
+/// Sturm chain: p, q, then the negated remainder of each two successive ones.
 template <typename Int>
 std::vector<Poly<Int>> sturm_chain(const Poly<Int>& p, const Poly<Int>& q) {
     std::vector<Poly<Int>> chain{primitive(p)};
@@ -138,7 +139,7 @@ class OracleRoot {
 public:
     OracleRoot(Poly<Int> p, std::vector<Poly<Int>> chain, DyadicTime<Int> low, DyadicTime<Int> high)
         : p_(std::move(p)), chain_(std::move(chain)), low_(low), high_(high) {
-        // A Tarski query wants ends that are no roots.
+        // A Tarski query needs interval ends that are not roots.
         while (!is_high() && sign_at(p_, low_) == 0)
             halve();
     }
@@ -184,7 +185,7 @@ std::vector<OracleRoot<Int>> oracle_roots(const Poly<Int>& p) {
     struct Range {
         DyadicTime<Int> low, high;
     };
-    // (-1, 0] holds no other root than 0 if (-1/2^k, 0] has one for a small enough cell: 0 is apart.
+    // The root 0 is represented by the polynomial t, whose only root in (-1, 0] it is.
     if (sign_at(square_free, {Int(0), 0}) == 0)
         roots.emplace_back(Poly<Int>{Int(0), Int(1)},
                            sturm_chain(Poly<Int>{Int(0), Int(1)}, Poly<Int>{Int(1)}),
@@ -205,7 +206,7 @@ std::vector<OracleRoot<Int>> oracle_roots(const Poly<Int>& p) {
     return roots;
 }
 
-/// Encloses a time.
+/// An interval that contains a time.
 struct OracleTime {
     double low, high;
 };
@@ -213,7 +214,7 @@ struct OracleTime {
 template <typename Int>
 using PolyPoint = Point<Poly<Int>>;
 
-/// What must hold of signs at a time for the features to meet.
+/// The conditions on signs at a time under which the features meet.
 template <typename Int>
 class CcdOracle {
 public:
@@ -242,7 +243,7 @@ public:
         }
     }
 
-    /// The first time, to about 2^-50; nothing if they do not meet.
+    /// The first time of contact, to about 2^-50; none if the features do not meet.
     [[nodiscard]] std::optional<OracleTime> first() const {
         std::vector<OracleRoot<Int>> times;
         if (!volume_.empty())
@@ -280,8 +281,8 @@ private:
                 test::minus(times(a.x, b.y), times(a.y, b.x))};
     }
 
-    /// r = s u + h v in the plane of u = u1 - u0 and v = v1 - v0, where r = r1 - r0: Cramer's rule
-    /// on the normal equations.
+    /// Solves r = s u + h v in the plane of u = u1 - u0 and v = v1 - v0, where r = r1 - r0, by
+    /// Cramer's rule on the normal equations.
     void prepare(const PolyPoint<Int>& u0, const PolyPoint<Int>& u1, const PolyPoint<Int>& v0,
                  const PolyPoint<Int>& v1, const PolyPoint<Int>& r0, const PolyPoint<Int>& r1) {
         const auto u = sub(u1, u0), v = sub(v1, v0), r = sub(r1, r0);
@@ -325,7 +326,7 @@ private:
     std::array<PolyPoint<Int>, 4> x_;
     Poly<Int> volume_, whole_, s_, h_;
     std::vector<Poly<Int>> inside_;
-    std::vector<std::array<std::size_t, 3>> segments_; ///< a point and a segment's ends
+    std::vector<std::array<std::size_t, 3>> segments_; ///< a point and the ends of a segment
     std::vector<Poly<Int>> off_line_, between_;
 };
 

@@ -17,11 +17,11 @@
 
 namespace abut::test {
 
-/// Models in a store that change from import to import, and which of their parts have not since some
-/// moment, by comparison of the files alone.
+/// A store whose model files change from import to import. It knows from the files alone which of
+/// their parts have not changed since a certain moment.
 class ChangingSite {
 public:
-    /// In          parts: of a model, at most.
+    /// In          parts: maximum number of parts in a model file.
     ChangingSite(Random& random, int models, int parts) : random_(random), parts_(parts) {
         for (int i = 0; i < models; ++i)
             add_model();
@@ -29,14 +29,14 @@ public:
     }
 
     [[nodiscard]] std::string store() const { return folder_ / "site.abut"; }
-    /// In the order of the store.
+    /// In the order in which the store has them.
     [[nodiscard]] const std::vector<Scene>& scenes() const { return scenes_; }
     [[nodiscard]] bool is_unchanged(std::size_t model, const std::string& part) const {
         return models_.at(model).unchanged.contains(part) &&
                models_.at(model).file_then == scenes_.at(model).file;
     }
 
-    /// From now on: all parts are unchanged.
+    /// Marks all parts as unchanged from now on.
     void begin() {
         for (std::size_t m = 0; m < models_.size(); ++m) {
             models_[m].file_then = scenes_[m].file;
@@ -46,8 +46,8 @@ public:
         }
     }
 
-    /// Changes some of the models, some of their parts, or takes changes back, and imports them;
-    /// perhaps none.
+    /// Changes some model files and some of their parts, or reverts changes, and imports them. It
+    /// may change nothing.
     void change() {
         if (models_.size() > 1 && random_.chance(0.15))
             remove_model();
@@ -67,9 +67,9 @@ public:
 private:
     struct Model {
         int serial = 0;
-        Scene draft, before; ///< as it is to be written, and was
+        Scene draft, before; ///< the scene to be written, and the previous one
         std::string file_then;
-        std::set<std::string> unchanged; ///< ids of parts
+        std::set<std::string> unchanged; ///< ids of unchanged parts
     };
 
     void add_model() {
@@ -113,7 +113,7 @@ private:
                 part.id = "part" + std::to_string(random_.integer(1000, 1'000'000));
             }
         }
-        if (random_.chance(0.1)) // shown by several parts, perhaps
+        if (random_.chance(0.1)) // this mesh may belong to several parts
             draft.meshes.at(0) = some_body(random_);
         if (random_.chance(0.4))
             draft.parts.erase(draft.parts.begin() +
@@ -135,11 +135,11 @@ private:
         for (const Model& model : models_) {
             const std::string name = "model" + std::to_string(model.serial) + ".glb";
             write_glb(model.draft, folder_ / name);
-            // The same file by another name is another file to rules.
+            // Rules treat the same file under another name as another file.
             files.push_back(folder_ / (random_.chance(0.1) ? "./" + name : name));
         }
         const std::size_t known = scenes_.size();
-        if (random_.chance(0.5)) // new models come after those that are there
+        if (random_.chance(0.5)) // new model files come after the existing ones
             std::reverse(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(known));
         (void)import_models(files, store());
         const std::vector<Scene> before = std::exchange(scenes_, {});
@@ -170,7 +170,7 @@ private:
     int parts_;
     Folder folder_;
     std::vector<Model> models_;
-    std::vector<Scene> scenes_; ///< as they were imported
+    std::vector<Scene> scenes_; ///< as imported
     int serial_ = 0;
 };
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// Random scenes whose parts clash, and what two reports have in common.
+/// Random scenes whose parts clash, and comparisons of reports.
 namespace abut::test {
 
 inline Mesh some_body(Random& random) {
@@ -28,7 +28,7 @@ inline Mesh some_body(Random& random) {
     }
 }
 
-/// Parts in a flat box, so crowded that about every third pair of boxes in reach is a clash.
+/// Parts in a flat box. It is so crowded that about every third pair of nearby boxes is a clash.
 inline Scene some_scene(Random& random, int parts, double reach) {
     Scene scene;
     for (int i = 0; i < parts; ++i) {

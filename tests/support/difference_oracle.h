@@ -10,11 +10,12 @@
 #include <stdexcept>
 #include <vector>
 
-/// Two small sets of points by brute force in integers: do their convex hulls meet, and how deep?
+/// Decides by brute force in integers whether the convex hulls of two small point sets meet, and
+/// how deep.
 ///
-/// The difference of two hulls is bounded by planes across an edge vector of each, or across two of
-/// one: all of these are tried, whether or not the points are vertices. Nothing is rounded but the
-/// depth at the end.
+/// The difference of two hulls is bounded by planes that contain an edge vector of each hull, or
+/// two of one. All such planes are tried, whether or not the points are vertices. Only the final
+/// depth is rounded.
 namespace abut::test {
 
 class DifferenceOracle {
@@ -41,18 +42,18 @@ public:
         across(edges_a, edges_b);
     }
 
-    /// Whether the difference has a volume: else the rest says nothing.
+    /// Whether the difference has a volume. If not, the other answers are meaningless.
     [[nodiscard]] bool is_solid() const { return spans_ && thick_; }
     [[nodiscard]] bool meet() const { return !separated_; }
-    /// Touching, not overlapping.
+    /// Whether they touch without overlapping.
     [[nodiscard]] bool touch() const { return !separated_ && touches_; }
-    /// The least translation that ends the overlap.
+    /// The length of the shortest translation that ends the overlap.
     [[nodiscard]] double depth() const { return depth_; }
 
 private:
     using Int = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
         768, 768, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
-    static constexpr int kMostBits = 180; ///< products of four fit in an Int
+    static constexpr int kMostBits = 180; ///< so that a product of four fits in an Int
     struct Whole {
         Int x, y, z;
     };

@@ -13,15 +13,15 @@
 #include <span>
 #include <vector>
 
-/// Whether convex hulls meet, by integers and a route that shares nothing with the library's: two
-/// hulls meet if and only if the hull of all differences p - q holds the origin, and by
-/// Caratheodory's theorem a point of a hull lies in a simplex of at most four of its points.
+/// Decides whether convex hulls meet, in integers and independently of the library's method. Two
+/// hulls meet if and only if the hull of all differences p - q contains the origin. By
+/// Caratheodory's theorem, a point of a hull lies in a simplex of at most four of its points.
 namespace abut::test {
 
-/// Holds differences of doubles within 2^200 of each other, and determinants of them.
+/// Large enough for differences of doubles within a factor 2^200, and for their determinants.
 using BigInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
     1024, 1024, boost::multiprecision::signed_magnitude, boost::multiprecision::checked, void>>;
-/// Holds anything.
+/// Large enough for any value.
 using AnyInt = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                              boost::multiprecision::et_off>;
 
@@ -52,8 +52,8 @@ int sign_of(const Int& v) {
     return (v > 0) - (v < 0);
 }
 
-/// All points over one power of two, which no sign depends on. Int = long long: the coordinates
-/// must be integers already.
+/// All points in units of one power of two; signs do not depend on the unit. For Int = long long,
+/// coordinates must already be integers.
 template <typename Int>
 std::vector<Point<Int>> as_integers(std::span<const Vec3> points) {
     std::vector<Point<Int>> result;
@@ -91,7 +91,7 @@ std::vector<Point<Int>> as_integers(std::span<const Vec3> points) {
     return result;
 }
 
-/// The points a_i - b_j, and the determinants of every three of them.
+/// The points a_i - b_j, and the determinants of all triples of them.
 template <typename Int>
 class Differences {
 public:
@@ -110,7 +110,7 @@ public:
             }
     }
 
-    /// Whether the origin lies in the hull.
+    /// Whether the hull contains the origin.
     [[nodiscard]] bool hold_origin() const {
         for (std::size_t i = 0; i < n_; ++i) {
             if (is_zero(p_[i]))
@@ -130,9 +130,9 @@ public:
         return false;
     }
 
-    /// Whether no plane through the origin has all points weakly on one side. In: the points span
-    /// space. The normals to try are those of planes through two points: extreme rays of the cone
-    /// of all normals.
+    /// Whether every plane through the origin has points strictly on both sides. In: the points
+    /// span space. It is sufficient to try the planes through two points, whose normals include the
+    /// extreme rays of the cone of all normals.
     [[nodiscard]] bool surround_origin() const {
         for (std::size_t i = 0; i < n_; ++i)
             for (std::size_t j = i + 1; j < n_; ++j) {
@@ -162,10 +162,10 @@ private:
     }
     [[nodiscard]] bool in_tetrahedron(std::size_t i, std::size_t j, std::size_t k,
                                       std::size_t l) const {
-        // Barycentric coordinates of the origin, up to one common factor.
+        // Barycentric coordinates of the origin, up to a common factor.
         const std::array<int, 4> w{det(j, k, l), -det(i, k, l), det(i, j, l), -det(i, j, k)};
         const auto [low, high] = std::minmax_element(w.begin(), w.end());
-        // All zero: the four lie in a plane with the origin, and a triangle decides.
+        // All are zero if the four points and the origin are coplanar. Then a triangle decides.
         return (*low >= 0 && *high > 0) || (*high <= 0 && *low < 0);
     }
 
@@ -194,14 +194,14 @@ Point<Int> oracle_normal(const Triangle& t) {
     return cross(minus(p[1], p[0]), minus(p[2], p[0]));
 }
 
-/// `cross` by its definition: both have an area, their planes are not parallel, and their relative
-/// interiors share a point, that is, the origin is inner to the differences.
+/// `cross` by its definition: both triangles have an area, their planes are not parallel, and their
+/// relative interiors share a point. The last means that the origin is interior to the differences.
 template <typename Int>
 TriangleContact oracle_contact(const Triangle& a, const Triangle& b) {
     const Differences<Int> d(a, b);
     if (!d.hold_origin())
         return TriangleContact::none;
-    // Parallel normals: also if one is zero. Each is over its own power of two, which does not
+    // Normals count as parallel also if one is zero. Each normal has its own unit, which does not
     // matter.
     const bool parallel = is_zero(cross(oracle_normal<Int>(a), oracle_normal<Int>(b)));
     return !parallel && d.surround_origin() ? TriangleContact::cross : TriangleContact::touch;

@@ -8,7 +8,7 @@
 
 namespace abut::test {
 
-/// A folder of its own, gone after the test with all that it holds.
+/// A temporary folder, removed with its contents after the test.
 class Folder {
 public:
     Folder() {

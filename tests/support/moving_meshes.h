@@ -14,7 +14,7 @@
 #include <tuple>
 #include <vector>
 
-/// Meshes that move, and what impacts are looked for among by brute force.
+/// Moving meshes, and brute-force searches for their impacts.
 namespace abut {
 
 inline void PrintTo(const FeatureImpact& i, std::ostream* out) {
@@ -26,12 +26,12 @@ inline void PrintTo(const FeatureImpact& i, std::ostream* out) {
 
 namespace abut::test {
 
-/// A mesh at its start, and where its vertices end.
+/// A mesh at the start, and the positions of its vertices at the end.
 struct MovingMesh {
     Mesh mesh;
     std::vector<Vec3> end;
 
-    /// With a Deformable's options.
+    /// The moving mesh as a Deformable.
     [[nodiscard]] Deformable deformable(const DeformableOptions& options = {}) const {
         Deformable surface(mesh, options);
         surface.set_motion(mesh.positions, end);
@@ -39,7 +39,7 @@ struct MovingMesh {
     }
 };
 
-/// Triangles of any of the vertices: some have an index twice, most edges have many triangles.
+/// Triangles of arbitrary vertices. Some repeat an index, and most edges have many triangles.
 inline std::vector<std::array<std::uint32_t, 3>> any_triangles(Random& random, int vertices,
                                                                int triangles) {
     std::vector<std::array<std::uint32_t, 3>> all(static_cast<std::size_t>(triangles));
@@ -49,7 +49,8 @@ inline std::vector<std::array<std::uint32_t, 3>> any_triangles(Random& random, i
     return all;
 }
 
-/// Coordinates 0 to n: exact contacts, also of planar motion, are common.
+/// Coordinates are integers from 0 to n, so that exact contacts are frequent, also in planar
+/// motion.
 inline MovingMesh lattice_soup(Random& random, int vertices, int triangles, int n) {
     MovingMesh moving;
     const bool planar = random.chance(0.2), still = random.chance(0.2);
@@ -67,7 +68,7 @@ inline MovingMesh lattice_soup(Random& random, int vertices, int triangles, int 
     return moving;
 }
 
-/// Everything anywhere; the motion is as large as the triangles, or smaller.
+/// Arbitrary positions. The motion is as large as the triangles, or smaller.
 inline MovingMesh random_soup(Random& random, int vertices, int triangles) {
     MovingMesh moving;
     const double way = std::pow(10, random.uniform(-2, 0));
@@ -79,7 +80,7 @@ inline MovingMesh random_soup(Random& random, int vertices, int triangles) {
     return moving;
 }
 
-/// A sheet of 2 n^2 triangles, crumpled, that crumples further.
+/// A crumpled sheet of 2 n^2 triangles that crumples further.
 inline MovingMesh crumpled_sheet(Random& random, int n, double size = 1) {
     const double bend = random.uniform(2, 5), noise = size / n;
     MovingMesh moving;
@@ -92,14 +93,15 @@ inline MovingMesh crumpled_sheet(Random& random, int n, double size = 1) {
     return moving;
 }
 
-/// All pairs of features of two surfaces, or of one if they are the same object, neighbours left
-/// out: calls visit(impact with kind, face_first, a and b set; elementary pair).
+/// Calls visit for all pairs of features of two surfaces, or of one surface if both are the same
+/// object, except neighbours. Arguments: an impact with kind, face_first, a and b set, and the
+/// elementary pair.
 template <typename Visit>
 void for_each_feature_pair(const MovingMesh& first, const MovingMesh& second, const Visit& visit) {
     using Edge = std::array<std::uint32_t, 2>;
     const bool self = &first == &second;
     const auto edges_of = [](const MovingMesh& moving) {
-        std::set<Edge> edges; // (higher, lower), which is the order of Deformable::edges
+        std::set<Edge> edges; // (higher, lower): the order of Deformable::edges
         for (const auto& t : moving.mesh.triangles)
             for (std::size_t k = 0; k < 3; ++k)
                 if (t[k] != t[(k + 1) % 3])
@@ -151,12 +153,12 @@ void for_each_feature_pair(const MovingMesh& first, const MovingMesh& second, co
         faces(second, first, true);
 }
 
-/// By kind, face_first, a, b.
+/// The sort key of impacts: kind, face_first, a, b.
 inline auto list_order(const FeatureImpact& i) {
     return std::tuple(i.kind, i.face_first, i.a, i.b);
 }
 
-/// The impacts by single elementary tests of all pairs, and how many these are.
+/// The impacts found by elementary tests of all pairs, and the number of pairs.
 struct BruteForceImpacts {
     std::vector<FeatureImpact> list;
     std::size_t pairs = 0;

@@ -12,8 +12,8 @@
 
 namespace abut::test {
 
-/// Asks a store the questions in SQL that a page of docs/ shows below its mark <!-- sql -->. Returns how
-/// many rows each SELECT gives.
+/// Runs the SQL queries that a page of docs/ shows below its mark <!-- sql --> on a store. Returns
+/// the number of rows of each SELECT.
 inline std::vector<int> rows_of_page_queries(const std::string& page, const std::string& store) {
     std::ifstream file(std::string(ABUT_SOURCE_DIR) + "/docs/" + page);
     const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -5,9 +5,9 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-/// Distances with 100 digits, by trying every face of both convex sets: for each pair of faces the
-/// nearest points of their affine hulls solve a linear system (Cramer's rule), and count if they
-/// lie within the faces. No clamping, no order of cases.
+/// Distances to 100 digits, by trying all pairs of faces of both convex sets. For each pair, a
+/// linear system gives the nearest points of the affine hulls (Cramer's rule). They count if they
+/// lie within the faces. There is no clamping and no order of cases.
 namespace abut::test {
 
 using Precise = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
@@ -32,8 +32,8 @@ inline bool in_unit(const Precise& v) {
     return v >= 0 && v <= 1;
 }
 
-/// Squared norm of r + s u + t v at its stationary point, if the system is regular and `inside`
-/// holds.
+/// Keeps the squared norm of r + s u + t v at its stationary point, if the system is regular and
+/// `inside` holds.
 template <typename Inside>
 void try_stationary(Precise& best, const PrecisePoint& r, const PrecisePoint& u,
                     const PrecisePoint& v, const Inside& inside) {
@@ -96,7 +96,8 @@ inline Precise precise_distance(const Vec3& p, const Triangle& triangle) {
     return precise_root(best);
 }
 
-/// Of the boundaries and vertex-face pairs alone: crossing is not looked at.
+/// The distance of the boundaries and of vertex-face pairs only. Crossing triangles are not
+/// considered.
 inline Precise precise_boundary_distance(const Triangle& triangle_a, const Triangle& triangle_b) {
     const PreciseTriangle a = precise(triangle_a), b = precise(triangle_b);
     Precise best = segment_segment_sq(a[0], a[1], b[0], b[1]);

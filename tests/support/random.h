@@ -12,7 +12,7 @@
 
 namespace abut::test {
 
-/// Random numbers of a test. The seed is printed; ABUT_TEST_SEED in the environment replaces it.
+/// Random numbers for a test. Prints the seed, which ABUT_TEST_SEED in the environment replaces.
 class Random {
 public:
     explicit Random(std::uint64_t seed) {
@@ -26,7 +26,7 @@ public:
     double uniform(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(engine_);
     }
-    /// Both ends included.
+    /// Both bounds are included.
     int integer(int low, int high) {
         return std::uniform_int_distribution<int>(low, high)(engine_);
     }
@@ -60,7 +60,7 @@ public:
         const Vec3 q = std::sin(angle) * d;
         return {in_cube(reach), {std::cos(angle), q.x, q.y, q.z}};
     }
-    /// A rotation; if `affine`, with scaling and shear, and half of the time a mirror.
+    /// A rotation. If `affine`, it also scales and shears, and in half of the cases mirrors.
     Transform linear_map(bool affine) {
         const Transform rotation = pose(0);
         if (!affine)
@@ -70,7 +70,7 @@ public:
             rotation, Transform({mirror * uniform(0.2, 3), uniform(-1, 1), 0, uniform(-1, 1),
                                  uniform(0.2, 3), 0, 0, uniform(-1, 1), uniform(0.2, 3), 0, 0, 0}));
     }
-    /// The double some units in the last place away.
+    /// A double at most `ulps` units in the last place away.
     double nudge(double v, int ulps) {
         for (int i = integer(-ulps, ulps); i != 0; i += i > 0 ? -1 : 1)
             v = std::nextafter(v, i > 0 ? HUGE_VAL : -HUGE_VAL);

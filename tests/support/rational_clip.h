@@ -6,8 +6,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <vector>
 
-/// Whether a triangle meets a convex solid, by clipping it against the solid's half-spaces in
-/// rational numbers.
+/// Decides whether a triangle meets a convex solid, by clipping it against the solid's half-spaces
+/// in rational numbers.
 namespace abut::test {
 
 using Rational = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend,
@@ -29,7 +29,7 @@ inline RationalVec3 cross(const RationalVec3& a, const RationalVec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// normal . x <= offset
+/// The half-space normal . x <= offset.
 struct RationalPlane {
     RationalVec3 normal;
     Rational offset;
@@ -45,7 +45,7 @@ inline std::vector<RationalPlane> rational_planes(const Box3& box) {
     return planes;
 }
 
-/// Of a regular transform of a box. In: its corners are exact.
+/// The half-spaces of a box under a regular transform. In: the transformed corners are exact.
 inline std::vector<RationalPlane> rational_planes(const Box3& box, const Transform& world) {
     const RationalVec3 low(apply(world, box.lower)), high(apply(world, box.upper));
     const std::array axes{RationalVec3(apply_linear(world, {1, 0, 0})),
@@ -62,7 +62,7 @@ inline std::vector<RationalPlane> rational_planes(const Box3& box, const Transfo
     return planes;
 }
 
-/// What closed half-spaces leave of a triangle: a convex polygon, some corners twice, perhaps.
+/// The part of a triangle within closed half-spaces: a convex polygon, which may repeat corners.
 /// Source      [Sutherland, Hodgman 1974].
 inline std::vector<RationalVec3> clipped(const Triangle& t,
                                          const std::vector<RationalPlane>& planes) {
@@ -90,7 +90,8 @@ inline bool clip_meets(const Triangle& t, const std::vector<RationalPlane>& plan
     return !clipped(t, planes).empty();
 }
 
-/// Whether a triangle meets the inside: the middle of what is left lies on a plane only if all does.
+/// Whether a triangle meets the interior. The centre of the clipped polygon lies on a plane only if
+/// the whole polygon does.
 inline bool clip_enters(const Triangle& t, const std::vector<RationalPlane>& planes) {
     const std::vector<RationalVec3> polygon = clipped(t, planes);
     RationalVec3 sum({}, {}, {});

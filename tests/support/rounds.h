@@ -5,8 +5,8 @@
 
 namespace abut::test {
 
-/// So many cases, times ABUT_TEST_ROUNDS; fewer, of thousands, under a sanitizer, which slows them
-/// down.
+/// Number of cases to run: `count` times ABUT_TEST_ROUNDS. Under a sanitizer, which is slow, counts
+/// in the thousands are reduced.
 inline int many(int count) {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): tests set no environment
     const char* text = std::getenv("ABUT_TEST_ROUNDS");

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-/// Meshes that tests are made of. Closed ones point outward.
+/// Meshes for tests. Closed ones are oriented outward.
 namespace abut::test {
 
 inline Mesh box_mesh(const Vec3& lower, const Vec3& upper) {
@@ -22,14 +22,14 @@ inline Mesh box_mesh(const Vec3& lower, const Vec3& upper) {
                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return m;
 }
-/// The top (z = upper) is missing.
+/// A box without its top, z = upper.
 inline Mesh open_box_mesh(const Vec3& lower, const Vec3& upper) {
     Mesh m = box_mesh(lower, upper);
     m.triangles.erase(m.triangles.begin() + 2, m.triangles.begin() + 4);
     return m;
 }
 
-/// A grid of quads over u, v, closed around where `wrap` says so.
+/// A grid of quads over u and v, closed in the directions that `wrap_u` and `wrap_v` select.
 inline Mesh grid_mesh(int nu, int nv, bool wrap_u, bool wrap_v, auto&& point) {
     Mesh m;
     const int pu = wrap_u ? nu : nu + 1, pv = wrap_v ? nv : nv + 1;
@@ -57,7 +57,7 @@ inline Mesh torus_mesh(double major, double minor, int nu, int nv) {
     });
 }
 
-/// Poles are single vertices.
+/// A sphere whose poles are single vertices.
 inline Mesh sphere_mesh(double radius, int nu, int nv) {
     Mesh m;
     m.positions.push_back({0, 0, -radius});
@@ -84,8 +84,8 @@ inline Mesh sphere_mesh(double radius, int nu, int nv) {
     return m;
 }
 
-/// A regular prism about the x axis from `start` to `end`, closed. Its cross-section depends on
-/// radius and sides alone.
+/// A closed regular prism about the x axis from `start` to `end`. Its cross-section depends only on
+/// radius and sides.
 inline Mesh prism_mesh(double start, double end, double radius, int sides) {
     Mesh m;
     const auto n = static_cast<std::uint32_t>(sides);
@@ -106,8 +106,8 @@ inline Mesh prism_mesh(double start, double end, double radius, int sides) {
     return m;
 }
 
-/// A closed ring about the x axis: inner and outer wall, and two annular ends. The inner wall is
-/// that of prism_mesh(start, end, inner, sides), turned inside out.
+/// A closed ring about the x axis, with an inner wall, an outer wall and two annular ends. The
+/// inner wall is that of prism_mesh(start, end, inner, sides), inside out.
 inline Mesh ring_mesh(double start, double end, double inner, double outer, int sides) {
     Mesh m;
     const auto n = static_cast<std::uint32_t>(sides);
@@ -123,8 +123,8 @@ inline Mesh ring_mesh(double start, double end, double inner, double outer, int 
     };
     for (std::uint32_t i = 0; i < n; ++i) {
         const std::uint32_t j = (i + 1) % n;
-        quad(n + i, n + j, 3 * n + j, 3 * n + i); // outer
-        quad(j, i, 2 * n + i, 2 * n + j);         // inner
+        quad(n + i, n + j, 3 * n + j, 3 * n + i); // outer wall
+        quad(j, i, 2 * n + i, 2 * n + j);         // inner wall
         quad(i, j, n + j, n + i);                 // start
         quad(2 * n + j, 2 * n + i, 3 * n + i, 3 * n + j);
     }
@@ -148,7 +148,7 @@ inline Mesh joined(Mesh a, const Mesh& b) {
         a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
     return a;
 }
-/// Triangles without any relation, each of about `size`.
+/// Unrelated triangles, each about as large as `size`.
 inline Mesh soup_mesh(Random& random, int count, double half, double size) {
     Mesh m;
     for (int i = 0; i < count; ++i) {
@@ -160,7 +160,7 @@ inline Mesh soup_mesh(Random& random, int count, double half, double size) {
     }
     return m;
 }
-/// Adds triangles that are segments and points.
+/// Adds triangles that degenerate to segments and points.
 inline Mesh with_degenerates(Random& random, Mesh m, int count) {
     const auto n = static_cast<int>(m.positions.size());
     for (int i = 0; i < count; ++i) {

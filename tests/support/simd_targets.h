@@ -7,8 +7,8 @@
 
 namespace abut::test {
 
-/// Runs `body(name)` with every SIMD target that this machine has, best first, and restores the
-/// choice. A target is chosen by hiding all better ones: lower bits are better ones.
+/// Runs `body(name)` with every SIMD target of this machine, the best first, and restores the
+/// choice. A target is chosen by hiding all better ones, which have lower bits.
 template <typename Body>
 void for_each_simd_target(const Body& body) {
     const std::int64_t supported = hwy::SupportedTargets();

@@ -12,10 +12,10 @@
 #include <numbers>
 #include <vector>
 
-/// Solids that are not convex. Closed, outward.
+/// Non-convex solids, closed and oriented outward.
 namespace abut::test {
 
-/// A prism along z of a polygon that is star-shaped about the origin, counter-clockwise.
+/// A prism along z over a counter-clockwise polygon that is star-shaped about the origin.
 inline Mesh star_prism(const std::vector<Vec3>& polygon, double height) {
     Mesh m;
     const auto n = static_cast<std::uint32_t>(polygon.size());
@@ -34,7 +34,7 @@ inline Mesh star_prism(const std::vector<Vec3>& polygon, double height) {
     return m;
 }
 
-/// A gear's outline: teeth between two radii.
+/// A gear with teeth between two radii.
 inline Mesh gear_mesh(int teeth, double inner, double outer, double height) {
     std::vector<Vec3> polygon;
     for (int i = 0; i < 4 * teeth; ++i) {
@@ -45,11 +45,11 @@ inline Mesh gear_mesh(int teeth, double inner, double outer, double height) {
     return star_prism(polygon, height);
 }
 
-/// The surface of some cells of a lattice, each face as two triangles; vertices are shared, but
-/// coordinates are small integers, so that most of what can be coplanar or collinear is.
+/// The surface of some cells of a lattice, two triangles for each face. Vertices are shared.
+/// Coordinates are small integers, so that many features are coplanar or collinear.
 ///
-/// In          `solid(x, y, z)` of cells in [0, n). Where cells meet in an edge only, the surface is
-///             not closed in the sense that each edge has two triangles.
+/// In          `solid(x, y, z)` for cells in [0, n). Where cells share only an edge, more than two
+///             triangles use this edge, and the surface does not count as closed.
 template <typename Solid>
 Mesh cells_mesh(int n, const Solid& solid) {
     Mesh m;
@@ -91,8 +91,8 @@ Mesh cells_mesh(int n, const Solid& solid) {
     return m;
 }
 
-/// A cube of side 7 with a square pit in the middle of each edge and side, so that no convex piece
-/// of its surface reaches the middle.
+/// A cube of side 7 with a square pit in the middle of each edge and side. No convex piece of its
+/// surface reaches its centre.
 inline Mesh pitted_cube_mesh() {
     return cells_mesh(7, [](int x, int y, int z) {
         const int middle = (x == 3 ? 1 : 0) + (y == 3 ? 1 : 0) + (z == 3 ? 1 : 0);
@@ -101,7 +101,7 @@ inline Mesh pitted_cube_mesh() {
     });
 }
 
-/// Cells of a lattice, at random; where the surface is no closed one, a U of them.
+/// Random cells of a lattice. If no attempt gives a closed surface, cells in the shape of a U.
 inline Mesh random_cells(Random& random, int n) {
     for (int attempt = 0; attempt < 40; ++attempt) {
         const auto side = static_cast<std::size_t>(n);
@@ -120,7 +120,7 @@ inline Mesh random_cells(Random& random, int n) {
     return cells_mesh(3, [](int x, int /*y*/, int z) { return x != 1 || z == 0; });
 }
 
-/// A prism of a star-shaped polygon.
+/// A prism over a random star-shaped polygon.
 inline Mesh random_star(Random& random) {
     std::vector<Vec3> polygon;
     const int n = random.integer(5, 12);
@@ -133,7 +133,7 @@ inline Mesh random_star(Random& random) {
 
 inline constexpr int kSolidKinds = 10;
 
-/// About 2 across, not all of them in the middle.
+/// A solid about 2 across, not always centred at the origin.
 inline Mesh make_solid(Random& random, int kind) {
     const auto seed = static_cast<std::uint64_t>(random.integer(1, 1000));
     switch (kind % kSolidKinds) {
@@ -148,12 +148,12 @@ inline Mesh make_solid(Random& random, int kind) {
     case 4:
         return torus_mesh(1, random.uniform(0.2, 0.6), random.integer(5, 14),
                           random.integer(4, 10));
-    case 5: // a cavity
+    case 5: // a box with a cavity
         return joined(box_mesh({-1, -1, -1}, {1, 1, 1}),
                       reversed(box_mesh({-0.5, -0.5, -0.5}, {0.6, 0.7, 0.8})));
-    case 6: // two that go into each other
+    case 6: // two solids that interpenetrate
         return joined(random_star(random), box_mesh({-0.4, -0.4, -0.4}, {0.4, 0.4, 2}));
-    case 7: // planes that are none, to rounding
+    case 7: // faces that are planar only up to rounding
         return transformed(random_cells(random, 3), random.pose(0));
     case 8:
         return with_degenerates(random, gear_mesh(4, 0.5, 1, 0.7), 4);
@@ -162,7 +162,7 @@ inline Mesh make_solid(Random& random, int kind) {
     }
 }
 
-/// Of a triangle of a mesh.
+/// The corners of a triangle of a mesh.
 inline Triangle corners(const Mesh& mesh, std::uint32_t t) {
     const auto& v = mesh.triangles[t];
     return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};

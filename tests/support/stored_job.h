@@ -14,7 +14,7 @@
 
 namespace abut::test {
 
-/// A store of some models, a question, and the answer in core.
+/// A store of some model files, a question, and the answer computed in core.
 struct StoredJob {
     StoredJob(const std::vector<Scene>& models, ClashOptions asked) : options(std::move(asked)) {
         for (std::size_t m = 0; m < models.size(); ++m) {
@@ -25,7 +25,8 @@ struct StoredJob {
         scenes = read_scenes(files);
         truth = find_clashes(scenes, options);
     }
-    /// One or two models of so many parts, or of 60 to 200; of the former, their own pairs count too.
+    /// One or two model files with `parts` parts each, or with 60 to 200 if `parts` is 0. Pairs
+    /// within one file always count if `parts` is given, and else in half of the cases.
     explicit StoredJob(Random& random, int parts = 0)
         : StoredJob{some_models(random, parts), some_question(random, parts > 0)} {}
 

@@ -21,7 +21,8 @@ inline bool same_bits(const Mesh& a, const Mesh& b) {
                                                a.positions.size() * sizeof(Vec3)) == 0);
 }
 
-/// All that a store says of one model, as read_scene would say it, and the boxes of its parts.
+/// The content of one model file in a store, in the form that read_scene returns, and the boxes of
+/// its parts.
 struct StoredScene {
     Scene scene;
     std::vector<Box3> boxes;
@@ -45,8 +46,8 @@ inline StoredScene stored_scene(StoreFile& file, const ModelRow& model) {
     return result;
 }
 
-/// The same parts with the same geometry, bit for bit; meshes may be numbered otherwise, since a
-/// store has equal ones once.
+/// Expects the same parts with the same geometry, bit for bit. Meshes may have other numbers, since
+/// a store holds equal meshes once.
 inline void expect_same_scene(const Scene& a, const Scene& b) {
     ASSERT_EQ(a.parts.size(), b.parts.size());
     for (std::size_t i = 0; i < a.parts.size(); ++i) {
@@ -62,7 +63,8 @@ inline void expect_same_scene(const Scene& a, const Scene& b) {
     }
 }
 
-/// The store holds this scene as its model number `index`, with the boxes of the clash job.
+/// Expects that the store holds this scene as its model file number `index`, with the boxes that
+/// the clash job computes.
 inline void expect_stored(const std::string& store, Scene scene, std::size_t index = 0) {
     StoreFile file(store, true);
     const std::vector<ModelRow> models = file.models();

@@ -11,15 +11,15 @@
 #include <optional>
 #include <utility>
 
-/// How near two moving features come, in exact arithmetic: at any one time, and by subdivision of
-/// time, which a bound of their speed prunes.
+/// Decides how near two moving features come, in exact arithmetic. It tests single times, and
+/// subdivides time, pruned by a bound on the features' speed.
 namespace abut::test {
 
 class ThicknessOracle {
 public:
     explicit ThicknessOracle(const ElementaryPair& pair)
         : kind_(pair.kind), start_(vertices(pair.start)), end_(vertices(pair.end)) {
-        // Any vector between the features moves no faster than one between their vertices.
+        // Any vector between the features changes no faster than one between their vertices.
         const std::size_t first = kind_ == ElementaryKind::vertex_face ? 1 : 2;
         for (std::size_t i = 0; i < first; ++i)
             for (std::size_t k = first; k < 4; ++k)
@@ -27,7 +27,7 @@ public:
                                                               (pair.end[i] - pair.start[i])));
     }
 
-    /// Whether they are at most `distance` apart, a length of at least 0, at a time.
+    /// Whether they are at most `distance` apart at a time. In: distance is at least 0.
     [[nodiscard]] bool within(double distance, double time) const {
         const std::array<DyadicVec3, 4> p = at(time);
         const Dyadic limit = Dyadic(distance) * Dyadic(distance);
@@ -40,8 +40,8 @@ public:
                near_segment(limit, p[2], p[0], p[1]) || near_segment(limit, p[3], p[0], p[1]);
     }
 
-    /// A time at which they are within it, early if there are many; nothing is said where none is
-    /// found.
+    /// A time at which they are within the distance, an early one if there are many. If none is
+    /// found, nothing is proven.
     [[nodiscard]] std::optional<double> early_time(double distance) const {
         if (within(distance, 0))
             return 0;
@@ -88,8 +88,8 @@ private:
         return dot(to_a, along).sign() < 0 && dot(to_b, along).sign() > 0 &&
                at_most(dot(moment, moment), limit * dot(along, along));
     }
-    /// Whether the plane corner + x u + y v is as near as that, its nearest point inside the patch:
-    /// Cramer's rule on the normal equations.
+    /// Whether the plane corner + x u + y v is within the limit and its nearest point lies inside
+    /// the patch. Uses Cramer's rule on the normal equations.
     static bool meets_inside(const Dyadic& limit, const DyadicVec3& corner, const DyadicVec3& u,
                              const DyadicVec3& v, bool triangle) {
         const DyadicVec3 area = cross(u, v);

@@ -12,7 +12,7 @@
 
 namespace abut::test {
 
-/// A crew whose members are threads of this process.
+/// A crew whose processes are simulated by threads.
 class ThreadCrew final : public Crew {
 public:
     static std::vector<std::unique_ptr<Crew>> of(std::size_t size) {

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-/// Two sets of triangles, and what a traversal of their trees must visit.
+/// Two sets of triangles, and the pairs that a traversal of their trees must visit.
 namespace abut::test {
 
-/// Triangles with a tree in their own frame; some are segments.
+/// Triangles with a tree in their own frame. Some degenerate to segments.
 struct Primitives {
     std::vector<Triangle> triangles;
     std::vector<Vec3> positions;
@@ -47,9 +47,9 @@ struct Primitives {
 
 struct SceneKind {
     const char* name;
-    double reach;        ///< of translations
+    double reach;        ///< of the translations
     double size;         ///< of both models
-    double model_offset; ///< of the models from their own origins
+    double model_offset; ///< distance of the models from their own origins
     bool affine;
 };
 
@@ -61,7 +61,7 @@ constexpr std::array kSceneKinds{SceneKind{"rigid", 10, 1, 0, false},
                                  SceneKind{"tiny", 0, 1e-6, 0, true},
                                  SceneKind{"huge", 1e6, 1e6, 0, true}};
 
-/// Two sets of triangles near one place of the world.
+/// Two sets of triangles close together in the world.
 struct TreeScene {
     Vec3 offset_a, offset_b;
     Primitives a, b;
@@ -77,7 +77,7 @@ struct TreeScene {
         placed_a = a.placed(world_a);
         put_b(place + random.in_cube(0.5 * kind.size));
     }
-    /// Moves b's middle to a point of the world.
+    /// Moves b's centre to a point of the world.
     void put_b(const Vec3& at) {
         put(world_b, offset_b, at);
         placed_b = b.placed(world_b);
@@ -90,7 +90,7 @@ private:
     }
 };
 
-/// Calls body(i, j) with the primitives of each pair of a set of LeafPairs.
+/// Calls body(i, j) with the primitives of each pair in a set of LeafPairs.
 template <typename Body>
 void for_each_primitive_pair(const Tree& a, NodeRef leaf_a, const Tree& b, NodeRef leaf_b,
                              std::uint32_t pairs, const Body& body) {
@@ -105,7 +105,7 @@ void for_each_primitive_pair(const Tree& a, NodeRef leaf_a, const Tree& b, NodeR
 
 using IndexPair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Notes what is visited; the bound stays.
+/// Records what is visited. The bound stays the same.
 class Recorder : public LeafPairVisitor {
 public:
     Recorder(const Tree& a, const Tree& b, double bound_sq, const Vec3& direction = {})
@@ -130,7 +130,8 @@ private:
     Vec3 direction_;
 };
 
-/// What all pairs of a scene's triangles say: which share a point, and which are within a bound.
+/// The true answers for all pairs of triangles of a scene: which share a point, and which are
+/// within a bound.
 struct PairTruth {
     std::map<IndexPair, TriangleContact> contacts;
     std::array<double, 4> bounds;
@@ -151,15 +152,16 @@ struct PairTruth {
     }
 };
 
-/// What traversals met, to tell whether a test tested anything.
+/// Counts of what traversals found, to check that a test is not vacuous.
 struct Tally {
-    std::size_t met = 0, crossed = 0; ///< pairs that share a point; told to cross
+    std::size_t met = 0, crossed = 0; ///< pairs that share a point; pairs reported as crossing
     std::size_t accepted = 0;
-    std::size_t within = 0, visited = 0, total = 0; ///< pairs, with bounds that not all are within
+    std::size_t within = 0, visited = 0, total = 0; ///< numbers of pairs, for bounds that not all
+                                                    ///< pairs are within
 };
 
-/// Every pair that touches or is within a bound is visited, and only pairs that do are told to
-/// cross.
+/// Expects that every pair that touches or is within a bound is visited, and that only pairs that
+/// do cross are reported as crossing.
 ///
 /// In          traversal: `pair`, or one that refers to it.
 template <typename Traversal>

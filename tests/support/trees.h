@@ -12,7 +12,7 @@ bool same_bytes(const Value& a, const Value& b) {
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// Bit for bit.
+/// Expects that two trees are equal bit for bit.
 inline void expect_same_tree(const Tree& a, const Tree& b) {
     ASSERT_EQ(a.order, b.order);
     ASSERT_EQ(a.nodes.size(), b.nodes.size());

@@ -11,7 +11,7 @@
 
 namespace abut::test {
 
-/// Two solids and where they stand.
+/// Two solids and their places.
 struct TwoSolids {
     Model a, b;
     Transform world_a, world_b;
@@ -20,7 +20,8 @@ struct TwoSolids {
 inline bool share_a_point(const TwoSolids& s) {
     if (collide(s.a, s.world_a, s.b, s.world_b).any())
         return true;
-    // Where a surface goes through itself it may wind around a point twice: parity does not do.
+    // Where a surface intersects itself, it may wind around a point twice, so parity is not
+    // sufficient.
     const auto contains_any = [](const Model& outer, const Transform& world_outer,
                                  const Model& inner, const Transform& world_inner) {
         const Transform outer_from_inner = compose(inverse(world_outer), world_inner);

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-/// Whether bounding volumes enclose what they should, with 100 digits.
+/// Checks with 100 digits whether bounding volumes enclose what they should.
 namespace abut::test {
 
 inline PrecisePoint precise(const std::array<float, 3>& v) {
@@ -20,7 +20,7 @@ inline Precise determinant(const PrecisePoint& a, const PrecisePoint& b, const P
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// Coordinates along the axes by Cramer's rule: p = centre + sum_i s_i axis_i.
+/// Coordinates along the axes, p = centre + sum_i s_i axis_i, by Cramer's rule.
 inline bool encloses(const Obb& box, const Vec3& p, double radius = 0) {
     const PrecisePoint d = precise(p) - precise(box.centre);
     const PrecisePoint a = precise(box.axis[0]), b = precise(box.axis[1]), c = precise(box.axis[2]);
@@ -33,7 +33,7 @@ inline bool encloses(const Obb& box, const Vec3& p, double radius = 0) {
     return true;
 }
 
-/// Distance to a core: a point, a segment, a parallelogram.
+/// Distance to the core, which is a point, a segment or a parallelogram.
 template <std::size_t n>
 Precise distance_to_core(const SweptSphere<n>& swept, const Vec3& point) {
     const PrecisePoint p = precise(point), centre = precise(swept.centre);
@@ -78,7 +78,7 @@ bool encloses(const Kdop<k>& kdop, const Vec3& p, double radius = 0) {
     return true;
 }
 
-/// Sets of triangles as leaves and subtrees hold them, and as none should.
+/// Sets of triangles as leaves and subtrees hold them, and extreme ones.
 inline std::vector<Triangle> any_triangles(Random& random, int kind) {
     const int count = random.integer(1, 40);
     const double size = std::pow(10.0, random.integer(-3, 3));

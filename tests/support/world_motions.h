@@ -11,10 +11,10 @@
 #include <cstddef>
 #include <vector>
 
-/// A step of a world that is gone through bit by bit.
+/// Steps of a world, replayed at many times in between.
 namespace abut::test {
 
-/// A surface of a world, and the step that it has there.
+/// A surface in a world, and its step.
 struct Surface {
     BodyId body;
     MovingSurface& moving;
@@ -23,10 +23,10 @@ struct Surface {
         : body(id), moving(m), start(m.mesh.positions), end(m.end) {}
 };
 
-/// Where a motion's body is at a time, as a pose.
+/// The pose of a moving body at a time.
 inline Pose pose_at(const Motion& motion, double t) {
     const Transform now = at(motion, t);
-    // The motion's rotation about its centre, after the start's.
+    // The start's rotation, followed by the motion's rotation about its centre.
     const Vec3 w = t * motion.angular_velocity;
     const double angle = length(w), s = angle > 0 ? std::sin(angle / 2) / angle : 0.5;
     const std::array<double, 4> turn{std::cos(angle / 2), s * w.x, s * w.y, s * w.z};
@@ -51,7 +51,7 @@ inline void move_to(World& world, const std::vector<BodyMotion>& motions,
     }
 }
 
-/// Back to the start of the step.
+/// Moves everything back to the start of the step.
 inline void move_back(World& world, const std::vector<BodyMotion>& motions,
                       const std::vector<Surface>& surfaces) {
     move_to(world, motions, {}, 0);

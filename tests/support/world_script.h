@@ -19,8 +19,8 @@
 #include <variant>
 #include <vector>
 
-/// Scripts of operations on a world, and what the world has to know then: for the property test, which
-/// draws its choices, and for the fuzzer, which reads them from bytes.
+/// Scripts of operations on a world, and what the world must answer. The property test draws their
+/// choices at random, and the fuzzer reads them from bytes.
 namespace abut::test {
 
 inline Mesh tetrahedron(double size) {
@@ -41,7 +41,7 @@ struct MovingSurface {
     }
 };
 
-/// A body as the test knows it.
+/// The test's own record of a body.
 struct Known {
     std::variant<Model, Convex, Sphere, Capsule, Box3, std::shared_ptr<MovingSurface>> shape;
     Pose pose;
@@ -68,11 +68,11 @@ inline bool holds(const BodyPairs& pairs, BodyPair pair) {
 }
 
 struct ScriptOptions {
-    double offset = 0; ///< of all positions, on all axes
+    double offset = 0; ///< added to all positions, on all axes
     bool deformables = false;
 };
 
-/// Choices has uniform(low, high), integer(low, high), both ends included, and chance(p).
+/// Choices has uniform(low, high), integer(low, high) with both bounds included, and chance(p).
 template <typename Choices>
 class WorldScript {
 public:
@@ -124,7 +124,7 @@ public:
         default:
             break;
         }
-        if (!bodies_.empty() && choices_.chance(0.1)) // coincident bodies
+        if (!bodies_.empty() && choices_.chance(0.1)) // bodies may coincide
             body = any()->second;
         const BodyId id =
             std::visit([&](const auto& shape) { return add_shape(shape, body); }, body.shape);
@@ -137,7 +137,7 @@ public:
         bodies_.erase(id);
     }
 
-    /// Motions of some bodies from where they are, deformables left out.
+    /// Motions of some bodies from their current poses. Deformables are left out.
     std::vector<BodyMotion> motions(double share) {
         std::vector<BodyMotion> result;
         for (const auto& [id, body] : bodies_)
@@ -167,7 +167,7 @@ private:
     double radius() { return choices_.chance(0.2) ? 0 : choices_.uniform(0, 0.2); }
     Sphere sphere() {
         if (choices_.chance(0.02))
-            return {{}, 1e3}; // spans the world
+            return {{}, 1e3}; // large enough to span the world
         return {in_cube(0.1), radius()};
     }
     Vec3 offset() const { return {options_.offset, -options_.offset, options_.offset}; }
@@ -182,7 +182,7 @@ private:
         options.mask = choices_.chance(0.8) ? ~0U : std::uint32_t(choices_.integer(0, 3));
         return options;
     }
-    /// A body without a pose, which the world gives it as none.
+    /// A deformable body. It has no pose of its own.
     Known deformable() {
         auto moving = std::make_shared<MovingSurface>(placed(tetrahedron(0.3), pose()));
         set_step(*moving, 0.2);
@@ -193,7 +193,8 @@ private:
             p = apply(Transform(pose), p);
         return mesh;
     }
-    /// From where the surface has come to, all in one direction and each vertex in one of its own.
+    /// Sets a step from the surface's current place: a common translation, and a random one for
+    /// each vertex.
     void set_step(MovingSurface& moving, double by) {
         std::vector<Vec3> end = moving.end;
         const Vec3 way = in_cube(by);
@@ -208,7 +209,7 @@ private:
         auto& [id, body] = *any();
         if (const auto* moving = std::get_if<std::shared_ptr<MovingSurface>>(&body.shape)) {
             set_step(**moving, by);
-            for (const auto& [other, known] : bodies_) { // coincident bodies share it
+            for (const auto& [other, known] : bodies_) { // coincident bodies share the surface
                 const auto* shared = std::get_if<std::shared_ptr<MovingSurface>>(&known.shape);
                 if (shared != nullptr && *shared == *moving)
                     world_.refresh(other);
@@ -223,7 +224,7 @@ private:
         world_.move(id, next);
         body.pose = next;
     }
-    /// Nothing may change then.
+    /// Moves a body to an invalid pose. The world must refuse it and stay unchanged.
     void move_badly() {
         const BodyId id = any()->first;
         Pose bad = pose();
@@ -249,7 +250,7 @@ private:
     std::vector<BodyId> removed_;
 };
 
-/// The pairs of bodies that may meet, and of which holds(a, b).
+/// The pairs of bodies that may meet and for which holds(a, b).
 template <typename Script, typename Holds>
 BodyPairs pairs_where(const Script& script, const Holds& holds) {
     BodyPairs pairs;
@@ -260,7 +261,7 @@ BodyPairs pairs_where(const Script& script, const Holds& holds) {
     return pairs;
 }
 
-/// By all boxes.
+/// The pairs of bodies whose boxes overlap.
 template <typename Script>
 BodyPairs pairs_of_boxes(const Script& script, const World& world) {
     return pairs_where(script,

@@ -1,4 +1,4 @@
-/// Ids of clashes, statuses in reports, and stores whose tables of jobs another version made.
+/// Ids of clashes, statuses in reports, and stores whose job tables were made by another version.
 #include <abut/clash_review.h>
 #include <abut/error.h>
 #include <abut/store_clash.h>
@@ -27,7 +27,7 @@ TEST(ClashIdentity, IsOfFilesPartsAndKindInAnyOrder) {
     EXPECT_EQ(id("a.glb", "p", "b.glb", "q"), id("b.glb", "q", "a.glb", "p"));
     EXPECT_EQ(id("x/a.glb", "p", "b.glb", "q"), id("y/b.glb", "q", "a.glb", "p"));
     EXPECT_EQ(id("a.glb", "p", "a.glb", "q"), id("a.glb", "q", "a.glb", "p"));
-    // Two models of one name: p of the first and q of the second are not q and p.
+    // Two model files of the same name: p in the first and q in the second differ from q and p.
     EXPECT_NE(id("x/a.glb", "p", "y/a.glb", "q"), id("x/a.glb", "q", "y/a.glb", "p"));
     const std::set<std::uint64_t> all{
         id("a.glb", "p", "b.glb", "q"), id("a.glb", "q", "b.glb", "p"),
@@ -120,7 +120,7 @@ protected:
     std::string store_ = folder_ / "a.abut";
 };
 
-/// As the first version of jobs made them, without questions, statuses and sums.
+/// The tables that the first version of jobs made: none for questions, statuses and row sums.
 constexpr const char* kFirstTables = R"(
 CREATE TABLE job(job INTEGER PRIMARY KEY AUTOINCREMENT, key BLOB NOT NULL UNIQUE,
   question BLOB NOT NULL, clearance REAL NOT NULL, touch REAL NOT NULL, self INTEGER NOT NULL,
@@ -164,7 +164,7 @@ TEST_F(JobTables, OfAnotherVersionAreMadeAnewAndMarksStay) {
     verify_jobs(open_store(store_));
 }
 
-/// Rows that went without a trace are missed, in each list.
+/// Each list notices rows that were deleted from it.
 TEST_F(JobTables, MissTheirRows) {
     const StoreClashReport found = ask();
     mark_clashes(open_store(store_, {.read_only = false}),

@@ -32,7 +32,7 @@ Part make_part(const std::string& id, const std::string& name, const std::string
     return part;
 }
 
-/// Two models of two parts, and a clash of every kind.
+/// Two model files with two parts each, and a clash of every kind.
 struct Sample {
     std::vector<Scene> models;
     ClashReport report;
@@ -75,7 +75,7 @@ struct Sample {
     }
 };
 
-/// A folder that goes when the test ends.
+/// A fixture with a folder that is removed when the test ends.
 class ClashWriters : public testing::Test {
 protected:
     void SetUp() override {
@@ -106,7 +106,7 @@ std::vector<std::string> keys(const ordered_json& object) {
     return names;
 }
 
-/// Strict RFC 4180; an empty result is a syntax error.
+/// Parses CSV strictly by RFC 4180. An empty result means a syntax error.
 std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
     std::vector<std::vector<std::string>> rows(1, {""});
     for (std::size_t i = 0; i < text.size();) {
@@ -236,10 +236,10 @@ TEST_F(ClashWriters, NumbersThatAreNotFiniteAreNull) {
     EXPECT_TRUE(clash["point_a"][1].is_null());
 }
 
-/// nlohmann-json replaces ill-formed sequences too: the peer for ours.
+/// nlohmann-json also replaces ill-formed UTF-8, so both outputs must agree.
 TEST_F(ClashWriters, TextIsEscapedAndRepairedAsByAnotherWriter) {
     std::mt19937 random(9);
-    // Bytes at the borders of what UTF-8 allows, so that many sequences are nearly right.
+    // Bytes at the limits of what UTF-8 allows, so that many sequences are almost valid.
     constexpr std::string_view kBytes(
         "\x00\x1F\x20\"\\</a\n\x7F\x80\x8F\x90\x9F\xA0\xBF\xC0\xC1\xC2\xDF\xE0"
         "\xE1\xED\xEE\xEF\xF0\xF1\xF4\xF5\xFF",
@@ -402,7 +402,7 @@ TEST_F(ClashWriters, HtmlHoldsTheClashesAndNothingFromOutside) {
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
 }
 
-/// The build embeds the page's sources unaltered.
+/// The build embeds the page's sources unchanged.
 TEST_F(ClashWriters, HtmlHoldsThePagesSources) {
     const Sample sample;
     write_clash_html(sample.report, sample.models, path("report.html"));
@@ -436,7 +436,7 @@ TEST_F(ClashWriters, AFolderThatIsNotThereIsNamed) {
 
 TEST_F(ClashWriters, AFailureLeavesNothingBehind) {
     const Sample sample;
-    // The last step fails, for every user: a file cannot take the place of a folder.
+    // The last step fails for every user, because a file cannot replace a folder.
     fs::create_directory(folder_ / "report.json");
     EXPECT_THROW(write_clash_json(sample.report, sample.models, path("report.json")), Error);
     EXPECT_TRUE(fs::is_directory(folder_ / "report.json"));

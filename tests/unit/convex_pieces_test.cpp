@@ -24,7 +24,7 @@ double distance_of(const ConvexPieces& a, const ConvexPieces& b) {
     return distance(a, {}, b, {}).distance;
 }
 
-/// A U along y: walls x in [0, 1] and [3, 4], floor z in [0, 1], up to z = 4.
+/// A U along y with walls x in [0, 1] and [3, 4] and floor z in [0, 1]; its height is 4.
 Mesh u_mesh() {
     Mesh m = cells_mesh(4, [](int x, int /*y*/, int z) { return x == 0 || x == 3 || z == 0; });
     return m;
@@ -52,7 +52,7 @@ TEST(ConvexPieces, AConvexSolidIsOnePiece) {
 }
 
 TEST(ConvexPieces, HullsDoNotFillGaps) {
-    // The outer walls of a U lie on one convex hull: it would fill the gap.
+    // The outer walls of a U lie on one convex hull, which would fill the gap.
     const ConvexPieces u = pieces(u_mesh());
     EXPECT_LE(u.size(), 5U);
     const ConvexPieces inside = box({1.5, 1, 1.75}, {2.5, 2, 3});
@@ -62,7 +62,7 @@ TEST(ConvexPieces, HullsDoNotFillGaps) {
     EXPECT_GE(gap.at_least, gap.distance - 1e-10);
     EXPECT_EQ(gap.status, Status::exact);
     EXPECT_DOUBLE_EQ(std::abs(gap.point_a.x - gap.point_b.x), 0.5);
-    // A flat patch that goes round a hole.
+    // A flat patch around a hole.
     const ConvexPieces plate =
         pieces(cells_mesh(3, [](int x, int y, int z) { return z == 0 && !(x == 1 && y == 1); }));
     EXPECT_DOUBLE_EQ(distance_of(plate, box({1.25, 1.25, -1}, {1.75, 1.75, 2})), 0.25);
@@ -77,7 +77,7 @@ TEST(ConvexPieces, SolidsInsideOfEachOtherAreAtDistanceZero) {
     const ConvexPieces large = box({-5, -5, -5}, {5, 5, 5}), small = box({0, 0, 0}, {1, 1, 1});
     EXPECT_EQ(distance_of(large, small), 0);
     EXPECT_EQ(distance_of(small, large), 0);
-    // Pits in all sides of a cube keep its pieces from its middle.
+    // The pits in a cube's sides keep its convex pieces away from its centre.
     const ConvexPieces pitted = pieces(pitted_cube_mesh());
     const ConvexPieces seed = box({3.4, 3.4, 3.4}, {3.5, 3.5, 3.5});
     const PiecesGap gap = distance(pitted, {}, seed, {});
@@ -96,7 +96,7 @@ TEST(ConvexPieces, SolidsInsideOfEachOtherAreAtDistanceZero) {
     const Transform away = translation(0, 0, 40);
     EXPECT_GT(distance(pitted, {}, seed, away, {.workspace = &workspace}).distance, 30);
     const ConvexPieces ring = pieces(torus_mesh(10, 4, 60, 40));
-    // In its hole there is no solid.
+    // There is no solid in the ring's hole.
     const ConvexPieces ball = pieces(sphere_mesh(2, 12, 8));
     EXPECT_GT(distance_of(ring, ball), 3.9);
     EXPECT_FALSE(collide(ring, {}, ball, {}).meet);
@@ -132,7 +132,7 @@ TEST(ConvexPieces, NamesTheFeaturesOfTheSurface) {
                dot(cross(c - b, p - b), n) >= 0 && dot(cross(a - c, p - c), n) >= 0;
     };
     const auto tip = [](const Vec3& at, const Vec3& towards) {
-        // A thin pyramid with its tip at a point.
+        // A thin pyramid with its tip at the point.
         Mesh m;
         const Vec3 n = at + 4.0 * towards;
         m.positions = {at, n + Vec3{0.25, 0, 0}, n + Vec3{0, 0.25, 0.25},
@@ -224,7 +224,7 @@ TEST(ConvexPieces, BoundsAndErrorsAllowed) {
 
 TEST(ConvexPieces, ContactsByPiecesAndTriangles) {
     const ConvexPieces u = pieces(u_mesh());
-    const ConvexPieces bar = box({0.5, 1.25, 2.25}, {3.5, 1.75, 2.75}); // through both walls
+    const ConvexPieces bar = box({0.5, 1.25, 2.25}, {3.5, 1.75, 2.75}); // passes through both walls
     const PiecesContacts all =
         collide(u, {}, bar, {}, {.mode = ContactMode::all, .triangles = true});
     EXPECT_TRUE(all.meet);
@@ -234,7 +234,7 @@ TEST(ConvexPieces, ContactsByPiecesAndTriangles) {
     const PiecesContacts first = collide(u, {}, bar, {});
     ASSERT_EQ(first.pairs.size(), 1U);
     EXPECT_NE(std::find(all.pairs.begin(), all.pairs.end(), first.pairs[0]), all.pairs.end());
-    // Touching counts.
+    // Touching counts as contact.
     EXPECT_TRUE(collide(u, {}, box({4, 1, 1}, {5, 2, 2}), {}).meet);
     EXPECT_FALSE(collide(u, {}, box({4.0001, 1, 1}, {5, 2, 2}), {}).meet);
 }

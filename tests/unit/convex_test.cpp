@@ -39,7 +39,7 @@ TEST(Convex, CoplanarTrianglesAreOneFace) {
     for (std::size_t f = 0; f < 6; ++f) {
         const auto face = kCube.face(f);
         ASSERT_EQ(face.size(), 4U);
-        // Counter-clockwise as seen from outside.
+        // Faces are counter-clockwise as seen from outside.
         const auto& v = kCube.vertices();
         const Vec3 normal = cross(v[face[1]] - v[face[0]], v[face[2]] - v[face[1]]);
         EXPECT_EQ(dot(normal, v[face[0]] - Vec3{0.5, 0.5, 0.5}), 0.5);
@@ -112,7 +112,7 @@ TEST(Convex, DistancesAndFeaturesByHand) {
     EXPECT_EQ(tip.vertices()[face.id_b], (Vec3{0, 0, 0}));
     EXPECT_EQ(face.point_a, (Vec3{0.25, 0.5, 1}));
 
-    // An edge along y over one along x.
+    // An edge along y above an edge along x.
     const Convex roof = hull({{0, -9, 0}, {0, 9, 0}, {5, 0, 5}, {-5, 0, 5}});
     const Convex ridge = hull({{-9, 0, 0}, {9, 0, 0}, {0, 5, -5}, {0, -5, -5}});
     const ConvexGap edges = distance(ridge, Pose{}, roof, translation(1, 2, 0.5));
@@ -127,7 +127,7 @@ TEST(Convex, DistancesAndFeaturesByHand) {
 
 TEST(Convex, TouchingIsToldFromALeastDistanceApart) {
     const double least = std::numeric_limits<double>::denorm_min();
-    // Faces, edges and corners that touch; then one unit in the last place aside, either way.
+    // Faces, edges and corners that touch, then one unit in the last place apart, either way.
     for (const Vec3& by : {Vec3{1, 0.25, 0.5}, Vec3{1, 1, 0.5}, Vec3{1, 1, 1}}) {
         const ConvexGap touching = distance(kCube, Pose{}, kCube, translation(by.x, by.y, by.z));
         EXPECT_EQ(touching.distance, 0);
@@ -207,7 +207,7 @@ TEST(Convex, MeshesAreChecked) {
     EXPECT_THROW(hull({{0, 0, 2e18}}), Error);
     EXPECT_THROW(Convex(kCube.mesh(), {.relative_dent = -1}), Error);
 
-    // A dent a thousandth deep is one, or none, as asked.
+    // A dent of this depth is or is not a dent, depending on the tolerance.
     Mesh dented = sphere_mesh(1, 12, 8);
     dented.positions[20] = (1 - 0.2) * dented.positions[20];
     expect_error(dented, "dent");
@@ -229,7 +229,7 @@ TEST(Convex, PenetrationByHand) {
     EXPECT_EQ(penetration(kCube, Pose{}, kCube, translation(0, 1, 0)).depth, 0);
     EXPECT_FALSE(penetration(kCube, Pose{}, kCube, translation(0, 2, 0)).meet);
 
-    // Flat bodies: out of the common plane, or off the side.
+    // Flat bodies separate out of the common plane or sideways.
     const Convex square = hull({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     EXPECT_EQ(penetration(square, Pose{}, square, translation(0.5, 0, 0)).depth, 0);
     EXPECT_EQ(penetration(kCube, Pose{}, square, translation(0, 0, 0.75)).depth, 0.25);

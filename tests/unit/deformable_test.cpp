@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A triangle in the plane z = 0, and one below that has a vertex point up and moves up by 2.
+/// A triangle in the plane z = 0, and one below it that points a vertex up and rises by 2.
 MovingMesh rising_tip() {
     MovingMesh moving;
     moving.mesh.positions = {{-2, -1, 0}, {2, -1, 0},    {0, 3, 0},
@@ -84,7 +84,8 @@ TEST(Deformable, NeighboursAreNoPair) {
     moving.mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
     moving.end = moving.mesh.positions;
     moving.end[3] = {0, 2, 0};
-    // The edges from vertex 2 and from vertex 3, and each of these with the other face, are left.
+    // Still tested are the edges from vertices 2 and 3, and each of these vertices with the other
+    // face.
     for (const FeatureImpact& impact : self_impacts(moving.deformable()).list) {
         if (impact.kind == ElementaryKind::vertex_face) {
             EXPECT_TRUE(impact.a == 2 || impact.a == 3);
@@ -95,12 +96,13 @@ TEST(Deformable, NeighboursAreNoPair) {
 }
 
 TEST(Deformable, EqualPositionsAtDifferentIndicesMeet) {
-    MovingMesh moving; // two triangles that touch along an edge, without a common index
+    MovingMesh moving; // two triangles that touch along an edge but share no index
     moving.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, -1, 0}};
     moving.mesh.triangles = {{0, 1, 2}, {4, 3, 5}};
     moving.end = moving.mesh.positions;
     const Impacts impacts = self_impacts(moving.deformable());
-    // Four vertices with the other face; each edge of one with those of the other that it touches.
+    // Four vertices meet the other face. Each edge meets the edges of the other triangle that it
+    // touches.
     std::size_t faces = 0;
     for (const FeatureImpact& impact : impacts.list) {
         EXPECT_EQ(impact.time, 0);
@@ -186,7 +188,7 @@ TEST(Deformable, BadInputIsAnErrorAndChangesNothing) {
     EXPECT_EQ(code_of([&] { impacts(swept, surface); }), ErrorCode::bad_argument);
 }
 
-/// Bounds of boxes stay finite: unused children of a node do not come near.
+/// Bounds of boxes stay finite, so that unused children of a node never come within the thickness.
 TEST(Deformable, EverythingIsWithinALargeThickness) {
     const MovingMesh moving = rising_tip();
     for (const auto culling : {Culling::tree, Culling::grid, Culling::sweep}) {

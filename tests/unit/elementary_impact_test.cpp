@@ -1,4 +1,4 @@
-// Elementary tests whose answers are known by hand.
+// Elementary tests with answers known by hand.
 
 #include <abut/elementary_impact.h>
 #include <abut/error.h>
@@ -14,7 +14,7 @@ namespace {
 constexpr ElementaryKind kFace = ElementaryKind::vertex_face, kEdges = ElementaryKind::edge_edge;
 using Points = std::array<Vec3, 4>;
 
-/// The unit right triangle in the plane z = 0, and a vertex.
+/// A vertex and the unit right triangle in the plane z = 0.
 Points face_and(const Vec3& vertex) {
     return {vertex, Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
 }
@@ -50,7 +50,7 @@ TEST(VertexFace, PassesThroughTheFace) {
     EXPECT_NEAR(hit.barycentric[1], 0.25, 1e-9);
     EXPECT_NEAR(hit.barycentric[2], 0.5, 1e-9);
     expect_near(hit.normal, {0, 0, 1});
-    // From below, the normal is on the other side; the face may move instead.
+    // From below, the normal has the other sign. The face may move instead of the vertex.
     expect_near(impact(kFace, face_and({0.25, 0.5, -1}), face_and({0.25, 0.5, 3})).normal,
                 {0, 0, -1});
     Points up = face_and({0.25, 0.5, 3});
@@ -77,8 +77,8 @@ TEST(VertexFace, TouchesBordersAndEnds) {
 }
 
 TEST(VertexFace, TouchesAndTurnsBack) {
-    // The vertex moves along x; the face's height at x is 1 + (1 - 2 x) h, h from 1 to -1. So the
-    // vertex sees it at 1 + (1 - 2 t)^2: a double root at 1/2.
+    // The vertex moves along x. The face's height at x is 1 + (1 - 2 x) h, where h goes from 1 to
+    // -1. So the height below the vertex is 1 + (1 - 2 t)^2, which gives a double root at 1/2.
     const Points start{Vec3{0, 0.25, 1}, Vec3{0, 0, 1}, Vec3{1, 0, 1}, Vec3{0, 1, 1}};
     Points end = start;
     end[0] = {1, 0.25, 1};
@@ -87,7 +87,7 @@ TEST(VertexFace, TouchesAndTurnsBack) {
     tilt(tilted_start, 1);
     tilt(tilted_end, -1);
     expect_hit(impact(kFace, tilted_start, tilted_end), 0.5);
-    // A little lower, it comes near and does not touch; a little higher, it crosses twice.
+    // Slightly lower, the vertex comes near without touching. Slightly higher, it crosses twice.
     Points lower_start = tilted_start, lower_end = tilted_end;
     lower_start[0].z = lower_end[0].z = 1 - 0x1p-40;
     expect_miss(impact(kFace, lower_start, lower_end));
@@ -98,7 +98,8 @@ TEST(VertexFace, TouchesAndTurnsBack) {
 TEST(VertexFace, WithinOnePlane) {
     expect_hit(impact(kFace, face_and({-1, 0.25, 0}), face_and({1, 0.25, 0})), 0.5);
     expect_hit(impact(kFace, face_and({-1, 0, 0}), face_and({1, 0, 0})), 0.5); // along the border
-    expect_hit(impact(kFace, face_and({2, 1, 0}), face_and({0, -1, 0})), 0.5); // its corner (1, 0)
+    expect_hit(impact(kFace, face_and({2, 1, 0}), face_and({0, -1, 0})), 0.5); // through its corner
+                                                                               // (1, 0)
     expect_miss(impact(kFace, face_and({2, 1, 0}), face_and({0, -1.5, 0})));
 }
 
@@ -118,7 +119,7 @@ TEST(VertexFace, FacesThatAreSegmentsOrPoints) {
     line_end[0].z = -1;
     const auto on_line = impact(kFace, line, line_end);
     expect_hit(on_line, 0.5);
-    expect_near(on_line.normal, {0, 0, 1}); // no plane: against the approach
+    expect_near(on_line.normal, {0, 0, 1}); // without a plane, the normal is against the approach
     line_end[0].y = 1e-9;
     expect_miss(impact(kFace, line, line_end));
 
@@ -129,7 +130,7 @@ TEST(VertexFace, FacesThatAreSegmentsOrPoints) {
     point_end[0] = {-1, -1, -1.5};
     expect_miss(impact(kFace, point, point_end));
 
-    // A face that is flat at t = 1/2 alone, when the vertex crosses its line.
+    // A face that is flat only at t = 1/2, when the vertex crosses its line.
     const Points turning{Vec3{0.5, 0, 1}, Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
     Points turned{Vec3{0.5, 0, -1}, Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, -1, 0}};
     expect_hit(impact(kFace, turning, turned), 0.5);
@@ -154,7 +155,7 @@ TEST(EdgeEdge, PassThroughEachOther) {
 TEST(EdgeEdge, TouchAtEndsOfEdgesAndOfTime) {
     expect_hit(impact(kEdges, cross_at(1), cross_at(0)), 1);
     expect_hit(impact(kEdges, cross_at(0), cross_at(1)), 0);
-    // A T: the end of one on the other.
+    // A T: the end of one edge on the other.
     Points t_start = cross_at(1), t_end = cross_at(-1);
     for (Points* p : {&t_start, &t_end})
         (*p)[0].x = 0;
@@ -174,18 +175,18 @@ TEST(EdgeEdge, ParallelOnes) {
     for (Vec3& p : end)
         p.y = 0.25;
     expect_hit(impact(kEdges, start, end), 0.5);
-    end[0].x = -2, end[1].x = -1; // away along their line before they meet
+    end[0].x = -2, end[1].x = -1; // moves away along their line before they meet
     Points away = start;
     away[0].x = -2, away[1].x = -1;
     expect_miss(impact(kEdges, away, end));
-    // In one line: one runs into the other's end.
+    // On one line: one edge runs into the other's end.
     const Points line{Vec3{-3, 0, 0}, Vec3{-2, 0, 0}, Vec3{0, 0, 0}, Vec3{1, 0, 0}};
     Points line_end = line;
     line_end[0].x = 1, line_end[1].x = 2;
     expect_hit(impact(kEdges, line, line_end), 0.5);
 }
 
-// Found by the soak: in a plane, ends meet edges at times 1.6e-14 from each other.
+// Found by the soak test: in a plane, ends meet edges at times 1.6e-14 apart.
 TEST(EdgeEdge, OfTimesNextToEachOtherNoneIsLate) {
     const Points start{Vec3{-0x1.e3423e3c65332p-2, -0x1.b273132125cfap-1, 0},
                        Vec3{0x1.25a2975b6621p+0, -0x1.0f0d13dbb7bdp-2, 0},
@@ -195,7 +196,7 @@ TEST(EdgeEdge, OfTimesNextToEachOtherNoneIsLate) {
                      Vec3{0x1.26677722b850cp+0, -0x1.102e8aafbee0ep-2, 0},
                      Vec3{-0x1.e321eb4397028p-2, -0x1.b16d7db1a458dp-1, 0},
                      Vec3{0x1.8c9a1a53ce73ap-1, 0x1.cf7cd11de9c9fp-2, 0}};
-    // By rational arithmetic: apart at 7e-14, together then.
+    // Rational arithmetic shows that they are apart at 7e-14 and in contact right after.
     expect_hit(impact(kEdges, start, end), 7.1054e-14);
 }
 
@@ -209,7 +210,7 @@ TEST(EdgeEdge, EdgesWithoutLength) {
     for (Vec3& p : met)
         p.z = 0;
     expect_hit(impact(kEdges, two, met), 1);
-    // An edge without length at t = 1/2 alone.
+    // An edge without length at t = 1/2 only.
     const Points shrinking{Vec3{-1, 0, 1}, Vec3{1, 0, 1}, Vec3{0, -1, 0}, Vec3{0, 1, 0}};
     const Points grown{Vec3{1, 0, -1}, Vec3{-1, 0, -1}, Vec3{0, -1, 0}, Vec3{0, 1, 0}};
     expect_hit(impact(kEdges, shrinking, grown), 0.5);
@@ -227,7 +228,7 @@ TEST(ElementaryImpact, AnySizeOfCoordinates) {
         expect_hit(impact(kEdges, scaled(cross_at(3), s), scaled(cross_at(-1), s)), 0.75);
         expect_miss(impact(kEdges, scaled(cross_at(3), s), scaled(cross_at(1), s)));
     }
-    // Huge and tiny together: an edge of 1e-300 passes one of 1e150.
+    // Huge and tiny sizes together: an edge of half length 1e-300 moves from z = 1e150 to -1e150.
     expect_hit(impact(kEdges, cross_at(1e150, 1e-300), cross_at(-1e150, 1e-300)), 0.5);
     Points aside_start = cross_at(1e150, 1e-300), aside_end = cross_at(-1e150, 1e-300);
     for (Points* p : {&aside_start, &aside_end})

@@ -1,4 +1,4 @@
-/// Elementary tests with a thickness, and features at rest: cases worked by hand.
+/// Elementary tests with a thickness, and features at rest. The cases are worked by hand.
 #include <abut/elementary_impact.h>
 #include <abut/error.h>
 
@@ -23,12 +23,13 @@ ElementaryImpact impact(ElementaryKind kind, const Points& start, const Points& 
 Points face_and(const Vec3& vertex) {
     return {vertex, Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
 }
-/// An edge along x at a height, and one along y.
+/// An edge along x at height z, and one along y.
 Points cross_at(double z) {
     return {Vec3{-1, 0, z}, Vec3{1, 0, z}, Vec3{0, -1, 0}, Vec3{0, 1, 0}};
 }
 
-/// At the time given or before, by what a distance of 1e-6 thickness takes.
+/// Expects a hit at `time`, or at most `early` before it: the time that a distance of 1e-6 of the
+/// thickness takes.
 void expect_hit(const ElementaryImpact& i, double time, double early) {
     ASSERT_TRUE(i.hit);
     EXPECT_EQ(i.status, Status::converged);
@@ -54,7 +55,8 @@ TEST(Thickness, VertexFallsOnAFace) {
 }
 
 TEST(Thickness, VertexPassesBesideACornerAndAnEdge) {
-    // 3 beside the corner (1, 0, 0), 4 above it at first: at distance 5 at once, at 3 at t = 1/2.
+    // The vertex is 3 beside the corner (1, 0, 0), and at first 4 above it. Its distance is 5 at
+    // the start and 3 at t = 1/2.
     const Points start = face_and({4, 0, 4}), end = face_and({4, 0, -4});
     expect_hit(impact(kFace, start, end, 5), 0, 0);
     expect_hit(impact(kFace, start, end, 3), 0.5, 1e-2);
@@ -63,7 +65,7 @@ TEST(Thickness, VertexPassesBesideACornerAndAnEdge) {
     expect_near(i.normal, {3 / std::sqrt(10), 0, 1 / std::sqrt(10)});
     EXPECT_NEAR(i.barycentric[1], 1, 1e-12);
     EXPECT_FALSE(impact(kFace, start, end, 3 * (1 - 2e-6)).hit);
-    // Beside the edge along x.
+    // The vertex passes beside the edge along x.
     const Points beside = face_and({0.5, -2, 3}), gone = face_and({0.5, -2, -3});
     expect_hit(impact(kFace, beside, gone, 2), 0.5, 1e-2);
     EXPECT_FALSE(impact(kFace, beside, gone, 1.99).hit);
@@ -75,7 +77,7 @@ TEST(Thickness, EdgesApproachAndSlide) {
     expect_near(i.normal, {0, 0, 1});
     EXPECT_NEAR(i.barycentric[0], 0.5, 1e-9);
     EXPECT_EQ(i.barycentric[2], 0);
-    // Always exactly at the thickness, and a little beyond.
+    // Always exactly at the thickness, and then slightly beyond it.
     Points start = cross_at(1), end = cross_at(1);
     start[0].x = -0.5, end[0].x = -1;
     expect_hit(impact(kEdges, start, end, 1), 0, 0);
@@ -114,14 +116,14 @@ TEST(Thickness, WithoutMotionAndAtTheSamePoint) {
     EXPECT_FALSE(impact(kFace, above, above, 0.499).hit);
     const Points one{Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}};
     expect_hit(impact(kFace, one, one, 1e-300), 0, 0);
-    // They cross at the start: the normal is that without a thickness.
+    // They cross at the start, so the normal is the one without a thickness.
     const Points crossing = cross_at(0);
     expect_near(impact(kEdges, crossing, cross_at(1), 0.5).normal,
                 impact(kEdges, crossing, cross_at(1), 0).normal);
 }
 
 TEST(Thickness, DeltaAllowsMore) {
-    // 3 from the corner at the origin, in a direction that no filter knows.
+    // 3 from the corner at the origin, in a direction that no filter tests.
     const Points p{Vec3{1, 2, 2}, Vec3{0, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}};
     const auto i = impact(kFace, p, p, 2.9, 0.2);
     ASSERT_TRUE(i.hit);
@@ -131,7 +133,7 @@ TEST(Thickness, DeltaAllowsMore) {
 }
 
 TEST(Thickness, ThinOnesAreNotMissed) {
-    // Below what rounding shows beside a size of 1: status says so.
+    // Smaller than the rounding of coordinates near 1. The status reports that.
     const auto i = impact(kFace, face_and({0.3, 0.3, 0.7}), face_and({0.3, 0.3, -0.1}), 1e-17);
     ASSERT_TRUE(i.hit);
     EXPECT_EQ(i.status, Status::bound_only);

@@ -1,4 +1,4 @@
-// Small scenes by hand: every kind, rules, order, errors.
+// Small scenes worked by hand: every kind, rules, order, errors.
 
 #include <abut/clash.h>
 #include <abut/error.h>
@@ -38,7 +38,7 @@ std::string numbered(int i) {
 
 const Mesh kBox = box_mesh({0, 0, 0}, {1, 1, 1});
 
-/// The one clash of two parts in two models; none if there is none.
+/// The one clash of two parts in two model files; none if there is none.
 std::optional<Clash> clash_of(const Mesh& a, const Mesh& b, const ClashOptions& options = {}) {
     const ClashReport report = find_clashes({scene_of("a", a), scene_of("b", b)}, options);
     EXPECT_LE(report.clashes.size(), 1U);
@@ -86,7 +86,7 @@ TEST(FindClashes, Contained) {
     ASSERT_TRUE(near);
     EXPECT_EQ(near->kind, ClashKind::clearance);
     EXPECT_EQ(near->distance, 0.25);
-    // One half inside, one half elsewhere, no surfaces meeting: not contained.
+    // One component is inside and one outside, and the surfaces do not meet: not contained.
     EXPECT_FALSE(clash_of(joined(kBox, box_mesh({5, 0, 0}, {6, 1, 1})),
                           joined(box_mesh({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}),
                                  box_mesh({3, 0.25, 0.25}, {3.5, 0.5, 0.5}))));
@@ -108,13 +108,13 @@ TEST(FindClashes, Duplicate) {
     other_diagonal.triangles[0] = {0, 2, 1}, other_diagonal.triangles[1] = {1, 2, 3};
     const auto clash = clash_of(kBox, other_diagonal);
     ASSERT_TRUE(clash);
-    EXPECT_EQ(clash->kind, ClashKind::hard); // the same solid, but not the same triangles
+    EXPECT_EQ(clash->kind, ClashKind::hard); // the same solid with different triangles
 }
 
 TEST(FindClashes, Clearance) {
     const Mesh near = box_mesh({1.25, 0, 0}, {2, 1, 1});
     EXPECT_FALSE(clash_of(kBox, near));
-    EXPECT_FALSE(clash_of(kBox, near, {.clearance = 0.25})); // strictly less
+    EXPECT_FALSE(clash_of(kBox, near, {.clearance = 0.25})); // only distances strictly less count
     const auto clash = clash_of(kBox, near, {.clearance = 0.250001});
     ASSERT_TRUE(clash);
     EXPECT_EQ(clash->kind, ClashKind::clearance);
@@ -191,11 +191,11 @@ TEST(FindClashes, RulesSelectInEitherOrderAndTheFirstWins) {
     std::swap(options.rules[0], options.rules[1]);
     EXPECT_EQ(rule_names(find_clashes(models, options)),
               (std::vector<std::string>{"rest", "rest"}));
-    options.rules = {rule("only left", {{}, {"left"}, {}}, {})}; // by id
+    options.rules = {rule("only left", {{}, {"left"}, {}}, {})}; // selects by id
     EXPECT_EQ(rule_names(find_clashes(models, options)).size(), 1U);
     options.rules = {rule("file", {{"m.glb"}, {}, {}}, {{"dir/*"}, {}, {}})};
     EXPECT_EQ(rule_names(find_clashes(models, options)).size(), 2U);
-    options.rules = {rule("none", {{"M.glb"}, {}, {}}, {})}; // case counts
+    options.rules = {rule("none", {{"M.glb"}, {}, {}}, {})}; // names are case-sensitive
     EXPECT_EQ(find_clashes(models, options).clashes.size(), 0U);
     EXPECT_EQ(find_clashes(models, options).candidates, 0U);
     options.rules = {rule("one of", {{}, {"x", "name of r*"}, {}}, {})};
@@ -237,14 +237,14 @@ TEST(FindClashes, IgnoreRules) {
     EXPECT_EQ(count(), 3U);
     options.rules[0].ignore.same_name_prefix = 1000; // longer than any name
     EXPECT_EQ(count(), 3U);
-    // What the first rule ignores, a later one does not take up.
+    // A pair that the first rule ignores is not taken up by a later one.
     options.rules[0].ignore = {.same_file = true};
     options.rules.push_back(rule("again", {}, {}));
     EXPECT_EQ(count(), 2U);
 }
 
 TEST(FindClashes, ModelsOfOtherAxesAreTurnedIntoTheFrameOfTheFirst) {
-    // z up from (0, 0, 3) to (1, 1, 4); y up that is from (0, 3, -1) to (1, 4, 0).
+    // With z up from (0, 0, 3) to (1, 1, 4); with y up this is from (0, 3, -1) to (1, 4, 0).
     Scene z_up = scene_of("z", box_mesh({0, 0, 3}, {1, 1, 4}));
     z_up.up = UpAxis::z;
     const Scene y_up = scene_of("y", box_mesh({0.25, 3.25, -0.5}, {0.75, 3.75, 5}));
@@ -257,7 +257,7 @@ TEST(FindClashes, ModelsOfOtherAxesAreTurnedIntoTheFrameOfTheFirst) {
     ASSERT_EQ(first_y.clashes.size(), 1U);
     EXPECT_EQ(first_z.clashes[0].distance, first_y.clashes[0].distance);
     EXPECT_EQ(first_z.models[1].up, UpAxis::y);
-    // Away from the wall: along -y where z is up, along z where y is.
+    // Away from the wall: along -y if z is up, along z if y is up.
     EXPECT_LT(first_z.clashes[0].point_a.y, 0.51);
     EXPECT_GE(first_z.clashes[0].point_a.z, 3.2);
     EXPECT_GT(first_y.clashes[0].point_a.z, -0.51);
@@ -294,7 +294,7 @@ TEST(FindClashes, InstancesShareAMesh) {
     EXPECT_EQ(report.counts[static_cast<std::size_t>(ClashKind::touch)], 19U);
     EXPECT_EQ(report.clashes.size(), 19U);
     EXPECT_EQ(report.models[0].triangles, 240U);
-    // Mirrored and turned instances are solids as well.
+    // Mirrored and rotated instances are solids as well.
     scene.parts[1].world_from_mesh = Transform({-1, 0, 0, 0, 1, 0, 0, 0, 1, 1.5, 0, 0});
     EXPECT_GT(find_clashes({scene}, {}).counts[0], 0U);
 }
@@ -453,9 +453,9 @@ TEST(GlobMatch, ByHand) {
     EXPECT_FALSE(glob_match("*ab*abc", "xababab"));
     EXPECT_FALSE(glob_match("abc", "ab"));
     EXPECT_FALSE(glob_match("ab", "abc"));
-    EXPECT_FALSE(glob_match("[a]", "a")); // no sets
+    EXPECT_FALSE(glob_match("[a]", "a")); // character sets are not supported
     EXPECT_FALSE(glob_match("A", "a"));
-    EXPECT_FALSE(glob_match(std::string(200, '*') + "b", std::string(5000, 'a'))); // and soon
+    EXPECT_FALSE(glob_match(std::string(200, '*') + "b", std::string(5000, 'a'))); // ends soon
 }
 
 class ReadRules : public testing::Test {

@@ -1,4 +1,4 @@
-/// Meshes from the arrays of other programs.
+/// Meshes made from other programs' arrays.
 #include <abut/error.h>
 #include <abut/make_mesh.h>
 

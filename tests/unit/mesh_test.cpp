@@ -57,7 +57,7 @@ TEST(Inspect, FlippedTriangle) {
     std::swap(m.triangles[0][1], m.triangles[0][2]);
     const MeshReport r = inspect(m);
     EXPECT_EQ(r.flipped_edges, 3U);
-    EXPECT_TRUE(r.closed); // every edge is still used by two
+    EXPECT_TRUE(r.closed); // every edge is still used by two triangles
 }
 
 TEST(Inspect, NonmanifoldEdge) {
@@ -72,12 +72,12 @@ TEST(Inspect, NonmanifoldEdge) {
 
 TEST(Inspect, DuplicateAndDegenerateTriangles) {
     Mesh m = kCube;
-    m.triangles.push_back({3, 0, 2}); // the first one, from another vertex
-    m.triangles.push_back({0, 3, 2}); // and turned
+    m.triangles.push_back({3, 0, 2}); // the first triangle, from another vertex
+    m.triangles.push_back({0, 3, 2}); // the first triangle, reversed
     m.triangles.push_back({1, 1, 1});
     m.triangles.push_back({0, 7, 0});
     m.positions.push_back({0.5, 1, 1.5});
-    m.triangles.push_back({0, 7, 8}); // on the space diagonal
+    m.triangles.push_back({0, 7, 8}); // all three on the space diagonal
     const MeshReport r = inspect(m);
     EXPECT_EQ(r.duplicate_triangles, 2U);
     EXPECT_EQ(r.degenerate_triangles, 3U);
@@ -105,7 +105,8 @@ TEST(Inspect, ComponentsAreJoinedByVertices) {
     const Mesh two = joined(kCube, box_mesh({5, 0, 0}, {6, 1, 1}));
     EXPECT_EQ(inspect(two).components, 2U);
     EXPECT_TRUE(inspect(two).closed);
-    EXPECT_EQ(inspect(joined(kCube, box_mesh({1, 2, 3}, {4, 4, 4}))).components, 1U); // one corner
+    EXPECT_EQ(inspect(joined(kCube, box_mesh({1, 2, 3}, {4, 4, 4}))).components, 1U); // share one
+                                                                                      // corner
 }
 
 TEST(Inspect, NothingAtAll) {

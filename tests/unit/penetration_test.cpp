@@ -1,4 +1,4 @@
-// By hand: how deep, where, and a way out that works.
+// Cases worked by hand: how deep, where, and a separating motion that works.
 
 #include <abut/error.h>
 #include <abut/penetration.h>
@@ -21,7 +21,7 @@ void expect_near(const Vec3& v, const Vec3& w, double tolerance) {
     EXPECT_NEAR(v.z, w.z, tolerance);
 }
 
-/// Applies the separation and asks again.
+/// Applies the separating motion and asks again.
 void expect_separated(const Mesh& a, const Mesh& b, const Depth& depth) {
     const Transform moved = translation(depth.separation.x, depth.separation.y, depth.separation.z);
     EXPECT_FALSE(collide(Model(a), {}, Model(b), moved).any());
@@ -29,7 +29,7 @@ void expect_separated(const Mesh& a, const Mesh& b, const Depth& depth) {
     EXPECT_FALSE(after.interpenetrate);
     EXPECT_TRUE(after.regions.empty());
     EXPECT_EQ(after.separation, Vec3{});
-    // The depth of locked models, whose regions have none, is a translation's length, too.
+    // For locked models, whose regions have no depth, the depth is also a translation's length.
     const bool locked = std::all_of(depth.regions.begin(), depth.regions.end(),
                                     [](const ContactRegion& r) { return r.depth == 0; });
     EXPECT_LE(depth.depth, length(depth.separation) * (locked ? 1.01 : 1));
@@ -61,7 +61,7 @@ TEST(Penetration, OneBoxIntoTheFaceOfAnother) {
     expect_near(d.direction, {1, 0, 0}, 1e-12);
     EXPECT_EQ(d.point_a.x, 1);
     EXPECT_EQ(d.point_b.x, 0.9);
-    EXPECT_NEAR(d.regions[0].area, 0.16, 1e-12); // the section of b that a's face cuts
+    EXPECT_NEAR(d.regions[0].area, 0.16, 1e-12); // the section of b in a's face
     expect_near(d.regions[0].normal, {1, 0, 0}, 1e-12);
     EXPECT_NEAR(length(d.separation), 0.1, 0.1 / 128);
     expect_near(normalized_or_zero(d.separation), {1, 0, 0}, 1e-6);
@@ -96,7 +96,7 @@ TEST(Penetration, CornerInCorner) {
     ASSERT_EQ(d.regions.size(), 1U);
     EXPECT_NEAR(d.depth, 0.1, 1e-3);
     EXPECT_NEAR(length(d.separation), 0.1, 0.1 / 128);
-    // The curve runs over three faces of a: 0.2 x 0.3, 0.1 x 0.3, 0.1 x 0.2.
+    // The contact curve runs over three faces of a: 0.2 x 0.3, 0.1 x 0.3, 0.1 x 0.2.
     EXPECT_NEAR(d.regions[0].area, length({0.06, 0.03, 0.02}), 1e-12);
 }
 
@@ -109,17 +109,18 @@ TEST(Penetration, ContainedWithoutContact) {
         EXPECT_TRUE(d.regions[0].pairs.empty());
         EXPECT_FALSE(d.regions[0].touching);
         EXPECT_EQ(d.regions[0].area, 0);
-        // The middle of the face x = 0.5 is 0.5 from the top, bottom, front, back and left.
+        // The centre of the face x = 0.5 is 0.5 away from the top, bottom, front, back and left
+        // faces.
         EXPECT_NEAR(d.depth, 0.5, 0.006);
-        EXPECT_NEAR(length(d.separation), 0.5, 0.5 / 64); // out at x = 1
+        EXPECT_NEAR(length(d.separation), 0.5, 0.5 / 64); // leaves at x = 1
         EXPECT_GT(swap ? -d.separation.x : d.separation.x, 0.49);
     }
 }
 
-/// The prongs of a U end in a bar: two regions, each with its own depth.
+/// The prongs of a U end in a bar. There are two regions, each with its own depth.
 TEST(Penetration, AUMeetsABarTwice) {
     const Mesh bar = box_mesh({0, 0, 0}, {10, 1, 1});
-    // Extruded along z: points of the U in x, y.
+    // The U is extruded along z. These are its points in x and y.
     const std::vector<Vec3> outline{{1, 0.8, 0}, {2, 0.8, 0}, {2, 3, 0}, {8, 3, 0},
                                     {8, 0.9, 0}, {9, 0.9, 0}, {9, 4, 0}, {1, 4, 0}};
     const std::vector<std::array<std::uint32_t, 3>> front{{0, 1, 2}, {0, 2, 7}, {2, 6, 7},
@@ -167,7 +168,7 @@ TEST(Penetration, ABarRightThroughAWallHasTwoCurves) {
         EXPECT_NEAR(r.depth, 0.5, 6e-3); // half the wall, reached on the bar
     }
     EXPECT_EQ(d.regions[0].normal.z, -d.regions[1].normal.z);
-    EXPECT_NEAR(length(d.separation), 3, 3.0 / 128); // out through the nearer end
+    EXPECT_NEAR(length(d.separation), 3, 3.0 / 128); // leaves through the nearer end
 }
 
 TEST(Penetration, TouchingOnly) {
@@ -204,7 +205,7 @@ TEST(Penetration, ApartIsNothing) {
     EXPECT_TRUE(none.regions.empty());
 }
 
-/// In the cavity of a hollow box: inside its hull, outside its walls.
+/// In the cavity of a hollow box: inside its hull, but outside its walls.
 TEST(Penetration, InACavityIsApart) {
     const Mesh hollow =
         joined(box_mesh({-2, -2, -2}, {3, 3, 3}), reversed(box_mesh({-1, -1, -1}, {2, 2, 2})));
@@ -215,7 +216,7 @@ TEST(Penetration, InACavityIsApart) {
     EXPECT_NEAR(d.depth, 0.5, 6e-3);
 }
 
-/// A component inside counts beside one that crosses.
+/// A component inside counts in addition to one that crosses.
 TEST(Penetration, AComponentInsideBesideOneThatCrosses) {
     const Mesh b = joined(box_mesh({0.9, 0.3, 0.2}, {2, 0.7, 0.6}),
                           box_mesh({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}));
@@ -256,10 +257,10 @@ TEST(Penetration, OpenSheets) {
     const Depth d = ask(floor, wall);
     EXPECT_TRUE(d.interpenetrate);
     ASSERT_EQ(d.regions.size(), 1U);
-    EXPECT_NEAR(d.depth, 0.2, 1e-12);         // of the triangles
-    EXPECT_NEAR(d.regions[0].area, 0, 1e-12); // a straight line encloses nothing
+    EXPECT_NEAR(d.depth, 0.2, 1e-12);         // depth of the triangles
+    EXPECT_NEAR(d.regions[0].area, 0, 1e-12); // a straight line encloses no area
     EXPECT_NEAR(length(d.separation), 0.2, 0.2 / 128);
-    // One into a solid: how far it reaches in.
+    // An open surface in a solid: the depth is how far it reaches in.
     const Depth in = ask(box_mesh({0, -2, 0}, {2, 2, 2}), floor);
     EXPECT_TRUE(in.interpenetrate || in.regions[0].touching);
     const Depth deep = ask(box_mesh({0.5, -2, -1}, {2, 2, 1}), floor);

@@ -10,9 +10,9 @@ TEST(Predicates, Handedness) {
     EXPECT_EQ(orient3d(o, x, y, z), 1);
     EXPECT_EQ(orient3d(o, y, x, z), -1);
     EXPECT_EQ(orient3d(o, x, y, {5, -3, 0}), 0);
-    EXPECT_EQ(orient2d(o, x, y, 2), 1); // along z, on xy
-    EXPECT_EQ(orient2d(o, y, z, 0), 1); // along x, on yz
-    EXPECT_EQ(orient2d(o, z, x, 1), 1); // along y, on zx
+    EXPECT_EQ(orient2d(o, x, y, 2), 1); // along z, onto xy
+    EXPECT_EQ(orient2d(o, y, z, 0), 1); // along x, onto yz
+    EXPECT_EQ(orient2d(o, z, x, 1), 1); // along y, onto zx
     EXPECT_EQ(orient2d(o, x, {2, 0, 7}, 2), 0);
 }
 

@@ -34,7 +34,7 @@ TEST(Rigid, APartInsideAClosedOneDoesNotCollide) {
     EXPECT_EQ(distance(kBox, Pose{}, inner, Pose{}).distance, 0.25);
 }
 
-/// Apart by less than the square root of the least double: still apart.
+/// The squared distance underflows, but the models are still apart.
 TEST(Rigid, DistancesThatUnderflowAreNotZero) {
     const Mesh low = box_mesh({0, 0, 0}, {1, 1, 1}), high = box_mesh({0, 0, -1}, {1, 1, -0x1p-700});
     const Gap gap = distance(Model(low), Pose{}, Model(high), Pose{});
@@ -70,7 +70,7 @@ TEST(Rigid, DegenerateModelsAreSegmentsAndPoints) {
 }
 
 TEST(Rigid, SingularTransforms) {
-    // Flattened into a plane that cuts the other, and into one point.
+    // Flattened into a plane that cuts the other box, and into a point.
     EXPECT_TRUE(collide(kBox, scaling(1, 1, 0), kBox, translation(0.1, 0.1, -0.5)).any());
     EXPECT_EQ(distance(kBox, scaling(1, 1, 0), kBox, translation(0, 0, 2)).distance, 2);
     EXPECT_EQ(distance(kBox, scaling(0, 0, 0), kBox, translation(3, 0, 0)).distance, 3);
@@ -112,7 +112,7 @@ TEST(Rigid, BadArgumentsAreErrors) {
 }
 
 TEST(Rigid, UpperBoundIsNotReached) {
-    // Exactly at the bound is not nearer than it.
+    // A distance equal to the bound is not below it.
     const Gap at = distance(kBox, Pose{}, kBox, translation(3, 0, 0), {.upper_bound = 2});
     EXPECT_EQ(at.distance, 2);
     EXPECT_EQ(at.status, Status::bound_only);

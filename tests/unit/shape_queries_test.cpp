@@ -13,7 +13,7 @@ namespace {
 using Numbers = std::vector<std::uint32_t>;
 
 const Model kBox(box_mesh({0, 0, 0}, {1, 1, 1}));
-/// Right angle at the origin, legs along x and y of length 4; normal up.
+/// A right triangle at the origin with legs of length 4 along x and y. Its normal points up.
 const Model kTriangle(Mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}});
 const Model kNone(Mesh{});
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -49,7 +49,7 @@ TEST(NearestPoint, FeaturesByHand) {
 }
 
 TEST(NearestPoint, TheLeastTriangleOfSeveral) {
-    const Nearest n = nearest(kBox, Pose{}, {-1, -1, -1}); // six triangles or so share the corner
+    const Nearest n = nearest(kBox, Pose{}, {-1, -1, -1}); // several triangles share the corner
     EXPECT_EQ(n.triangle, 0U);
     EXPECT_EQ(n.feature, Feature::vertex);
     EXPECT_EQ(n.distance, std::sqrt(3.0));
@@ -74,7 +74,7 @@ TEST(NearestPoint, ZeroOnTheSurfaceOnly) {
     const Vec3 third = (1.0 / 3) * (slanted.mesh().positions[0] + slanted.mesh().positions[1] +
                                     slanted.mesh().positions[2]);
     EXPECT_EQ(nearest(slanted, Pose{}, slanted.mesh().positions[1]).distance, 0);
-    const double gap = nearest(slanted, Pose{}, third).distance; // rounded: off the plane
+    const double gap = nearest(slanted, Pose{}, third).distance; // rounding moves it off the plane
     EXPECT_EQ(gap == 0, contains(slanted, Pose{}, third).side == Side::on_surface);
     EXPECT_LT(gap, 1e-15);
     EXPECT_GT(nearest(kBox, Pose{}, {0.5, 0.5, 1 + 0x1p-52}).distance, 0);
@@ -132,7 +132,7 @@ TEST(FirstHit, OfDegenerateTriangles) {
     EXPECT_FALSE(first_hit(point, Pose{}, {{0, 0, 0}, {0.5, 1, 1.25}}).hit);
 }
 
-/// A diagonal of the box passes through two corners: all triangles of both, in order.
+/// A diagonal of the box passes through two corners and hits all their triangles, in order.
 TEST(AllHits, ThroughTwoCorners) {
     const std::vector<RayHit> hits = all_hits(kBox, Pose{}, {{-1, -1, -1}, {1, 1, 1}});
     ASSERT_GE(hits.size(), 6U);
@@ -152,7 +152,7 @@ TEST(NearestPoint, OfPointsVeryFar) {
         for (const double scale : {1.0, 0x1p-30, 0x1p-49, 0x1p-60}) {
             const Nearest n = nearest(kBox, scaling(scale, scale, scale), {far, scale / 2, 0});
             EXPECT_EQ(n.distance, far - scale) << far << ' ' << scale;
-            if (far * 0x1p-20 < scale) { // else rounding makes many points the nearest
+            if (far * 0x1p-20 < scale) { // otherwise rounding gives many nearest points
                 EXPECT_EQ(n.point, (Vec3{scale, scale / 2, 0}));
             }
             const Ray ray{{far, scale / 2, scale / 4}, {-1, 0, 0}};
@@ -193,7 +193,8 @@ TEST(Overlaps, OfSpheresTouchAtTheirRadius) {
     EXPECT_FALSE(overlaps(kTriangle, Pose{}, Sphere{{1, -3, 4}, std::nextafter(5, 0)}));
     EXPECT_TRUE(overlaps(kBox, Pose{}, Sphere{{0.5, 0.5, 0.5}, 0.5}));
     EXPECT_FALSE(overlaps(kBox, Pose{}, Sphere{{0.5, 0.5, 0.5}, 0.499}));
-    EXPECT_TRUE(overlaps(kBox, Pose{}, Sphere{{0.5, 0.5, 0.5}, 100})); // all of the surface inside
+    EXPECT_TRUE(overlaps(kBox, Pose{}, Sphere{{0.5, 0.5, 0.5}, 100})); // the whole surface is
+                                                                       // inside
     EXPECT_EQ(overlapping_triangles(kBox, Pose{}, Sphere{{0.5, 0.5, 0.5}, 100}).size(), 12U);
     EXPECT_TRUE(overlaps(kBox, Pose{}, Sphere{{1, 1, 1}, 0}));
 }
@@ -207,14 +208,16 @@ TEST(Overlaps, OfBoxes) {
     EXPECT_FALSE(overlaps(kBox, Pose{}, Box3{{0, 1, 0}, {1, 0, 1}}));
     const Box3 unit{{-1, -1, -1}, {1, 1, 1}};
     EXPECT_FALSE(overlaps(kBox, Pose{}, OrientedBox{Box3{}, Transform()}));
-    // Turned by 45 degrees about z, its edge at x = -sqrt(2) reaches the box's face or not.
+    // Rotated by 45 degrees about z. Its edge at x = -sqrt(2) just reaches the box's face, or just
+    // does not.
     const auto turned = [&](double x) {
         return OrientedBox{
             unit, Pose{{x, 0.5, 0}, {std::cos(0.3926990817), 0, 0, std::sin(0.3926990817)}}};
     };
     EXPECT_TRUE(overlaps(kBox, Pose{}, turned(2.41)));
     EXPECT_FALSE(overlaps(kBox, Pose{}, turned(2.42)));
-    EXPECT_TRUE(overlaps(kBox, Pose{}, OrientedBox{unit, scaling(100, 100, 100)})); // inside it
+    EXPECT_TRUE(overlaps(kBox, Pose{}, OrientedBox{unit, scaling(100, 100, 100)})); // contains the
+                                                                                    // whole box
     EXPECT_FALSE(overlaps(kBox, Pose{}, OrientedBox{unit, translation(0, 0, 3)}));
     // Flattened to a square through the box, and to one above it.
     EXPECT_TRUE(overlaps(kBox, Pose{}, OrientedBox{unit, scaling(1, 1, 0)}));
@@ -229,14 +232,14 @@ TEST(Contains, ByCrossingsWhereClosed) {
     EXPECT_EQ(contains(kBox, Pose{}, {0.5, 0.5, 1 + 0x1p-52}).side, Side::outside);
     EXPECT_EQ(contains(kBox, Pose{}, {1e17, 0.5, 0.5}).side, Side::outside);
     EXPECT_EQ(contains(kBox, Pose{}, {0.5, 0.5, 0.5}).method, ContainmentMethod::crossings);
-    // Triangles turned at random do not matter; a shell within is a cavity.
+    // Reversed triangles do not matter. A shell inside is a cavity.
     Mesh mesh = joined(box_mesh({0, 0, 0}, {3, 3, 3}), box_mesh({1, 1, 1}, {2, 2, 2}));
     std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
     const Model hollow(mesh);
     EXPECT_EQ(contains(hollow, Pose{}, {0.5, 1.5, 1.5}).side, Side::inside);
     EXPECT_EQ(contains(hollow, Pose{}, {1.5, 1.5, 1.5}).side, Side::outside);
     EXPECT_EQ(contains(kNone, Pose{}, {1, 1, 1}).side, Side::outside);
-    // Flattened, it has no inside.
+    // A flattened box has no inside.
     EXPECT_EQ(contains(kBox, scaling(1, 1, 0), {0.5, 0.5, 0}).side, Side::on_surface);
     EXPECT_EQ(contains(kBox, scaling(1, 1, 0), {0.5, 0.5, 0.1}).side, Side::outside);
     EXPECT_EQ(contains(kBox, scaling(1, 1, 0), {0.5, 0.5, 0.1}).method,
@@ -253,7 +256,7 @@ TEST(Contains, ByWindingWhereNot) {
                 1e-12);
     EXPECT_EQ(contains(open, Pose{}, {0.5, 0.5, 1.25}).side, Side::outside);
     EXPECT_EQ(contains(open, Pose{}, {0, 0.5, 0.5}).side, Side::on_surface);
-    // Two boxes that share an edge: four triangles there, so not closed.
+    // Two boxes that share an edge: four triangles use it, so the surface is not closed.
     const Model pair(joined(box_mesh({0, 0, 0}, {1, 1, 1}), box_mesh({1, 1, 0}, {2, 2, 1})));
     EXPECT_NEAR(contains(pair, Pose{}, {0.5, 0.5, 0.5}).winding_number, 1, 1e-12);
     EXPECT_NEAR(contains(pair, Pose{}, {1.5, 0.5, 0.5}).winding_number, 0, 1e-12);
@@ -286,7 +289,7 @@ TEST(ShapeQueries, EmptyModelsMeetNothing) {
         EXPECT_EQ(distance(kNone, world, Segment{}).status, Status::bound_only);
         EXPECT_EQ(contains(kNone, world, Vec3{}).side, Side::outside);
     }
-    EXPECT_EQ(nearest(kBox, flat, {3, 4, 0}).distance, 5); // a point at the origin
+    EXPECT_EQ(nearest(kBox, flat, {3, 4, 0}).distance, 5); // all points collapse to the origin
     EXPECT_EQ(first_hit(kBox, flat, {{3, 4, 0}, {-3, -4, 0}}).t, 1);
 }
 

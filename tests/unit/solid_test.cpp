@@ -5,7 +5,7 @@
 namespace abut::test {
 namespace {
 
-/// The top's front edge has a vertex more than the front has.
+/// A box whose top has an additional vertex on its front edge, which the front has not.
 Mesh t_junction_box() {
     Mesh m = box_mesh({0, 0, 0}, {1, 1, 1});
     m.positions.push_back({0.5, 0, 1});
@@ -85,7 +85,7 @@ TEST(Interpenetrate, BoxesThatOnlyTouch) {
     touches(box_mesh({-1, -1, -1}, {2, 2, 0}));         // stands on it
     touches(box_mesh({0.5, 0.5, 1}, {1.5, 1.5, 2}));    // overhanging
     touches(box_mesh({1, 0, 1}, {2, 1, 2}));            // edge on edge
-    touches(box_mesh({1, 0.3, 1}, {2, 0.7, 2}));        // within an edge
+    touches(box_mesh({1, 0.3, 1}, {2, 0.7, 2}));        // edge within an edge
     touches(box_mesh({1, 1, 1}, {2, 2, 2}));            // corner on corner
     touches(transformed(box_mesh({0, 0, 0}, {1, 1, 1}), // an edge across an edge
                         Transform({0.5, 0.5, 0, -0.5, 0.5, 0, 0, 0, 1, 1.5, 0, 0.5})));
@@ -108,7 +108,7 @@ TEST(Interpenetrate, BoxesThatGoIn) {
         }
         return result;
     };
-    // Cross-sections aligned: of all faces, only coplanar ones overlap.
+    // The cross-sections are aligned: only coplanar faces overlap.
     EXPECT_NEAR(depth(box_mesh({0.99, 0, 0}, {1.99, 1, 1})), 0.01, 1e-4);
     EXPECT_NEAR(depth(box_mesh({0.5, 0, 0}, {1.5, 1, 1})), 0.5, 5e-3);
     EXPECT_NEAR(depth(box_mesh({0.9, 0.9, 0.9}, {2, 2, 2})), 0.1, 1e-3);       // corner in corner
@@ -117,8 +117,9 @@ TEST(Interpenetrate, BoxesThatGoIn) {
     EXPECT_NEAR(depth(box_mesh({0.4, 0.4, -1}, {0.6, 0.6, 2})), 0.4, 0.11);    // right through
 }
 
-/// No point of either surface lies inside the other: the depth is that of the way out. The search
-/// for a point above depth 0 once spent all of its budget here, seconds a pair.
+/// No point of either surface lies inside the other, so the depth is the length of the separating
+/// motion. The search for a point of positive depth once used its whole budget here, seconds for
+/// each pair.
 TEST(Interpenetrate, TheSameBoxTwice) {
     const Body a(box_mesh({0, 0, 0}, {1, 1, 1})), b(reversed(box_mesh({0, 0, 0}, {1, 1, 1})));
     EXPECT_TRUE(meeting(a, b).go_in);
@@ -135,7 +136,7 @@ TEST(Interpenetrate, PipesLaidIntoEachOther) {
     EXPECT_NEAR(in.depth.depth, 0.1, 1e-3);
     EXPECT_FALSE(meeting(pipe, flush).go_in);
     EXPECT_FALSE(meeting(pipe, flush).contacts.empty());
-    // Turned off all axes, both by one transform.
+    // Both are rotated off all axes by one transform.
     const Transform turned = Pose{{10, -20, 30}, {1, 0.2, -0.3, 0.4}};
     const Body pipe_turned(prism_mesh(0, 3, 0.5, 24), turned),
         next_turned(prism_mesh(2.9, 6, 0.5, 24), turned);
@@ -156,7 +157,7 @@ TEST(Interpenetrate, ASnugRingAroundAPrism) {
 }
 
 TEST(Interpenetrate, OpenSheets) {
-    // The floor has an edge along x = 0; so do the walls along z = 0.
+    // The floor has an edge along x = 0, and the walls have one along z = 0.
     const Mesh floor{{{-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}},
                      {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}};
     const Mesh wall{{{0, -1, -1}, {0, -1, 0}, {0, -1, 1}, {0, 1, -1}, {0, 1, 0}, {0, 1, 1}},
@@ -182,7 +183,8 @@ TEST(PenetrationDepth, SphereInSphere) {
         const Body a(sphere_mesh(1, 64, 32)), b(sphere_mesh(1, 64, 32), translation(apart, 0, 0));
         const Outcome m = meeting(a, b);
         ASSERT_TRUE(m.go_in);
-        // 1 % of the search; the chords of 64 sides lie up to 0.0024 inside the sphere, twice.
+        // The search allows 1 %. The chords of 64 sides lie up to 0.0024 inside the sphere, on both
+        // sides.
         EXPECT_NEAR(m.depth.depth, 2 - apart, 0.01 * (2 - apart) + 0.005);
         EXPECT_LE(m.depth.depth, 2 - apart + 1e-12);
         EXPECT_GE(m.depth.at_most, 2 - apart - 0.005);

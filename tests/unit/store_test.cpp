@@ -1,4 +1,4 @@
-/// Stores worked by hand, and the questions of docs/store.md.
+/// Stores worked by hand, and the queries of docs/store.md.
 #include <abut/error.h>
 #include <abut/scene.h>
 #include <abut/store.h>
@@ -19,7 +19,7 @@ namespace {
 
 class StoreOf : public testing::Test {
 protected:
-    /// Two tetrahedra, one of them 10 up, and an open triangle.
+    /// Two tetrahedra, one of them moved up by 10, and an open triangle.
     void import() {
         Scene scene;
         scene.meshes = {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -48,9 +48,9 @@ TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
     EXPECT_EQ(found.meshes, 2U);
     EXPECT_EQ(found.stored_triangles, 5U);
     EXPECT_EQ(found.blocks, 2U);
-    // A header of 16 bytes, vertices of three floats, triangles of three indices.
+    // The header has 16 bytes, a vertex three floats, a triangle three indices.
     EXPECT_EQ(found.raw_bytes, 16U + 4 * 12 + 4 * 12 + 16 + 4 * 12 + 1 * 12);
-    // The vertex at (9, 9, 9) is in no triangle.
+    // No triangle uses the vertex at (9, 9, 9).
     EXPECT_EQ(found.bounds, (Box3{{0, 0, 0}, {3, 11, 1}}));
 
     StoreFile& file = store.file();
@@ -70,7 +70,8 @@ TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
 
 TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
     import();
-    // In the box: none. Two types, two meshes, three parts of the last import, one open shell.
+    // Rows of the queries: none in the box, two types, two meshes, three parts of the last import,
+    // one open shell, none.
     EXPECT_EQ(rows_of_page_queries("store.md", store_), (std::vector<int>{0, 2, 2, 3, 1, 0}));
 }
 
@@ -83,7 +84,8 @@ TEST_F(StoreOf, NothingIsRefused) {
 }
 
 TEST(MeshCodec, ASheetInOrderCostsNothingForItsCorners) {
-    // New vertices are zeros, which are compressed away: what is left is the positions.
+    // New vertices are stored as zeros, which compress to almost nothing. What remains is the
+    // positions.
     MeshBlock block;
     for (std::uint32_t i = 0; i < 3000; ++i) {
         block.mesh.positions.push_back({0, 0, 0});
@@ -123,7 +125,7 @@ TEST(CutMesh, SmallMeshesStayWholeAndLargeOnesAreCut) {
     sizes.clear();
     cut_mesh(strip(70000), count);
     EXPECT_EQ(sizes, (std::vector<std::size_t>{32768, 32768, 70000 - 65536}));
-    // Along a strip the pieces follow each other.
+    // Along a strip, the mesh blocks follow each other.
     double end = 0;
     cut_mesh(strip(70000), [&](const MeshBlock& block) {
         EXPECT_EQ(encode_draft(block).row.box.lower.x, end);

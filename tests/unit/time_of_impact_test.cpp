@@ -1,4 +1,4 @@
-// Times of impact worked by hand, motions, and what is refused.
+// Times of impact worked by hand, motions, and invalid arguments.
 
 #include <abut/error.h>
 #include <abut/motion.h>
@@ -32,7 +32,8 @@ Motion spin(const Vec3& w) {
     return {{}, {}, {}, w};
 }
 
-/// Never late, contact where it says so, and within the tolerance.
+/// Expects an impact that is not late, has contact at the reported time, and is within the
+/// tolerance.
 void expect_hit(const Model& a, const Motion& motion_a, const Model& b, const Motion& motion_b,
                 double expected, double slack = 1e-5) {
     const Impact impact = time_of_impact(a, motion_a, b, motion_b);
@@ -58,7 +59,7 @@ void expect_miss(const Model& a, const Motion& motion_a, const Model& b, const M
 }
 
 TEST(TimeOfImpact, BoxesApproach) {
-    // A gap of 2 closes at speed 4; the other moves too.
+    // A gap of 2 closes at speed 4. Then the other box moves too.
     expect_hit(kBox, Motion::fixed({}), kBox, straight({3, 0, 0}, {-1, 0, 0}), 0.5);
     expect_hit(kBox, straight({0, 0, 0}, {2, 0, 0}), kBox, straight({3, 0.5, 0.25}, {1, 0.5, 0.25}),
                0.5);
@@ -85,12 +86,12 @@ TEST(TimeOfImpact, TheToleranceBoundsTheGap) {
 }
 
 TEST(TimeOfImpact, ABarTurnsIntoABox) {
-    // The bar's upper side lies 0.1 above the axis about which it turns, so it passes the corner
-    // (2, 1) of the target 0.1 / sqrt(5) rad before the corner's own angle.
+    // The bar's upper side lies 0.1 above the axis of rotation. It therefore passes the target's
+    // corner (2, 1) by asin(0.1 / sqrt(5)) rad before the corner's own angle.
     const Model bar(box_mesh({0, -0.1, -0.1}, {4, 0.1, 0.1}));
     const Model target(box_mesh({2, 1, -1}, {9, 5, 1}));
     const double angle = std::atan2(1.0, 2.0) - std::asin(0.1 / std::sqrt(5.0));
-    // Or its end, (4, 0.1), comes first to the face y = 1.
+    // Or the bar's end, (4, 0.1), reaches the face y = 1 first.
     const double end_angle = std::asin(1 / std::hypot(4, 0.1)) - std::atan2(0.1, 4);
     const double first = std::min(angle, end_angle);
     expect_hit(bar, spin({0, 0, kPi / 2}), target, Motion::fixed({}), first / (kPi / 2));
@@ -110,7 +111,7 @@ TEST(TimeOfImpact, ANeedleTurnsIntoATip) {
 
 TEST(TimeOfImpact, PlatesWithoutThicknessAtAnySpeed) {
     for (const double speed : {2.0, 1e3, 1e6, 1e9}) {
-        // Starts at x = -1; at the plate after 1 / speed.
+        // Starts at x = -1 and reaches the plate after 1 / speed.
         const Motion through = straight({-1, 0.1, 0.2}, {speed - 1, 0.1, 0.2});
         const Impact impact = time_of_impact(kPlate, Motion::fixed({}), kPlate, through);
         ASSERT_TRUE(impact.hit) << speed;
@@ -120,7 +121,7 @@ TEST(TimeOfImpact, PlatesWithoutThicknessAtAnySpeed) {
 }
 
 TEST(TimeOfImpact, AFastSpinningPlateMeetsAThinOne) {
-    // Turns 10,000 times about z; a point rests just within its reach, at a fifth of a turn.
+    // The blade turns 10,000 times about z. A point rests within its reach, at a fifth of a turn.
     const Model blade(Mesh{{{0, 0, -1}, {2, 0, -1}, {2, 0, 1}, {0, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}});
     const double angle = 0.4 * kPi;
     const Vec3 p{1.5 * std::cos(angle), 1.5 * std::sin(angle), 0};
@@ -147,7 +148,7 @@ TEST(TimeOfImpact, InContactAtTheStart) {
 }
 
 TEST(TimeOfImpact, InContactAtTheEnd) {
-    // Faces coincide at t = 1 exactly.
+    // The faces coincide exactly at t = 1.
     const Impact impact =
         time_of_impact(kBox, Motion::fixed({}), kBox, straight({3, 0, 0}, {1, 0, 0}));
     EXPECT_TRUE(impact.hit);
@@ -161,15 +162,16 @@ TEST(TimeOfImpact, ParallelPartingAndEqualMotionsNeverMeet) {
     expect_miss(kBox, Motion::fixed({}), kBox, straight({1.001, 0, 0}, {9, 0, 0}));
     const Motion rolling = Motion::screw({}, turned(3, {0, 0.6, 0.8}, {5, 6, 7}));
     Motion beside = rolling;
-    beside.start = at_point(0, 0, 1.25); // in the same rigid motion: same centre and velocities
+    beside.start = at_point(0, 0, 1.25); // part of the same rigid motion: same centre and
+                                         // velocities
     expect_miss(kBox, rolling, kBox, beside);
 }
 
 TEST(TimeOfImpact, PassingNearIsNoHit) {
-    // Nearer than the tolerance, and nearer than the square root of rounding.
+    // Passes nearer than the tolerance, and nearer than the square root of rounding.
     for (const double gap : {1e-3, 1e-7, 1e-10})
         expect_miss(kBox, Motion::fixed({}), kBox, straight({-3, 0, 1 + gap}, {3, 0.5, 1 + gap}));
-    // Around a corner: spheres of motion touch almost.
+    // Passes a corner: the spheres of motion almost touch.
     const Model bar(box_mesh({-2, -0.1, -0.1}, {2, 0.1, 0.1}));
     const double reach = std::hypot(2.0, 0.1);
     expect_miss(bar, spin({0, 0, 3}), kBox, Motion::fixed(at_point(reach + 1e-9, -0.5, -0.5)));
@@ -179,7 +181,8 @@ TEST(TimeOfImpact, PassingNearIsNoHit) {
 }
 
 TEST(TimeOfImpact, SlidingInContactIsAHit) {
-    // A box slides onto a table whose top is its bottom: contact begins where the edges meet.
+    // A box slides onto a table whose top is level with the box's bottom. Contact begins when the
+    // edges meet.
     const Model table(box_mesh({0, -2, -1}, {4, 2, 0}));
     const Impact impact =
         time_of_impact(table, Motion::fixed({}), kBox, straight({-3, 0, 0}, {1, 0, 0}));
@@ -218,7 +221,7 @@ TEST(TimeOfImpact, PointsAndSegmentsMeet) {
     const Model point(Mesh{{{0, 0, 0}}, {{0, 0, 0}}});
     const Impact points =
         time_of_impact(point, Motion::fixed({}), point, straight({1, 2, 3}, {-1, -2, -3}));
-    ASSERT_TRUE(points.hit); // to rounding: whether the points coincide at a double is chance
+    ASSERT_TRUE(points.hit); // up to rounding: whether the points coincide at any double is chance
     EXPECT_LE(points.time, 0.5);
     EXPECT_NEAR(points.time, 0.5, 1e-6);
     const Model segment(Mesh{{{-1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}}});
@@ -240,7 +243,7 @@ TEST(Motion, EndsWhereItShould) {
         for (std::size_t i = 0; i < 12; ++i)
             EXPECT_NEAR(reached.m[i], wanted.m[i], 1e-14);
     }
-    // The point named moves in a straight line.
+    // The given point moves in a straight line.
     const Vec3 about{7, 8, 9};
     const Motion motion = Motion::between(start, end, about);
     const Vec3 middle = 0.5 * (apply(Transform(start), about) + apply(Transform(end), about));
@@ -253,12 +256,12 @@ TEST(Motion, AScrewTurnsAboutItsAxis) {
     const Motion motion = Motion::screw(start, end);
     EXPECT_LT(length(motion.centre - Vec3{1, 1, 0}), 1e-14);
     EXPECT_LT(length(motion.velocity - Vec3{0, 0, 2}), 1e-14);
-    // Half way, an eighth of a turn: (1, 1) - R (1, 1).
+    // Half way it has made an eighth of a turn: (1, 1) - R (1, 1).
     const Transform half = at(motion, 0.5);
     EXPECT_NEAR(half.m[9], 1, 1e-14);
     EXPECT_NEAR(half.m[10], 1 - std::sqrt(2.0), 1e-14);
     EXPECT_NEAR(half.m[11], 1, 1e-14);
-    // Tiny angles: the axis is far, the end is kept.
+    // For tiny angles, the axis is far away, but the end is exact.
     for (const double angle : {1e-7, 1e-12, 1e-100, 0.0}) {
         const Pose near = turned(angle, {0, 0, 1}, {2, 3, 4});
         const Transform reached = at(Motion::screw(start, near), 1);

@@ -25,7 +25,7 @@ TEST(FirstEqualPositions, NegativeZeroIsZeroAndNaNIsItself) {
     EXPECT_TRUE(first_equal_positions(std::span<const Vec3>()).empty());
 }
 
-/// Triangles of lattice points, unshared and shared vertices, some triangles without area.
+/// Triangles of lattice points, with unshared and shared vertices. Some have no area.
 Mesh lattice_soup(Random& random, int side) {
     Mesh m;
     for (int i = 0; i < 400; ++i)
@@ -73,7 +73,7 @@ TEST(Topology, EqualsABruteForceSearch) {
             shared += t.edge(e.to, e.from).size() > 1 ? 1 : 0;
 
         const std::vector<std::uint32_t> component = vertex_components(m, t);
-        // Labels spread along triangles until nothing changes.
+        // Spreads labels along triangles until nothing changes.
         std::vector<std::uint32_t> label = t.vertex_of;
         for (bool changed = true; changed;) {
             changed = false;

@@ -20,17 +20,17 @@ TEST(Transform, FormulaIsColumnMajor) {
 }
 
 TEST(Transform, EvaluatedLeftToRightWithoutFusedOperations) {
-    // 1 + 2^-53 rounds to 1 at every step; from right to left the two halves would have added up.
+    // 1 + 2^-53 rounds to 1 at every step. Summed from right to left, the two halves would add up.
     const Transform t({1, 0, 0, 0x1p-53, 1, 0, 0x1p-53, 0, 1, 0, 0, 0});
     EXPECT_EQ(apply(t, {1, 1, 1}).x, 1.0);
-    // A fused product would keep the square's last bits.
+    // A fused multiply-add would keep the last bits of the square.
     const double a = 1 + 0x1p-52;
     const Transform u({a, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0});
     EXPECT_EQ(apply(u, {a, -(1 + 0x1p-51), 0}).x, 0.0);
 }
 
 TEST(Transform, QuaternionNeedNotBeOfUnitLength) {
-    // A quarter turn about z: x goes to y.
+    // A quarter turn about z maps x to y.
     for (const double scale : {1.0, -3.0, 1e-200, 1e200}) {
         const Vec3 p = apply(Pose{{1, 2, 3}, {scale, 0, 0, scale}}, {1, 0, 0});
         EXPECT_NEAR(p.x, 1, 1e-15);
@@ -60,7 +60,7 @@ TEST(Transform, BadPosesAreErrors) {
 }
 
 TEST(Transform, LargeFiniteQuaternionsAreValid) {
-    // The sum of the components overflows, though each is finite.
+    // The sum of the components overflows, although each component is finite.
     constexpr double kMost = std::numeric_limits<double>::max();
     const Vec3 p = apply(Pose{{0, 0, 0}, {kMost, 0, 0, kMost}}, {1, 0, 0});
     EXPECT_NEAR(p.y, 1, 1e-15);

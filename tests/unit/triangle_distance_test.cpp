@@ -1,4 +1,4 @@
-// By hand, and reduced from what the property tests once found.
+// Cases worked by hand, and cases reduced from failures of the property tests.
 
 #include "geometry/triangle_triangle_distance.h"
 
@@ -39,13 +39,13 @@ TEST(Distance, Triangles) {
            {1, 1, 0}, {1, 1, 2});
     expect(triangle_triangle_distance(kFloor, {Vec3{5, 0, 0}, Vec3{9, 0, 0}, Vec3{9, 9, 0}}), 1,
            {4, 0, 0}, {5, 0, 0});
-    // Pierced: the piercing point.
+    // Pierced: both points are the piercing point.
     expect(triangle_triangle_distance(kFloor, {Vec3{1, 1, -1}, Vec3{1, 1, 1}, Vec3{9, 9, 0}}), 0,
            {1, 1, 0}, {1, 1, 0});
 }
 
-/// The foot was rounded to the grid of coordinates of 10^5 before the distance was taken: 1,400
-/// roundings of the coordinates' differences.
+/// The foot was once rounded to the grid of coordinates near 10^5 before the distance was taken.
+/// The error was 1,400 roundings of the coordinates' differences.
 TEST(Distance, FarFromTheOriginCoordinatesRoundNothingAway) {
     const Triangle a{Vec3{-0x1.58c5283fe6b6ap+13, -0x1.0fdc0c86001bbp+16, 0x1.edda47c60d3bep+15},
                      Vec3{-0x1.58d23ba52c881p+13, -0x1.0fdb1cd65d225p+16, 0x1.edd7f520f96d1p+15},
@@ -57,8 +57,8 @@ TEST(Distance, FarFromTheOriginCoordinatesRoundNothingAway) {
                 2e-15);
 }
 
-/// A triangle that rounding made of a segment: its plane says nothing, its edges all. The foot on
-/// that plane was taken for the answer.
+/// A segment that rounding has turned into a triangle: its plane is meaningless, its edges are
+/// exact. The foot on that plane was once taken for the answer.
 TEST(Distance, OfANeedle) {
     const Triangle needle{Vec3{0, 0, 0}, Vec3{0.7, 0.7, 0.7}, Vec3{0.1, 0.1, 0.1 + 0x1p-56}};
     for (int i = 0; i <= 20; ++i) {

@@ -1,4 +1,4 @@
-// By hand: every way in which two triangles can meet or just not meet.
+// Every way in which two triangles can meet or just not meet, by hand.
 
 #include "geometry/triangle_triangle_intersect.h"
 
@@ -63,7 +63,7 @@ TEST(TriangleIntersect, DegenerateOnesAreSegmentsAndPoints) {
     expect({Vec3{-1, 1, 0}, Vec3{9, 1, 0}, Vec3{3, 1, 0}},
            TriangleContact::touch); // across, in the plane
     expect({Vec3{3, 3, 0}, Vec3{4, 3, 0}, Vec3{5, 3, 0}}, TriangleContact::none);
-    // Two segments; two points; a point on a segment.
+    // Two segments, two points, and a point on a segment.
     const Triangle segment{Vec3{0, 0, 0}, Vec3{2, 2, 2}, Vec3{1, 1, 1}};
     const auto with_segment = [&](const Triangle& t) {
         return triangle_triangle_intersect(segment, t);
@@ -84,7 +84,7 @@ TEST(TriangleIntersect, ProjectionAxisKeepsTheArea) {
     EXPECT_EQ(projection_axis({Vec3{0, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}), 0);
     EXPECT_EQ(projection_axis({Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 0, 1}}), 1);
     EXPECT_EQ(projection_axis({Vec3{0, 0, 0}, Vec3{1, 2, 3}, Vec3{2, 4, 6}}), -1);
-    // Its cross product underflows to nothing; the area is there all the same.
+    // The cross product underflows to zero, although the triangle has an area.
     EXPECT_EQ(projection_axis({Vec3{0, 0, 0}, Vec3{0x1p-1000, 0, 0}, Vec3{0, 0x1p-1000, 0}}), 2);
 }
 

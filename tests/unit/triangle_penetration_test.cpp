@@ -19,7 +19,7 @@ TEST(TrianglePenetration, AVertexThroughAFloor) {
 }
 
 TEST(TrianglePenetration, EdgeAcrossEdge) {
-    // Two upright triangles whose edges along x and along y pass each other by 0.125.
+    // Two upright triangles. Their edges along x and along y pass each other by 0.125.
     const Triangle a{Vec3{-1, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 0, -5}},
         b{Vec3{0, -1, -0.125}, Vec3{0, 1, -0.125}, Vec3{0, 0, 5}};
     const auto [depth, direction] = triangle_triangle_penetration(a, b);

@@ -1,4 +1,4 @@
-// By hand: what two triangles share.
+// The common points of two triangles, by hand.
 
 #include <abut/rigid.h>
 
@@ -18,7 +18,7 @@ std::vector<Vec3> shared(const Triangle& a, const Triangle& b) {
 }
 
 TEST(TriangleSegment, RunsAlongTheCrossProductOfTheNormals) {
-    // n_a = +z; the wall's normal is -y: n_a x n_b = +x.
+    // n_a = +z and the wall's normal is -y, so n_a x n_b = +x.
     const Triangle wall{Vec3{1, 1, -1}, Vec3{2, 1, -1}, Vec3{1, 1, 1}};
     EXPECT_EQ(shared(kFloor, wall), (std::vector<Vec3>{{1, 1, 0}, {1.5, 1, 0}}));
     EXPECT_EQ(shared(wall, kFloor), (std::vector<Vec3>{{1.5, 1, 0}, {1, 1, 0}}));
@@ -49,7 +49,7 @@ TEST(TriangleSegment, CoplanarOnesShareAPolygon) {
     const Triangle inside{Vec3{1, 1, 0}, Vec3{1, 2, 0}, Vec3{2, 1, 0}}; // clockwise
     const auto three = shared(kFloor, inside);
     ASSERT_EQ(three.size(), 3U);
-    EXPECT_GT(cross(three[1] - three[0], three[2] - three[0]).z, 0); // as n_a
+    EXPECT_GT(cross(three[1] - three[0], three[2] - three[0]).z, 0); // in the sense of n_a
     EXPECT_LT(cross(shared(inside, kFloor)[1] - shared(inside, kFloor)[0],
                     shared(inside, kFloor)[2] - shared(inside, kFloor)[0])
                   .z,
@@ -76,7 +76,7 @@ TEST(TriangleSegment, DegenerateOnesAreSegmentsAndPoints) {
     EXPECT_TRUE(shared(stick, skew).empty());
 }
 
-/// Planes that differ by one part in 2^50: the point is placed by wide arithmetic.
+/// The planes differ by one part in 2^50, so wide arithmetic computes the point.
 TEST(TriangleSegment, AlmostCoplanar) {
     const double e = 0x1p-50;
     const Triangle tilted{Vec3{0.5, 1, e}, Vec3{2.5, 1, -3 * e}, Vec3{2.5, 1.5, -3 * e}};
@@ -91,7 +91,7 @@ TEST(Collide, SegmentsComeWithThePairs) {
     const Contacts c = collide(box, Pose{}, box, translation(0.5, 0.2, 0.3),
                                {.mode = ContactMode::all, .segments = true});
     ASSERT_EQ(c.segments.size(), c.pairs.size());
-    double length_in_face = 0; // x = 1 is cut along two sides, 0.8 and 0.7
+    double length_in_face = 0; // x = 1 is cut along two sides, of lengths 0.8 and 0.7
     for (const Intersection& s : c.segments) {
         ASSERT_EQ(s.count, 2U);
         if (s.corners[0].x == 1 && s.corners[1].x == 1)

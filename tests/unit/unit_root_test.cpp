@@ -32,11 +32,11 @@ TEST(UnitRoots, AllInOrderEachOnce) {
     expect_roots(polynomial(-1, 2), {0.5});
     expect_roots(polynomial(-1, 3), {1.0 / 3});
     expect_roots(polynomial(-1, 0, 2), {std::sqrt(0.5)});
-    // (3 t - 1) (2 t - 1) (4 t - 3) and (2 t - 1)^2 (3 t - 2), (2 t - 1)^3
+    // (3 t - 1) (2 t - 1) (4 t - 3), (2 t - 1)^2 (3 t - 2) and (2 t - 1)^3.
     expect_roots(polynomial(-3, 19, -38, 24), {1.0 / 3, 0.5, 0.75});
     expect_roots(polynomial(-2, 11, -20, 12), {0.5, 2.0 / 3});
     expect_roots(polynomial(-1, 6, -12, 8), {0.5});
-    // (3 t - 1)^2 has no change of sign
+    // (3 t - 1)^2 has no change of sign.
     expect_roots(polynomial(1, -6, 9), {1.0 / 3});
 }
 
@@ -51,8 +51,8 @@ TEST(UnitRoots, EndsBelongToTheInterval) {
 }
 
 TEST(UnitRoots, SignsThere) {
-    // At sqrt(1/2): 2 t^2 - 1 = 0, and 408/577 and 577/816 of its continued fraction lie on both
-    // sides.
+    // The root is sqrt(1/2), of 2 t^2 - 1. The convergents 408/577 and 577/816 of its continued
+    // fraction lie on opposite sides.
     auto roots = unit_roots(polynomial(-1, 0, 2));
     ASSERT_EQ(roots.size(), 1U);
     EXPECT_EQ(roots[0].sign_of(polynomial(-1, 0, 2)), 0);

@@ -1,4 +1,4 @@
-// Volumes of shapes whose volumes are known by hand.
+// Volumes fitted to shapes, with sizes known by hand.
 
 #include "volume/convex_hull.h"
 #include "volume/lower_bound.h"
@@ -9,7 +9,7 @@
 namespace abut::test {
 namespace {
 
-/// The vertices of a box, as triangles that are points.
+/// The vertices of a box, each as a triangle degenerate to a point.
 std::vector<Triangle> corners(const Vec3& lower, const Vec3& upper) {
     std::vector<Triangle> result;
     for (unsigned i = 0; i < 8; ++i) {
@@ -26,7 +26,7 @@ Transform shift(double x, double y, double z) {
 constexpr double kFloatRounding = 1e-6;
 
 TEST(Volumes, OfABox) {
-    const auto box = corners({1, 2, 3}, {9, 6, 5}); // half 4, 2, 1 about 5, 4, 4
+    const auto box = corners({1, 2, 3}, {9, 6, 5}); // half extents 4, 2, 1 about 5, 4, 4
     const Obb obb = Obb::fit(box);
     EXPECT_EQ(obb.centre, (std::array{5.0F, 4.0F, 4.0F}));
     EXPECT_NEAR(obb.half[0], 4, kFloatRounding);
@@ -55,8 +55,7 @@ TEST(Volumes, OfABox) {
 }
 
 TEST(Volumes, InsetsReachRoundEnds) {
-    // A capsule's points: the segment from -1 to 1 with radius 0.5, the rest of the sweep at its
-    // ends.
+    // Points of a capsule: the segment from -1 to 1 with radius 0.5, and the caps at its ends.
     std::vector<Triangle> capsule;
     for (const double x : {-1.0, 1.0})
         for (int i = 0; i < 12; ++i) {
@@ -86,13 +85,13 @@ TEST(Volumes, GapsAlongAnAxisAndAcrossACorner) {
     EXPECT_NEAR(gap(sphere, shift(5, 0, 0)), 5 - 2 * std::sqrt(3), 1e-4);
     EXPECT_EQ(gap(sphere, shift(3, 0, 0)), 0);
 
-    // A plate over a plate, and beside it.
+    // A plate above a plate, and beside it.
     const Rss plate = Rss::fit(corners({-2, -1, 0}, {2, 1, 0}));
     EXPECT_NEAR(gap(plate, shift(0.3, 0.1, 0.25)), 0.25, 1e-4);
     EXPECT_NEAR(gap(plate, shift(7, 6, 12)), 13, 1e-4); // 3, 4, 12
     EXPECT_EQ(gap(plate, shift(1, 1, 0)), 0);
     const Transform upright({0, 0, 1, 0, 1, 0, -1, 0, 0, 0, 0, 2.5});
-    EXPECT_NEAR(gap(plate, upright), 0.5, 1e-4); // its short edge over the other's face
+    EXPECT_NEAR(gap(plate, upright), 0.5, 1e-4); // its short edge above the other's face
 }
 
 TEST(Volumes, UpperBoundsReachTheFarEnds) {

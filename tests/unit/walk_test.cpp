@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class WalkBy : public testing::Test {
 protected:
-    /// Two cubes of side 2 about (0, 0, 0) and (10, 0, 0), which share a mesh.
+    /// Two cubes of side 2 about (0, 0, 0) and (10, 0, 0) that share a mesh.
     Store two_cubes() {
         Scene scene;
         scene.meshes = {box_mesh({-1, -1, -1}, {1, 1, 1})};
@@ -70,7 +70,7 @@ TEST_F(WalkBy, TwoCubesFindsTheNearer) {
 
     EXPECT_FALSE(walk.distance(ball_, Pose{{4, 0, 0}}, {.upper_bound = 2.5}).found);
     EXPECT_TRUE(walk.distance(ball_, Pose{{4, 0, 0}}, {.upper_bound = 2.6}).found);
-    // Equally far from both: the one of least number.
+    // Both are equally far: the part with the lower number is returned.
     EXPECT_EQ(walk.distance(ball_, Pose{{5, 0, 0}}).gap.part, nearest.gap.part);
 }
 
@@ -81,15 +81,15 @@ TEST_F(WalkBy, TwoCubesFindsAllWithinAndTouched) {
     EXPECT_TRUE(walk.within(ball_, Pose{{4, 0, 0}}, 2.4).parts.empty());
     EXPECT_EQ(walk.collide(ball_, Pose{{1.5, 0, 0}}).parts.size(), 1U);
     EXPECT_TRUE(walk.collide(ball_, Pose{{1.6, 0, 0}}).parts.empty());
-    // Inside, away from the surface: parts are surfaces.
+    // Inside and away from the surface: parts are surfaces, so there is no contact.
     EXPECT_TRUE(walk.collide(ball_, Pose{}).parts.empty());
-    // Its centre is 0.25 inside, and the cube is closed: 0.75 to get out.
+    // The ball's centre is 0.25 inside the closed cube, so 0.75 ends the overlap.
     const NearParts contacts = walk.contacts(ball_, Pose{{0.75, 0, 0}});
     ASSERT_EQ(contacts.parts.size(), 1U);
     EXPECT_EQ(contacts.parts[0].distance, -0.75);
     EXPECT_EQ(contacts.parts[0].normal, (Vec3{1, 0, 0}));
     const WalkStatistics found = walk.statistics();
-    EXPECT_EQ(found.read_in_query, 2U); // both, once
+    EXPECT_EQ(found.read_in_query, 2U); // both parts, once each
     EXPECT_EQ(found.misses, 2U);
     EXPECT_EQ(found.read_ahead, 0U);
     EXPECT_EQ(found.parts_in_memory, 2U);
@@ -107,7 +107,7 @@ TEST_F(WalkBy, PartsThatComeMoveAndGo) {
     EXPECT_TRUE(walk.collide(ball_, Pose{{1.4, 0, 0}}).parts.empty());
     EXPECT_EQ(walk.collide(ball_, Pose{{1.4, 20, 0}}).parts, std::vector{left});
     EXPECT_EQ(walk.world_from_part(left), translation(0, 20, 0));
-    // What does it touch where it is now?
+    // A part's own model as the probe: what does the part touch at its place?
     const Probe copy(walk.model(left));
     EXPECT_EQ(walk.collide(copy, walk.world_from_part(left)).parts, std::vector{left});
     EXPECT_TRUE(walk.collide(copy, walk.world_from_part(left), {.except = left}).parts.empty());
@@ -129,14 +129,14 @@ TEST_F(WalkBy, PartsThatComeMoveAndGo) {
 TEST_F(WalkBy, WhatIsNotInMemoryMayBeSkipped) {
     Walk walk(two_cubes());
     const WalkQuery skip{.missing = MissingParts::skip};
-    // Nothing has been said of a region of interest, so nothing is in memory.
+    // No region of interest was given, so nothing is in memory.
     const NearestPart before = walk.distance(ball_, Pose{{4, 0, 0}}, skip);
     EXPECT_FALSE(before.found);
     EXPECT_FALSE(before.complete);
     EXPECT_GT(before.misses, 0U);
     EXPECT_LE(before.at_least, 2.5);
     EXPECT_GT(before.at_least, 2.4);
-    walk.wait(); // what was skipped is read
+    walk.wait(); // reads what was skipped
     const NearestPart after = walk.distance(ball_, Pose{{4, 0, 0}}, skip);
     EXPECT_TRUE(after.complete);
     EXPECT_EQ(after.gap.distance, 2.5);
@@ -179,7 +179,7 @@ TEST_F(WalkBy, BadArgumentsAreRefused) {
               ErrorCode::bad_argument);
     EXPECT_EQ(code_of([&] { (void)walk.within(ball_, Pose{}, -1); }), ErrorCode::bad_argument);
     EXPECT_EQ(code_of([&] { (void)Probe(Sphere{{}, -1}); }), ErrorCode::bad_argument);
-    // A model takes any transform; one without triangles is nowhere.
+    // A probe that is a model takes any transform. One without triangles is nowhere.
     const Probe cube(Model(box_mesh({-1, -1, -1}, {1, 1, 1})));
     EXPECT_EQ(walk.collide(cube, scaling(10, 10, 10)).parts.size(), 1U);
     EXPECT_FALSE(walk.distance(Model(Mesh{}), Pose{}).found);

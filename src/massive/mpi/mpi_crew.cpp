@@ -1,5 +1,5 @@
-// A crew by MPI. All calls of MPI are made by one thread, which sleeps between looks: a process that
-// waits for a message takes no core.
+// A crew whose processes communicate by MPI. One thread makes all MPI calls. It sleeps between
+// polls, so that a process that waits for a message does not occupy a core.
 
 #include <abut/crew.h>
 
@@ -23,8 +23,8 @@ namespace {
 
 using std::chrono::microseconds;
 
-/// How many of the cores that this process may use are its own, if it shares each fairly with the
-/// processes of this machine that may use it too.
+/// Returns this process's fair share of cores: each core that it may use counts 1 / n, where n
+/// processes of this machine may use that core. At least 1.
 int fair_threads() {
     cpu_set_t mine;
     CPU_ZERO(&mine);
@@ -80,7 +80,8 @@ public:
 
     std::optional<Message> receive(std::chrono::milliseconds patience) override {
         std::unique_lock lock(mutex_);
-        // Even a wait of no time sleeps: some 60 us, and helpers look after each pair.
+        // Even a wait with a timeout of zero sleeps for some 60 us, and helpers poll after each
+        // pair.
         if (patience.count() > 0)
             received_.wait_for(lock, patience, [this] { return !incoming_.empty(); });
         if (incoming_.empty())
@@ -97,7 +98,8 @@ private:
         MPI_Request request = MPI_REQUEST_NULL;
     };
 
-    /// MPI from its beginning to its end.
+    /// The communicator thread: initializes MPI, exchanges messages until the crew is left,
+    /// finalizes MPI.
     void communicate(std::promise<void>& joined) {
         int level = 0, rank = 0, size = 0;
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
@@ -132,7 +134,7 @@ private:
             fresh.swap(outgoing_);
         }
         for (Outgoing& message : fresh) {
-            Outgoing& kept = sending_.emplace_back(std::move(message)); // its address stays
+            Outgoing& kept = sending_.emplace_back(std::move(message)); // the address is stable
             MPI_Isend(kept.bytes.data(), static_cast<int>(kept.bytes.size()), MPI_BYTE,
                       static_cast<int>(kept.to), 0, MPI_COMM_WORLD, &kept.request);
         }
@@ -170,21 +172,21 @@ private:
     std::size_t rank_ = 0, size_ = 0;
     int threads_ = 1;
 
-    std::mutex mutex_; // of those that follow
+    std::mutex mutex_; // guards the next five members
     std::condition_variable to_send_, received_;
     std::deque<Outgoing> outgoing_;
     std::deque<Message> incoming_;
     bool leaving_ = false;
 
-    std::list<Outgoing> sending_; ///< the communicator's
-    std::size_t peers_left_ = 0;  ///< that have not left; the communicator's
+    std::list<Outgoing> sending_; ///< used by the communicator thread only
+    std::size_t peers_left_ = 0;  ///< peers that have not left; communicator thread only
 };
 
 } // namespace
 
 } // namespace abut
 
-/// For join_crew, which loads this.
+/// The entry point that join_crew looks up in this module.
 extern "C" abut::Crew* abut_join_mpi() {
     return new abut::MpiCrew;
 }

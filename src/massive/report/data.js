@@ -1,4 +1,5 @@
-// The report's columns, and what can be asked of them: an order, a filter, CSV. No DOM here but the data.
+// The report's columns, and functions that sort, filter and export them. The DOM is used only to read
+// the data.
 
 const KINDS = ['hard', 'touch', 'contained', 'duplicate', 'clearance'];
 const STATUSES = ['new', 'active', 'reviewed', 'approved', 'resolved'];
@@ -6,9 +7,9 @@ const ANY = -1;
 
 const dataElement = document.getElementById('data');
 const report = JSON.parse(dataElement.textContent);
-dataElement.remove(); // tens of megabytes of text that nothing needs any more
+dataElement.remove(); // frees tens of megabytes of text
 const count = report.id.length;
-const hasStatus = report.status !== undefined; // of a store alone
+const hasStatus = report.status !== undefined; // only reports of a store have statuses
 
 const typeOf = (part) => report.part_type[part];
 const fileOf = (part) => report.part_file[part];
@@ -18,7 +19,7 @@ const fileOf = (part) => report.part_file[part];
 const byCode = (a, b) => (a < b ? -1 : a > b ? 1 : 0);
 const byAlphabet = new Intl.Collator('en', { numeric: true }).compare; // "Beam 9" before "Beam 10"
 
-/** The place of each text among all in order; equal texts share a place. */
+/** Returns the rank of each text in sorted order; equal texts share a rank. */
 function ranks(texts, compare) {
   const order = Array.from(texts.keys()).sort((i, j) => compare(texts[i], texts[j]));
   const rank = new Int32Array(texts.length);
@@ -49,7 +50,10 @@ const SORT_KEYS = {
   id: once(() => ranks(report.id, byCode)),
 };
 
-/** All clashes in the order of a column; of those that tie the deepest first, then in the report's order. */
+/**
+ * Returns all clashes sorted by a column. Ties are sorted by distance, the deepest first, then by
+ * the report's order.
+ */
 function sortedBy(column, descending) {
   const keys = SORT_KEYS[column]();
   const depths = SORT_KEYS.distance();
@@ -69,7 +73,7 @@ function sortedBy(column, descending) {
 const partTexts = once(() =>
   report.part_id.map((id, part) => `${id}\n${report.part_name[part]}`.toLowerCase()));
 
-/** A test whether every word occurs in a part of the clash or in its id; null if there is no word. */
+/** Returns a test whether every word occurs in a part of the clash or in its id; null if there is no word. */
 function textTest(query) {
   const words = query.toLowerCase().split(/\s+/).filter(Boolean);
   if (words.length === 0)
@@ -79,7 +83,10 @@ function textTest(query) {
     hits[w][report.a[i]] || hits[w][report.b[i]] || report.id[i].includes(word));
 }
 
-/** A test whether a clash has both properties, one at each side in either order; null if both are ANY. */
+/**
+ * Returns a test whether the two parts of a clash have both properties, in either order; null if
+ * both are ANY.
+ */
 function sidesTest(first, second, property) {
   if (first === ANY && second === ANY)
     return null;
@@ -91,7 +98,7 @@ function sidesTest(first, second, property) {
   };
 }
 
-/** A test whether the distance in metres lies within the bounds; null if there are none. */
+/** Returns a test whether the distance in metres lies within the bounds; null if there are none. */
 function distanceTest(min, max) {
   if (min === null && max === null)
     return null;
@@ -103,7 +110,8 @@ function distanceTest(min, max) {
 }
 
 /**
- * The clashes of `order` that pass the filter, and by kind how many pass all of it but the kind.
+ * Returns the clashes of `order` that pass the filter, and the number of each kind that pass all of
+ * it except the kind.
  * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, status, min, max}
  */
 function filtered(order, filter) {
@@ -130,7 +138,7 @@ function filtered(order, filter) {
 
 // ── CSV ─────────────────────────────────────────────────────────────────────────────────────────────────
 
-/** A text cell. What a spreadsheet would take for a formula gets an apostrophe in front. */
+/** Returns a text cell. A text that a spreadsheet would take for a formula gets a leading apostrophe. */
 function csvText(text) {
   const safe = /^[=+\-@\t\r\n]/.test(text) ? `'${text}` : text;
   return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;

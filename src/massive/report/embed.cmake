@@ -1,5 +1,6 @@
-# Embeds the report page's sources into the library. Included by src/CMakeLists.txt, it adds the rule; run
-# with `cmake -P`, it is the rule: it writes report_page.cpp, in which each file is a raw string.
+# Embeds the report page's sources into the library. If src/CMakeLists.txt includes this file, it adds the
+# build rule. The rule runs this file with `cmake -P`: then it writes report_page.cpp, in which each source is
+# a raw string.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
     set(page_dir ${CMAKE_CURRENT_LIST_DIR})
     set(page_cpp ${CMAKE_CURRENT_BINARY_DIR}/report_page.cpp)

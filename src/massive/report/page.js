@@ -1,4 +1,4 @@
-// The page around the table: summary, filters, detail, and the state in the address.
+// The page around the table: summary, filters, detail, and the state kept in the address.
 
 const byId = (id) => document.getElementById(id);
 
@@ -16,7 +16,7 @@ const STATUS_MEANING = {
   approved: 'Marked: it may stay',
 };
 const MOST_RESOLVED = 1_000;
-const DEFAULT_SORT = { key: 'kind', descending: false }; // the hard ones, the deepest first
+const DEFAULT_SORT = { key: 'kind', descending: false }; // hard clashes first, the deepest of them on top
 
 let state = null;
 let order = { key: null, descending: null, places: null }; // the last sort, kept while only the filter changes
@@ -28,7 +28,7 @@ const baseName = (path) => path.split(/[\\/]/).pop() || path;
 const inMillimetres = (metres) => (metres === null ? 'not given' : `${+(metres * 1000).toPrecision(12)} mm`);
 const inSeconds = (value) => (value === null ? '–' : `${value < 10 ? value.toFixed(2) : value.toFixed(1)} s`);
 
-/** What became of products of a model, by the kind of its notes. */
+/** Texts for the kinds of notes, which tell what became of products of a model. */
 const NOTES = [
   ['space', 'spaces and zones are left out'],
   ['cut_away', 'products have no part, since their openings leave nothing of them'],
@@ -72,7 +72,7 @@ function showSummary() {
   byId('cut').textContent = `Only the first ${wholeNumber.format(MOST_PRINTED)} of these clashes are printed.`;
 }
 
-/** Clashes of earlier jobs that are gone: a list to read, below the summary. */
+/** Lists the resolved clashes of earlier jobs below the summary. */
 function showResolved() {
   const gone = report.resolved ?? [];
   byId('resolved').hidden = gone.length === 0;
@@ -95,7 +95,7 @@ function makeKindButtons() {
       make('span', { className: 'mark' }, kind), make('b'), make('i'));
     button.dataset.kind = kind;
     button.addEventListener('click', (event) => {
-      // From all, the first click asks for one kind alone; so does Alt-click at any time.
+      // If all kinds are shown, a click selects one kind alone; Alt-click does so at any time.
       if (event.altKey || state.kinds.size === KINDS.length)
         state.kinds = new Set([k]);
       else if (!state.kinds.delete(k))
@@ -150,7 +150,7 @@ function makeSelects() {
   else
     byId('status').append(make('option', { value: ANY }, 'any'));
   byId('status-field').hidden = !hasStatus;
-  byId('file-field').hidden = report.files.length < 3; // of two files there is one pairing
+  byId('file-field').hidden = report.files.length < 3; // two files have only one pairing
   byId('rule-field').hidden = !report.rules.some(Boolean);
 }
 
@@ -166,7 +166,7 @@ function readControls() {
 
 function setControls() {
   const set = (input, value) => {
-    if (document.activeElement !== input) // what is being typed stays as it is typed
+    if (document.activeElement !== input) // does not overwrite what the user is typing
       input.value = value;
   };
   set(byId('query'), state.query);
@@ -188,7 +188,7 @@ const emptyState = () => ({
   min: null, max: null, sort: { ...DEFAULT_SORT }, open: null,
 });
 
-/** The state that the address asks for. What it does not know is left out. */
+/** Returns the state that the address describes. Unknown entries are ignored. */
 function stateFromHash() {
   const next = emptyState();
   const asked = new URLSearchParams(location.hash.slice(1));
@@ -232,11 +232,11 @@ function hashFromState() {
 
 function writeHash() {
   const hash = hashFromState();
-  // Replaced, not pushed: "back" leaves the report and does not undo letters of a search.
+  // Replaces the history entry, so that "back" leaves the report instead of undoing letters of a search.
   history.replaceState(null, '', hash ? `#${hash}` : location.pathname + location.search);
 }
 
-/** Brings table, controls and address in line with the state. */
+/** Updates table, controls and address from the state. */
 function apply({ keepScroll = false } = {}) {
   const { key, descending } = state.sort;
   if (order.key !== key || order.descending !== descending)
@@ -252,7 +252,7 @@ function apply({ keepScroll = false } = {}) {
   writeHash();
 }
 
-/** The filter in words, for paper. */
+/** Describes the filter in words, for printing. */
 function filterInWords() {
   const words = [];
   const label = (id) => byId(id).selectedOptions[0].textContent.replace(/ \([\d,]+\)$/, '');
@@ -295,7 +295,7 @@ function showCounts(byKind) {
 async function copyText(text, button) {
   try {
     await navigator.clipboard.writeText(text);
-  } catch { // no permission, or a browser that grants it to no local file
+  } catch { // no permission; some browsers never grant it to a local file
     const area = document.body.appendChild(make('textarea', { value: text }));
     area.select();
     document.execCommand('copy');
@@ -411,7 +411,7 @@ function start() {
   makeSelects();
   let wait = 0;
   byId('filters').addEventListener('input', () => {
-    readControls(); // at once: a click elsewhere meanwhile must not undo what was typed
+    readControls(); // at once, so that a click elsewhere does not undo what was typed
     clearTimeout(wait);
     wait = setTimeout(apply, 80);
   });

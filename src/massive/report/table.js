@@ -1,4 +1,4 @@
-// The table. Only the rows in view exist: two spacers stand for those above and below, so that a report of
+// The table. Only the rows in view exist. Two spacers replace the rows above and below, so that a report of
 // 100,000 clashes scrolls like one of ten.
 
 const wholeNumber = new Intl.NumberFormat('en');
@@ -24,14 +24,14 @@ const COLUMNS = [
   { key: 'id', title: 'Clash id', width: '152px', mono: true, wideOnly: true, text: (i) => report.id[i] },
 ];
 
-// Browsers cap the height of an element (Firefox at 17.8 million pixels): rows beyond are not shown, and the
-// count says so.
+// Browsers limit the height of an element (Firefox to 17.8 million pixels). Rows beyond the limit are not
+// shown, and the count says so.
 const MOST_ROWS = 500_000;
 const MOST_PRINTED = 2_000;
 const OVERSCAN = 12;
 const CUT_TAIL = 7;
 
-/** make('p', {className: 'soft'}, 'text', child): an element. Text never becomes markup. */
+/** Makes an element: make('p', {className: 'soft'}, 'text', child). Text never becomes markup. */
 function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
   element.append(...children.filter((child) => child !== null));
@@ -47,7 +47,7 @@ class ClashTable {
     this.above = document.querySelector('#above td');
     this.below = document.querySelector('#below td');
     this.rows = new Uint32Array(0);
-    this.active = 0; // place in rows that the keyboard is at
+    this.active = 0; // index of the row that has the keyboard focus
     this.opened = null; // clash shown in the detail
     this.pool = [];
     this.printing = false;
@@ -92,7 +92,7 @@ class ClashTable {
     return [column.num && 'num', column.mono && 'mono soft', column.wideOnly && 'narrow-hidden'].filter(Boolean).join(' ');
   }
 
-  /** Shows these clashes. The scroll position stays only if the caller says that the rows are the same. */
+  /** Shows these clashes. The scroll position is kept only if the caller says that the rows are the same. */
   show(rows, sort, keepScroll) {
     this.rows = rows.subarray(0, MOST_ROWS);
     for (const head of document.querySelectorAll('#heads th')) {
@@ -114,7 +114,7 @@ class ClashTable {
     if (!this.printing) {
       const top = this.viewport.scrollTop;
       first = Math.max(0, Math.min(Math.floor(top / height) - OVERSCAN, this.rows.length));
-      // An even place above keeps a row's element when the window moves by one or two rows.
+      // Starting at an even index keeps the elements of rows when the window moves by one or two rows.
       first -= first % 2;
       end = Math.min(this.rows.length, Math.ceil((top + this.viewport.clientHeight) / height) + OVERSCAN);
     }
@@ -174,7 +174,10 @@ class ClashTable {
     });
   }
 
-  /** A name that does not fit is cut before its last characters: they are what tells instances apart. */
+  /**
+   * A name that does not fit is shortened before its last characters, because these distinguish
+   * part instances.
+   */
   fillCut(box, name) {
     const text = name.replace(/\s+/g, ' ');
     let at = text.length > 2 * CUT_TAIL ? text.length - CUT_TAIL : text.length;
@@ -207,7 +210,7 @@ class ClashTable {
       return;
     this.active = Math.max(0, Math.min(place, this.rows.length - 1));
     this.scrollToActive();
-    if (this.opened !== null) // the detail follows the keyboard
+    if (this.opened !== null) // the detail follows the keyboard focus
       this.open(this.active);
   }
 
@@ -217,7 +220,7 @@ class ClashTable {
     this.onOpen(this.opened);
   }
 
-  /** Marks a clash as the one in the detail, and scrolls to it; null: none. */
+  /** Marks the clash that the detail shows, and scrolls to it; null marks none. */
   setOpened(clash) {
     this.opened = clash;
     const place = clash === null ? -1 : this.rows.indexOf(clash);
