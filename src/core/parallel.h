@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/stop.h"
+
 #include <cstddef>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -20,14 +22,16 @@ namespace abut {
 /// Calls body(i) for every i in [0, count), in parallel, in chunks of at least `grain`.
 ///
 /// The order of calls is not fixed: write results to slot i. Exceptions leave through the caller;
-/// of several, one.
+/// of several, one. Each chunk first polls the stop flag of the caller's work, and works for it.
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     if (count <= grain) {
+        poll_stop();
         for (std::size_t i = 0; i < count; ++i)
             body(i);
         return;
     }
+    const std::atomic<bool>* const stop = t_stop_flag;
 #ifdef __SANITIZE_THREAD__
     // The thread sanitizer cannot see into the packaged oneTBB and takes its hand-overs for races:
     // plain threads in its place show the races of our own.
@@ -36,9 +40,12 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     std::exception_ptr failure;
     const auto work = [&] {
         try {
-            for (std::size_t i = next.fetch_add(grain); i < count; i = next.fetch_add(grain))
+            const StopScope scope(stop);
+            for (std::size_t i = next.fetch_add(grain); i < count; i = next.fetch_add(grain)) {
+                poll_stop();
                 for (std::size_t k = i; k < std::min(i + grain, count); ++k)
                     body(k);
+            }
         } catch (...) {
             const std::scoped_lock lock(failing);
             failure = std::current_exception();
@@ -54,16 +61,19 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #else
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                       [&](const tbb::blocked_range<std::size_t>& range) {
+                          const StopScope scope(stop);
+                          poll_stop();
                           for (std::size_t i = range.begin(); i != range.end(); ++i)
                               body(i);
                       });
 #endif
 }
 
-/// Calls body(); a thread that waits in there for parallel work takes up no other meanwhile. For
-/// whoever holds a lock.
+/// Calls body(); a thread that waits in there for parallel work takes up no other meanwhile, and
+/// polls no stop flag. For whoever holds a lock.
 template <typename Body>
 void isolated(const Body& body) {
+    const StopScope unstoppable(nullptr);
 #ifdef __SANITIZE_THREAD__
     body();
 #else

@@ -5,11 +5,11 @@
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
 #include "rigid/contacts.h"
+#include "rigid/impact_steps.h"
 #include "rigid/motion_bounds.h"
 #include "rigid/moving_nodes.h"
 #include "rigid/moving_pair.h"
 #include "rigid/moving_triangles.h"
-#include "rigid/search_steps.h"
 
 #include <algorithm>
 #include <array>
@@ -277,7 +277,7 @@ private:
     const MovingPair& pair_;
     const Tree &tree_a_, &tree_b_;
     double asked_tolerance_, tolerance_;
-    SearchSteps steps_;
+    ImpactSteps steps_;
     double window_; ///< length of a window
     /// Speed at which the bounds of a moment become worse: rotation within a window, and roundings
     /// of single precision.
@@ -310,6 +310,7 @@ Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
                       const Motion& motion_b, const ImpactOptions& options) {
     if (options.tolerance && !(*options.tolerance >= 0))
         throw Error(ErrorCode::bad_argument, "tolerance must not be negative");
+    const StopScope stopping(options.progress);
     const ModelData &data_a = a.data(), &data_b = b.data();
     const MovingPair pair(data_a.tree(), data_a.model_from_tree(), motion_a, data_b.tree(),
                           data_b.model_from_tree(), motion_b);

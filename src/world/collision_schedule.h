@@ -22,7 +22,7 @@ public:
     void set_speed(std::uint32_t body, const SpeedBounds& bounds);
     /// Finds everything anew in the next step: who may meet whom has changed.
     void forget() { broad_phase_.forget(), horizon_ = -1; }
-    std::vector<BodyPair> advance(double time);
+    std::vector<BodyPair> advance(double time, const Progress& progress);
     [[nodiscard]] double next_event() const;
     [[nodiscard]] const ScheduleCounters& counters() const { return counters_; }
 
@@ -55,6 +55,8 @@ private:
     void sweep(const std::vector<std::uint32_t>& strayed, double step);
     std::vector<IndexPair> take_due();
     void make_due(std::size_t pair, double time);
+    [[nodiscard]] std::vector<double> distances_of(const std::vector<std::size_t>& pairs,
+                                                   const Progress& progress) const;
 
     const WorldData& world_;
     double now_ = 0;
