@@ -42,8 +42,9 @@ constexpr double kLeastWindow = 0x1p-20;
 constexpr double kStale = 1.0 / 64;
 /// A box of less than this share of another's radius is lost in the rounding of single precision.
 constexpr double kBlurred = 0x1p-16;
-/// A ball that is nearer than this share of its radius is not waited for: what is in it is looked at.
-constexpr double kNear = 0.25;
+/// A ball that is nearer than this share of its radius, or free for less than this share of a window,
+/// is not waited for: what is in it is looked at.
+constexpr double kNear = 0.25, kShortWait = 1.0 / 256;
 /// Where one box has so many times the radius of the other, it is opened alone.
 constexpr double kUnlike = 3;
 constexpr std::uint32_t kAllLanes = (1U << Node::kWidth) - 1;
@@ -219,7 +220,9 @@ private:
         const BallGap gap =
             gap_of_ball(ball, small.body.trajectory, {triangles.data(), triangles.size()},
                         large.body.trajectory, pair.time, pair_.margin);
-        if (gap.distance < kNear * ball.radius)
+        // Also where something is not a number.
+        if (!(gap.distance >= kNear * ball.radius &&
+              gap.free_time >= kShortWait * std::min(kEnd, window_)))
             return false;
         const double next = pair.time + gap.free_time;
         if (next <= window_end_)
