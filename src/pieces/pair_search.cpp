@@ -2,6 +2,7 @@
 
 #include "convex/climb.h"
 #include "convex/convex_query.h"
+#include "core/stop.h"
 #include "pieces/contact_proof.h"
 #include "pieces/proven_room.h"
 
@@ -198,7 +199,9 @@ void PiecePairSearch::run(PairFront& front, bool keep) {
         push(front.heap, {});
     }
     front.settled.clear();
+    SearchSteps steps;
     while (!front.heap.empty() && !ends()) {
+        steps.take();
         const double floor = front.heap.front().bound - front.drift;
         if (!matters(floor))
             break;
