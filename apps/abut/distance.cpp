@@ -12,7 +12,7 @@ namespace {
 
 /// Whether the answer says only that the models are farther apart than --upper-bound.
 bool is_beyond_bound(const Gap& gap) {
-    return gap.status == Status::bound_only && gap.distance >= 0;
+    return gap.status == Status::bound_only && gap.distance >= 0 && !gap.out_of_steps;
 }
 
 nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
@@ -47,11 +47,17 @@ struct DistanceQuery : PairQuery {
             }
         }
         json["status"] = to_string(gap.status);
+        json["out_of_steps"] = gap.out_of_steps;
+        json["steps"] = gap.steps;
         json["counters"] = describe(gap.counters);
     }
     static std::string in_words(const Gap& gap) {
         if (is_beyond_bound(gap))
             return fmt::format("distance at least {}\n", metres(gap.at_least));
+        if (gap.out_of_steps)
+            return fmt::format("distance at least {}, at most {}: {} steps were not enough\n",
+                               metres_below(gap.at_least), metres_above(gap.distance),
+                               grouped(gap.steps));
         // The two bounds of an exact distance differ only by rounding.
         const std::string at_least =
             gap.status == Status::exact ? "" : fmt::format(" (at least {})", metres(gap.at_least));
@@ -91,13 +97,21 @@ Subcommand add_distance(CLI::App& root, CommonOptions& common) {
                "Length beyond which the distance does not matter (default: none)");
     app->add_flag("--signed", options.signed_distance,
                   "Negative, minus the depth, where the models go into each other");
+    app->add_option(
+           "--max-steps", options.max_steps,
+           "End the search after N steps (pairs of boxes, or points of a depth) and answer "
+           "what is proven by then (default: no limit)")
+        ->type_name("N")
+        ->check(not_negative());
     CLI::Option* convex =
         app->add_flag("--convex", query->convex, "Of the convex hulls, as solids");
-    for (const char* other : {"--relative-error", "--upper-bound", "--signed", "--volume"})
+    for (const char* other :
+         {"--relative-error", "--upper-bound", "--signed", "--volume", "--max-steps"})
         convex->excludes(app->get_option(other));
     CLI::Option* pieces =
         app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
-    for (const char* other : {"--relative-error", "--signed", "--volume", "--convex"})
+    for (const char* other :
+         {"--relative-error", "--signed", "--volume", "--convex", "--max-steps"})
         pieces->excludes(app->get_option(other));
     return {app, [query, &common] {
                 if (query->pieces)

@@ -11,8 +11,14 @@ namespace abut::command {
 /// Formats a number, such as "0.05" or "1.23457e+06"; "0" for a zero of either sign.
 std::string number(double value, int digits = 6);
 
+/// Formats a number that is never more than the value, or never less: for bounds that are proven.
+std::string number_below(double value);
+std::string number_above(double value);
+
 /// Formats a length, such as "0.05 m".
 std::string metres(double value);
+std::string metres_below(double value);
+std::string metres_above(double value);
 
 /// Formats a point, such as "(1, 0.5, 0) m".
 std::string point(const Vec3& place);

@@ -45,16 +45,26 @@ struct PenetrationQuery : PairQuery {
         for (const ContactRegion& region : depth.regions)
             json["regions"].push_back(describe_region(region));
         json["status"] = to_string(depth.status);
+        json["out_of_steps"] = depth.out_of_steps;
+        json["steps"] = depth.steps;
         json["counters"] = describe(depth.counters);
     }
     [[nodiscard]] std::string in_words(const Depth& depth) const {
+        const std::string limited =
+            depth.out_of_steps ? fmt::format(": {} steps were not enough", grouped(depth.steps))
+                               : "";
         if (depth.regions.empty())
-            return "apart\n";
+            return depth.out_of_steps ? fmt::format("not decided whether they meet; depth at most "
+                                                    "{}{}\n",
+                                                    metres_above(depth.depth_at_most), limited)
+                                      : "apart\n";
         const std::size_t count = depth.regions.size();
         std::string text =
             depth.interpenetrate
-                ? fmt::format("depth {} (at most {}), {} region{}\n", metres(depth.depth),
-                              metres(depth.depth_at_most), count, count == 1 ? "" : "s")
+                ? fmt::format("depth {} (at most {}), {} region{}{}\n", metres(depth.depth),
+                              depth.out_of_steps ? metres_above(depth.depth_at_most)
+                                                 : metres(depth.depth_at_most),
+                              count, count == 1 ? "" : "s", limited)
                 : "touching\n";
         for (const ContactRegion& r : depth.regions)
             text += fmt::format("region: {} triangle pairs, area {} m^2, depth {} at {}\n",
@@ -88,13 +98,18 @@ Subcommand add_penetration(CLI::App& root, CommonOptions& common) {
     app->add_flag_callback(
         "--no-separation", [&options = query->options] { options.separation = false; },
         "Do not look for a translation that separates them");
+    app->add_option("--max-steps", query->options.max_steps,
+                    "End the search after N steps (pairs of boxes or points) and answer what is "
+                    "proven by then (default: no limit)")
+        ->type_name("N")
+        ->check(not_negative());
     add_fail_on(*app, query->fail_on, "penetration");
     CLI::Option* convex = app->add_flag("--convex", query->convex, "Of the convex hulls");
-    for (const char* other : {"--accuracy", "--no-separation"})
+    for (const char* other : {"--accuracy", "--no-separation", "--max-steps"})
         convex->excludes(app->get_option(other));
     CLI::Option* pieces =
         app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
-    for (const char* other : {"--accuracy", "--convex"})
+    for (const char* other : {"--accuracy", "--convex", "--max-steps"})
         pieces->excludes(app->get_option(other));
     return {app, [query, &common] {
                 if (query->pieces)

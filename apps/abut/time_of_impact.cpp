@@ -65,11 +65,11 @@ struct ImpactQuery : PairQuery {
             return "no impact\n";
         if (impact.out_of_steps)
             return fmt::format("free up to {}; not decided after that: {} steps were not enough\n",
-                               number(impact.time), grouped(impact.steps));
+                               number_below(impact.time), grouped(impact.steps));
         return fmt::format("impact at {}{}, gap {}\n"
                            "point on A {}, triangle {}\n"
                            "point on B {}, triangle {}\n",
-                           number(impact.time),
+                           number_below(impact.time),
                            impact.status == Status::bound_only ? " (near; contact not decided)"
                                                                : "",
                            metres(impact.gap), point(impact.point_a), impact.triangle_a,

@@ -3,6 +3,7 @@
 #include <abut/convex_pieces.h>
 #include <abut/model.h>
 #include <abut/motion.h>
+#include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/types.h>
 
@@ -12,7 +13,8 @@
 /// Many queries of one pair of models, or solids of convex pieces, at once: the verbs of rigid.h,
 /// motion.h and convex_pieces.h for a list of placements, in parallel (`set_threads`). Each answer equals that of the single query, counters
 /// included, and stands at its placement's index. A workspace in the options is left alone: it is one
-/// thread's.
+/// thread's. A limit of steps holds for each query. The stop flag ends all with Error{interrupted}, and
+/// reports tell the share of the queries that are done.
 ///
 /// Errors, of all: those of the single query, for the first placement that has one; its message
 /// begins with "placement N: ", N counted from 0.
@@ -35,7 +37,7 @@ std::vector<Gap> distance(const Model& a, const Model& b, std::span<const Placem
                           const DistanceOptions& options = {});
 
 std::vector<bool> within(const Model& a, const Model& b, std::span<const Placement> placements,
-                         double tolerance);
+                         double tolerance, const Progress& progress = {});
 
 std::vector<Impact> time_of_impact(const Model& a, const Model& b,
                                    std::span<const MotionPair> motions,
@@ -50,7 +52,8 @@ std::vector<PiecesGap> distance(const ConvexPieces& a, const ConvexPieces& b,
                                 const PiecesDistanceOptions& options = {});
 
 std::vector<bool> within(const ConvexPieces& a, const ConvexPieces& b,
-                         std::span<const Placement> placements, double tolerance);
+                         std::span<const Placement> placements, double tolerance,
+                         const Progress& progress = {});
 
 std::vector<PiecesDepth> penetration(const ConvexPieces& a, const ConvexPieces& b,
                                      std::span<const Placement> placements,

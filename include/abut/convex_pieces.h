@@ -2,6 +2,7 @@
 
 #include <abut/convex.h>
 #include <abut/model.h>
+#include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/types.h>
 
@@ -29,6 +30,8 @@ class ConvexPiecesData;
 /// All queries mean the same by "share a point": the triangles, placed as abut/types.h says, share
 /// one, as `collide` of two models decides exactly, or a component of one solid lies inside of the
 /// other. Where rounding hides what the convex pieces do, the triangles are asked.
+///
+/// All queries end with Error{interrupted} if the stop flag of their progress is set.
 class ConvexPieces {
 public:
     /// Errors      Error{bad_mesh} naming an edge or a triangle if the mesh is not closed, or turned
@@ -108,6 +111,7 @@ struct PiecesDistanceOptions {
     /// What the distance may exceed the true one by: a length.
     double max_error = 0;
     PiecesWorkspace* workspace = nullptr;
+    Progress progress{};
 };
 
 /// Distance of two solids, and one pair of points that realises it.
@@ -132,7 +136,8 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
 /// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or
 ///             NaN.
 bool within(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
-            const Transform& world_from_b, double tolerance, PiecesWorkspace* workspace = nullptr);
+            const Transform& world_from_b, double tolerance, PiecesWorkspace* workspace = nullptr,
+            const Progress& progress = {});
 
 /// A piece of each of two solids.
 struct PiecePair {
@@ -149,6 +154,7 @@ struct PiecesCollideOptions {
     /// may be none.
     bool triangles = false;
     PiecesWorkspace* workspace = nullptr; ///< for a first contact
+    Progress progress{};
 };
 
 struct PiecesContacts {
@@ -190,6 +196,7 @@ struct PiecesDepth {
 
 struct PiecesPenetrationOptions {
     bool separation = true; ///< false: leave `separation` zero, and save its time
+    Progress progress{};
 };
 
 /// Penetration of two solids.

@@ -2,6 +2,7 @@
 
 #include <abut/elementary_impact.h>
 #include <abut/mesh.h>
+#include <abut/progress.h>
 
 #include <array>
 #include <cstddef>
@@ -164,14 +165,17 @@ private:
 /// In          options: exact by default; see ElementaryOptions.
 /// Accuracy    complete, and exact where the options say so: decided as `elementary_impact` does.
 /// Errors      Error{bad_argument} for the options, as `elementary_impact`; or if the schemes or
-///             cullings of two surfaces differ.
+///             cullings of two surfaces differ. Error{interrupted} if the stop flag is set, as
+///             of all queries below.
 /// Cost        in parallel (`set_threads`); no list of candidates is ever made.
 /// Source      [Curtis, Tamstorf, Manocha 2008]. Differs: leaves of several triangles test the boxes of all
 ///             the features that they represent, one against many in SIMD; certified filters follow at
 ///             once, eight pairs at a time.
-Impacts self_impacts(const Deformable& surface, const ElementaryOptions& options = {});
+Impacts self_impacts(const Deformable& surface, const ElementaryOptions& options = {},
+                     const Progress& progress = {});
 /// The same between two surfaces: a's features come first, but for FeatureImpact::face_first.
-Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOptions& options = {});
+Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOptions& options = {},
+                const Progress& progress = {});
 
 /// The earliest of them; of several at the same time, the first of the list. Nothing if there is none.
 ///
@@ -182,15 +186,18 @@ Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOption
 /// Cost        less than all impacts: times are searched in growing windows, and only what moves into
 ///             each other within a window is looked at.
 std::optional<FeatureImpact> first_self_impact(const Deformable& surface,
-                                               const ElementaryOptions& options = {});
+                                               const ElementaryOptions& options = {},
+                                               const Progress& progress = {});
 std::optional<FeatureImpact> first_impact(const Deformable& a, const Deformable& b,
-                                          const ElementaryOptions& options = {});
+                                          const ElementaryOptions& options = {},
+                                          const Progress& progress = {});
 
 /// Whether there is none: stops at the first that is found. Errors as those of `self_impacts` and
 /// `impacts`.
-bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions& options = {});
+bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions& options = {},
+                             const Progress& progress = {});
 bool is_free_of_impacts(const Deformable& a, const Deformable& b,
-                        const ElementaryOptions& options = {});
+                        const ElementaryOptions& options = {}, const Progress& progress = {});
 
 /// Every vertex and face, and every two edges, that are at most `distance` apart at the start of
 /// the step, each once, sorted; features that share a vertex are no pair.
@@ -199,7 +206,9 @@ bool is_free_of_impacts(const Deformable& a, const Deformable& b,
 /// Accuracy    which pairs are listed is exact for the given doubles. Their distances are rounded,
 ///             by less than 1e-12 of the features' size, and not above `distance`.
 /// Errors      Error{bad_argument} if the distance is negative or not finite.
-std::vector<FeaturePair> self_pairs_within(const Deformable& surface, double distance);
-std::vector<FeaturePair> pairs_within(const Deformable& a, const Deformable& b, double distance);
+std::vector<FeaturePair> self_pairs_within(const Deformable& surface, double distance,
+                                           const Progress& progress = {});
+std::vector<FeaturePair> pairs_within(const Deformable& a, const Deformable& b, double distance,
+                                      const Progress& progress = {});
 
 } // namespace abut

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <abut/progress.h>
 #include <abut/types.h>
 
 #include <array>
@@ -94,10 +95,11 @@ ElementaryImpact elementary_impact(const ElementaryPair& pair,
 /// Many pairs, in parallel (`set_threads`); results in their order, the same as one by one.
 ///
 /// Errors      those of the single test, for the first pair that has one; its message begins with
-///             "pair N: ", N counted from 0.
+///             "pair N: ", N counted from 0. Error{interrupted} if the stop flag is set.
 /// Cost        of a pair that the filter decides, some nanoseconds: eight are tested at once.
 std::vector<ElementaryImpact> elementary_impacts(std::span<const ElementaryPair> pairs,
-                                                 const ElementaryOptions& options = {});
+                                                 const ElementaryOptions& options = {},
+                                                 const Progress& progress = {});
 
 /// Pairs of a file, and whether they meet according to it.
 struct ElementaryQueries {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <abut/model.h>
+#include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/types.h>
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 /// How deep two models go into each other, where, and a way out. docs/penetration.md says what is
@@ -48,6 +51,12 @@ struct Depth {
     Vec3 separation;
     Status status = Status::exact; ///< bound_only: the deepest point lies between depth and
                                    ///< depth_at_most
+    /// The search ended because of PenetrationOptions::max_steps. The depth lies between `depth` and
+    /// `depth_at_most`, and `separation`, if it was asked for, separates. If the steps did not suffice
+    /// to find where the models meet, there are no regions and `interpenetrate` is true, to be safe:
+    /// they may be apart.
+    bool out_of_steps = false;
+    std::uint64_t steps = 0; ///< see PenetrationOptions::max_steps
     Counters counters;
 };
 
@@ -55,6 +64,10 @@ struct PenetrationOptions {
     /// Relative width that [depth, depth_at_most] should have. Work is limited: look at both.
     double relative_accuracy = 0.01;
     bool separation = true; ///< false: leave `separation` zero, and save its time
+    /// At most so many steps: in each, a pair of boxes is opened or a point is measured. A search that
+    /// needs more answers what it has proven, see Depth::out_of_steps. None given: no limit.
+    std::optional<std::uint64_t> max_steps{};
+    Progress progress{};
 };
 
 /// Penetration of two models.
@@ -66,6 +79,8 @@ struct PenetrationOptions {
 /// Accuracy    whether surfaces meet and cross, and what is connected: exact. Depths are reached at
 ///             the witness points, to rounding.
 /// Errors      Error{bad_argument} if a transform is not finite or the accuracy is negative or NaN.
+///             Error{interrupted} if the stop flag is set.
+/// Cost        what a model is as a solid is examined once, whatever the steps allowed.
 /// Source      depth by branch and bound over the tree; the way out as [Je, Tang, Lee, Lee, Kim
 ///             2012], PolyDepth. Differs: bisection against exact contact in place of continuous
 ///             collision, and a guaranteed start from the boxes.

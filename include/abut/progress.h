@@ -6,12 +6,15 @@
 
 namespace abut {
 
-/// How long work reports and is stopped. Both members may be left empty.
+/// How long work reports and is stopped: every query that can be long takes one, as the member
+/// `progress` of its options or as its last argument. Both members may be left empty.
 struct Progress {
     /// Called with the stage's name and the fraction of it that is done, in [0, 1], from any
-    /// thread, never from two at once.
+    /// thread, never from two at once. A single query of two models reports nothing, but for
+    /// `time_of_impact`.
     std::function<void(std::string_view stage, double fraction)> report;
-    /// Set it to end the work with Error{interrupted}.
+    /// Set it, from any thread, to end the work with Error{interrupted}: no answer is made of work
+    /// that was not finished. The flag is polled every some hundred steps of a search.
     const std::atomic<bool>* stop = nullptr;
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <abut/model.h>
+#include <abut/progress.h>
 #include <abut/types.h>
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 /// Queries on two rigid models, each under its own transform (a Pose converts silently).
@@ -46,6 +48,7 @@ struct CollideOptions {
     ContactMode mode = ContactMode::first;
     Workspace* workspace = nullptr; ///< for a first contact
     bool segments = false;          ///< also where each pair meets
+    Progress progress{};
 };
 
 struct Contacts {
@@ -65,7 +68,8 @@ struct Contacts {
 ///
 /// Degenerate  zero-area triangles count as the segments or points that they are.
 /// Accuracy    exact: decided by certified filters, then by exact arithmetic.
-/// Errors      Error{bad_argument} if a transform is not finite.
+/// Errors      Error{bad_argument} if a transform is not finite. Error{interrupted} if the stop flag
+///             is set: contacts found so far are not returned, as they could be taken for all.
 /// Cost        output-sensitive; a few hundred volume tests for a first contact.
 /// Source      traversal as [Gottschalk, Lin, Manocha 1996], differs: eight boxes at a time in
 ///             SIMD.
@@ -82,8 +86,14 @@ struct Gap {
     Feature feature_a = Feature::face, feature_b = Feature::face;
     std::uint8_t index_a = 0, index_b = 0; ///< that i
     /// exact: to rounding, up or down by no more than distance - at_least; converged: within the errors
-    /// allowed; bound_only: `distance` is the `upper_bound` given, and no pair is closer to rounding.
+    /// allowed; bound_only: `distance` is the `upper_bound` given, and no pair is closer to rounding, or
+    /// the search ran out of steps.
     Status status = Status::exact;
+    /// The search ended because of DistanceOptions::max_steps. `at_least` is proven all the same, and
+    /// `distance` is that of the points, the nearest that were found; or the `upper_bound` given, if
+    /// none nearer than that were found.
+    bool out_of_steps = false;
+    std::uint64_t steps = 0; ///< see DistanceOptions::max_steps
     Counters counters;
 };
 
@@ -98,6 +108,11 @@ struct DistanceOptions {
     /// errors allowed and the bound are for models apart.
     bool signed_distance = false;
     Workspace* workspace = nullptr;
+    /// At most so many steps: in each, a pair of boxes is opened, or (for a depth) a point is
+    /// measured. A search that needs more answers what it has proven, see Gap::out_of_steps. None
+    /// given: no limit.
+    std::optional<std::uint64_t> max_steps{};
+    Progress progress{};
 };
 
 /// Distance of the surfaces and one pair of points that realises it.
@@ -106,7 +121,7 @@ struct DistanceOptions {
 /// Accuracy    to double rounding, or within the errors allowed; 0 exactly if and only if `collide`
 ///             finds a contact. With no error allowed, whether they meet is decided exactly.
 /// Errors      Error{bad_argument} if a transform is not finite, or the bound or an error is
-///             negative or NaN.
+///             negative or NaN. Error{interrupted} if the stop flag is set.
 /// Source      best-first order as [Larsen, Gottschalk, Lin, Manocha 1999].
 Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
              const Transform& world_from_b, const DistanceOptions& options = {});
@@ -115,8 +130,11 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
 /// a pair of triangles or of boxes that lies within it, or the last box that lies beyond.
 ///
 /// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or
-///             NaN.
+///             NaN. Error{interrupted} if the stop flag is set.
+/// Cost        no limit of steps: `distance` with one and the tolerance as its bound has an answer
+///             for "not decided".
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
-            const Transform& world_from_b, double tolerance, Workspace* workspace = nullptr);
+            const Transform& world_from_b, double tolerance, Workspace* workspace = nullptr,
+            const Progress& progress = {});
 
 } // namespace abut

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/model.h>
+#include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/shapes.h>
 #include <abut/types.h>
@@ -19,7 +20,8 @@
 /// transformed and given a hierarchy first, once a call. All throw Error{bad_argument} if the
 /// transform is not finite or a coordinate of a shape is not finite or beyond 1e18, and
 /// Error{bad_mesh} if such a copy has positions beyond 1e18. Zero-area triangles count as the
-/// segments or points that they are.
+/// segments or points that they are. All end with Error{interrupted} if the stop flag of their
+/// progress is set, and report nothing.
 namespace abut {
 
 // ------------------------------------------------------------------------------ nearest point ---
@@ -30,6 +32,7 @@ struct NearestOptions {
     double upper_bound = std::numeric_limits<double>::infinity();
     /// Negative strictly inside a closed model.
     bool signed_distance = false;
+    Progress progress{};
 };
 
 /// A point of the surface.
@@ -88,13 +91,15 @@ struct RayHit {
 ///             is NaN.
 /// Source      the sides of edges as seen along the ray [Woop, Benthin, Wald 2013]; differs: the
 ///             signs are exact, hence watertight without a sheared frame.
-RayHit first_hit(const Model& model, const Transform& world_from_model, const Ray& ray);
+RayHit first_hit(const Model& model, const Transform& world_from_model, const Ray& ray,
+                 const Progress& progress = {});
 /// Many rays, in parallel; results in their order.
 std::vector<RayHit> first_hit(const Model& model, const Transform& world_from_model,
-                              std::span<const Ray> rays);
+                              std::span<const Ray> rays, const Progress& progress = {});
 
 /// Every triangle that a ray meets, each once, sorted by t, then by index. Otherwise as first_hit.
-std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_model, const Ray& ray);
+std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_model, const Ray& ray,
+                             const Progress& progress = {});
 
 // ------------------------------------------------------------------------------------- segment ---
 
@@ -114,22 +119,31 @@ Gap distance(const Model& model, const Transform& world_from_model, const Segmen
 /// Degenerate  a box that is empty (lower > upper on some axis) overlaps nothing.
 /// Accuracy    exact.
 /// Errors      Error{bad_argument} if a radius is negative.
-bool overlaps(const Model& model, const Transform& world_from_model, const Sphere& sphere);
-bool overlaps(const Model& model, const Transform& world_from_model, const Box3& box);
-bool overlaps(const Model& model, const Transform& world_from_model, const OrientedBox& box);
-bool overlaps(const Model& model, const Transform& world_from_model, const Segment& segment);
+bool overlaps(const Model& model, const Transform& world_from_model, const Sphere& sphere,
+              const Progress& progress = {});
+bool overlaps(const Model& model, const Transform& world_from_model, const Box3& box,
+              const Progress& progress = {});
+bool overlaps(const Model& model, const Transform& world_from_model, const OrientedBox& box,
+              const Progress& progress = {});
+bool overlaps(const Model& model, const Transform& world_from_model, const Segment& segment,
+              const Progress& progress = {});
 
 /// All triangles that share a point with the shape, sorted. Otherwise as `overlaps`.
-std::vector<std::uint32_t>
-overlapping_triangles(const Model& model, const Transform& world_from_model, const Sphere& sphere);
-std::vector<std::uint32_t>
-overlapping_triangles(const Model& model, const Transform& world_from_model, const Box3& box);
 std::vector<std::uint32_t> overlapping_triangles(const Model& model,
                                                  const Transform& world_from_model,
-                                                 const OrientedBox& box);
+                                                 const Sphere& sphere,
+                                                 const Progress& progress = {});
+std::vector<std::uint32_t> overlapping_triangles(const Model& model,
+                                                 const Transform& world_from_model, const Box3& box,
+                                                 const Progress& progress = {});
 std::vector<std::uint32_t> overlapping_triangles(const Model& model,
                                                  const Transform& world_from_model,
-                                                 const Segment& segment);
+                                                 const OrientedBox& box,
+                                                 const Progress& progress = {});
+std::vector<std::uint32_t> overlapping_triangles(const Model& model,
+                                                 const Transform& world_from_model,
+                                                 const Segment& segment,
+                                                 const Progress& progress = {});
 
 // --------------------------------------------------------------------------------- containment ---
 
@@ -162,9 +176,10 @@ struct Containment {
 ///             found with the model, about 60 bytes a triangle; no lock after that. Then: one ray;
 ///             with a winding number, O(n).
 /// Source      [Jacobson, Kavan, Sorkine-Hornung 2013] for the winding number of dirty surfaces.
-Containment contains(const Model& model, const Transform& world_from_model, const Vec3& point);
+Containment contains(const Model& model, const Transform& world_from_model, const Vec3& point,
+                     const Progress& progress = {});
 /// Many points, in parallel; results in their order.
 std::vector<Containment> contains(const Model& model, const Transform& world_from_model,
-                                  std::span<const Vec3> points);
+                                  std::span<const Vec3> points, const Progress& progress = {});
 
 } // namespace abut

@@ -5,6 +5,7 @@
 #include <abut/deformable.h>
 #include <abut/model.h>
 #include <abut/motion.h>
+#include <abut/progress.h>
 #include <abut/rigid.h>
 #include <abut/shapes.h>
 #include <abut/types.h>
@@ -99,6 +100,10 @@ class WorldData;
 /// counts as it is at the start of its step. Models and convex bodies share their data with the world;
 /// a deformable belongs to the caller, who keeps it until the body is removed.
 ///
+/// Queries that are given a progress report the share of the pairs that are done, and end with
+/// Error{interrupted} if its stop flag is set; the world is as it was then. Changes of a world, `update`
+/// included, are not stopped.
+///
 /// One thread at a time may use a world; its own work is done in parallel (`set_threads`). Results
 /// come sorted and are the same for any number of threads.
 class World {
@@ -151,19 +156,19 @@ public:
     ///
     /// Accuracy    of two models, and of a model and a box or a convex body, exact; of all others, to
     ///             rounding.
-    std::vector<BodyPair> touching();
+    std::vector<BodyPair> touching(const Progress& progress = {});
     /// The same, with how deep they go into each other, and where.
     ///
     /// Accuracy    of convex bodies, spheres, capsules and boxes, and a model with a sphere: to rounding.
     ///             Of two models, and a model and a box or a convex body: as `penetration`
     ///             (bound_only). Of a model and a capsule whose axis crosses its surface: at least the
     ///             radius (bound_only).
-    std::vector<BodyGap> contacts();
+    std::vector<BodyGap> contacts(const Progress& progress = {});
     /// All pairs of bodies that are at most `distance` apart, and how far: exact as `distance`; 0 for
     /// models that meet, negative for other bodies.
     ///
     /// Errors      Error{bad_argument} if the distance is negative or not finite.
-    std::vector<BodyGap> closer_than(double distance);
+    std::vector<BodyGap> closer_than(double distance, const Progress& progress = {});
 
     /// When bodies that move in this step first meet, each pair once, sorted. Deformables move as their
     /// steps say, while t goes from 0 to 1 as in the motions; other bodies that are not named stay
@@ -191,12 +196,13 @@ public:
     /// point there, sorted. Only pairs that may have met by then are looked at.
     ///
     /// Accuracy    as `touching`; deformables are left out.
-    /// Errors      Error{bad_argument} if the time is negative or not finite.
+    /// Errors      Error{bad_argument} if the time is negative or not finite. Error{interrupted} if the
+    ///             stop flag is set: the time has passed, and `advance(0)` answers what was asked.
     /// Cost        constant for each body, a distance for each pair that is due; from time to time, a
     ///             broad phase over boxes that enclose where the bodies may go.
     /// Source      a heap of pairs by a lower bound of their time to collision, t = (sqrt(v^2 + 2 a d)
     ///             - v) / a [Lin 1993; Cohen, Lin, Manocha, Ponamgi 1995].
-    std::vector<BodyPair> advance(double time);
+    std::vector<BodyPair> advance(double time, const Progress& progress = {});
     /// For so long from the last `advance` on, no pair that does not touch now can begin to, as long
     /// as the bodies keep to their bounds.
     [[nodiscard]] double next_event() const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/stop.h"
+
 #include <cstddef>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -20,14 +22,17 @@ namespace abut {
 /// Calls body(i) for every i in [0, count), in parallel, in chunks of at least `grain`.
 ///
 /// The order of the calls is not fixed, so write results to slot i. If calls throw, one of the
-/// exceptions reaches the caller.
+/// exceptions reaches the caller. Each chunk first polls the stop flag of the caller's work, and then
+/// works under that flag.
 template <typename Body>
 void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     if (count <= grain) {
+        poll_stop();
         for (std::size_t i = 0; i < count; ++i)
             body(i);
         return;
     }
+    const std::atomic<bool>* const stop = t_stop_flag;
 #ifdef __SANITIZE_THREAD__
     // The thread sanitizer cannot see into the packaged oneTBB and reports its synchronisation as
     // races. Plain threads in its place show the races of this library's own code.
@@ -36,9 +41,12 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     std::exception_ptr failure;
     const auto work = [&] {
         try {
-            for (std::size_t i = next.fetch_add(grain); i < count; i = next.fetch_add(grain))
+            const StopScope scope(stop);
+            for (std::size_t i = next.fetch_add(grain); i < count; i = next.fetch_add(grain)) {
+                poll_stop();
                 for (std::size_t k = i; k < std::min(i + grain, count); ++k)
                     body(k);
+            }
         } catch (...) {
             const std::scoped_lock lock(failing);
             failure = std::current_exception();
@@ -54,16 +62,19 @@ void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
 #else
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                       [&](const tbb::blocked_range<std::size_t>& range) {
+                          const StopScope scope(stop);
+                          poll_stop();
                           for (std::size_t i = range.begin(); i != range.end(); ++i)
                               body(i);
                       });
 #endif
 }
 
-/// Calls body(). While this thread waits inside for parallel work, it takes up no unrelated task.
-/// Use it while holding a lock.
+/// Calls body(). While this thread waits inside for parallel work, it takes up no unrelated task and
+/// polls no stop flag. Use it while holding a lock.
 template <typename Body>
 void isolated(const Body& body) {
+    const StopScope unstoppable(nullptr);
 #ifdef __SANITIZE_THREAD__
     body();
 #else

@@ -53,8 +53,10 @@ ElementaryImpact elementary_impact(const ElementaryPair& pair, const ElementaryO
 }
 
 std::vector<ElementaryImpact> elementary_impacts(std::span<const ElementaryPair> pairs,
-                                                 const ElementaryOptions& options) {
+                                                 const ElementaryOptions& options,
+                                                 const Progress& progress) {
     require_valid(options);
+    const StopScope stopping(progress);
     const auto invalid = std::find_if_not(pairs.begin(), pairs.end(),
                                           [](const ElementaryPair& p) { return is_finite(p); });
     if (invalid != pairs.end())

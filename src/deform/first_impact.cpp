@@ -49,8 +49,10 @@ std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableD
 }
 
 std::optional<FeatureImpact> find_first(const DeformableData& a, const DeformableData& b,
-                                        const ElementaryOptions& options) {
+                                        const ElementaryOptions& options,
+                                        const Progress& progress) {
     require_valid(options);
+    const StopScope stopping(progress);
     SweptTree swept_a = a.swept, swept_b;
     if (&a != &b)
         swept_b = b.swept;
@@ -76,8 +78,10 @@ struct AnyImpact {
     [[nodiscard]] bool is_done() const { return found.load(std::memory_order_relaxed); }
 };
 
-bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryOptions& options) {
+bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryOptions& options,
+             const Progress& progress) {
     require_valid(options);
+    const StopScope stopping(progress);
     const CandidateSearch search(a, a.swept, b, b.swept, options.thickness);
     std::atomic<bool> found = false;
     parallel_for(search.tasks(), 1, [&](std::size_t i) {
@@ -94,20 +98,23 @@ bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryO
 } // namespace
 
 std::optional<FeatureImpact> first_self_impact(const Deformable& surface,
-                                               const ElementaryOptions& options) {
-    return find_first(surface.data(), surface.data(), options);
+                                               const ElementaryOptions& options,
+                                               const Progress& progress) {
+    return find_first(surface.data(), surface.data(), options, progress);
 }
 std::optional<FeatureImpact> first_impact(const Deformable& a, const Deformable& b,
-                                          const ElementaryOptions& options) {
-    return find_first(a.data(), b.data(), options);
+                                          const ElementaryOptions& options,
+                                          const Progress& progress) {
+    return find_first(a.data(), b.data(), options, progress);
 }
 
-bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions& options) {
-    return is_free(surface.data(), surface.data(), options);
+bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions& options,
+                             const Progress& progress) {
+    return is_free(surface.data(), surface.data(), options, progress);
 }
-bool is_free_of_impacts(const Deformable& a, const Deformable& b,
-                        const ElementaryOptions& options) {
-    return is_free(a.data(), b.data(), options);
+bool is_free_of_impacts(const Deformable& a, const Deformable& b, const ElementaryOptions& options,
+                        const Progress& progress) {
+    return is_free(a.data(), b.data(), options, progress);
 }
 
 } // namespace abut

@@ -43,8 +43,9 @@ void sort(std::vector<FeatureImpact>& list) {
 }
 
 Impacts find_impacts(const DeformableData& a, const DeformableData& b,
-                     const ElementaryOptions& options) {
+                     const ElementaryOptions& options, const Progress& progress) {
     require_valid(options);
+    const StopScope stopping(progress);
     const CandidateSearch search(a, b, options.thickness);
     std::vector<Impacts> parts(search.tasks());
     parallel_for(parts.size(), 1, [&](std::size_t i) {
@@ -69,12 +70,14 @@ Impacts find_impacts(const DeformableData& a, const DeformableData& b,
 
 } // namespace
 
-Impacts self_impacts(const Deformable& surface, const ElementaryOptions& options) {
-    return find_impacts(surface.data(), surface.data(), options);
+Impacts self_impacts(const Deformable& surface, const ElementaryOptions& options,
+                     const Progress& progress) {
+    return find_impacts(surface.data(), surface.data(), options, progress);
 }
 
-Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOptions& options) {
-    return find_impacts(a.data(), b.data(), options);
+Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOptions& options,
+                const Progress& progress) {
+    return find_impacts(a.data(), b.data(), options, progress);
 }
 
 } // namespace abut

@@ -50,9 +50,10 @@ private:
 };
 
 std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData& b,
-                                   double distance) {
+                                   double distance, const Progress& progress) {
     if (!(distance >= 0 && std::isfinite(distance)))
         throw Error(ErrorCode::bad_argument, "the distance must be a finite number of at least 0");
+    const StopScope stopping(progress);
     SweptTree rest_a = a.swept, rest_b;
     refit(rest_a, a, 0);
     if (&a != &b) {
@@ -75,11 +76,13 @@ std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData
 
 } // namespace
 
-std::vector<FeaturePair> self_pairs_within(const Deformable& surface, double distance) {
-    return find_near(surface.data(), surface.data(), distance);
+std::vector<FeaturePair> self_pairs_within(const Deformable& surface, double distance,
+                                           const Progress& progress) {
+    return find_near(surface.data(), surface.data(), distance, progress);
 }
-std::vector<FeaturePair> pairs_within(const Deformable& a, const Deformable& b, double distance) {
-    return find_near(a.data(), b.data(), distance);
+std::vector<FeaturePair> pairs_within(const Deformable& a, const Deformable& b, double distance,
+                                      const Progress& progress) {
+    return find_near(a.data(), b.data(), distance, progress);
 }
 
 } // namespace abut

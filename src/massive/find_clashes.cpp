@@ -182,6 +182,7 @@ private:
 
 ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options) {
     require_tolerances(options);
+    const StopScope stopping(options.progress);
     return ClashJob(models, options).run();
 }
 

@@ -32,17 +32,18 @@ struct SourcedHull {
 /// Beyond so many pairs of a point and a triangle what a hull loses is not measured.
 constexpr std::size_t kMostForLoss = 1 << 20;
 
-/// How far points lie outside of the hull that was made of them. `is_vertex`: of each point.
+/// How far points lie outside of the hull that was made of them.
+///
+/// In          `is_vertex`: of each point. `known`: a bound, returned where measuring takes too long.
 double loss_of(std::span<const Vec3> points, const std::vector<bool>& is_vertex,
-               const HullSurface& hull) {
+               const HullSurface& hull, double known) {
     if (hull.vertices.size() == points.size())
         return 0;
+    if (hull.dimension < 3 || points.size() * hull.triangles.size() > kMostForLoss)
+        return known;
     double largest = 0;
     for (const Vec3& p : points)
         largest = std::max(largest, max_abs(p));
-    // More than once, vertices may have been left out.
-    if (hull.dimension < 3 || points.size() * hull.triangles.size() > kMostForLoss)
-        return 0x1p-44 * largest;
     double loss = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (is_vertex[i])
@@ -66,7 +67,8 @@ SourcedHull hull_of(std::span<const Vec3> positions, std::span<const std::uint32
     std::vector<Vec3> points;
     for (const std::uint32_t v : numbers)
         points.push_back(positions[v]);
-    HullSurface hull = walkable_hull(points);
+    LeftOutVertices left_out;
+    HullSurface hull = walkable_hull(points, &left_out);
     std::vector<std::uint32_t> number(points.size());
     std::vector<bool> is_vertex(points.size());
     std::vector<Vec3> corners;
@@ -78,8 +80,7 @@ SourcedHull hull_of(std::span<const Vec3> positions, std::span<const std::uint32
         result.source.push_back(numbers[p]);
     }
     result.is_flat = hull.dimension == 2;
-    if (is_piece)
-        result.loss = loss_of(points, is_vertex, hull);
+    result.loss = is_piece ? loss_of(points, is_vertex, hull, left_out.outside) : left_out.outside;
     for (IndexTriangle& t : hull.triangles)
         for (std::uint32_t& v : t)
             v = number[v];
@@ -101,7 +102,7 @@ void set_sphere(HullNode& node) {
     node.middle = box.lower + 0.5 * (box.upper - box.lower);
     for (const HullVertex& v : node.hull.vertices)
         node.radius = std::max(node.radius, length(v.at - node.middle));
-    node.radius *= 1 + 0x1p-48;
+    node.radius = node.radius * (1 + 0x1p-48) + node.loss;
 }
 
 double half_area(const Box3& box) {
@@ -162,10 +163,11 @@ private:
         SourcedHull hull;
         if (n.is_leaf()) {
             hull = hull_of(positions_, vertices_[n.piece], true);
-            n.inner_radius = hull.inner_radius, n.loss = hull.loss, n.is_flat = hull.is_flat;
+            n.inner_radius = hull.inner_radius, n.is_flat = hull.is_flat;
         } else {
             std::vector<std::uint32_t> all;
             for (std::uint32_t i = n.child; i < n.child + n.children; ++i) {
+                n.loss = std::max(n.loss, tree_.nodes[i].loss);
                 all.insert(all.end(), sources_[i].begin(), sources_[i].end());
                 if (!tree_.nodes[i].is_leaf())
                     sources_[i] = {};
@@ -175,6 +177,7 @@ private:
             hull = hull_of(positions_, all, false);
         }
         n.hull = std::move(hull.polytope);
+        n.loss += hull.loss;
         set_sphere(n);
         sources_[node] = std::move(hull.source);
     }

@@ -14,12 +14,12 @@ struct HullNode {
     static constexpr std::uint32_t kLeaf = 0xffffffffU;
 
     Polytope hull;
-    Vec3 middle; ///< no point of the hull is farther than `radius` from here
+    Vec3 middle; ///< no point of the pieces below is farther than `radius` from here
     double radius = 0;
     double inner_radius = 0; ///< of a piece: its hull holds a ball of this radius; 0 if it is flat
     bool is_flat = false;    ///< of a piece: it lies in a plane
     bool is_sheet = false;   ///< of a piece: flat, and all of its hull is covered by its triangles
-    double loss = 0;         ///< of a piece: no vertex of it lies farther outside of the hull
+    double loss = 0;         ///< no vertex of a piece below lies farther outside of the hull
     std::uint32_t child = kLeaf; ///< the first of some, which follow each other; kLeaf: a piece
     std::uint32_t children = 0;
     std::uint32_t piece = 0; ///< of a leaf
@@ -41,7 +41,7 @@ struct HullTree {
 /// In          `vertices`: of each piece, numbers of positions; at least one piece and one vertex.
 /// Accuracy    exact hulls of the vertices that are left once those are taken out that lie between
 ///             two others to 2^-46 of the largest coordinate. A parent's hull holds those of its
-///             children to that.
+///             children to its `loss`.
 /// Cost        O(n log n) a level.
 /// Source      [Ehmann, Lin 2001]. Differs: parted by the surface area of boxes, top down.
 HullTree build_hull_tree(std::span<const Vec3> positions,

@@ -2,6 +2,7 @@
 
 #include "convex/climb.h"
 #include "convex/convex_query.h"
+#include "core/stop.h"
 #include "pieces/contact_proof.h"
 #include "pieces/proven_room.h"
 
@@ -19,16 +20,9 @@ constexpr std::uint32_t kPatience = 24;
 /// at once: few of them are apart.
 constexpr double kDeep = 0.35;
 
-/// A gap of two points, each off by a few roundings, points in a direction that is off by those over
-/// its length; a hull then reaches farther along it by that times its size.
-constexpr double kTurn = 8;
-
-/// Where the gap is so short that this makes more than so many roundings, the walk's bound is too low
-/// to tell the distance.
-constexpr double kMostTurn = 512;
-
-/// What the distance of two pieces may be off by, in roundings.
-constexpr double kTolerance = 4;
+/// What a bound of the distance of two pieces may be below that, in roundings, the margin aside: 8 of
+/// a walk that is proven, and 2 of the directions that prove others.
+constexpr double kTolerance = 10;
 
 bool is_root(const BoundedPair& pair) {
     return pair.hulls == HullPair{};
@@ -66,16 +60,12 @@ double PiecePairSearch::measure(const HullPair& hulls, const ClosestPointSearch&
     return take(hulls, pair, search);
 }
 
-/// Where a walk ends, neighbours are no farther along the gap than rounding tells.
-PiecePairSearch::WalkBound PiecePairSearch::bound_of(const HullPair& hulls,
-                                                     const PolytopePair& pair, const WalkState& at,
-                                                     double distance) const {
-    const double error = kTurn * placed_.rounding;
-    if (hides_more(pair, at, error * placed_.most_a(), error * placed_.most_b()))
-        return {};
-    const double excess = at.excess / distance, turn = kTurn * placed_.size(hulls) / distance;
-    return {distance - excess - turn * placed_.rounding - placed_.margin(hulls),
-            excess <= kTolerance * placed_.rounding && turn <= kMostTurn};
+/// The distance that the end of a walk proves two hulls to have at least; 0 if it proves nothing.
+double PiecePairSearch::bound_by_walk(const HullPair& hulls, const WalkState& at,
+                                      double distance) const {
+    return at.proven && is_measurable(at.distance_sq, placed_.rounding)
+               ? std::max(0.0, distance - 8 * placed_.rounding - placed_.margin(hulls))
+               : 0;
 }
 
 /// Notes what a search of a pair of pieces has found. Returns a proven bound of their distance.
@@ -88,10 +78,10 @@ double PiecePairSearch::take(const HullPair& hulls, const PolytopePair& pair,
         return 0;
     }
     const double distance = std::sqrt(search.at.distance_sq);
-    const WalkBound bound = bound_of(hulls, pair, search.at, distance);
-    double at_least = bound.at_least;
-    const double enough = std::min(distance, best_.distance) - kTolerance * placed_.rounding;
-    if (!bound.is_clear && at_least < enough) {
+    const double enough =
+        std::min(distance, best_.distance) - kTolerance * placed_.rounding - placed_.margin(hulls);
+    double at_least = bound_by_walk(hulls, search.at, distance);
+    if (at_least < enough) {
         at_least =
             std::max(at_least, proven_room_at(pair, search.at, placed_.a.reach, placed_.b.reach,
                                               placed_.margin(hulls), enough));
@@ -134,7 +124,11 @@ void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
     pair.along = {};
     if (state.end == WalkEnd::closest) {
         const double distance = std::sqrt(state.distance_sq);
-        pair.bound = std::max(floor, bound_of(pair.hulls, hulls, state, distance).at_least);
+        double bound = bound_by_walk(pair.hulls, state, distance);
+        if (bound == 0)
+            bound = proven_room(hulls, state.gap, placed_.a.reach, placed_.b.reach,
+                                placed_.margin(pair.hulls));
+        pair.bound = std::max(floor, bound);
         pair.along = state.gap;
     }
 }
@@ -144,11 +138,12 @@ void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
 double PiecePairSearch::begin(BoundedPair& pair) {
     const PolytopePair hulls = placed_.hulls(pair.hulls);
     const Vec3 along = pair.along == Vec3{} ? placed_.between(pair.hulls) : pair.along;
-    const auto [a, b] = farthest(hulls, along);
+    const double l = length(along);
+    const auto [a, b] =
+        l > 0 ? proven_farthest(hulls, along, placed_.a.reach, placed_.b.reach) : VertexPair{};
     pair.a = vertex_feature(a), pair.b = vertex_feature(b);
     pair.begun = true;
     ++counters_.directions;
-    const double l = length(along);
     return l > 0
                ? dot(along, hulls.b.vertex(b) - hulls.a.vertex(a)) / l - placed_.margin(pair.hulls)
                : 0;
@@ -204,7 +199,9 @@ void PiecePairSearch::run(PairFront& front, bool keep) {
         push(front.heap, {});
     }
     front.settled.clear();
+    SearchSteps steps;
     while (!front.heap.empty() && !ends()) {
+        steps.take();
         const double floor = front.heap.front().bound - front.drift;
         if (!matters(floor))
             break;

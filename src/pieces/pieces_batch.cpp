@@ -9,36 +9,42 @@ namespace abut {
 std::vector<PiecesContacts> collide(const ConvexPieces& a, const ConvexPieces& b,
                                     std::span<const Placement> placements,
                                     const PiecesCollideOptions& options) {
-    const PiecesCollideOptions each = without_workspace(options);
-    return in_parallel<PiecesContacts>(placements.size(), [&](std::size_t i) {
-        return collide(a, placements[i].world_from_a, b, placements[i].world_from_b, each);
-    });
+    const PiecesCollideOptions each = of_each(options);
+    return in_parallel<PiecesContacts>(
+        options.progress, "placements", placements.size(), [&](std::size_t i) {
+            return collide(a, placements[i].world_from_a, b, placements[i].world_from_b, each);
+        });
 }
 
 std::vector<PiecesGap> distance(const ConvexPieces& a, const ConvexPieces& b,
                                 std::span<const Placement> placements,
                                 const PiecesDistanceOptions& options) {
-    const PiecesDistanceOptions each = without_workspace(options);
-    return in_parallel<PiecesGap>(placements.size(), [&](std::size_t i) {
-        return distance(a, placements[i].world_from_a, b, placements[i].world_from_b, each);
-    });
+    const PiecesDistanceOptions each = of_each(options);
+    return in_parallel<PiecesGap>(
+        options.progress, "placements", placements.size(), [&](std::size_t i) {
+            return distance(a, placements[i].world_from_a, b, placements[i].world_from_b, each);
+        });
 }
 
 std::vector<bool> within(const ConvexPieces& a, const ConvexPieces& b,
-                         std::span<const Placement> placements, double tolerance) {
-    const auto answers = in_parallel<std::uint8_t>(placements.size(), [&](std::size_t i) {
-        const auto& [world_from_a, world_from_b] = placements[i];
-        return static_cast<std::uint8_t>(within(a, world_from_a, b, world_from_b, tolerance));
-    });
+                         std::span<const Placement> placements, double tolerance,
+                         const Progress& progress) {
+    const auto answers =
+        in_parallel<std::uint8_t>(progress, "placements", placements.size(), [&](std::size_t i) {
+            const auto& [world_from_a, world_from_b] = placements[i];
+            return static_cast<std::uint8_t>(within(a, world_from_a, b, world_from_b, tolerance));
+        });
     return {answers.begin(), answers.end()};
 }
 
 std::vector<PiecesDepth> penetration(const ConvexPieces& a, const ConvexPieces& b,
                                      std::span<const Placement> placements,
                                      const PiecesPenetrationOptions& options) {
-    return in_parallel<PiecesDepth>(placements.size(), [&](std::size_t i) {
-        return penetration(a, placements[i].world_from_a, b, placements[i].world_from_b, options);
-    });
+    const PiecesPenetrationOptions each = of_each(options);
+    return in_parallel<PiecesDepth>(
+        options.progress, "placements", placements.size(), [&](std::size_t i) {
+            return penetration(a, placements[i].world_from_a, b, placements[i].world_from_b, each);
+        });
 }
 
 } // namespace abut

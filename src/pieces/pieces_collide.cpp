@@ -1,5 +1,6 @@
 #include <abut/convex_pieces.h>
 
+#include "core/stop.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "pieces/pieces_containment.h"
 #include "pieces/pieces_query.h"
@@ -20,7 +21,9 @@ public:
     void find() {
         const double zone = placed_.contact_zone();
         std::vector<HullPair> pending{{0, 0}};
+        SearchSteps steps;
         while (!pending.empty()) {
+            steps.take();
             const HullPair pair = pending.back();
             pending.pop_back();
             ++contacts_.counters.sphere_pairs;
@@ -113,6 +116,7 @@ void find_first(const PlacedPieces& placed, PiecesWorkspace* workspace, PiecesCo
 
 PiecesContacts collide(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
                        const Transform& world_from_b, const PiecesCollideOptions& options) {
+    const StopScope stopping(options.progress);
     PiecesContacts contacts;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
     if (options.mode == ContactMode::all) {

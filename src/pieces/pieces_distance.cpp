@@ -222,6 +222,7 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
                    const Transform& world_from_b, const PiecesDistanceOptions& options) {
     require_not_negative(options.upper_bound, "distance bound");
     require_not_negative(options.max_error, "distance error");
+    const StopScope stopping(options.progress);
     PiecesGap gap;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
     PiecesQuery query(placed, options.workspace, gap.counters);
@@ -254,8 +255,10 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
 }
 
 bool within(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
-            const Transform& world_from_b, double tolerance, PiecesWorkspace* workspace) {
+            const Transform& world_from_b, double tolerance, PiecesWorkspace* workspace,
+            const Progress& progress) {
     require_not_negative(tolerance, "tolerance");
+    const StopScope stopping(progress);
     PiecesCounters counters;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
     if (std::isinf(tolerance))

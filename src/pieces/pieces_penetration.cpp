@@ -3,6 +3,7 @@
 #include <abut/rigid.h>
 
 #include "convex/expanding_polytope.h"
+#include "core/stop.h"
 #include "pieces/contact_proof.h"
 #include "pieces/pair_search.h"
 #include "pieces/pieces_containment.h"
@@ -30,7 +31,9 @@ public:
     /// deepest any more are never looked at.
     void find() {
         push({0, 0});
+        SearchSteps steps;
         while (!pending_.empty() && (pending_.front().first > result_.depth || !near_)) {
+            steps.take();
             std::pop_heap(pending_.begin(), pending_.end(), less);
             const HullPair pair = pending_.back().second;
             pending_.pop_back();
@@ -145,6 +148,7 @@ Vec3 way_out(const PlacedPieces& placed, std::vector<Vec3> directions, double at
 
 PiecesDepth penetration(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
                         const Transform& world_from_b, const PiecesPenetrationOptions& options) {
+    const StopScope stopping(options.progress);
     PiecesDepth result;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
     DeepestPieces deepest(placed, result);

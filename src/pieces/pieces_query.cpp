@@ -2,6 +2,8 @@
 
 #include "pieces/pieces_containment.h"
 
+#include <utility>
+
 namespace abut {
 
 namespace {
@@ -41,12 +43,14 @@ void PiecesQuery::recall() {
 }
 
 bool PiecesQuery::run() {
-    PairFront fresh;
-    PairFront& front = last_ != nullptr ? last_->front : fresh;
+    // A search that is stopped leaves no front: pairs would be missing there.
+    PairFront front = last_ != nullptr ? std::exchange(last_->front, {}) : PairFront();
     const bool done =
         last_ != nullptr && last_->has_closest && search_.try_pair(last_->closest, last_->search);
     if (!done)
         search_.run(front, last_ != nullptr);
+    if (last_ != nullptr)
+        last_->front = std::move(front);
     const ClosestPieces& best = search_.best();
     if (last_ != nullptr && best.found) {
         last_->closest = best.hulls;

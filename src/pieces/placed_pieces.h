@@ -70,11 +70,7 @@ public:
     /// What a bound of the distance of two hulls is lowered by, for rounding and for what the hulls
     /// leave out.
     [[nodiscard]] double margin(const HullPair& p) const {
-        const HullNode &na = node_a(p.a), &nb = node_b(p.b);
-        if (!na.is_leaf() || !nb.is_leaf())
-            return 64 *
-                   rounding; // hulls of hulls leave out 2^-46 of the largest coordinate and more
-        return 2 * rounding + most_a_ * na.loss + most_b_ * nb.loss;
+        return 2 * rounding + most_a_ * node_a(p.a).loss + most_b_ * node_b(p.b).loss;
     }
     /// No two points of the two hulls' spheres are farther apart than their gap and this.
     [[nodiscard]] double size(const HullPair& p) const {

@@ -118,39 +118,22 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Whether the polytope has a vertex beyond the edge's own along n, or may have.
-bool has_more(const PlacedPolytope& side, const HullFeature& f, const Vec3& gap, double error) {
-    if (f.kind != Feature::edge)
-        return false;
-    const Polytope& p = *side.polytope;
-    const HullVertex& v = p.vertices[f.vertex];
-    const Vec3 n = side.pulled_back(gap);
-    const auto is_behind = [&](std::uint32_t edge) {
-        const Vec3 to = p.to(edge) - v.at;
-        const double height = dot(n, to);
-        return height < 0 && height * height > error * error * length_sq(to);
-    };
-    if (is_behind(p.after(v, f.edge)) && is_behind(p.before(v, f.edge)))
-        return false;
-    for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e) {
-        const Vec3 to = p.to(e) - v.at;
-        if (const double height = dot(n, to);
-            height > 0 && height * height > error * error * length_sq(to))
-            return true;
-    }
-    return false;
-}
-
 } // namespace
+
+VertexPair proven_farthest(const PolytopePair& pair, const Vec3& along, double reach_a,
+                           double reach_b) {
+    VertexPair found = farthest(pair, along);
+    // All vertices of two small hulls have been looked at.
+    if (pair.a.polytope->columns.empty() || pair.b.polytope->columns.empty()) {
+        found.a = highest(pair.a, along, found.a, reach_a);
+        found.b = highest(pair.b, -along, found.b, reach_b);
+    }
+    return found;
+}
 
 double proven_room(const PolytopePair& pair, const Vec3& along, double reach_a, double reach_b,
                    double margin) {
-    auto [a, b] = farthest(pair, along);
-    // All vertices of two small hulls have been looked at.
-    if (pair.a.polytope->columns.empty() || pair.b.polytope->columns.empty()) {
-        a = highest(pair.a, along, a, reach_a);
-        b = highest(pair.b, -along, b, reach_b);
-    }
+    const auto [a, b] = proven_farthest(pair, along, reach_a, reach_b);
     return dot(along, pair.b.vertex(b) - pair.a.vertex(a)) / length(along) - margin;
 }
 
@@ -163,10 +146,6 @@ double proven_room_at(const PolytopePair& pair, const WalkState& at, double reac
             break;
     }
     return most;
-}
-
-bool hides_more(const PolytopePair& pair, const WalkState& at, double error_a, double error_b) {
-    return has_more(pair.a, at.a, at.gap, error_a) || has_more(pair.b, at.b, -at.gap, error_b);
 }
 
 } // namespace abut

@@ -44,11 +44,16 @@ bool still_meet(const PlacedPair& pair, const TrianglePair& last) {
 
 } // namespace
 
-std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters) {
+std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters,
+                                   SearchSteps* steps) {
     const std::uint64_t exact_before = exact_signs();
     ContactFinder finder(pair, mode);
     PairTraversal traversal = pair.traversal(0);
+    if (steps != nullptr)
+        traversal.steps = *steps;
     pair.visit_contacts(traversal, finder);
+    if (steps != nullptr)
+        *steps = traversal.steps;
     counters.volume_tests += traversal.volume_tests;
     counters.primitive_tests += traversal.primitive_tests;
     counters.exact_tests += exact_signs() - exact_before;
@@ -61,6 +66,7 @@ Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles
 
 Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
                  const Transform& world_from_b, const CollideOptions& options) {
+    const StopScope stopping(options.progress);
     Contacts result;
     if (far_apart(a.data(), world_from_a, b.data(), world_from_b, 0))
         return result;
@@ -75,9 +81,12 @@ Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
         if (workspace != nullptr && result.any())
             *workspace = {true, result.pairs[0]};
     }
+    SearchSteps steps;
     if (options.segments)
-        for (const TrianglePair& triangles : result.pairs)
+        for (const TrianglePair& triangles : result.pairs) {
+            steps.take();
             result.segments.push_back(common_points(pair, triangles));
+        }
     return result;
 }
 

@@ -76,6 +76,7 @@ void connect(const PlacedSolid& model, std::uint32_t TrianglePair::*of_model,
              ContactSets& sets) {
     const auto triangle = [&](std::uint32_t c) { return contacts[c].pair.*of_model; };
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        poll_stop();
         while (end < order.size() && triangle(order[end]) == triangle(order[begin]))
             ++end;
         if (end - begin > 1)
@@ -117,6 +118,7 @@ std::vector<RegionContacts> find_regions(const PlacedSolid& a, const PlacedSolid
     std::vector<RegionContacts> regions;
     std::vector<std::uint32_t> region_of(contacts.size());
     for (std::uint32_t i = 0; i < contacts.size(); ++i) {
+        poll_stop();
         const std::uint32_t root = sets.root(i);
         if (root == i) {
             region_of[i] = static_cast<std::uint32_t>(regions.size());

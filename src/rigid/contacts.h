@@ -17,7 +17,11 @@ struct Contact {
 
 /// The contacts of two placed models, in the order of the traversal; the first one only, if so
 /// asked.
-std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters);
+///
+/// In/out      steps: if given, limits the pairs of boxes that are opened. Where it has run out,
+///             contacts are missing.
+std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters,
+                                   SearchSteps* steps = nullptr);
 
 /// What the two triangles share.
 Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles);

@@ -41,15 +41,18 @@ private:
 
 } // namespace
 
-Containment contains(const Model& model, const Transform& world_from_model, const Vec3& point) {
+Containment contains(const Model& model, const Transform& world_from_model, const Vec3& point,
+                     const Progress& progress) {
     require_point(point, "point");
+    const StopScope stopping(progress);
     return ContainmentQuery(model, world_from_model)(point);
 }
 
 std::vector<Containment> contains(const Model& model, const Transform& world_from_model,
-                                  std::span<const Vec3> points) {
+                                  std::span<const Vec3> points, const Progress& progress) {
     for (const Vec3& point : points)
         require_point(point, "point");
+    const StopScope stopping(progress);
     const ContainmentQuery query(model, world_from_model);
     std::vector<Containment> results(points.size());
     parallel_for(points.size(), 8, [&](std::size_t i) { results[i] = query(points[i]); });

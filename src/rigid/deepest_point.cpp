@@ -80,6 +80,9 @@ public:
         if (!surface_.model().tree().empty() && bounds_.box.lower[0] <= bounds_.box.upper[0])
             add_box(NodeRef::node(0), surface_.model().tree().bounds, {}, {});
         while (!pieces_.empty() && !finished(pieces_.top().at_most)) {
+            poll_stop();
+            if (options_.steps != nullptr && !options_.steps->take())
+                break;
             const Piece piece = pieces_.top();
             pieces_.pop();
             if (!piece.sampled)

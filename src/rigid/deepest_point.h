@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/stop.h"
 #include "rigid/contact_regions.h"
 #include "rigid/world_solid.h"
 
@@ -17,6 +18,7 @@ struct DepthSearch {
     double relative_accuracy = 0.01;
     /// Evaluated points, at most: for the accuracy; to reach a depth at all; for the comparison.
     int accuracy_budget = 1000, reach_budget = 1000, threshold_budget = 20000;
+    SearchSteps* steps = nullptr; ///< if given: limits the points of all searches together
 };
 
 /// The part of a surface that a search looks at; by default all of it.

@@ -186,12 +186,18 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     NearestPairFinder finder(pair, options.upper_bound * options.upper_bound, false, slack);
     Workspace* const workspace = options.workspace;
     Counters counters;
+    SearchSteps steps;
+    double left_sq = std::numeric_limits<double>::infinity();
     if (workspace == nullptr || !workspace->used || !finder.begin_with(workspace->last)) {
         PairTraversal traversal = pair.traversal(finder.bound_sq());
+        if (options.max_steps)
+            traversal.steps = SearchSteps(*options.max_steps);
         pair.visit_nearest(traversal, finder);
         finder.finish();
         counters.volume_tests = traversal.volume_tests;
         counters.primitive_tests = traversal.primitive_tests;
+        steps = traversal.steps;
+        left_sq = traversal.left_sq;
     }
     const double reach = pair.reach();
     Gap gap;
@@ -206,6 +212,12 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
             gap.status = Status::converged;
         if (workspace != nullptr)
             *workspace = {true, {gap.triangle_a, gap.triangle_b}};
+    }
+    gap.steps = steps.count();
+    if (steps.ran_out()) {
+        gap.out_of_steps = true;
+        gap.status = Status::bound_only;
+        gap.at_least = std::min(gap.at_least, rounded_down(std::sqrt(left_sq), reach));
     }
     counters.exact_tests = exact_signs() - exact_before;
     gap.counters = counters;
@@ -230,6 +242,7 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
     require_not_negative(options.upper_bound, "distance bound");
     require_not_negative(options.absolute_error, "absolute error");
     require_not_negative(options.relative_error, "relative error");
+    const StopScope stopping(options.progress);
     if (options.signed_distance)
         return signed_gap(a, world_from_a, b, world_from_b, options);
     if (std::isfinite(options.upper_bound) &&
@@ -239,8 +252,10 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
 }
 
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
-            const Transform& world_from_b, double tolerance, Workspace* workspace) {
+            const Transform& world_from_b, double tolerance, Workspace* workspace,
+            const Progress& progress) {
     require_not_negative(tolerance, "tolerance");
+    const StopScope stopping(progress);
     if (tolerance == 0) // whether they meet is exact, a distance is not
         return collide(a, world_from_a, b, world_from_b, {.workspace = workspace}).any();
     if (far_apart(a.data(), world_from_a, b.data(), world_from_b, tolerance))

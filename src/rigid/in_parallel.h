@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "core/parallel.h"
+#include "core/progress.h"
 
 #include <atomic>
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// What batches of queries have in common.
@@ -39,9 +41,15 @@ private:
     std::optional<Error> error_;
 };
 
-/// query(i) for each of `count`; a query is far more work than handing it out.
+/// query(i) for each of `count`; a query is far more work than handing it out. Reports the share that
+/// is done as one stage.
+///
+/// Errors      the first of the queries'; Error{interrupted}.
 template <typename Result, typename Query>
-std::vector<Result> in_parallel(std::size_t count, const Query& query) {
+std::vector<Result> in_parallel(const Progress& progress, std::string_view stage, std::size_t count,
+                                const Query& query) {
+    const StopScope stopping(progress);
+    ProgressMeter meter(progress, stage, count);
     std::vector<Result> results(count);
     FirstError failure;
     parallel_for(count, 1, [&](std::size_t i) {
@@ -50,17 +58,22 @@ std::vector<Result> in_parallel(std::size_t count, const Query& query) {
         try {
             results[i] = query(i);
         } catch (const Error& error) {
+            if (error.code() == ErrorCode::interrupted)
+                throw;
             failure.add(i, error);
         }
+        meter.advance();
     });
     failure.rethrow();
     return results;
 }
 
-/// A workspace is one thread's.
+/// Options of one query of many. A workspace is one thread's; what is reported is the share of all.
 template <typename Options>
-Options without_workspace(Options options) {
-    options.workspace = nullptr;
+Options of_each(Options options) {
+    if constexpr (requires { options.workspace; })
+        options.workspace = nullptr;
+    options.progress = {};
     return options;
 }
 

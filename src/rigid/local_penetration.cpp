@@ -153,7 +153,8 @@ LocalPenetration locked_depth(const WorldSolid& a, const WorldSolid& b,
 LocalPenetration penetration_depth(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options) {
     const LocalPenetration found = local_penetration(a, b, contacts, options);
-    return found.depth > 0 ? found : locked_depth(a, b, contacts);
+    const bool ran_out = options.steps != nullptr && options.steps->ran_out();
+    return found.depth > 0 || ran_out ? found : locked_depth(a, b, contacts);
 }
 
 } // namespace abut

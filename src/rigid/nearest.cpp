@@ -95,6 +95,7 @@ private:
 Nearest nearest(const Model& model, const Transform& world_from_model, const Vec3& point,
                 const NearestOptions& options) {
     require_point(point, "point");
+    const StopScope stopping(options.progress);
     return NearestQuery(model, world_from_model, options)(point);
 }
 
@@ -102,6 +103,7 @@ std::vector<Nearest> nearest(const Model& model, const Transform& world_from_mod
                              std::span<const Vec3> points, const NearestOptions& options) {
     for (const Vec3& point : points)
         require_point(point, "point");
+    const StopScope stopping(options.progress);
     const NearestQuery query(model, world_from_model, options);
     std::vector<Nearest> results(points.size());
     parallel_for(points.size(), kGrain, [&](std::size_t i) { results[i] = query(points[i]); });

@@ -1,5 +1,6 @@
 #include <abut/shape_queries.h>
 
+#include "core/stop.h"
 #include "geometry/box_triangle_intersect.h"
 #include "geometry/sphere_triangle_intersect.h"
 #include "geometry/triangle_triangle_intersect.h"
@@ -127,12 +128,16 @@ Triangles find(const PlacedModel& model, const OrientedBox& box, Wanted wanted) 
 }
 
 template <typename Shape>
-bool any(const Model& model, const Transform& world_from_model, const Shape& shape) {
+bool any(const Model& model, const Transform& world_from_model, const Shape& shape,
+         const Progress& progress) {
+    const StopScope stopping(progress);
     return !find(PlacedModel(model, world_from_model), shape, Wanted::one).empty();
 }
 
 template <typename Shape>
-Triangles all(const Model& model, const Transform& world_from_model, const Shape& shape) {
+Triangles all(const Model& model, const Transform& world_from_model, const Shape& shape,
+              const Progress& progress) {
+    const StopScope stopping(progress);
     Triangles found = find(PlacedModel(model, world_from_model), shape, Wanted::all);
     std::sort(found.begin(), found.end());
     return found;
@@ -140,34 +145,38 @@ Triangles all(const Model& model, const Transform& world_from_model, const Shape
 
 } // namespace
 
-bool overlaps(const Model& model, const Transform& world_from_model, const Sphere& sphere) {
-    return any(model, world_from_model, sphere);
+bool overlaps(const Model& model, const Transform& world_from_model, const Sphere& sphere,
+              const Progress& progress) {
+    return any(model, world_from_model, sphere, progress);
 }
-bool overlaps(const Model& model, const Transform& world_from_model, const Box3& box) {
-    return any(model, world_from_model, box);
+bool overlaps(const Model& model, const Transform& world_from_model, const Box3& box,
+              const Progress& progress) {
+    return any(model, world_from_model, box, progress);
 }
-bool overlaps(const Model& model, const Transform& world_from_model, const OrientedBox& box) {
-    return any(model, world_from_model, box);
+bool overlaps(const Model& model, const Transform& world_from_model, const OrientedBox& box,
+              const Progress& progress) {
+    return any(model, world_from_model, box, progress);
 }
-bool overlaps(const Model& model, const Transform& world_from_model, const Segment& segment) {
-    return any(model, world_from_model, segment);
+bool overlaps(const Model& model, const Transform& world_from_model, const Segment& segment,
+              const Progress& progress) {
+    return any(model, world_from_model, segment, progress);
 }
 
 Triangles overlapping_triangles(const Model& model, const Transform& world_from_model,
-                                const Sphere& sphere) {
-    return all(model, world_from_model, sphere);
+                                const Sphere& sphere, const Progress& progress) {
+    return all(model, world_from_model, sphere, progress);
 }
 Triangles overlapping_triangles(const Model& model, const Transform& world_from_model,
-                                const Box3& box) {
-    return all(model, world_from_model, box);
+                                const Box3& box, const Progress& progress) {
+    return all(model, world_from_model, box, progress);
 }
 Triangles overlapping_triangles(const Model& model, const Transform& world_from_model,
-                                const OrientedBox& box) {
-    return all(model, world_from_model, box);
+                                const OrientedBox& box, const Progress& progress) {
+    return all(model, world_from_model, box, progress);
 }
 Triangles overlapping_triangles(const Model& model, const Transform& world_from_model,
-                                const Segment& segment) {
-    return all(model, world_from_model, segment);
+                                const Segment& segment, const Progress& progress) {
+    return all(model, world_from_model, segment, progress);
 }
 
 Gap distance(const Model& model, const Transform& world_from_model, const Segment& segment,

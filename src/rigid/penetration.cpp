@@ -9,6 +9,7 @@
 #include "rigid/separation.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace abut {
 
@@ -49,7 +50,9 @@ public:
             result.depth = r.depth;
             result.direction = r.direction, result.point_a = r.point_a, result.point_b = r.point_b;
         }
-        if (meeting_.interpenetrate && result.depth == 0)
+        if (options_.steps->ran_out())
+            result.status = Status::bound_only;
+        else if (meeting_.interpenetrate && result.depth == 0)
             set_locked(result);
         else if (result.depth_at_most > result.depth + 2 * rounding_)
             result.status = Status::bound_only;
@@ -167,28 +170,68 @@ private:
     bool locked_ = false;
 };
 
+/// Nothing lies deeper than the length of a translation that separates.
+void limit_depths(Depth& result, const Vec3& separation) {
+    if (separation == Vec3{})
+        return;
+    const double most = length(separation) * (1 + 0x1p-50);
+    result.depth_at_most = std::min(result.depth_at_most, most);
+    for (ContactRegion& region : result.regions)
+        region.depth_at_most = std::min(region.depth_at_most, most);
+}
+
+/// Where the steps did not suffice to find where the models meet: what their boxes tell.
+Depth undecided(const PlacedSolid& a, const PlacedSolid& b, const PenetrationOptions& options,
+                const SearchSteps& steps, Counters& counters) {
+    const Vec3 separation = separation_of_boxes(a, b, counters);
+    Depth result;
+    result.interpenetrate = true;
+    result.depth_at_most = std::numeric_limits<double>::infinity();
+    limit_depths(result, separation);
+    if (options.separation)
+        result.separation = separation;
+    result.status = Status::bound_only;
+    result.out_of_steps = true;
+    result.steps = steps.count();
+    result.counters = counters;
+    return result;
+}
+
 } // namespace
 
 Depth penetration(const Model& a, const Transform& world_from_a, const Model& b,
                   const Transform& world_from_b, const PenetrationOptions& options) {
     if (!(options.relative_accuracy >= 0))
         throw Error(ErrorCode::bad_argument, "relative accuracy must not be negative");
+    const StopScope stopping(options.progress);
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
         // Flattened: the pair made copies in world coordinates.
         return penetration(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options);
     Counters counters;
-    std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
+    SearchSteps steps(options.max_steps.value_or(std::numeric_limits<std::uint64_t>::max()));
+    std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters, &steps);
     const PlacedSolid placed_a(a, a.data().solid(), world_from_a),
         placed_b(b, b.data().solid(), world_from_b);
+    if (steps.ran_out())
+        return undecided(placed_a, placed_b, options, steps, counters);
     DepthSearch search;
     search.relative_accuracy = options.relative_accuracy;
+    search.steps = &steps;
     const bool meet = !contacts.empty();
     Overlap overlap(placed_a, placed_b, std::move(contacts), search);
     Depth result = overlap.describe();
     if (options.separation && (meet || result.interpenetrate))
-        result.separation = find_separation(placed_a, placed_b, overlap.ways_out(result),
-                                            overlap.is_locked() ? 0 : result.depth, counters);
+        result.separation =
+            find_separation(placed_a, placed_b, overlap.ways_out(result),
+                            overlap.is_locked() ? 0 : result.depth, counters, &steps);
+    if (steps.ran_out()) {
+        result.out_of_steps = true;
+        limit_depths(result, options.separation
+                                 ? result.separation
+                                 : separation_of_boxes(placed_a, placed_b, counters));
+    }
+    result.steps = steps.count();
     result.counters = counters;
     return result;
 }

@@ -118,15 +118,18 @@ RayHit find_first(const PlacedModel& model, const Ray& ray) {
 
 } // namespace
 
-RayHit first_hit(const Model& model, const Transform& world_from_model, const Ray& ray) {
+RayHit first_hit(const Model& model, const Transform& world_from_model, const Ray& ray,
+                 const Progress& progress) {
     require_ray(ray);
+    const StopScope stopping(progress);
     return find_first(PlacedModel(model, world_from_model), ray);
 }
 
 std::vector<RayHit> first_hit(const Model& model, const Transform& world_from_model,
-                              std::span<const Ray> rays) {
+                              std::span<const Ray> rays, const Progress& progress) {
     for (const Ray& ray : rays)
         require_ray(ray);
+    const StopScope stopping(progress);
     const PlacedModel placed(model, world_from_model);
     std::vector<RayHit> results(rays.size());
     parallel_for(rays.size(), kGrain,
@@ -134,9 +137,10 @@ std::vector<RayHit> first_hit(const Model& model, const Transform& world_from_mo
     return results;
 }
 
-std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_model,
-                             const Ray& ray) {
+std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_model, const Ray& ray,
+                             const Progress& progress) {
     require_ray(ray);
+    const StopScope stopping(progress);
     const PlacedModel placed(model, world_from_model);
     if (!may_meet(ray))
         return {};

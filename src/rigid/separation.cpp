@@ -19,14 +19,18 @@ constexpr double kNudge = 0x1p-30; // far above the rounding of positions, far b
 class SeparationSearch {
 public:
     SeparationSearch(const PlacedSolid& a, const PlacedSolid& b, double at_least,
-                     Counters& counters)
+                     Counters& counters, SearchSteps* steps)
         : a_(a), b_(b), nudge_(kNudge * std::max(a.world_size(), b.world_size())),
-          at_least_(std::max(at_least, nudge_)), counters_(counters) {}
+          at_least_(std::max(at_least, nudge_)), counters_(counters), steps_(steps) {}
 
-    [[nodiscard]] bool separates(const Vec3& shift) const {
+    /// False also where the steps run out.
+    [[nodiscard]] bool separates(const Vec3& shift) const { return separates(shift, steps_); }
+
+    [[nodiscard]] bool separates(const Vec3& shift, SearchSteps* steps) const {
         const Transform moved = b_.world_moved(shift);
         const PlacedPair pair(a_.public_model(), a_.world(), b_.public_model(), moved);
-        if (!find_contacts(pair, ContactMode::first, counters_).empty())
+        if (!find_contacts(pair, ContactMode::first, counters_, steps).empty() ||
+            (steps != nullptr && steps->ran_out()))
             return false;
         if (!a_.solid().solid && !b_.solid().solid)
             return true;
@@ -58,7 +62,7 @@ public:
             for (const Vec3& way : ways) {
                 const double size = a_.world_size() + b_.world_size();
                 const Vec3 shift = way + (beyond * size) * normalized_or_zero(way);
-                if (best_ == Vec3{} && separates(shift))
+                if (best_ == Vec3{} && separates(shift, nullptr))
                     best_ = shift;
             }
     }
@@ -143,7 +147,8 @@ private:
         constexpr std::size_t kContacts = 32, kNormals = 6;
         const Transform moved = b_.world_moved(blocked_);
         const PlacedPair pair(a_.public_model(), a_.world(), b_.public_model(), moved);
-        const std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters_);
+        const std::vector<Contact> contacts =
+            find_contacts(pair, ContactMode::all, counters_, steps_);
         const PlacedSolid b(b_.public_model(), b_.solid(), moved);
         std::vector<Vec3> normals;
         Vec3 mean;
@@ -167,14 +172,15 @@ private:
     const PlacedSolid& b_;
     double nudge_, at_least_; ///< nothing shorter is looked for
     Counters& counters_;
+    SearchSteps* steps_;
     Vec3 best_, blocked_; ///< blocked_: shorter on the same line, does not separate
 };
 
 } // namespace
 
 Vec3 find_separation(const PlacedSolid& a, const PlacedSolid& b, std::span<const Vec3> directions,
-                     double at_least, Counters& counters) {
-    SeparationSearch search(a, b, at_least, counters);
+                     double at_least, Counters& counters, SearchSteps* steps) {
+    SeparationSearch search(a, b, at_least, counters, steps);
     for (const Vec3& d : directions)
         if (search.try_nudge(d))
             return search.best();
@@ -190,6 +196,12 @@ Vec3 find_separation(const PlacedSolid& a, const PlacedSolid& b, std::span<const
             for (int z = -1; z <= 1; ++z)
                 search.try_direction(normalized_or_zero({double(x), double(y), double(z)}));
     search.slide();
+    return search.best();
+}
+
+Vec3 separation_of_boxes(const PlacedSolid& a, const PlacedSolid& b, Counters& counters) {
+    SeparationSearch search(a, b, 0, counters, nullptr);
+    search.start_from_boxes();
     return search.best();
 }
 

@@ -4,8 +4,12 @@
 #include "rigid/containment.h"
 #include "rigid/local_penetration.h"
 #include "rigid/meeting.h"
+#include "rigid/separation.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 namespace abut {
 
@@ -33,6 +37,31 @@ Gap minus_depth(const LocalPenetration& p) {
     return gap;
 }
 
+/// Where the steps ran out: the nearest, or deepest, points that were found, and what is proven by
+/// them and by the models' boxes.
+///
+/// In          at_most: a bound of the distance if no points were found; p: of a search for the
+///             depth, if there was one.
+Gap undecided(const PlacedSolid& a, const PlacedSolid& b, const std::vector<Contact>& contacts,
+              double at_most, const LocalPenetration& p, const SearchSteps& steps,
+              Counters& counters) {
+    Gap gap;
+    if (p.depth > 0)
+        gap = minus_depth(p);
+    else if (!contacts.empty())
+        gap = common_point(a, b, contacts.front().pair);
+    else
+        gap.distance = at_most;
+    const double out = length(separation_of_boxes(a, b, counters)) * (1 + 0x1p-50);
+    gap.at_least =
+        std::max(p.at_most > 0 ? -(p.at_most + p.rounding) : -HUGE_VAL, out > 0 ? -out : -HUGE_VAL);
+    gap.status = Status::bound_only;
+    gap.out_of_steps = true;
+    gap.steps = steps.count();
+    gap.counters = counters;
+    return gap;
+}
+
 } // namespace
 
 Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
@@ -46,25 +75,38 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
                           relative_accuracy);
 
     Counters counters;
-    std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters);
+    SearchSteps steps(apart.max_steps.value_or(std::numeric_limits<std::uint64_t>::max()));
+    std::vector<Contact> contacts = find_contacts(pair, ContactMode::all, counters, &steps);
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
     const PlacedSolid placed_a(a, a.data().solid(), world_from_a),
         placed_b(b, b.data().solid(), world_from_b);
+    if (steps.ran_out())
+        return undecided(placed_a, placed_b, contacts, apart.upper_bound, {}, steps, counters);
     const bool contained = contacts.empty() && (any_component_inside(placed_a, placed_b) ||
                                                 any_component_inside(placed_b, placed_a));
-    if (contacts.empty() && !contained)
-        return distance(pair, apart);
+    if (contacts.empty() && !contained) {
+        DistanceOptions rest = apart;
+        if (apart.max_steps)
+            rest.max_steps = *apart.max_steps - steps.count();
+        Gap gap = distance(pair, rest);
+        gap.steps += steps.count();
+        return gap;
+    }
 
     Gap gap;
     LocalPenetration p;
     if (contained || examine_meeting(placed_a, placed_b, contacts).interpenetrate) {
         DepthSearch search;
         search.relative_accuracy = relative_accuracy;
+        search.steps = &steps;
         p = contained ? local_penetration(placed_a, placed_b, contacts, search)
                       : penetration_depth(placed_a, placed_b, contacts, search);
     }
+    if (steps.ran_out())
+        return undecided(placed_a, placed_b, contacts, 0, p, steps, counters);
     gap = p.depth > 0 ? minus_depth(p) : common_point(placed_a, placed_b, contacts.front().pair);
+    gap.steps = steps.count();
     gap.counters = counters;
     return gap;
 }

@@ -5,15 +5,17 @@
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
 #include "rigid/contacts.h"
+#include "rigid/impact_steps.h"
 #include "rigid/motion_bounds.h"
+#include "rigid/moving_ball.h"
 #include "rigid/moving_nodes.h"
 #include "rigid/moving_pair.h"
 #include "rigid/moving_triangles.h"
-#include "rigid/search_steps.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -38,6 +40,11 @@ constexpr double kLeastWindow = 0x1p-20;
 /// A moment is used again while what its bounds have lost by its age is no more than this share of
 /// a box's radius.
 constexpr double kStale = 1.0 / 64;
+/// A box of less than this share of another's radius is lost in the rounding of single precision.
+constexpr double kBlurred = 0x1p-16;
+/// A ball that is nearer than this share of its radius, or free for less than this share of a window,
+/// is not waited for: what is in it is looked at.
+constexpr double kNear = 0.25, kShortWait = 1.0 / 256;
 /// Where one box has so many times the radius of the other, it is opened alone.
 constexpr double kUnlike = 3;
 constexpr std::uint32_t kAllLanes = (1U << Node::kWidth) - 1;
@@ -154,6 +161,11 @@ private:
         const NodeRef a = tree_a_.named(pair.a), b = tree_b_.named(pair.b);
         const double radius_a = pair_.a.scale * radius_of(tree_a_, pair.a),
                      radius_b = pair_.b.scale * radius_of(tree_b_, pair.b);
+        if ((b.is_leaf() && radius_a < kBlurred * radius_b &&
+             postpone(pair, {pair_.a, pair.a}, {pair_.b, b_, b})) ||
+            (a.is_leaf() && radius_b < kBlurred * radius_a &&
+             postpone(pair, {pair_.b, pair.b}, {pair_.a, a_, a})))
+            return;
         const TimeSpan span = span_from(pair.time, std::min(radius_a, radius_b));
         if (a.is_leaf() && b.is_leaf()) {
             open_leaves(pair, span);
@@ -178,6 +190,44 @@ private:
             boxes_.push(
                 {span.at(found.share[i][j]), child_name(index_a, i), child_name(index_b, j)});
         }
+    }
+
+    struct SmallBox {
+        const MovingPair::Body& body;
+        std::uint32_t name;
+    };
+    struct LargeLeaf {
+        const MovingPair::Body& body;
+        const Model& model;
+        NodeRef leaf;
+    };
+
+    /// In single precision, relative to a large leaf, a small box is anywhere: in double precision
+    /// the ball around it may be told to be apart from the leaf's triangles for some time. Not if
+    /// it is so near that what is below it must be looked at.
+    bool postpone(const Waiting& pair, const SmallBox& small, const LargeLeaf& large) {
+        if (small.name == kRootName)
+            return false;
+        const Transform world_from_small = small.body.trajectory.at(pair.time),
+                        world_from_large = large.body.trajectory.at(pair.time);
+        const MovingBall ball =
+            ball_of_child(small.body.tree, small.name,
+                          compose(world_from_small, small.body.model_from_tree), small.body.scale);
+        boost::container::static_vector<Triangle, TriangleLeaf::kLanes> triangles;
+        for (std::uint32_t i = 0; i < large.leaf.count(); ++i)
+            triangles.push_back(
+                large.model.data().world_slot(large.leaf.first() + i, world_from_large));
+        const BallGap gap =
+            gap_of_ball(ball, small.body.trajectory, {triangles.data(), triangles.size()},
+                        large.body.trajectory, pair.time, pair_.margin);
+        // Also where something is not a number.
+        if (!(gap.distance >= kNear * ball.radius &&
+              gap.free_time >= kShortWait * std::min(kEnd, window_)))
+            return false;
+        const double next = pair.time + gap.free_time;
+        if (next <= window_end_)
+            boxes_.push({next, pair.a, pair.b});
+        return true;
     }
 
     void open_leaves(const Waiting& pair, const TimeSpan& span) {
@@ -277,7 +327,7 @@ private:
     const MovingPair& pair_;
     const Tree &tree_a_, &tree_b_;
     double asked_tolerance_, tolerance_;
-    SearchSteps steps_;
+    ImpactSteps steps_;
     double window_; ///< length of a window
     /// Speed at which the bounds of a moment become worse: rotation within a window, and roundings
     /// of single precision.
@@ -310,6 +360,7 @@ Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
                       const Motion& motion_b, const ImpactOptions& options) {
     if (options.tolerance && !(*options.tolerance >= 0))
         throw Error(ErrorCode::bad_argument, "tolerance must not be negative");
+    const StopScope stopping(options.progress);
     const ModelData &data_a = a.data(), &data_b = b.data();
     const MovingPair pair(data_a.tree(), data_a.model_from_tree(), motion_a, data_b.tree(),
                           data_b.model_from_tree(), motion_b);

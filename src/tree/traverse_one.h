@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/stop.h"
 #include "geometry/point_leaf_distance.h"
 #include "tree/tree.h"
 
@@ -124,7 +125,9 @@ void descend(const Tree& tree, const Test& test, const Visit& visit) {
     if (tree.empty())
         return;
     boost::container::small_vector<std::uint32_t, 128> pending{0};
+    SearchSteps steps;
     while (!pending.empty()) {
+        steps.take();
         const Node& node = tree.nodes[pending.back()];
         pending.pop_back();
         const Hits hits = test(node);
@@ -266,7 +269,9 @@ void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const 
         return;
     float bound = 1;
     boost::container::small_vector<Entry, 128> pending{{-1, NodeRef::node(0)}};
+    SearchSteps steps;
     while (!pending.empty()) {
+        steps.take();
         const Entry entry = pending.back();
         pending.pop_back();
         if (entry.enter > bound)
@@ -300,7 +305,9 @@ void for_each_near(const Tree& tree, const std::array<float, 3>& point, float ma
     if (tree.empty())
         return;
     boost::container::small_vector<Entry, 128> heap{{0, 0}};
+    SearchSteps steps;
     while (!heap.empty() && heap.front().distance_sq <= bound_sq) {
+        steps.take();
         std::pop_heap(heap.begin(), heap.end());
         const Node& node = tree.nodes[heap.back().node];
         heap.pop_back();

@@ -1,5 +1,7 @@
 #include "tree/traverse_overlaps.h"
 
+#include "core/stop.h"
+
 #include <bit>
 #include <boost/container/small_vector.hpp>
 
@@ -103,7 +105,9 @@ bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair
         return true;
     PairStack pending{start};
     Opener opener(traversal, pending);
+    SearchSteps steps;
     while (!pending.empty()) {
+        steps.take();
         const OverlapTraversal::Pair pair = pending.back();
         pending.pop_back();
         const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);

@@ -73,27 +73,46 @@ public:
         NearFirstQueue<BoxPair> pending(std::min(bound_sq_, t_.frame.reach_sq));
         pending.push(0, {kRootName, kRootName, 0});
         while (!pending.empty() && !pending.all_above(bound_sq_)) {
+            if (!t_.steps.take()) {
+                verdict_ = Verdict::out_of_steps;
+                break;
+            }
             const BoxPair pair = pending.pop();
             if (pair.bound_sq > bound_sq_)
                 continue;
-            found_.clear();
             if (!step(pair))
                 return verdict_;
-            if (pending.size() < t_.queue_limit)
+            if (pending.size() < t_.queue_limit) {
                 for (const BoxPair& child : found_)
                     pending.push(child.bound_sq, child);
-            else if (!drain())
-                return verdict_;
+                found_.clear();
+            } else if (!drain()) {
+                break;
+            }
         }
-        return Verdict::done;
+        if (verdict_ == Verdict::out_of_steps)
+            leave(pending);
+        return verdict_;
     }
 
     [[nodiscard]] float bound_sq() const { return bound_sq_; }
 
 private:
+    /// Records the lower bounds of all pairs that are not visited.
+    void leave(NearFirstQueue<BoxPair>& pending) {
+        for (const BoxPair& pair : found_)
+            t_.leave(pair.bound_sq);
+        while (!pending.empty())
+            t_.leave(pending.pop().bound_sq);
+    }
+
     /// Tests all pairs in `found_`, the last one first. Returns false, with a verdict set, to stop.
     bool drain() {
         while (!found_.empty()) {
+            if (!t_.steps.take()) {
+                verdict_ = Verdict::out_of_steps;
+                return false;
+            }
             const BoxPair pair = found_.back();
             found_.pop_back();
             if (!(pair.bound_sq > bound_sq_) && !step(pair))

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "core/stop.h"
 #include "geometry/triangle_leaf.h"
 #include "tree/pair_frame.h"
 #include "tree/tree.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace abut {
 
@@ -30,6 +32,7 @@ enum class Verdict : std::uint8_t {
     done,     ///< everything within the bound was visited
     stopped,  ///< the visitor stopped it
     accepted, ///< all points of some two boxes are within the bound of each other
+    out_of_steps,
 };
 
 struct PairTraversal {
@@ -43,6 +46,16 @@ struct PairTraversal {
     std::size_t queue_limit = std::size_t{1} << 16;
     std::uint64_t volume_tests = 0;    ///< incremented
     std::uint64_t primitive_tests = 0; ///< incremented
+    SearchSteps steps{};               ///< one per pair of boxes
+    /// If traverse_nearest ran out of steps: a lower bound of the squared world distance of all pairs
+    /// that it has not visited.
+    double left_sq = std::numeric_limits<double>::infinity();
+
+    /// Records that a pair is not visited, by the lower bound of its squared distance. NaN counts as 0.
+    void leave(float least_sq) {
+        if (!(least_sq >= left_sq))
+            left_sq = least_sq >= 0 ? least_sq : 0;
+    }
 };
 
 /// Visits the leaf pairs that may share a point, depth first. Needs no bound.

@@ -82,6 +82,8 @@ public:
         VolumePairs pending;
         pending.push_back({kRootName, kRootName, 0});
         while (!pending.empty()) {
+            if (!pair_.steps.take())
+                return Verdict::out_of_steps;
             const VolumePair pair = pending.back();
             pending.pop_back();
             if (pair.bound_sq > bound_sq_)
@@ -101,6 +103,11 @@ public:
         pending.push(0, {kRootName, kRootName, 0});
         VolumePairs found;
         while (!pending.empty() && !pending.all_above(bound_sq_)) {
+            if (!pair_.steps.take()) {
+                while (!pending.empty())
+                    pair_.leave(pending.pop().bound_sq);
+                return Verdict::out_of_steps;
+            }
             const VolumePair pair = pending.pop();
             if (pair.bound_sq > bound_sq_)
                 continue;

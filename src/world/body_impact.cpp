@@ -1,8 +1,8 @@
 #include "world/body_impact.h"
 
 #include "math/transform.h"
+#include "rigid/impact_steps.h"
 #include "rigid/motion_bounds.h"
-#include "rigid/search_steps.h"
 #include "world/deforming_impact.h"
 #include "world/narrow_phase.h"
 
@@ -36,14 +36,14 @@ public:
 
     Impact run() const {
         constexpr std::uint64_t kMostSteps = 1000;
-        SearchSteps steps(options_);
+        ImpactSteps steps(options_);
         Impact impact = search(steps, kMostSteps);
         impact.steps = steps.count();
         return impact;
     }
 
 private:
-    [[nodiscard]] Impact search(SearchSteps& steps, std::uint64_t most_steps) const {
+    [[nodiscard]] Impact search(ImpactSteps& steps, std::uint64_t most_steps) const {
         double time = 0;
         BodyGap gap = gap_at(0);
         while (steps.count() < most_steps) {

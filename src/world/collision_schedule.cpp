@@ -1,6 +1,7 @@
 #include "world/collision_schedule.h"
 
 #include "core/parallel.h"
+#include "core/progress.h"
 #include "math/transform.h"
 #include "rigid/shape_arguments.h"
 #include "world/box_block.h"
@@ -184,7 +185,26 @@ double CollisionSchedule::time_to_collision(IndexPair pair, double distance) con
     return sum > 0 ? 2 * d / sum * (1 - kGapRounding) : kNever;
 }
 
-std::vector<BodyPair> CollisionSchedule::advance(double time) {
+/// 0 for pairs that share a point.
+std::vector<double> CollisionSchedule::distances_of(const std::vector<std::size_t>& pairs,
+                                                    const Progress& progress) const {
+    const StopScope stopping(progress);
+    ProgressMeter meter(progress, "distances", pairs.size());
+    std::vector<double> distances(pairs.size());
+    parallel_for(pairs.size(), 8, [&](std::size_t i) {
+        const IndexPair pair = broad_phase_.pairs()[pairs[i]];
+        const PlacedBody a = world_.placed(pair.a()), b = world_.placed(pair.b());
+        PairWorkspace workspace;
+        distances[i] =
+            touch(a, b, workspace)
+                ? 0
+                : std::max(gap_between(a, b, kNever, Depths::no, workspace).distance, 0.0);
+        meter.advance();
+    });
+    return distances;
+}
+
+std::vector<BodyPair> CollisionSchedule::advance(double time, const Progress& progress) {
     require(time >= 0 && time < kNever, "time must not be negative, and finite");
     now_ += time;
     const std::vector<std::uint32_t> strayed = follow_courses();
@@ -198,16 +218,15 @@ std::vector<BodyPair> CollisionSchedule::advance(double time) {
         if (k < pairs.size() && pairs[k] == pair && due_[k] <= now_)
             looked_at.push_back(k);
     }
-    std::vector<double> distances(looked_at.size());
-    parallel_for(looked_at.size(), 8, [&](std::size_t i) {
-        const IndexPair pair = pairs[looked_at[i]];
-        const PlacedBody a = world_.placed(pair.a()), b = world_.placed(pair.b());
-        PairWorkspace workspace;
-        distances[i] =
-            touch(a, b, workspace)
-                ? 0
-                : std::max(gap_between(a, b, kNever, Depths::no, workspace).distance, 0.0);
-    });
+    std::vector<double> distances;
+    try {
+        distances = distances_of(looked_at, progress);
+    } catch (...) {
+        // Nothing is known of these pairs: they are due at the next step.
+        for (const std::size_t k : looked_at)
+            make_due(k, due_[k]);
+        throw;
+    }
     std::vector<BodyPair> touching;
     for (std::size_t i = 0; i < looked_at.size(); ++i) {
         const IndexPair pair = pairs[looked_at[i]];

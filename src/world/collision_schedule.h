@@ -24,7 +24,7 @@ public:
     /// The next step finds all pairs anew, because the rules about which bodies may meet have
     /// changed.
     void forget() { broad_phase_.forget(), horizon_ = -1; }
-    std::vector<BodyPair> advance(double time);
+    std::vector<BodyPair> advance(double time, const Progress& progress);
     [[nodiscard]] double next_event() const;
     [[nodiscard]] const ScheduleCounters& counters() const { return counters_; }
 
@@ -57,6 +57,8 @@ private:
     void sweep(const std::vector<std::uint32_t>& strayed, double step);
     std::vector<IndexPair> take_due();
     void make_due(std::size_t pair, double time);
+    [[nodiscard]] std::vector<double> distances_of(const std::vector<std::size_t>& pairs,
+                                                   const Progress& progress) const;
 
     const WorldData& world_;
     double now_ = 0;

@@ -3,8 +3,8 @@
 #include <abut/deformable.h>
 
 #include "math/transform.h"
+#include "rigid/impact_steps.h"
 #include "rigid/motion_bounds.h"
-#include "rigid/search_steps.h"
 #include "world/deforming_pair.h"
 #include "world/narrow_phase.h"
 #include "world/surface_impact.h"
@@ -236,7 +236,7 @@ private:
     const MovingTree& tree_a_;
     const Tree& tree_b_;
     double asked_tolerance_, tolerance_;
-    SearchSteps steps_;
+    ImpactSteps steps_;
     bool is_refused_ = false;    ///< whether the step limit refused a step
     std::vector<Waiting> queue_; ///< a heap
     Found found_;

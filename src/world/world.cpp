@@ -14,6 +14,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -55,14 +56,18 @@ std::vector<BodyPair> with_ids(const WorldData& data, const std::vector<IndexPai
 /// Calls find(pair, k) for the k-th pair, in parallel. Returns the results that are not empty, in
 /// order.
 template <typename Result, typename Find>
-std::vector<Result> results_of(const std::vector<IndexPair>& pairs, const Find& find) {
+std::vector<Result> results_of(const Progress& progress, std::string_view stage,
+                               const std::vector<IndexPair>& pairs, const Find& find) {
     constexpr std::size_t kPairsOfTask = 16;
+    const StopScope stopping(progress);
+    ProgressMeter meter(progress, stage, pairs.size());
     std::vector<std::vector<Result>> found((pairs.size() + kPairsOfTask - 1) / kPairsOfTask);
     parallel_for(found.size(), 1, [&](std::size_t task) {
         const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
         for (std::size_t k = task * kPairsOfTask; k < end; ++k)
             if (std::optional<Result> result = find(pairs[k], k))
                 found[task].push_back(*result);
+        meter.advance(end - task * kPairsOfTask);
     });
     std::vector<Result> results;
     for (auto& some : found)
@@ -153,10 +158,10 @@ std::vector<BodyPair> World::ended() const {
     return with_ids(*data_, data_->broad_phase().ended());
 }
 
-std::vector<BodyPair> World::touching() {
+std::vector<BodyPair> World::touching(const Progress& progress) {
     data_->update_if_changed();
     return results_of<BodyPair>(
-        data_->broad_phase().pairs(),
+        progress, "touching", data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k) -> std::optional<BodyPair> {
             if (!touch(data_->placed(pair.a()), data_->placed(pair.b()), data_->workspaces()[k]))
                 return std::nullopt;
@@ -164,10 +169,11 @@ std::vector<BodyPair> World::touching() {
         });
 }
 
-std::vector<BodyGap> World::contacts() {
+std::vector<BodyGap> World::contacts(const Progress& progress) {
     data_->update_if_changed();
     return results_of<BodyGap>(
-        data_->broad_phase().pairs(), [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
+        progress, "contacts", data_->broad_phase().pairs(),
+        [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
             const PlacedBody a = data_->placed(pair.a()), b = data_->placed(pair.b());
             PairWorkspace& workspace = data_->workspaces()[k];
             // For two convex bodies, the gap alone tells whether they touch.
@@ -182,13 +188,14 @@ std::vector<BodyGap> World::contacts() {
         });
 }
 
-std::vector<BodyGap> World::closer_than(double distance) {
+std::vector<BodyGap> World::closer_than(double distance, const Progress& progress) {
     require(distance >= 0 && distance < HUGE_VAL, "distance must be a length, not negative");
     const std::vector<IndexPair> near =
         overlapping_boxes(data_->boxes(), distance,
                           [&](std::uint32_t i, std::uint32_t k) { return data_->may_meet(i, k); });
     return results_of<BodyGap>(
-        near, [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyGap> {
+        progress, "distances", near,
+        [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyGap> {
             PairWorkspace workspace;
             // If the true distance exceeds the bound, the result may be the bound itself. The bound
             // is therefore just above `distance`.
@@ -232,15 +239,14 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
         overlapping_boxes(swept, 0, [&](std::uint32_t i, std::uint32_t k) {
             return (moves[i] != 0 || moves[k] != 0) && data_->may_meet(i, k);
         });
-    ProgressMeter meter(options.progress, "impacts", pairs.size());
     ImpactOptions each = options;
-    each.progress.report = nullptr; // progress is reported as one stage for all pairs
+    each.progress = {}; // results_of reports and polls for all pairs
     return results_of<BodyImpact>(
-        pairs, [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyImpact> {
+        options.progress, "impacts", pairs,
+        [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyImpact> {
             const Body &a = bodies[pair.a()], &b = bodies[pair.b()];
             const Impact impact = body_impact({a.shape, a.own_bounds, motion_of[pair.a()]},
                                               {b.shape, b.own_bounds, motion_of[pair.b()]}, each);
-            meter.advance();
             if (!impact.hit)
                 return std::nullopt;
             return BodyImpact{data_->id_of(pair.a()), data_->id_of(pair.b()), impact};
@@ -259,8 +265,8 @@ void World::set_speed(BodyId body, const SpeedBounds& bounds) {
     schedule_->set_speed(body.index, bounds);
 }
 
-std::vector<BodyPair> World::advance(double time) {
-    return schedule_->advance(time);
+std::vector<BodyPair> World::advance(double time, const Progress& progress) {
+    return schedule_->advance(time, progress);
 }
 double World::next_event() const {
     return schedule_->next_event();

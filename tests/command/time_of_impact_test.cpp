@@ -2,7 +2,9 @@
 #include "tests/command/box_test.h"
 
 #include <array>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace abut::test {
 namespace {
@@ -75,6 +77,25 @@ TEST_F(TimeOfImpactCommand, ALimitOnStepsTellsTheTimeThatIsFree) {
         << text;
     EXPECT_EQ(with({"--max-steps", "2", "--quiet", "--fail-on", "impact"}).status, 1);
     EXPECT_EQ(with({"--max-steps", "1000000", "--json"}).json()["time"], whole["time"]);
+}
+
+// To the nearest six digits, 2 / 3 would be more than is proven.
+TEST_F(TimeOfImpactCommand, TheTimeInTextIsRoundedDown) {
+    int above = 0;
+    for (const char* end : {"0,0.5,0,1,0,0,0", "-4,0.5,0,1,0,0,0", "-8,0.5,0,1,0,0,0",
+                            "0.1,0.5,0,1,0,0,0", "-1.5,0.5,0,1,0,0,0"}) {
+        const std::vector<std::string> motion{"--pose-b", "3,0.5,0,1,0,0,0", "--end-b", end};
+        std::vector<std::string> in_json = motion;
+        in_json.emplace_back("--json");
+        const double time = ask("time-of-impact", in_json).json()["time"];
+        const std::string text = ask("time-of-impact", motion).out, begin = "impact at ";
+        ASSERT_EQ(text.rfind(begin, 0), 0U) << text;
+        const double shown = std::stod(text.substr(begin.size()));
+        EXPECT_LE(shown, time);
+        EXPECT_NEAR(shown, time, 1e-5);
+        above += std::stod(fmt::format("{:.6g}", time)) > time ? 1 : 0;
+    }
+    EXPECT_GT(above, 0);
 }
 
 TEST_F(TimeOfImpactCommand, FailOnAndSentences) {

@@ -89,6 +89,41 @@ TEST_F(TwoModelsTest, DistanceBeyondItsBoundHasNoPoints) {
         EXPECT_FALSE(answer.contains(key)) << key;
 }
 
+TEST_F(TwoModelsTest, ALimitOnStepsTellsWhatIsProven) {
+    const std::vector<std::string> apart{"--pose-b", "3,0.25,0.5,1,0,0,0"},
+        inside{"--pose-b", "0.5,0.25,0.5,1,0,0,0"};
+    const auto with = [&](const std::string& verb, std::vector<std::string> arguments,
+                          const std::vector<std::string>& more) {
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return ask(verb, arguments);
+    };
+    const auto gap = with("distance", apart, {"--json", "--max-steps", "0"}).json();
+    EXPECT_EQ(gap["out_of_steps"], true);
+    EXPECT_EQ(gap["steps"], 0);
+    EXPECT_EQ(gap["status"], "bound_only");
+    EXPECT_LE(gap["at_least"], 2);
+    EXPECT_GE(gap["distance"], 2);
+    const auto whole = with("distance", apart, {"--json", "--max-steps", "100000"}).json();
+    EXPECT_EQ(whole["out_of_steps"], false);
+    EXPECT_EQ(whole["distance"], 2);
+    const std::string text = with("distance", apart, {"--max-steps", "0"}).out;
+    EXPECT_EQ(text.rfind("distance at least ", 0), 0U) << text;
+    EXPECT_NE(text.find(": 0 steps were not enough\n"), std::string::npos) << text;
+
+    const auto depth = with("penetration", inside, {"--json", "--max-steps", "0"}).json();
+    EXPECT_EQ(depth["out_of_steps"], true);
+    EXPECT_EQ(depth["interpenetrate"], true); // to be safe
+    EXPECT_EQ(depth["status"], "bound_only");
+    EXPECT_GE(depth["depth_at_most"], 0.5);
+    EXPECT_LT(depth["depth_at_most"], 0.51);
+    const std::string words = with("penetration", inside, {"--max-steps", "0"}).out;
+    EXPECT_EQ(words.rfind("not decided whether they meet; depth at most 0.5", 0), 0U) << words;
+    for (const char* verb : {"distance", "penetration"}) {
+        expect_refused(with(verb, inside, {"--max-steps", "-1"}), {"--max-steps"});
+        expect_refused(with(verb, inside, {"--convex", "--max-steps", "1"}), {"--max-steps"});
+    }
+}
+
 TEST_F(TwoModelsTest, SignedDistanceIsMinusTheDepth) {
     const std::string poses =
         folder_.write("poses.csv", "0.9,0.2,0.3,1,0,0,0\n3,0,0,1,0,0,0\n1,0,0,1,0,0,0\n");

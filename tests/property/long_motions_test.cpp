@@ -222,25 +222,21 @@ TEST(LongMotions, ALargePlateMeetsASmallBall) {
             EXPECT_LE(impact.contact_time - impact.time, 3e-4);
             EXPECT_TRUE(c.meets_at(impact.contact_time));
             EXPECT_FALSE(is_seen_to_meet(c, 0, impact.time));
-            // Beyond 1e4 single precision blurs the plate, and each of the 1,440 pairs of triangles
-            // is measured.
-            const std::uint64_t most_steps = size <= 1e4 ? 3000 : 15000;
-            EXPECT_LT(impact.steps, most_steps) << size;
+            EXPECT_LT(impact.steps, 3000U) << size;
             // The same pairs the other way round.
             const Impact swapped =
                 time_of_impact(ball, motion_b, large, motion_a, {.tolerance = 8e-5});
             EXPECT_TRUE(swapped.hit);
             EXPECT_LE(swapped.time, impact.contact_time);
             EXPECT_LE(impact.time, swapped.contact_time);
-            EXPECT_LT(swapped.steps, most_steps) << size;
+            EXPECT_LT(swapped.steps, 3000U) << size;
         }
         // Nodes are compared along axes that turn with the plate.
         const Impact impact =
             time_of_impact(large, spin({0.6, 0.1, 0.2}), fine, still, {.tolerance = 8e-5});
         EXPECT_TRUE(impact.hit);
-        if (size <= 1e3) {
-            EXPECT_LT(impact.steps, 3000U) << size;
-        }
+        // Single precision blurs larger plates: balls around small boxes are compared with them.
+        EXPECT_LT(impact.steps, size <= 1e3 ? 3000U : 10000U) << size;
     }
 }
 

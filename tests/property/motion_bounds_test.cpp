@@ -4,6 +4,7 @@
 
 #include "rigid/model_data.h"
 #include "rigid/motion_bounds.h"
+#include "rigid/moving_ball.h"
 #include "rigid/moving_nodes.h"
 #include "rigid/moving_triangles.h"
 #include "rigid/node_motion.h"
@@ -320,6 +321,39 @@ TEST(MotionBounds, BallsAroundModels) {
         const double begin = Span(random).begin;
         check(a, motion_a, b, motion_b, begin, begin + pair.free_time_of_balls(begin, 1 - begin),
               tally);
+        ASSERT_FALSE(HasFailure()) << "case " << n;
+    }
+    tally.expect_some(kCases);
+}
+
+TEST(MotionBounds, BallsAroundChildrenOfNodesAndTriangles) {
+    Random random(2204);
+    constexpr int kCases = 3000;
+    Tally tally;
+    for (int n = 0; n < kCases; ++n) {
+        const Triangle t = random.triangle(random.chance(0.7) ? random.uniform(0.5, 2) : 1e3);
+        const Model a(Mesh{{t[0], t[1], t[2]}, {{0, 1, 2}}}), b = small_model(random);
+        const Motion motion_a = random.chance(0.5) ? Motion::fixed({}) : random_motion(random),
+                     motion_b = random_motion(random, 2);
+        const MovingPair pair = moving_pair(a, motion_a, b, motion_b);
+        const double begin = Span(random).begin;
+        const Tree& tree = b.data().tree();
+        std::uint32_t lane = 0;
+        while (lane + 1 < Node::kWidth && !tree.nodes[0].child[lane + 1].is_none() &&
+               random.chance(0.6))
+            ++lane;
+        const NodeRef leaf = tree.nodes[0].child[lane];
+        const MovingBall ball = ball_of_child(
+            tree, child_name(0, lane), compose(pair.b.trajectory.at(begin), pair.b.model_from_tree),
+            pair.b.scale);
+        const Model inside = part(b, leaf.first(), leaf.count());
+        for (const Vec3& p : inside.mesh().positions)
+            ASSERT_LE(length(apply(at(motion_b, begin), p) - ball.centre),
+                      ball.radius + pair.margin);
+        const std::vector<Triangle> triangles{a.data().world_triangle(0, at(motion_a, begin))};
+        const BallGap gap =
+            gap_of_ball(ball, pair.b.trajectory, triangles, pair.a.trajectory, begin, pair.margin);
+        check(a, motion_a, inside, motion_b, begin, begin + gap.free_time, tally);
         ASSERT_FALSE(HasFailure()) << "case " << n;
     }
     tally.expect_some(kCases);

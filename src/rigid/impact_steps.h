@@ -2,20 +2,19 @@
 
 #include <abut/motion.h>
 
-#include "core/progress.h"
+#include "core/stop.h"
 
 #include <cstdint>
 #include <limits>
 
 namespace abut {
 
-/// Counts the steps of one search for a first contact, up to its limit, and ends it when the caller
-/// asks for that.
-class SearchSteps {
+/// Counts the steps of one search for a first contact, up to its limit, and reports how far it is.
+class ImpactSteps {
 public:
-    explicit SearchSteps(const ImpactOptions& options)
+    explicit ImpactSteps(const ImpactOptions& options)
         : progress_(options.progress),
-          most_(options.max_steps.value_or(std::numeric_limits<std::uint64_t>::max())),
+          steps_(options.max_steps.value_or(std::numeric_limits<std::uint64_t>::max())),
           next_report_(progress_.report ? 0 : std::numeric_limits<double>::infinity()) {}
 
     /// Before each step. Returns false, and counts nothing, if the limit is reached.
@@ -23,22 +22,20 @@ public:
     /// In          free: the motion is free up to this time.
     /// Errors      Error{interrupted}.
     bool take(double free) {
-        if (progress_.stop != nullptr)
-            check_stop(progress_);
-        if (count_ >= most_)
+        if (!steps_.take())
             return false;
-        ++count_;
         if (free >= next_report_) {
             progress_.report("time of impact", free);
             next_report_ = free + 0.01;
+            poll_stop(); // the report may have set the flag
         }
         return true;
     }
-    [[nodiscard]] std::uint64_t count() const { return count_; }
+    [[nodiscard]] std::uint64_t count() const { return steps_.count(); }
 
 private:
     const Progress& progress_;
-    std::uint64_t most_, count_ = 0;
+    SearchSteps steps_;
     double next_report_; ///< a time
 };
 
