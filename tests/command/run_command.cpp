@@ -14,8 +14,10 @@
 #include <sstream>
 #include <stdexcept>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
+#include <time.h>
 #include <unistd.h>
 
 namespace abut::test {
@@ -67,6 +69,13 @@ Running start_program(const std::vector<std::string>& command) {
     return running;
 }
 
+/// True if a child has ended; it stays to be waited for.
+bool has_ended(pid_t child) {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == child;
+}
+
 Running start(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), ABUT_COMMAND);
     return start_program(arguments);
@@ -108,7 +117,11 @@ Outcome finish(Running running, std::chrono::seconds limit, const OnText& on_tex
         kill(running.process, SIGKILL);
     }
     int status = 0;
-    waitpid(running.process, &status, 0);
+    rusage usage{};
+    wait4(running.process, &status, 0, &usage);
+    for (const timeval& part : {usage.ru_utime, usage.ru_stime})
+        outcome.processor_time +=
+            std::chrono::seconds(part.tv_sec) + std::chrono::microseconds(part.tv_usec);
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return outcome;
 }
@@ -142,9 +155,15 @@ Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std
 }
 
 Outcome run_abut_and_kill(const std::vector<std::string>& arguments,
-                          std::chrono::microseconds after) {
+                          std::chrono::duration<double, std::micro> after) {
     const Running running = start(arguments);
-    std::this_thread::sleep_for(after);
+    clockid_t clock{};
+    if (clock_getcpuclockid(running.process, &clock) != 0)
+        throw std::runtime_error("clock_getcpuclockid");
+    timespec used{};
+    while (!has_ended(running.process) && clock_gettime(clock, &used) == 0 &&
+           std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) < after)
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
     kill(running.process, SIGKILL);
     return finish(running, std::chrono::seconds(60), [](const Outcome&) {});
 }
