@@ -75,6 +75,26 @@ TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
     EXPECT_EQ(rows_of_page_queries("store.md", store_), (std::vector<int>{0, 2, 2, 3, 1, 0}));
 }
 
+/// An import that fails empties the file that it found empty, also while others read it.
+TEST_F(StoreOf, AFileThatIsEmptiedMeanwhileIsToldEmpty) {
+    const auto message = [](const auto& read) -> std::string {
+        try {
+            read();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "nothing";
+    };
+    import();
+    StoreFile file(store_, OpenMode::read_only);
+    std::filesystem::resize_file(store_, 0);
+    const std::string truth = message([&] { (void)open_store(store_); });
+    EXPECT_NE(truth.find("is empty"), std::string::npos) << truth;
+    EXPECT_EQ(message([&] { file.models(); }), truth);
+    // The file was emptied between the look at its size and its opening.
+    EXPECT_EQ(message([&] { StoreFile(store_, OpenMode::read_only); }), truth);
+}
+
 TEST_F(StoreOf, NothingIsRefused) {
     EXPECT_THROW(open_store(store_), Error);
     std::ofstream(store_).close();
