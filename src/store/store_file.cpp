@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "io/fault.h"
+#include "store/folder_lock.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,6 +19,7 @@ namespace {
 void mend(const std::string& path) {
     if (!std::filesystem::exists(path + "-journal"))
         return;
+    const FolderLock lock(path, FolderLock::Wait::yes);
     try {
         Database(path, OpenMode::read_write).number("SELECT count(*) FROM sqlite_schema");
     } catch (const Error& error) {
