@@ -24,6 +24,9 @@ namespace abut::test {
 
 namespace {
 
+/// A program that runs for so long hangs, whatever the load of the machine.
+constexpr std::chrono::seconds kLimit(600);
+
 /// A running program and the reading ends of its two outputs.
 struct Running {
     pid_t process = -1;
@@ -109,11 +112,11 @@ bool drain(Running& running, Outcome& outcome, std::chrono::steady_clock::time_p
 }
 
 template <typename OnText>
-Outcome finish(Running running, std::chrono::seconds limit, const OnText& on_text) {
+Outcome finish(Running running, const OnText& on_text) {
     Outcome outcome;
-    if (!drain(running, outcome, std::chrono::steady_clock::now() + limit,
+    if (!drain(running, outcome, std::chrono::steady_clock::now() + kLimit,
                [&] { on_text(outcome); })) {
-        ADD_FAILURE() << "abut did not end within " << limit.count() << " s";
+        ADD_FAILURE() << "abut did not end within " << kLimit.count() << " s";
         kill(running.process, SIGKILL);
     }
     int status = 0;
@@ -130,21 +133,21 @@ Outcome finish(Running running, std::chrono::seconds limit, const OnText& on_tex
 
 Outcome run_program(const std::vector<std::string>& command, const Watch& watch) {
     const Running running = start_program(command);
-    return finish(running, std::chrono::seconds(300), [&](const Outcome& so_far) {
+    return finish(running, [&](const Outcome& so_far) {
         if (watch)
             watch(running.process, so_far);
     });
 }
 
 Outcome run_abut(const std::vector<std::string>& arguments) {
-    return finish(start(arguments), std::chrono::seconds(300), [](const Outcome&) {});
+    return finish(start(arguments), [](const Outcome&) {});
 }
 
 Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,
                             int signal) {
     const Running running = start(arguments);
     bool sent = false;
-    Outcome outcome = finish(running, std::chrono::seconds(60), [&](const Outcome& so_far) {
+    Outcome outcome = finish(running, [&](const Outcome& so_far) {
         if (!sent && (so_far.out + so_far.err).find(sign) != std::string::npos) {
             sent = true;
             kill(running.process, signal);
@@ -165,7 +168,7 @@ Outcome run_abut_and_kill(const std::vector<std::string>& arguments,
            std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) < after)
         std::this_thread::sleep_for(std::chrono::microseconds(100));
     kill(running.process, SIGKILL);
-    return finish(running, std::chrono::seconds(60), [](const Outcome&) {});
+    return finish(running, [](const Outcome&) {});
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -31,7 +31,7 @@ Outcome run_abut(const std::vector<std::string>& arguments);
 /// Runs `abut ARGUMENTS`, sends the signal as soon as one of its outputs holds `sign`, and waits for
 /// its end.
 ///
-/// A run that ends before, or needs more than a minute, fails the test.
+/// A run that ends before fails the test.
 Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,
                             int signal);
 
