@@ -120,7 +120,7 @@ TEST_F(StoreOf, AWriterThatWaitsTakesNoJournalOfANewStore) {
         auto first = std::make_unique<ExclusiveStore>(store_, kCache, kCreate);
         auto waiting = std::async(std::launch::async, [&] {
             try {
-                ExclusiveStore(store_, kCache, kCreate);
+                const ExclusiveStore taken(store_, kCache, kCreate);
                 return true;
             } catch (const Error&) {
                 return false;
