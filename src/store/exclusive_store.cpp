@@ -2,20 +2,24 @@
 
 #include <abut/error.h>
 
+#include "store/folder_lock.h"
 #include "store/schema.h"
 
-#include <cerrno>
+#include <chrono>
 #include <fcntl.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace abut {
 
 namespace {
 
-/// How often another process may remove the store while this one waits for its lock.
+/// Attempts to get the lock, and the pause between two: about a second.
 constexpr int kAttempts = 100;
+constexpr std::chrono::milliseconds kPause(10);
 
 /// Returns true if the file did not exist. File system errors are left to SQLite, which names them.
 bool create_empty_file(const std::string& path) {
@@ -40,23 +44,39 @@ bool has_moved(Database& database) {
 } // namespace
 
 ExclusiveStore::ExclusiveStore(const std::string& path, std::uint64_t cache, IfMissing if_missing) {
-    for (int attempt = 0; attempt < kAttempts; ++attempt)
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
         if (open(path, cache, if_missing))
             return;
+        std::this_thread::sleep_for(kPause);
+    }
     throw Error(ErrorCode::unreadable, path, "is in use by another process");
 }
 
 bool ExclusiveStore::open(const std::string& path, std::uint64_t cache, IfMissing if_missing) {
-    const bool made_file = if_missing == IfMissing::create && create_empty_file(path);
+    const FolderLock lock(path, FolderLock::Wait::no);
+    if (lock.is_taken())
+        return false;
+    if (if_missing == IfMissing::create && create_empty_file(path))
+        made_file_ = true;
     database_ = std::make_unique<Database>(
         path, if_missing == IfMissing::create ? OpenMode::create : OpenMode::read_write);
-    database_->run(("PRAGMA cache_size = -" + std::to_string(cache >> 10)).c_str());
-    // Blocks are large and lie in chains of pages, so large pages need fewer reads. A file that
-    // already has pages keeps their size.
-    database_->run("PRAGMA page_size = 8192; PRAGMA synchronous = FULL");
-    // The lock must come before the locking mode. In exclusive mode a waiting process would keep
-    // its shared lock, and two processes that wait for each other would both fail.
-    database_->run("BEGIN EXCLUSIVE");
+    try {
+        // A connection that waited here could outlive its file.
+        database_->run("PRAGMA busy_timeout = 0");
+        database_->run(("PRAGMA cache_size = -" + std::to_string(cache >> 10)).c_str());
+        // Blocks are large and lie in chains of pages, so large pages need fewer reads. A file that
+        // already has pages keeps their size.
+        database_->run("PRAGMA page_size = 8192; PRAGMA synchronous = FULL");
+        // The lock must come before the locking mode. In exclusive mode a process that fails here
+        // would keep its shared lock, and two such processes would both fail.
+        database_->run("BEGIN EXCLUSIVE");
+    } catch (const Error&) {
+        if ((sqlite3_errcode(database_->handle()) & 0xff) != SQLITE_BUSY)
+            throw;
+        database_.reset();
+        return false;
+    }
+    // Whoever is no import may remove a file too.
     if (has_moved(*database_)) {
         database_.reset();
         return false;
@@ -65,14 +85,14 @@ bool ExclusiveStore::open(const std::string& path, std::uint64_t cache, IfMissin
     created_tables_ = if_missing == IfMissing::create &&
                       database_->number("SELECT count(*) FROM sqlite_schema") == 0 &&
                       database_->number("PRAGMA application_id") == 0;
-    created_file_ = made_file && created_tables_;
+    created_file_ = made_file_ && created_tables_;
     try {
         if (created_tables_)
             create_schema(*database_);
         check_schema(*database_);
         database_->run("COMMIT");
     } catch (const Error&) {
-        undo_creation();
+        restore();
         throw;
     }
     return true;
@@ -81,7 +101,13 @@ bool ExclusiveStore::open(const std::string& path, std::uint64_t cache, IfMissin
 void ExclusiveStore::undo_creation() noexcept {
     if (!created_tables_)
         return;
-    created_tables_ = false;
+    const FolderLock lock(database_->path(), FolderLock::Wait::yes);
+    restore();
+}
+
+void ExclusiveStore::restore() noexcept {
+    if (!std::exchange(created_tables_, false))
+        return;
     try {
         if (sqlite3_get_autocommit(database_->handle()) == 0)
             database_->run("ROLLBACK");

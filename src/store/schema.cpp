@@ -247,6 +247,7 @@ void create_schema(Database& database) {
 }
 
 void check_schema(Database& database) {
+    database.require_pages();
     if (database.number("PRAGMA application_id") != kApplicationId)
         throw Error(ErrorCode::malformed, database.path(), "is no store of Abut");
     const std::int64_t version = database.number("PRAGMA user_version");

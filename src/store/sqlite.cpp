@@ -116,11 +116,24 @@ std::int64_t Database::last_row() const {
     return sqlite3_last_insert_rowid(handle_);
 }
 
+void Database::require_pages() const {
+    // Not through number(): what fails there asks for the pages again.
+    sqlite3_stmt* count = nullptr;
+    sqlite3_prepare_v2(handle_, "PRAGMA page_count", -1, &count, nullptr);
+    const bool is_empty = sqlite3_step(count) == SQLITE_ROW && sqlite3_column_int64(count, 0) == 0;
+    sqlite3_finalize(count);
+    if (is_empty)
+        throw Error(ErrorCode::malformed, path_, kEmptyStore);
+}
+
 void Database::fail(int status) const {
     const Verdict verdict = verdict_of(status);
     std::string text = verdict.text;
     if (verdict.code == ErrorCode::malformed || (status & 0xff) == SQLITE_IOERR)
         text += " (" + one_line(sqlite3_errmsg(handle_)) + ")";
+    // An import that is undone empties the file under its readers, who then miss the tables.
+    if ((status & 0xff) == SQLITE_ERROR)
+        require_pages();
     throw Error(verdict.code, path_, text);
 }
 

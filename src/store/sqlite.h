@@ -21,6 +21,9 @@ enum class OpenMode : std::uint8_t {
     create, ///< read_write; creates the file if it does not exist
 };
 
+/// What is wrong with an empty file in place of a store.
+inline constexpr const char* kEmptyStore = "is empty, or an import has just created it";
+
 /// A text of SQLite's, made fit for one line: control characters become spaces.
 std::string one_line(std::string text);
 
@@ -39,6 +42,9 @@ public:
     void run(const char* sql);
     /// The first column of the first row of a statement; 0 if there is no row.
     std::int64_t number(const char* sql);
+
+    /// Throws the Error of an empty file if the file has no page, as one whose import was undone.
+    void require_pages() const;
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] sqlite3* handle() const noexcept { return handle_; }

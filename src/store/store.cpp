@@ -106,7 +106,7 @@ void require_regular_file(const std::string& path) {
     if (!S_ISREG(status.st_mode))
         throw Error(ErrorCode::unreadable, path, "is not a regular file");
     if (status.st_size == 0)
-        throw Error(ErrorCode::malformed, path, "is empty, or an import has just created it");
+        throw Error(ErrorCode::malformed, path, kEmptyStore);
     if (access(path.c_str(), R_OK) != 0)
         throw Error(ErrorCode::unreadable, path,
                     std::string("cannot be read: ") + std::strerror(errno));

@@ -3,6 +3,7 @@
 #include <abut/error.h>
 
 #include "io/fault.h"
+#include "store/folder_lock.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -18,6 +19,7 @@ namespace {
 void mend(const std::string& path) {
     if (!std::filesystem::exists(path + "-journal"))
         return;
+    const FolderLock lock(path, FolderLock::Wait::yes);
     try {
         Database(path, OpenMode::read_write).number("SELECT count(*) FROM sqlite_schema");
     } catch (const Error& error) {
@@ -37,6 +39,13 @@ void require_numbers(const MeshRow& mesh, const std::string& store) {
                     "is damaged: mesh " + std::to_string(mesh.mesh) + " has impossible blocks");
 }
 
+/// Begins to read, so that the checks and the statements that follow see one state of the file.
+Database& begin_checked(Database& database) {
+    database.run("BEGIN");
+    check_schema(database);
+    return database;
+}
+
 std::string select(const char* columns, const char* rest) {
     return std::string("SELECT ") + columns + " FROM " + rest;
 }
@@ -45,10 +54,11 @@ std::string select(const char* columns, const char* rest) {
 
 StoreFile::Connection::Connection(const std::string& path, OpenMode mode)
     : database(path, mode),
-      block((check_schema(database), database), select(kBlockColumns, "block WHERE block = ?")),
+      block(begin_checked(database), select(kBlockColumns, "block WHERE block = ?")),
       block_row(database, select(kBlockRowColumns, "block WHERE block = ?")),
       mesh(database, select(kMeshColumns, "mesh WHERE mesh = ?")),
       part(database, select(kPartColumns, "part WHERE part = ?")) {
+    database.run("COMMIT");
     // A small page cache: callers keep the blocks that they read, so pages are not read twice.
     database.run("PRAGMA cache_size = -512");
 }

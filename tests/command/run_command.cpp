@@ -14,13 +14,18 @@
 #include <sstream>
 #include <stdexcept>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
+#include <time.h>
 #include <unistd.h>
 
 namespace abut::test {
 
 namespace {
+
+/// A program that runs for so long hangs, whatever the load of the machine.
+constexpr std::chrono::seconds kLimit(600);
 
 /// A running program and the reading ends of its two outputs.
 struct Running {
@@ -67,6 +72,13 @@ Running start_program(const std::vector<std::string>& command) {
     return running;
 }
 
+/// True if a child has ended; it stays to be waited for.
+bool has_ended(pid_t child) {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == child;
+}
+
 Running start(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), ABUT_COMMAND);
     return start_program(arguments);
@@ -100,15 +112,19 @@ bool drain(Running& running, Outcome& outcome, std::chrono::steady_clock::time_p
 }
 
 template <typename OnText>
-Outcome finish(Running running, std::chrono::seconds limit, const OnText& on_text) {
+Outcome finish(Running running, const OnText& on_text) {
     Outcome outcome;
-    if (!drain(running, outcome, std::chrono::steady_clock::now() + limit,
+    if (!drain(running, outcome, std::chrono::steady_clock::now() + kLimit,
                [&] { on_text(outcome); })) {
-        ADD_FAILURE() << "abut did not end within " << limit.count() << " s";
+        ADD_FAILURE() << "abut did not end within " << kLimit.count() << " s";
         kill(running.process, SIGKILL);
     }
     int status = 0;
-    waitpid(running.process, &status, 0);
+    rusage usage{};
+    wait4(running.process, &status, 0, &usage);
+    for (const timeval& part : {usage.ru_utime, usage.ru_stime})
+        outcome.processor_time +=
+            std::chrono::seconds(part.tv_sec) + std::chrono::microseconds(part.tv_usec);
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return outcome;
 }
@@ -117,21 +133,21 @@ Outcome finish(Running running, std::chrono::seconds limit, const OnText& on_tex
 
 Outcome run_program(const std::vector<std::string>& command, const Watch& watch) {
     const Running running = start_program(command);
-    return finish(running, std::chrono::seconds(300), [&](const Outcome& so_far) {
+    return finish(running, [&](const Outcome& so_far) {
         if (watch)
             watch(running.process, so_far);
     });
 }
 
 Outcome run_abut(const std::vector<std::string>& arguments) {
-    return finish(start(arguments), std::chrono::seconds(300), [](const Outcome&) {});
+    return finish(start(arguments), [](const Outcome&) {});
 }
 
 Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,
                             int signal) {
     const Running running = start(arguments);
     bool sent = false;
-    Outcome outcome = finish(running, std::chrono::seconds(60), [&](const Outcome& so_far) {
+    Outcome outcome = finish(running, [&](const Outcome& so_far) {
         if (!sent && (so_far.out + so_far.err).find(sign) != std::string::npos) {
             sent = true;
             kill(running.process, signal);
@@ -142,11 +158,17 @@ Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std
 }
 
 Outcome run_abut_and_kill(const std::vector<std::string>& arguments,
-                          std::chrono::microseconds after) {
+                          std::chrono::duration<double, std::micro> after) {
     const Running running = start(arguments);
-    std::this_thread::sleep_for(after);
+    clockid_t clock{};
+    if (clock_getcpuclockid(running.process, &clock) != 0)
+        throw std::runtime_error("clock_getcpuclockid");
+    timespec used{};
+    while (!has_ended(running.process) && clock_gettime(clock, &used) == 0 &&
+           std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) < after)
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
     kill(running.process, SIGKILL);
-    return finish(running, std::chrono::seconds(60), [](const Outcome&) {});
+    return finish(running, [](const Outcome&) {});
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -113,29 +113,29 @@ TEST_F(StoreClash, SurvivesKillsAtAnyMoment) {
     ASSERT_GT(truth.size(), 100U);
     const std::vector<std::string> command{"clash",    store_, "--clearance", "0.05",
                                            "--memory", "1M",   "--quiet"};
+    // A store of the same parts that knows nothing of the job.
+    const auto make_anew = [&] {
+        std::filesystem::remove(store_);
+        ASSERT_EQ(run_abut({"import", model_, store_, "--quiet"}).status, 0);
+    };
     std::size_t killed = 0, went_on = 0;
-    double whole = 1e6; // microseconds, until one has been seen to its end
+    const auto whole = clash(store_, {"--memory", "1M", "--quiet"}).processor_time;
+    make_anew();
     const int rounds = many(20);
     for (int round = 0; round < rounds; ++round) {
-        const Outcome outcome = run_abut_and_kill(
-            command,
-            std::chrono::microseconds(static_cast<std::int64_t>(random.uniform(0, whole))));
+        const Outcome outcome = run_abut_and_kill(command, random.uniform(0, 1) * whole);
         if (outcome.status != 0) {
             ++killed;
             ASSERT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
             if (random.chance(0.5))
                 continue;
-        } else {
-            whole *= 0.8; // killed too late
         }
         const Outcome rest = clash(store_, {"--memory", "1M", "--json"});
         ASSERT_EQ(rest.status, 0) << rest.err;
         ASSERT_EQ(clashes_of(rest), truth);
         const auto recalled = rest.json()["out_of_core"]["recalled_pairs"].get<std::uint64_t>();
         went_on += recalled > 0 && recalled < rest.json()["candidates"] ? 1 : 0;
-        // Begin anew: a store of the same parts knows nothing of the job.
-        std::filesystem::remove(store_);
-        ASSERT_EQ(run_abut({"import", model_, store_, "--quiet"}).status, 0);
+        make_anew();
     }
     std::cout << killed << " killed, " << went_on << " went on in the middle\n";
     EXPECT_GT(killed, static_cast<std::size_t>(rounds) / 4);

@@ -3,13 +3,13 @@
 #include <abut/frame.h>
 #include <abut/scene.h>
 
+#include "tests/support/folder.h"
 #include "tests/support/paths.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <ostream>
 #include <string>
-#include <unistd.h>
 
 namespace abut::test {
 namespace {
@@ -47,11 +47,9 @@ TEST_P(SimulatedFrame, HasTheTrianglesThatAssimpReads) {
 
 TEST_P(SimulatedFrame, IsTheSameOnceWritten) {
     const Mesh frame = read_frame(path_);
-    const std::string copy = std::filesystem::temp_directory_path() /
-                             ("abut-frame-" + std::to_string(getpid()) + ".ply");
-    write_frame(frame, copy);
-    const Mesh same = read_frame(copy);
-    std::filesystem::remove(copy);
+    const Folder folder;
+    write_frame(frame, folder / "frame.ply");
+    const Mesh same = read_frame(folder / "frame.ply");
     EXPECT_TRUE(same.positions == frame.positions);
     EXPECT_TRUE(same.triangles == frame.triangles);
 }

@@ -104,6 +104,9 @@ struct File {
     const char* path;
     std::size_t parts, spaces, cut_away;
     std::vector<std::string> open; ///< ids of solids whose surface is not closed
+    friend std::ostream& operator<<(std::ostream& stream, const File& file) {
+        return stream << file.path;
+    }
 };
 
 class IfcData : public testing::TestWithParam<File> {

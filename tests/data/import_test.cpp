@@ -22,6 +22,9 @@ using nlohmann::json;
 struct Building {
     const char* file;
     std::size_t parts, meshes, triangles; // triangles: instanced
+    friend std::ostream& operator<<(std::ostream& stream, const Building& building) {
+        return stream << building.file;
+    }
 };
 
 class Import : public testing::TestWithParam<Building> {};

@@ -62,7 +62,7 @@ TEST_F(Isolation, WhatAReaderLeavesBehindIsGone) {
     const int left = std::stoi(read_bytes(note));
     // It belongs to another parent now; give that one a moment to reap it.
     bool gone = false;
-    for (int i = 0; i < 200 && !gone; ++i) {
+    for (int i = 0; i < 3000 && !gone; ++i) {
         const std::string status = read_bytes("/proc/" + std::to_string(left) + "/stat");
         gone = status.empty() || contains(status, ") Z ") || contains(status, ") X ");
         std::this_thread::sleep_for(std::chrono::milliseconds(10));

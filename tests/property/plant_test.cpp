@@ -3,17 +3,16 @@
 
 #include "scenes/plant.h"
 #include "tests/property/plant_reference.h"
+#include "tests/support/folder.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <unistd.h>
 #include <unordered_map>
 
 namespace abut {
@@ -326,11 +325,9 @@ TEST(Plant, ClashJobFindsExactlyThePlanted) {
 
 TEST(Plant, SurvivesAFile) {
     Plant plant = plant_of(40'000, 50, 12);
-    const auto path = std::filesystem::temp_directory_path() /
-                      ("abut-plant-" + std::to_string(::getpid()) + ".glb");
-    write_glb(plant.scene, path.string());
-    Scene read = read_scene(path.string());
-    std::filesystem::remove(path);
+    const test::Folder folder;
+    write_glb(plant.scene, folder / "plant.glb");
+    Scene read = read_scene(folder / "plant.glb");
     ASSERT_EQ(read.parts.size(), plant.scene.parts.size());
     for (const Part& part : read.parts) {
         EXPECT_TRUE(part.type.starts_with("Ifc")) << part.type;

@@ -2,6 +2,7 @@
 #include <abut/error.h>
 
 #include "massive/clash_text.h"
+#include "tests/support/folder.h"
 #include "tests/support/paths.h"
 
 #include <bit>
@@ -13,7 +14,6 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
-#include <unistd.h>
 
 namespace abut {
 namespace {
@@ -78,17 +78,7 @@ struct Sample {
 /// A fixture with a folder that is removed when the test ends.
 class ClashWriters : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  ("abut-writers-" + std::to_string(getpid()) + "-" +
-                   testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    [[nodiscard]] std::string path(const std::string& name) const {
-        return (folder_ / name).string();
-    }
+    [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
     [[nodiscard]] std::string read(const std::string& name) const {
         std::ifstream file(path(name), std::ios::binary);
         std::ostringstream text;
@@ -96,7 +86,7 @@ protected:
         return text.str();
     }
 
-    fs::path folder_;
+    test::Folder folder_;
 };
 
 std::vector<std::string> keys(const ordered_json& object) {
@@ -440,7 +430,7 @@ TEST_F(ClashWriters, AFailureLeavesNothingBehind) {
     fs::create_directory(folder_ / "report.json");
     EXPECT_THROW(write_clash_json(sample.report, sample.models, path("report.json")), Error);
     EXPECT_TRUE(fs::is_directory(folder_ / "report.json"));
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+    EXPECT_EQ(folder_.files(), 1U);
 }
 
 TEST_F(ClashWriters, AClashWithoutItsPartIsAnError) {
@@ -454,7 +444,7 @@ TEST_F(ClashWriters, AClashWithoutItsPartIsAnError) {
     }
     EXPECT_THROW(to_json(sample.report, sample.models), Error);
     EXPECT_THROW(write_clash_csv(sample.report, sample.models, path("report.csv")), Error);
-    EXPECT_TRUE(fs::is_empty(folder_));
+    EXPECT_EQ(folder_.files(), 0U);
 }
 
 } // namespace

@@ -5,14 +5,19 @@
 
 #include "io/unique_ids.h"
 #include "store/cut_mesh.h"
+#include "store/exclusive_store.h"
 #include "store/mesh_codec.h"
 #include "store/mesh_draft.h"
 #include "store/store_file.h"
 #include "tests/support/folder.h"
 #include "tests/support/page_queries.h"
 
+#include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <future>
 #include <gtest/gtest.h>
+#include <memory>
 
 namespace abut::test {
 namespace {
@@ -73,6 +78,73 @@ TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
     // Rows of the queries: none in the box, two types, two meshes, three parts of the last import,
     // one open shell, none.
     EXPECT_EQ(rows_of_page_queries("store.md", store_), (std::vector<int>{0, 2, 2, 3, 1, 0}));
+}
+
+/// An import that fails empties the file that it found empty, also while others read it.
+TEST_F(StoreOf, AFileThatIsEmptiedMeanwhileIsToldEmpty) {
+    const auto message = [](const auto& read) -> std::string {
+        try {
+            read();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "nothing";
+    };
+    import();
+    StoreFile file(store_, OpenMode::read_only);
+    std::filesystem::resize_file(store_, 0);
+    const std::string truth = message([&] { (void)open_store(store_); });
+    EXPECT_NE(truth.find("is empty"), std::string::npos) << truth;
+    EXPECT_EQ(message([&] { file.models(); }), truth);
+    // The file was emptied between the look at its size and its opening.
+    EXPECT_EQ(message([&] { StoreFile(store_, OpenMode::read_only); }), truth);
+}
+
+/// How many descriptors of this process have the file open.
+std::size_t descriptors_of(const std::string& path) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code closed;
+        count += std::filesystem::read_symlink(entry, closed) == path ? 1 : 0;
+    }
+    return count;
+}
+
+/// A writer that waited for a store that is undone must leave the next store's journal alone: only
+/// the journal can mend that store if its import is killed.
+TEST_F(StoreOf, AWriterThatWaitsTakesNoJournalOfANewStore) {
+    constexpr auto kCreate = ExclusiveStore::IfMissing::create;
+    constexpr std::uint64_t kCache = 1 << 20;
+    std::size_t refused = 0;
+    for (int round = 0; round < 5; ++round) {
+        auto first = std::make_unique<ExclusiveStore>(store_, kCache, kCreate);
+        auto waiting = std::async(std::launch::async, [&] {
+            try {
+                const ExclusiveStore taken(store_, kCache, kCreate);
+                return true;
+            } catch (const Error&) {
+                return false;
+            }
+        });
+        // SQLite keeps one descriptor a connection.
+        bool waits = false;
+        while (!waits && waiting.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+            waits = descriptors_of(store_) > 1;
+        first->undo_creation();
+        {
+            ExclusiveStore next(store_, kCache, kCreate);
+            Transaction transaction(next.database());
+            next.database().run("CREATE TABLE begun (a)");
+            ASSERT_TRUE(std::filesystem::exists(store_ + "-journal"));
+            if (!waiting.get() && waits) {
+                ++refused;
+                EXPECT_TRUE(std::filesystem::exists(store_ + "-journal"));
+            }
+            transaction.commit();
+        }
+        std::filesystem::remove(store_);
+    }
+    EXPECT_GT(refused, 0U);
 }
 
 TEST_F(StoreOf, NothingIsRefused) {
