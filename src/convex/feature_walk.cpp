@@ -51,10 +51,22 @@ struct Growth {
     double excess = 0;
     HullFeature feature;
     bool possible = false;
-    /// The same excess, below 0 if all neighbours lie behind the feature; of a triangle that of the
-    /// neighbour that lies behind it most, which tells on which side the body is.
+    /// The same excess, below 0 if all neighbours lie behind the feature; of a triangle that of one
+    /// neighbour, which tells on which side the body is.
     double most = 0;
 };
+
+/// How much further along n than the triangle between an edge of v and the next one a neighbour of v
+/// lies: of two beside the triangle, or of all if these lie in its plane, the one farthest behind.
+HWY_INLINE double behind_face(const Polytope& p, const HullVertex& v, std::uint32_t edge,
+                              const Vec3& n, double tolerance_sq) {
+    const auto excess = [&](std::uint32_t e) HWY_ATTR { return dot(n, p.to(e) - v.at); };
+    double least = std::min(excess(p.before(v, edge)), excess(p.after(v, p.after(v, edge))));
+    if (HWY_UNLIKELY(!(least * least > tolerance_sq)))
+        for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
+            least = std::min(least, excess(e));
+    return least;
+}
 
 /// `tolerance_sq`: the square of an excess that is rounding.
 HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& gap,
@@ -76,18 +88,15 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
     return {h.excess,
             {f.vertex, h.edge, Feature::edge},
             h.excess > 0 && f.kind == Feature::vertex,
-            f.kind == Feature::face ? h.least : h.most};
+            f.kind == Feature::face ? behind_face(p, v, f.edge, n, tolerance_sq) : h.most};
 }
 
-/// The square of how far behind the features their neighbours have to lie so that rounding cannot be
-/// the reason: docs/convex.md, "Proofs". Infinite where nothing proves that. (Known before the
-/// neighbours are looked at, so that after these a comparison is all.)
-HWY_INLINE double proof_of(double spread_sq, double distance_sq, double rounding_sq) {
+/// Whether the features' neighbours lie behind them by more than rounding can be the reason of:
+/// docs/convex.md, "Proofs". `most`: as Growth has it.
+HWY_INLINE bool is_proof(double most, double spread_sq, double distance_sq, double rounding_sq) {
     const double spread = std::min(spread_sq, distance_sq);
-    const double behind_sq = 0x1p125 * (rounding_sq * rounding_sq) * (1 + distance_sq / spread);
-    return spread * spread >= 0x1p12 * rounding_sq * distance_sq
-               ? behind_sq
-               : std::numeric_limits<double>::infinity();
+    return most < 0 && spread * spread >= 0x1p12 * rounding_sq * distance_sq &&
+           most * most * spread > 0x1p125 * (rounding_sq * rounding_sq) * (spread + distance_sq);
 }
 
 void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limit,
@@ -98,7 +107,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     HullFeature next_a = a, next_b = b;   ///< the pair to measure
     Growth grown_a{}, grown_b{};
     Xyz point_a, gap;
-    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0, behind_sq = 0;
+    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0, spread_sq = 0;
     std::uint32_t count = 0;
     WalkEnd end = WalkEnd::closest;
     for (;;) {
@@ -109,7 +118,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
             shrink(*pair.a.polytope, next.a, a);
             shrink(*pair.b.polytope, next.b, b);
             point_a = next.point_a, gap = next.gap, distance_sq = next.distance_sq;
-            behind_sq = proof_of(next.spread_sq, distance_sq, rounding_sq);
+            spread_sq = next.spread_sq;
             if (!(distance_sq > rounding_sq)) {
                 end = WalkEnd::meeting;
                 break;
@@ -143,8 +152,8 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     state.distance_sq = distance_sq, state.excess = excess;
     state.feature_pairs += count;
     state.end = end;
-    const double most = std::max(grown_a.most, grown_b.most);
-    state.proven = end == WalkEnd::closest && most < 0 && most * most > behind_sq;
+    state.proven = end == WalkEnd::closest && is_proof(std::max(grown_a.most, grown_b.most),
+                                                       spread_sq, distance_sq, rounding_sq);
 }
 
 } // namespace abut::HWY_NAMESPACE
