@@ -107,18 +107,19 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     HullFeature next_a = a, next_b = b;   ///< the pair to measure
     Growth grown_a{}, grown_b{};
     Xyz point_a, gap;
-    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0, spread_sq = 0;
+    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0;
     std::uint32_t count = 0;
     WalkEnd end = WalkEnd::closest;
+    Measured next;
+    EdgePair edges;
     for (;;) {
-        const Measured next = measure(side_a, side_b, next_a, next_b);
+        next = measure(side_a, side_b, next_a, next_b, edges);
         ++count;
         if (next.distance_sq < distance_sq) {
             a = next_a, b = next_b;
             shrink(*pair.a.polytope, next.a, a);
             shrink(*pair.b.polytope, next.b, b);
             point_a = next.point_a, gap = next.gap, distance_sq = next.distance_sq;
-            spread_sq = next.spread_sq;
             if (!(distance_sq > rounding_sq)) {
                 end = WalkEnd::meeting;
                 break;
@@ -152,8 +153,15 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     state.distance_sq = distance_sq, state.excess = excess;
     state.feature_pairs += count;
     state.end = end;
-    state.proven = end == WalkEnd::closest && is_proof(std::max(grown_a.most, grown_b.most),
-                                                       spread_sq, distance_sq, rounding_sq);
+    state.proven = false;
+    if (end != WalkEnd::closest)
+        return;
+    // The pair that was measured last is the one that ended the walk.
+    const double spread_sq = next.spread_sq == kOfEdges
+                                 ? spread_of_edges(edges, gap, distance_sq, next.a, next.b)
+                                 : next.spread_sq;
+    state.proven =
+        is_proof(std::max(grown_a.most, grown_b.most), spread_sq, distance_sq, rounding_sq);
 }
 
 } // namespace abut::HWY_NAMESPACE
