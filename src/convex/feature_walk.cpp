@@ -51,22 +51,10 @@ struct Growth {
     double excess = 0;
     HullFeature feature;
     bool possible = false;
-    /// The same excess, below 0 if all neighbours lie behind the feature; of a triangle that of one
-    /// neighbour, which tells on which side the body is.
+    /// The same excess, below 0 if all neighbours lie behind the feature; of a triangle that of the
+    /// neighbour that lies behind it most, which tells on which side the body is.
     double most = 0;
 };
-
-/// How much further along n than the triangle between an edge of v and the next one a neighbour of v
-/// lies: of two beside the triangle, or of all if these lie in its plane, the one farthest behind.
-HWY_INLINE double behind_face(const Polytope& p, const HullVertex& v, std::uint32_t edge,
-                              const Vec3& n, double tolerance_sq) {
-    const auto excess = [&](std::uint32_t e) HWY_ATTR { return dot(n, p.to(e) - v.at); };
-    double least = std::min(excess(p.before(v, edge)), excess(p.after(v, p.after(v, edge))));
-    if (HWY_UNLIKELY(!(least * least > tolerance_sq)))
-        for (std::uint32_t e = v.first_edge; e < v.first_edge + v.degree; ++e)
-            least = std::min(least, excess(e));
-    return least;
-}
 
 /// `tolerance_sq`: the square of an excess that is rounding.
 HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& gap,
@@ -84,11 +72,12 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
             return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0, most};
         // Between coplanar triangles: a part of a face, whose side only the others tell.
     }
-    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n);
+    const bool is_face = f.kind == Feature::face;
+    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n, is_face);
     return {h.excess,
             {f.vertex, h.edge, Feature::edge},
             h.excess > 0 && f.kind == Feature::vertex,
-            f.kind == Feature::face ? behind_face(p, v, f.edge, n, tolerance_sq) : h.most};
+            is_face ? h.least : h.most};
 }
 
 /// Whether the features' neighbours lie behind them by more than rounding can be the reason of:
