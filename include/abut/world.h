@@ -154,14 +154,14 @@ public:
 
     /// All pairs of bodies that share a point.
     ///
-    /// Accuracy    of two models, and of a model and a box or a convex body, exact; of all others, to
-    ///             rounding.
+    /// Accuracy    of two models, of two convex bodies, and of a model and a box or a convex body,
+    ///             exact; of all others, to rounding.
     std::vector<BodyPair> touching(const Progress& progress = {});
     /// The same, with how deep they go into each other, and where.
     ///
-    /// Accuracy    of convex bodies, spheres, capsules and boxes, and a model with a sphere: to rounding.
-    ///             Of two models, and a model and a box or a convex body: as `penetration`
-    ///             (bound_only). Of a model and a capsule whose axis crosses its surface: at least the
+    /// Accuracy    whether they meet: as `touching`. How deep: of convex bodies, spheres, capsules and
+    ///             boxes, and a model with a sphere: to rounding. Of two models, and a model and a
+    ///             box or a convex body: as `penetration` (bound_only). Of a model and a capsule whose axis crosses its surface: at least the
     ///             radius (bound_only).
     std::vector<BodyGap> contacts(const Progress& progress = {});
     /// All pairs of bodies that are at most `distance` apart, and how far: exact as `distance`; 0 for

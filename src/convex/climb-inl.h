@@ -147,12 +147,12 @@ HWY_INLINE VertexPair farthest_two(const Polytope& a, const Vec3& direction_a, c
 struct HighestNeighbour {
     double excess = 0;      ///< 0 if none is higher
     std::uint32_t edge = 0; ///< to it; the first if none is higher
-    /// How much higher than the vertex any neighbour is: below 0 if lower.
+    /// How much higher than the vertex any neighbour is: below 0 if lower. The least if asked for.
     double least = std::numeric_limits<double>::infinity(), most = -least;
 };
 
 HWY_INLINE HighestNeighbour highest_neighbour(const Polytope& polytope, const HullVertex& vertex,
-                                              const Vec3& direction) {
+                                              const Vec3& direction, bool wants_least = false) {
     HighestNeighbour highest{0, vertex.first_edge};
     const D d;
     const V along[3] = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
@@ -172,11 +172,16 @@ HWY_INLINE HighestNeighbour highest_neighbour(const Polytope& polytope, const Hu
                              hn::Sub(hn::Load(d, block.y.data() + lane), y),
                              hn::Sub(hn::Load(d, block.z.data() + lane), z));
         }
-        V least = heights[0], most = heights[0];
+        V most = heights[0];
         for (std::size_t i = 1; i < kVectors; ++i)
-            least = hn::Min(least, heights[i]), most = hn::Max(most, heights[i]);
+            most = hn::Max(most, heights[i]);
         most = hn::MaxOfLanes(d, most);
-        highest.least = std::min(highest.least, hn::GetLane(hn::MinOfLanes(d, least)));
+        if (wants_least) {
+            V least = heights[0];
+            for (std::size_t i = 1; i < kVectors; ++i)
+                least = hn::Min(least, heights[i]);
+            highest.least = std::min(highest.least, hn::GetLane(hn::MinOfLanes(d, least)));
+        }
         const std::uint32_t k = first + first_of(heights, kVectors, most);
         const double excess = hn::GetLane(most);
         const bool higher = excess > highest.excess;

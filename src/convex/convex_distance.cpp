@@ -18,6 +18,7 @@ namespace {
 struct PlacedBodies {
     const ConvexData &a, &b;
     const Transform &world_from_a, &world_from_b;
+    Roundings roundings;
     std::size_t level_a = 0, level_b = 0;
 
     [[nodiscard]] PolytopePair at(std::size_t of_a, std::size_t of_b) const {
@@ -64,10 +65,10 @@ void search_along(const PolytopePair& pair, const Vec3& direction, double roundi
 
 /// Whether the bodies' inner balls meet: then the point between their middles lies in both.
 bool balls_meet(const PlacedBodies& bodies, const PolytopePair& pair, const Vec3& between,
-                double rounding, WalkState& at) {
+                WalkState& at) {
     const double radius_a = stretch_of(bodies.world_from_a).least * bodies.a.ball.radius,
                  radius_b = stretch_of(bodies.world_from_b).least * bodies.b.ball.radius;
-    const double room = radius_a + radius_b - 4 * (rounding + world_rounding(pair));
+    const double room = radius_a + radius_b - 4 * bodies.roundings.all;
     if (!(room > 0 && length_sq(between) < room * room))
         return false;
     at.point_a = pair.a.place(bodies.a.ball.middle) + radius_a / (radius_a + radius_b) * between;
@@ -85,7 +86,7 @@ bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& se
                       entry_b = std::max(bodies.b.entry, bodies.level_b);
     const PolytopePair first = bodies.at(entry_a, entry_b);
     const Vec3 between = between_middles(bodies.a, bodies.b, first);
-    if (balls_meet(bodies, first, between, rounding, search.at))
+    if (balls_meet(bodies, first, between, search.at))
         return false;
     search_along(first, between, rounding, search);
     // Hulls lie inside of the bodies: where they meet, so do these.
@@ -191,9 +192,9 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& l
 
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
                    const Transform& world_from_b, const ConvexDistanceOptions& options) {
-    PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b};
-    const auto [rounding, all_rounding] =
-        roundings_of(bodies.a, world_from_a, bodies.b, world_from_b);
+    PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b,
+                        roundings_of(a.data(), world_from_a, b.data(), world_from_b)};
+    const auto [rounding, all_rounding] = bodies.roundings;
     if (!(options.max_error >= 0))
         throw Error(ErrorCode::bad_argument, "the error allowed must not be negative");
     if (options.max_error > 0) {

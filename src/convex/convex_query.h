@@ -4,6 +4,11 @@
 
 #include "convex/convex_data.h"
 #include "convex/simplex_search.h"
+#include "math/transform.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
 
 /// What queries of two convex bodies have in common.
 namespace abut {
@@ -14,8 +19,26 @@ struct Roundings {
 };
 
 /// Errors      Error{bad_argument} if a transform is not finite.
-Roundings roundings_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
-                       const Transform& world_from_b);
+inline Roundings roundings_of(const ConvexData& a, const Transform& world_from_a,
+                              const ConvexData& b, const Transform& world_from_b) {
+    const auto &m = world_from_a.m, &n = world_from_b.m;
+    // Two sums, that two lanes may do.
+    std::array<double, 2> sums{};
+    for (std::size_t i = 0; i < 8; i += 2)
+        for (std::size_t k = 0; k < 2; ++k)
+            sums[k] += std::abs(m[i + k]) * a.reach + std::abs(n[i + k]) * b.reach;
+    const double last = std::abs(m[8]) * a.reach + std::abs(n[8]) * b.reach;
+    const double offset = sum_of_sizes(Vec3{n[9] - m[9], n[10] - m[10], n[11] - m[11]});
+    const double of_pair = 0x1p-51 * (sums[0] + sums[1] + last + offset);
+    // The other translation is no longer than this one and the offset, which `of_pair` has.
+    const Roundings roundings{of_pair,
+                              2 * of_pair + 0x1p-50 * sum_of_sizes(Vec3{m[9], m[10], m[11]})};
+    if (!std::isfinite(roundings.all)) [[unlikely]] {
+        require_finite(world_from_a, "transform of a");
+        require_finite(world_from_b, "transform of b");
+    }
+    return roundings;
+}
 
 inline double rounding_of(const ConvexData& a, const Transform& world_from_a, const ConvexData& b,
                           const Transform& world_from_b) {

@@ -34,7 +34,15 @@ struct Measured {
     Corners a = 1, b = 1;
     /// How far rounding of the corners may turn the gap between the features' lines and planes: by its
     /// share of the root of this, an edge's length or a triangle's height. 0: that is not known.
+    /// kOfEdges: as spread_of_edges says.
     double spread_sq = std::numeric_limits<double>::infinity();
+};
+
+inline constexpr double kOfEdges = -1;
+
+/// Two edges, from end to end.
+struct EdgePair {
+    Xyz u, v;
 };
 
 HWY_INLINE Measured turned(const Measured& m) {
@@ -66,8 +74,9 @@ HWY_INLINE Corners corners_at(double parameter) {
 /// if the gap is across them to rounding, and they are not almost parallel.
 ///
 /// In          closest points as by nearest_on_segments.
-HWY_INLINE double spread_of_edges(const Xyz& u, const Xyz& v, const Xyz& gap, double gap_sq,
+HWY_INLINE double spread_of_edges(const EdgePair& edges, const Xyz& gap, double gap_sq,
                                   Corners on_u, Corners on_v) {
+    const auto& [u, v] = edges;
     const double uu = length_sq(u), vv = length_sq(v);
     // The point of u was chosen last, and makes up for what that of v is off by.
     if (on_v != 3)
@@ -85,9 +94,7 @@ HWY_INLINE Measured measure_edge_edge(const Xyz& p0, const Xyz& p1, const Xyz& q
     const Xyz u = p1 - p0, v = q1 - q0, r = q0 - p0;
     const SegmentPoints c = nearest_on_segments(u, v, r);
     const Xyz from = c.s * u, gap = r + c.t * v - from;
-    const Corners on_u = corners_at(c.s), on_v = corners_at(c.t);
-    return {p0 + from, gap,  c.distance_sq,
-            on_u,      on_v, spread_of_edges(u, v, gap, c.distance_sq, on_u, on_v)};
+    return {p0 + from, gap, c.distance_sq, corners_at(c.s), corners_at(c.t), kOfEdges};
 }
 
 /// Corners of a triangle's foot that have weight.
@@ -154,11 +161,19 @@ inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, 
         if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q1 : q0, t); foot.within)
             take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 2 : 1,
                           foot.height_sq()));
+    std::size_t edge = 0;
+    Corners on_edge = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
-        m.a = kEdgeCorners[k][m.a];
-        take(m);
+        const Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
+        if (!(m.distance_sq < nearest.distance_sq))
+            continue;
+        nearest = m;
+        nearest.a = kEdgeCorners[k][m.a];
+        edge = k, on_edge = m.a;
     }
+    if (nearest.spread_sq == kOfEdges)
+        nearest.spread_sq = spread_of_edges({t[(edge + 1) % 3] - t[edge], q1 - q0}, nearest.gap,
+                                            nearest.distance_sq, on_edge, nearest.b);
 }
 
 HWY_INLINE Xyz corner0(const PlacedXyz& side, const HullFeature& f) {
@@ -174,8 +189,10 @@ HWY_INLINE XyzTriangle triangle(const PlacedXyz& side, const HullFeature& f) {
 }
 
 /// In          any two features but two triangles.
+/// Out         `edges`: set if both are edges, whose spread is left to the caller: a walk needs only
+///             that of its last pair.
 HWY_INLINE Measured measure(const PlacedXyz& side_a, const PlacedXyz& side_b, const HullFeature& a,
-                            const HullFeature& b) {
+                            const HullFeature& b, EdgePair& edges) {
     switch (3 * static_cast<int>(a.kind) + static_cast<int>(b.kind)) {
     case 0: {
         const Xyz p = corner0(side_a, a);
@@ -188,9 +205,12 @@ HWY_INLINE Measured measure(const PlacedXyz& side_a, const PlacedXyz& side_b, co
         return turned(measure_face_vertex(triangle(side_b, b), corner0(side_a, a)));
     case 3:
         return measure_edge_vertex(corner0(side_a, a), corner1(side_a, a), corner0(side_b, b));
-    case 4:
-        return measure_edge_edge(corner0(side_a, a), corner1(side_a, a), corner0(side_b, b),
-                                 corner1(side_b, b));
+    case 4: {
+        const Xyz p0 = corner0(side_a, a), p1 = corner1(side_a, a), q0 = corner0(side_b, b),
+                  q1 = corner1(side_b, b);
+        edges = {p1 - p0, q1 - q0};
+        return measure_edge_edge(p0, p1, q0, q1);
+    }
     case 5: {
         Measured nearest;
         measure_face_edge(triangle(side_b, b), corner0(side_a, a), corner1(side_a, a), nearest);

@@ -72,22 +72,20 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
             return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0, most};
         // Between coplanar triangles: a part of a face, whose side only the others tell.
     }
-    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n);
+    const bool is_face = f.kind == Feature::face;
+    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n, is_face);
     return {h.excess,
             {f.vertex, h.edge, Feature::edge},
             h.excess > 0 && f.kind == Feature::vertex,
-            f.kind == Feature::face ? h.least : h.most};
+            is_face ? h.least : h.most};
 }
 
-/// The square of how far behind the features their neighbours have to lie so that rounding cannot be
-/// the reason: docs/convex.md, "Proofs". Infinite where nothing proves that. (Known before the
-/// neighbours are looked at, so that after these a comparison is all.)
-HWY_INLINE double proof_of(double spread_sq, double distance_sq, double rounding_sq) {
+/// Whether the features' neighbours lie behind them by more than rounding can be the reason of:
+/// docs/convex.md, "Proofs". `most`: as Growth has it.
+HWY_INLINE bool is_proof(double most, double spread_sq, double distance_sq, double rounding_sq) {
     const double spread = std::min(spread_sq, distance_sq);
-    const double behind_sq = 0x1p125 * (rounding_sq * rounding_sq) * (1 + distance_sq / spread);
-    return spread * spread >= 0x1p12 * rounding_sq * distance_sq
-               ? behind_sq
-               : std::numeric_limits<double>::infinity();
+    return most < 0 && spread * spread >= 0x1p12 * rounding_sq * distance_sq &&
+           most * most * spread > 0x1p125 * (rounding_sq * rounding_sq) * (spread + distance_sq);
 }
 
 void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limit,
@@ -98,18 +96,19 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     HullFeature next_a = a, next_b = b;   ///< the pair to measure
     Growth grown_a{}, grown_b{};
     Xyz point_a, gap;
-    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0, behind_sq = 0;
+    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0;
     std::uint32_t count = 0;
     WalkEnd end = WalkEnd::closest;
+    Measured next;
+    EdgePair edges;
     for (;;) {
-        const Measured next = measure(side_a, side_b, next_a, next_b);
+        next = measure(side_a, side_b, next_a, next_b, edges);
         ++count;
         if (next.distance_sq < distance_sq) {
             a = next_a, b = next_b;
             shrink(*pair.a.polytope, next.a, a);
             shrink(*pair.b.polytope, next.b, b);
             point_a = next.point_a, gap = next.gap, distance_sq = next.distance_sq;
-            behind_sq = proof_of(next.spread_sq, distance_sq, rounding_sq);
             if (!(distance_sq > rounding_sq)) {
                 end = WalkEnd::meeting;
                 break;
@@ -143,8 +142,15 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     state.distance_sq = distance_sq, state.excess = excess;
     state.feature_pairs += count;
     state.end = end;
-    const double most = std::max(grown_a.most, grown_b.most);
-    state.proven = end == WalkEnd::closest && most < 0 && most * most > behind_sq;
+    state.proven = false;
+    if (end != WalkEnd::closest)
+        return;
+    // The pair that was measured last is the one that ended the walk.
+    const double spread_sq = next.spread_sq == kOfEdges
+                                 ? spread_of_edges(edges, gap, distance_sq, next.a, next.b)
+                                 : next.spread_sq;
+    state.proven =
+        is_proof(std::max(grown_a.most, grown_b.most), spread_sq, distance_sq, rounding_sq);
 }
 
 } // namespace abut::HWY_NAMESPACE

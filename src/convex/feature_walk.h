@@ -40,7 +40,7 @@ struct WalkState {
 /// Returns whether a distance is so much larger than rounding, and rounding so much larger than underflow,
 /// that `walk` compares squared distances reliably.
 inline bool is_measurable(double distance_sq, double rounding) {
-    return rounding > 0x1p-200 && distance_sq > 0x1p40 * rounding * rounding;
+    return rounding > 0x1p-100 && distance_sq > 0x1p40 * rounding * rounding;
 }
 
 inline constexpr std::uint32_t kNoLimit = 0xffffffffU;

@@ -46,13 +46,11 @@ public:
         double size_sq = 0;
         for (const Vec3& p : at_)
             size_sq = std::max(size_sq, length_sq(p));
-        // A determinant of three corners, each off by e at most, by 4 e size^2, and by its rounding.
-        const double error = 16 * (rounding_ + world_rounding(*pair_)) * size_sq;
-        const Vec3 c01 = cross(at_[0], at_[1]), c23 = cross(at_[2], at_[3]);
-        const double shares[4] = {dot(at_[1], c23), -dot(at_[0], c23), dot(at_[3], c01),
-                                  -dot(at_[2], c01)};
-        const auto [least, most] = std::minmax_element(std::begin(shares), std::end(shares));
-        return size_sq > 0x1p-600 && (*least > error || *most < -error);
+        // A volume is a normal times a corner, each of three corners that are off by e at most. The
+        // normal, of differences, is off by 8 e size, and both together by 12 e size^2. Rounding adds
+        // about as much.
+        const double error = 32 * (rounding_ + world_rounding(*pair_)) * size_sq;
+        return size_sq > 0x1p-600 && (least_volume_ > error || most_volume_ < -error);
     }
     /// In          fewer than four corners.
     void grow(const VertexPair& corner) {
@@ -116,12 +114,16 @@ private:
         const auto face = [&](std::size_t i) {
             return Triangle{at_[kOthers[i][0]], at_[kOthers[i][1]], at_[kOthers[i][2]]};
         };
-        std::array<double, 4> shares{}, weights{};
+        std::array<double, 4> shares{}, volumes{}, weights{};
         for (std::size_t i = 0; i < 4; ++i) {
             const Triangle t = face(i);
             const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
-            shares[i] = -dot(normal, t[0]) / dot(normal, at_[i] - t[0]);
+            const double volume = -dot(normal, t[0]);
+            shares[i] = volume / dot(normal, at_[i] - t[0]);
+            volumes[i] = i % 2 == 0 ? volume : -volume;
         }
+        const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
+        least_volume_ = *least, most_volume_ = *most;
         holds_origin_ = measure_inside(shares);
         gap_ = {};
         if (holds_origin_)
@@ -153,6 +155,9 @@ private:
     std::array<Vec3, 4> at_{};
     Vec3 gap_;
     bool holds_origin_ = false;
+    /// Of the four tetrahedra of the origin and three corners, six times; all of one sign if, and only
+    /// if, it lies inside.
+    double least_volume_ = 0, most_volume_ = 0;
 };
 
 } // namespace
