@@ -1,9 +1,8 @@
 #include "math/rounding.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cstddef>
+#include <gtest/gtest.h>
 
 namespace abut {
 namespace {
