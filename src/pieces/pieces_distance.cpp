@@ -2,6 +2,7 @@
 #include <abut/error.h>
 #include <abut/shape_queries.h>
 
+#include "core/stop.h"
 #include "geometry/point_triangle_distance.h"
 #include "pieces/pieces_query.h"
 

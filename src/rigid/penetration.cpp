@@ -50,11 +50,10 @@ public:
             result.depth = r.depth;
             result.direction = r.direction, result.point_a = r.point_a, result.point_b = r.point_b;
         }
-        if (options_.steps->ran_out())
-            result.status = Status::bound_only;
-        else if (meeting_.interpenetrate && result.depth == 0)
+        const bool ran_out = options_.steps->ran_out();
+        if (!ran_out && meeting_.interpenetrate && result.depth == 0)
             set_locked(result);
-        else if (result.depth_at_most > result.depth + 2 * rounding_)
+        else if (ran_out || result.depth_at_most > result.depth + 2 * rounding_)
             result.status = Status::bound_only;
         return result;
     }
