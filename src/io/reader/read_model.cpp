@@ -151,15 +151,15 @@ void read_model(const std::string& file, StreamWriter& writer) {
     importer->SetIOHandler(new OnlyTheModel(file)); // NOLINT: the importer's from now on
     importer->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    FormatFrame frame;
+    // First: Assimp's message on a unit that is none would not name it.
+    if (extension == ".dae")
+        frame = read_collada_frame(file);
     const aiScene& scene = import(*importer, file);
 
     std::vector<NodePart> parts = assimp_parts(scene);
-    // COLLADA: Assimp puts the unit into the root.
-    FormatFrame frame;
-    double applied = 1;
-    if (extension == ".dae") {
-        frame = read_collada_frame(file);
-    } else if (extension == ".fbx") {
+    double applied = 1; // of COLLADA: Assimp puts the unit into the root
+    if (extension == ".fbx") {
         frame = read_fbx_frame(scene, parts);
         applied = frame.unit;
     } else if (extension == ".3mf") {

@@ -128,20 +128,27 @@ public:
         if (tag.name == "object")
             current_ = &parts_[attribute(tag.attributes, "id")];
         else if (tag.name == "mesh" && current_ != nullptr)
-            add(*current_, 1);
+            *current_ = sum(*current_, 1);
         else if (tag.name == "component" && current_ != nullptr)
-            add(*current_, of_object(tag.attributes));
+            *current_ = sum(*current_, of_object(tag.attributes));
+        else if (tag.name == "build")
+            current_ = nullptr;
         else if (tag.name == "item")
-            add(built_, of_object(tag.attributes));
+            build(of_object(tag.attributes));
     }
 
 private:
     static constexpr std::uint64_t kMost = 10'000'000;
 
-    static void add(std::uint64_t& sum, std::uint64_t parts) {
-        sum += parts;
-        if (sum > kMost)
+    void build(std::uint64_t parts) {
+        built_ = sum(built_, parts);
+        if (built_ > kMost)
             malformed("builds more than " + std::to_string(kMost) + " parts");
+    }
+
+    /// The sum, or kMost + 1 where it is larger: an object that is not built may hold any number.
+    static std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
+        return std::min(a + b, kMost + 1);
     }
 
     /// An object of another model in the archive (`path`) counts as one part.
