@@ -52,13 +52,14 @@ TEST_F(OwnReaders, MaterialLibrariesOutsideOfTheFolderAreRefused) {
     // The second is read in pieces too: one part, whose vertices come before its faces.
     for (const std::string& content : {text, std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}) {
         for (const std::string library : {"a.mtl", "sub/my materials.mtl", "./a.mtl b.mtl", ""}) {
-            const std::string path = folder_.file("in.obj", "mtllib " + library + "\n" + content);
+            const std::string path = folder_.file(
+                "in.obj", std::string("mtllib ").append(library).append("\n") + content);
             EXPECT_FALSE(read_scene(path).parts.empty()) << library;
             EXPECT_GT(open_scene_source({path}, in_pieces)->parts().size(), 0U) << library;
         }
         for (const std::string library : {"/etc/passwd", "../a.mtl", "a.mtl sub/../../b.mtl"}) {
-            const std::string path =
-                folder_.file("out.obj", content + "mtllib " + library + "\r\n");
+            const std::string path = folder_.file(
+                "out.obj", std::string(content).append("mtllib ").append(library) + "\r\n");
             EXPECT_NE(error_of(path, ErrorCode::unsupported).find("outside"), std::string::npos);
             EXPECT_THROW((void)open_scene_source({path}, in_pieces), Error) << library;
             EXPECT_FALSE(read_scene(path, allowed).parts.empty()) << library;
