@@ -93,12 +93,11 @@ private:
 
     /// Whether rounding may hide that pieces meet, which a search of simplices says are apart.
     bool may_be_near(const HullPair& hulls, const PolytopePair& pair, const SimplexState& found) {
-        const double zone = placed_.contact_zone(), distance = std::sqrt(found.distance_sq);
-        if (distance - found.excess / distance > 2 * zone + placed_.margin(hulls) ||
-            PiecePairSearch(placed_, result_.counters).measure(hulls, {}) > zone)
+        const double zone = placed_.contact_zone(), margin = placed_.margin(hulls);
+        const double room = proven_room(pair, found.gap, placed_.a.reach, placed_.b.reach, margin);
+        if (room > zone || PiecePairSearch(placed_, result_.counters).measure(hulls, {}) > zone)
             return false;
-        const double room = proven_room(pair, found.gap, placed_.a.reach, placed_.b.reach, 0);
-        misses_depth_ = misses_depth_ || room < -zone;
+        misses_depth_ = misses_depth_ || room + margin < -zone;
         return true;
     }
 
