@@ -25,13 +25,6 @@ namespace {
 constexpr std::size_t kBlock = 2048; ///< candidates that one side processes before the other's turn
 constexpr std::size_t kListed = 10;  ///< number of disagreements listed in the notes
 
-/// The result of one pass over the candidates.
-struct Answers {
-    std::vector<double> distance; ///< 0 if they meet; for an intersection, any other value means
-                                  ///< that they do not
-    Counters counters;
-};
-
 /// Sets a flag after some seconds, unless it is destroyed before.
 class Alarm {
 public:

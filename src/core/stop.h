@@ -8,24 +8,25 @@
 
 namespace abut {
 
-/// The stop flag that the work of this thread is for; null: none. `parallel_for` hands it on to the
+/// The stop flag that this thread polls; null if there is none. `parallel_for` passes it on to the
 /// threads that help.
 extern constinit thread_local const std::atomic<bool>* t_stop_flag;
 
-/// Errors      Error{interrupted} if the flag of this thread's work is set.
+/// Errors      Error{interrupted} if the flag that this thread polls is set.
 void poll_stop();
 
-/// Until the end of the scope, work of this thread polls a flag.
+/// Makes this thread poll a flag until the end of the scope.
 class StopScope {
 public:
-    /// Of a query: without a flag, that of the work around it stays.
+    /// For a query. If its progress has no flag, the thread goes on to poll the flag of the work that
+    /// asked the query.
     ///
     /// Errors      Error{interrupted} if the flag is set already.
     explicit StopScope(const Progress& progress) : before_(t_stop_flag) {
         if (progress.stop != nullptr)
             begin(progress.stop);
     }
-    /// Of a thread that helps, whose flag is given; null: none.
+    /// For a thread that helps with parallel work. The flag may be null: then none is polled.
     explicit StopScope(const std::atomic<bool>* flag) : before_(t_stop_flag) { t_stop_flag = flag; }
     ~StopScope() { t_stop_flag = before_; }
     StopScope(const StopScope&) = delete;
@@ -44,7 +45,7 @@ public:
     explicit SearchSteps(std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
         : most_(most) {}
 
-    /// Before each step. Returns false, and counts nothing, if the limit is reached.
+    /// Call it before each step. Returns false, and counts nothing, if the limit is reached.
     ///
     /// Errors      Error{interrupted}.
     bool take() { return --left_ != 0 || look(); }
@@ -56,7 +57,7 @@ private:
     bool look();
 
     std::uint64_t most_, granted_ = 0;
-    std::uint32_t left_ = 1; ///< of those granted, and one more
+    std::uint32_t left_ = 1; ///< steps left of those granted, plus one
     bool ran_out_ = false;
 };
 

@@ -42,7 +42,7 @@ public:
 
     /// Errors      Fault malformed, unsupported.
     [[nodiscard]] Elements positions(const GlbDocument::Primitive& primitive) const;
-    /// None for a primitive without indices.
+    /// Empty if the primitive has no indices.
     [[nodiscard]] std::optional<Elements> indices(const GlbDocument::Primitive& primitive) const;
     /// The elements of an accessor. Throws if it has another number of components.
     [[nodiscard]] Elements values(std::uint32_t accessor, std::uint8_t components) const;

@@ -107,8 +107,8 @@ Vec3 origin_of(const WorldSolid& a, std::span<const Contact> contacts) {
     return points.empty() ? Vec3{} : points[0];
 }
 
-/// What a distance of two points within both models' sizes may be off by, generously, and by what
-/// they were rounded to be seen from an origin there.
+/// A bound on the rounding of a distance between two points of the models, the rounding of the points
+/// themselves, relative to an origin nearby, included.
 double depth_rounding(const WorldSolid& a, const WorldSolid& b) {
     return 0x1p-47 * (a.world_size() + b.world_size());
 }
