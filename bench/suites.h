@@ -1,7 +1,7 @@
 #pragma once
 
-#include "clash_scene.h"
 #include "report.h"
+#include "suites/clash_scene.h"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "scenes/frame.h"
+#include "scenes/deforming/frame.h"
 #include "scenes/shapes.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "scenes/bodies.h"
 
-#include "scenes/frame.h"
+#include "scenes/deforming/frame.h"
 #include "scenes/random.h"
 
 #include <algorithm>

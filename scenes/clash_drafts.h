@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/plant_builder.h"
+#include "scenes/plant/plant_builder.h"
 
 #include <functional>
 #include <optional>

@@ -1,8 +1,8 @@
 #include "scenes/rigid_bodies.h"
 
-#include "scenes/deforming.h"
-#include "scenes/frame.h"
-#include "scenes/surfaces.h"
+#include "scenes/deforming/deforming.h"
+#include "scenes/deforming/frame.h"
+#include "scenes/deforming/surfaces.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,7 +3,7 @@
 #include <abut/deformable.h>
 #include <abut/mesh.h>
 
-#include "scenes/contact.h"
+#include "scenes/deforming/contact.h"
 
 #include <cstdint>
 #include <optional>

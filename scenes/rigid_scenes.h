@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/deforming.h"
+#include "scenes/deforming/deforming.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,6 +1,6 @@
 #include "scenes/shapes.h"
 
-#include "scenes/frame.h"
+#include "scenes/deforming/frame.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common.h"
+#include "arguments/common.h"
 
 /// The subcommands, one file each. Each function declares one. `common` must outlive the parser.
 namespace abut::command {

@@ -2,10 +2,10 @@
 #include <abut/error.h>
 #include <abut/progress.h>
 
-#include "command_line.h"
+#include "arguments/command_line.h"
+#include "arguments/interrupt.h"
 #include "commands.h"
-#include "help.h"
-#include "interrupt.h"
+#include "help/help.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <abut/convex.h>
 #include <abut/error.h>
 
-#include "convex/convex_data.h"
+#include "convex/body/convex_data.h"
 #include "convex/mesh_convexity.h"
 #include "mesh/topology.h"
 

@@ -1,10 +1,10 @@
 #include <abut/convex.h>
 #include <abut/error.h>
 
-#include "convex/certain_gap.h"
-#include "convex/closest_points.h"
-#include "convex/convex_data.h"
+#include "convex/body/convex_data.h"
 #include "convex/convex_query.h"
+#include "convex/proof/certain_gap.h"
+#include "convex/search/closest_points.h"
 #include "math/transform.h"
 
 #include <algorithm>

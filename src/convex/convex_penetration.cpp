@@ -1,11 +1,11 @@
 #include <abut/convex.h>
 
-#include "convex/certain_gap.h"
-#include "convex/convex_data.h"
+#include "convex/body/convex_data.h"
 #include "convex/convex_query.h"
-#include "convex/exact_closest_points.h"
-#include "convex/exact_depth.h"
-#include "convex/expanding_polytope.h"
+#include "convex/proof/certain_gap.h"
+#include "convex/proof/exact_closest_points.h"
+#include "convex/proof/exact_depth.h"
+#include "convex/search/epa.h"
 #include "math/vector.h"
 
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include <abut/convex.h>
 
-#include "convex/convex_data.h"
-#include "convex/simplex_search.h"
+#include "convex/body/convex_data.h"
+#include "convex/search/gjk.h"
 #include "math/transform.h"
 
 #include <array>

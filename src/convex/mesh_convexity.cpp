@@ -2,7 +2,7 @@
 
 #include <abut/error.h>
 
-#include "convex/climb.h"
+#include "convex/hull/climb.h"
 #include "mesh/topology.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include <abut/mesh.h>
 
-#include "convex/convex_data.h"
+#include "convex/body/convex_data.h"
 
 namespace abut {
 

@@ -2,10 +2,10 @@
 
 #include <abut/deformable.h>
 
+#include "ccd/moving_vertex.h"
 #include "deform/flat_regions.h"
 #include "deform/leaf_features.h"
-#include "deform/moving_vertex.h"
-#include "mesh/representatives.h"
+#include "mesh/representative_triangles.h"
 #include "tree/moving_tree.h"
 
 #include <memory>

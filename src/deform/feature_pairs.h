@@ -2,8 +2,8 @@
 
 #include <abut/deformable.h>
 
+#include "ccd/elementary_batch.h"
 #include "deform/deformable_data.h"
-#include "geometry/elementary_block.h"
 #include "math/vector.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ccd/moving_vertex.h"
 #include "deform/leaf_features.h"
-#include "deform/moving_vertex.h"
 #include "tree/moving_tree.h"
 
 #include <cstdint>

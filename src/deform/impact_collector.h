@@ -2,7 +2,7 @@
 
 #include <abut/deformable.h>
 
-#include "deform/elementary_stages.h"
+#include "ccd/elementary_stages.h"
 #include "deform/feature_pairs.h"
 
 #include <cstddef>

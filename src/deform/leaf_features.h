@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mesh/representatives.h"
+#include "mesh/representative_triangles.h"
 #include "tree/moving_tree.h"
-#include "tree/tree.h"
+#include "tree/obb_tree.h"
 #include "volume/moving_box.h"
 
 #include <array>

@@ -1,9 +1,9 @@
 #include <abut/deformable.h>
 #include <abut/error.h>
 
+#include "ccd/feature_distance.h"
 #include "core/parallel.h"
 #include "deform/candidate_search.h"
-#include "geometry/feature_distance.h"
 
 #include <algorithm>
 #include <array>

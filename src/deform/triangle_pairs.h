@@ -2,7 +2,7 @@
 
 #include "core/concurrent_set.h"
 #include "deform/feature_pairs.h"
-#include "mesh/representatives.h"
+#include "mesh/representative_triangles.h"
 
 #include <cstdint>
 

@@ -1,9 +1,9 @@
 #include <abut/elementary_impact.h>
 #include <abut/error.h>
 
-#include "io/byte_stream.h"
-#include "io/fault.h"
-#include "io/text_scan.h"
+#include "io/file/byte_stream.h"
+#include "io/file/fault.h"
+#include "io/file/text_scan.h"
 #include "math/integer_polynomial.h"
 
 #include <algorithm>

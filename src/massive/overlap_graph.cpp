@@ -1,8 +1,8 @@
 #include <abut/store_clash.h>
 
 #include "core/stop_watch.h"
-#include "massive/graph_rows.h"
-#include "massive/job_plan.h"
+#include "massive/job/job_plan.h"
+#include "massive/record/graph_rows.h"
 #include "math/vector.h"
 
 #include <algorithm>

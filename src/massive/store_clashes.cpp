@@ -3,13 +3,13 @@
 
 #include "core/progress.h"
 #include "core/stop_watch.h"
-#include "massive/crew_clashes.h"
-#include "massive/job_plan.h"
-#include "massive/job_result.h"
-#include "massive/piece_worker.h"
-#include "massive/stored_parts.h"
-#include "massive/work_schedule.h"
-#include "store/store_file.h"
+#include "massive/crew/crew_clashes.h"
+#include "massive/job/job_plan.h"
+#include "massive/job/job_result.h"
+#include "massive/work/piece_worker.h"
+#include "massive/work/stored_parts.h"
+#include "massive/work/work_schedule.h"
+#include "store/database/store_file.h"
 
 #include <algorithm>
 #include <utility>

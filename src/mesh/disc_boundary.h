@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/representatives.h"
+#include "mesh/representative_triangles.h"
 
 #include <cstdint>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/closest_points.h"
+#include "convex/search/closest_points.h"
 #include "pieces/placed_pieces.h"
 
 namespace abut {

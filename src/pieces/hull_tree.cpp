@@ -1,7 +1,7 @@
 #include "pieces/hull_tree.h"
 
-#include "convex/inner_ball.h"
-#include "convex/walkable_hull.h"
+#include "convex/hull/inner_ball.h"
+#include "convex/hull/walkable_hull.h"
 #include "core/parallel.h"
 #include "geometry/point_triangle_distance.h"
 #include "math/predicates.h"

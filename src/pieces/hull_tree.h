@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/polytope.h"
+#include "convex/hull/polytope.h"
 #include "mesh/surface_features.h"
 
 #include <cstdint>

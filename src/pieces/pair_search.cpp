@@ -1,7 +1,7 @@
 #include "pieces/pair_search.h"
 
-#include "convex/climb.h"
 #include "convex/convex_query.h"
+#include "convex/hull/climb.h"
 #include "core/stop.h"
 #include "pieces/contact_proof.h"
 #include "pieces/proven_room.h"

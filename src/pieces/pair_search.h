@@ -2,7 +2,7 @@
 
 #include <abut/convex_pieces.h>
 
-#include "convex/closest_points.h"
+#include "convex/search/closest_points.h"
 #include "pieces/placed_pieces.h"
 #include "pieces/relative_motion.h"
 

@@ -1,6 +1,6 @@
 #include "pieces/pieces_containment.h"
 
-#include "rigid/world_solid.h"
+#include "rigid/solid/world_solid.h"
 
 #include <cmath>
 

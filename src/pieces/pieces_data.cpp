@@ -5,8 +5,8 @@
 #include "core/parallel.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
-#include "pieces/decompose.h"
-#include "rigid/model_data.h"
+#include "pieces/decomposition/decompose.h"
+#include "rigid/model/model_data.h"
 
 #include <algorithm>
 #include <atomic>

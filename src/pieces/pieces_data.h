@@ -2,10 +2,10 @@
 
 #include <abut/convex_pieces.h>
 
+#include "pieces/decomposition/piece_faces.h"
+#include "pieces/decomposition/surface_graph.h"
 #include "pieces/hull_tree.h"
-#include "pieces/piece_faces.h"
-#include "pieces/surface_graph.h"
-#include "rigid/solid.h"
+#include "rigid/model/solid.h"
 
 #include <cstdint>
 #include <vector>

@@ -2,14 +2,14 @@
 #include <abut/penetration.h>
 #include <abut/rigid.h>
 
-#include "convex/expanding_polytope.h"
+#include "convex/search/epa.h"
 #include "core/stop.h"
 #include "pieces/contact_proof.h"
 #include "pieces/pair_search.h"
 #include "pieces/pieces_containment.h"
 #include "pieces/proven_room.h"
-#include "rigid/model_data.h"
-#include "rigid/separation.h"
+#include "rigid/model/model_data.h"
+#include "rigid/penetration/separation_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <abut/convex_pieces.h>
 
-#include "convex/closest_points.h"
+#include "convex/search/closest_points.h"
 #include "math/transform.h"
 #include "pieces/pieces_data.h"
 

@@ -1,6 +1,6 @@
 #include "pieces/proven_room.h"
 
-#include "convex/climb.h"
+#include "convex/hull/climb.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 #include <abut/convex.h>
 
-#include "convex/feature_walk.h"
-#include "convex/placed_polytope.h"
+#include "convex/hull/placed_polytope.h"
+#include "convex/search/voronoi_marching.h"
 
 namespace abut {
 

@@ -1,7 +1,7 @@
 #include "geometry/triangle_triangle_segment.h"
 #include "math/predicates.h"
-#include "rigid/contacts.h"
-#include "rigid/separating_plane.h"
+#include "rigid/pair/contacts.h"
+#include "rigid/pair/separating_plane.h"
 
 #include <algorithm>
 

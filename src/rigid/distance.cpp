@@ -1,12 +1,12 @@
 #include <abut/error.h>
 #include <abut/rigid.h>
 
-#include "geometry/triangle_pair_block.h"
+#include "geometry/leaf/triangle_pair_batch.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
-#include "rigid/placed_pair.h"
-#include "rigid/separating_plane.h"
+#include "rigid/pair/placed_pair.h"
+#include "rigid/pair/separating_plane.h"
 #include "rigid/signed_gap.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "rigid/signed_gap.h"
 
 #include "geometry/triangle_triangle_distance.h"
-#include "rigid/containment.h"
-#include "rigid/local_penetration.h"
-#include "rigid/meeting.h"
-#include "rigid/separation.h"
+#include "rigid/penetration/contact_evidence.h"
+#include "rigid/penetration/local_penetration.h"
+#include "rigid/penetration/separation_search.h"
+#include "rigid/solid/containment.h"
 
 #include <algorithm>
 #include <cmath>

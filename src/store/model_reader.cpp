@@ -2,8 +2,8 @@
 
 #include <abut/error.h>
 
-#include "rigid/model_data.h"
-#include "store/hierarchy_codec.h"
+#include "rigid/model/model_data.h"
+#include "store/codec/hierarchy_codec.h"
 
 #include <memory>
 #include <optional>

@@ -2,9 +2,9 @@
 
 #include <abut/model.h>
 
-#include "rigid/model_blocks.h"
-#include "store/hierarchy_table.h"
-#include "store/store_file.h"
+#include "rigid/model/model_blocks.h"
+#include "store/database/hierarchy_table.h"
+#include "store/database/store_file.h"
 
 #include <atomic>
 #include <cstdint>

@@ -2,13 +2,13 @@
 #include <abut/store.h>
 
 #include "core/progress.h"
-#include "io/byte_stream.h"
-#include "io/fault.h"
+#include "io/file/byte_stream.h"
+#include "io/file/fault.h"
 #include "math/vector.h"
-#include "store/hierarchy_codec.h"
-#include "store/mesh_draft.h"
-#include "store/note_text.h"
-#include "store/store_file.h"
+#include "store/codec/hierarchy_codec.h"
+#include "store/database/store_file.h"
+#include "store/import/mesh_draft.h"
+#include "store/import/note_text.h"
 
 #include <array>
 #include <cerrno>

@@ -1,8 +1,8 @@
 #include "core/parallel.h"
 #include "math/rounding.h"
 #include "math/vector.h"
+#include "tree/obb_tree.h"
 #include "tree/orient.h"
-#include "tree/tree.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/parallel.h"
-#include "tree/tree.h"
+#include "tree/obb_tree.h"
 #include "volume/moving_box.h"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tree/tree.h"
+#include "tree/obb_tree.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "geometry/triangle_leaf.h"
+#include "geometry/leaf/triangle_leaf.h"
 #include "math/transform.h"
-#include "tree/tree.h"
+#include "tree/obb_tree.h"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/stop.h"
-#include "geometry/point_leaf_distance.h"
-#include "tree/tree.h"
+#include "geometry/leaf/point_leaf_distance.h"
+#include "tree/obb_tree.h"
 
 #include <algorithm>
 #include <array>

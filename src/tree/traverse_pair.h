@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/stop.h"
-#include "geometry/triangle_leaf.h"
+#include "geometry/leaf/triangle_leaf.h"
+#include "tree/obb_tree.h"
 #include "tree/pair_frame.h"
-#include "tree/tree.h"
 
 #include <cstdint>
 #include <limits>

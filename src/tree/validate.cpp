@@ -1,5 +1,5 @@
 #include "math/vector.h"
-#include "tree/tree.h"
+#include "tree/obb_tree.h"
 
 #include <algorithm>
 #include <cmath>

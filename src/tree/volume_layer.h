@@ -1,8 +1,8 @@
 #pragma once
 
 #include "math/vector.h"
-#include "tree/tree.h"
-#include "volume/volume_block.h"
+#include "tree/obb_tree.h"
+#include "volume/volume_batch.h"
 
 #include <span>
 #include <vector>

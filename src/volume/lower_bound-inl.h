@@ -9,10 +9,10 @@
 #define ABUT_VOLUME_LOWER_BOUND_INL_H
 #endif
 
+#include "volume/axis_gap-inl.h"
 #include "volume/kdop-inl.h"
 #include "volume/lower_bound.h"
 #include "volume/obb-inl.h"
-#include "volume/separation-inl.h"
 #include "volume/swept_sphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -4,7 +4,7 @@
 #include "volume/obb.h"
 #include "volume/sphere.h"
 #include "volume/swept_sphere.h"
-#include "volume/volume_block.h"
+#include "volume/volume_batch.h"
 
 namespace abut {
 

@@ -8,9 +8,9 @@
 #define ABUT_VOLUME_OBB_INL_H
 #endif
 
+#include "volume/axis_gap-inl.h"
 #include "volume/lower_bound.h"
 #include "volume/obb.h"
-#include "volume/separation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {

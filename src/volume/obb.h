@@ -1,6 +1,6 @@
 #pragma once
 
-#include "volume/principal_axes.h"
+#include "volume/fit/principal_axes.h"
 #include "volume/relative_pose.h"
 
 #include <array>

@@ -8,8 +8,8 @@
 #define ABUT_VOLUME_SWEPT_SPHERE_INL_H
 #endif
 
+#include "volume/axis_gap-inl.h"
 #include "volume/lower_bound.h"
-#include "volume/separation-inl.h"
 #include "volume/sphere.h"
 #include "volume/swept_sphere.h"
 

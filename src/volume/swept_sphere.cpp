@@ -2,8 +2,8 @@
 
 #include "math/rounding.h"
 #include "volume/aabb.h"
+#include "volume/fit/principal_axes.h"
 #include "volume/float_vector.h"
-#include "volume/principal_axes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "walk/box_tree.h"
 
-#include "world/median_order.h"
+#include "world/broad_phase/median_order.h"
 
 namespace abut {
 

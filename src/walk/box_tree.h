@@ -1,7 +1,7 @@
 #pragma once
 
 #include "volume/aabb.h"
-#include "world/box_block.h"
+#include "world/broad_phase/box_node.h"
 
 #include <algorithm>
 #include <array>

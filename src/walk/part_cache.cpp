@@ -2,7 +2,7 @@
 
 #include <abut/error.h>
 
-#include "rigid/solid.h"
+#include "rigid/model/solid.h"
 
 #include <algorithm>
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include "store/model_reader.h"
 #include "walk/part_table.h"
-#include "world/body.h"
+#include "world/narrow_phase/body.h"
 
 #include <condition_variable>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include <abut/error.h>
 
-#include "rigid/model_data.h"
-#include "world/body.h"
+#include "rigid/model/model_data.h"
+#include "world/narrow_phase/body.h"
 
 #include <algorithm>
 #include <unordered_map>

@@ -2,7 +2,7 @@
 
 #include <abut/types.h>
 
-#include "store/store_file.h"
+#include "store/database/store_file.h"
 #include "walk/box_tree.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "walk/probe.h"
 
 #include "math/transform.h"
-#include "rigid/shape_arguments.h"
+#include "rigid/shapes/shape_arguments.h"
 
 namespace abut {
 

@@ -3,7 +3,7 @@
 #include <abut/walk.h>
 
 #include "walk/part_table.h"
-#include "world/narrow_phase.h"
+#include "world/narrow_phase/narrow_phase.h"
 
 namespace abut {
 

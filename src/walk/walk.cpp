@@ -1,6 +1,6 @@
 #include <abut/walk.h>
 
-#include "rigid/shape_arguments.h"
+#include "rigid/shapes/shape_arguments.h"
 #include "walk/probe.h"
 #include "walk/walk_data.h"
 

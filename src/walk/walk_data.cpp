@@ -3,7 +3,7 @@
 #include <abut/error.h>
 
 #include "math/transform.h"
-#include "rigid/shape_arguments.h"
+#include "rigid/shapes/shape_arguments.h"
 
 #include <algorithm>
 #include <string>

@@ -3,7 +3,7 @@
 #include <abut/walk.h>
 
 #include "core/stop_watch.h"
-#include "store/store_file.h"
+#include "store/database/store_file.h"
 #include "walk/loose_boxes.h"
 #include "walk/part_cache.h"
 #include "walk/part_table.h"

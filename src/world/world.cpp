@@ -4,10 +4,10 @@
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "deform/deformable_data.h"
-#include "rigid/shape_arguments.h"
-#include "world/body_impact.h"
-#include "world/collision_schedule.h"
-#include "world/world_data.h"
+#include "rigid/shapes/shape_arguments.h"
+#include "world/narrow_phase/world_data.h"
+#include "world/schedule/body_impact.h"
+#include "world/schedule/time_to_collision_schedule.h"
 
 #include <algorithm>
 #include <cmath>

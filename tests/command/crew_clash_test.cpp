@@ -1,6 +1,6 @@
 /// mpirun -n N abut clash STORE: the answer of one process, and what befalls the processes: kills, signals,
 /// damage, a full disk, bad arguments. Whatever it is ends all of them.
-#include "store/sqlite.h"
+#include "store/database/sqlite.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 #include "tests/support/paths.h"

@@ -2,8 +2,8 @@
 #include <abut/error.h>
 #include <abut/store.h>
 
-#include "store/sqlite.h"
-#include "store/store_writer.h"
+#include "store/database/sqlite.h"
+#include "store/import/store_writer.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 #include "tests/support/paths.h"

@@ -1,7 +1,7 @@
 // Files that appear together or not at all, by several writers too.
 #include <abut/error.h>
 
-#include "apps/abut/output_files.h"
+#include "apps/abut/arguments/output_files.h"
 #include "tests/command/run_command.h"
 
 #include <filesystem>

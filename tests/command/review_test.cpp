@@ -3,7 +3,7 @@
 #include <abut/error.h>
 #include <abut/store.h>
 
-#include "store/sqlite.h"
+#include "store/database/sqlite.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 #include "tests/support/page_queries.h"

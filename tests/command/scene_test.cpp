@@ -1,7 +1,7 @@
 /// `abut scene` of surfaces that deform: a file a frame.
 #include <abut/frame.h>
 
-#include "scenes/deforming.h"
+#include "scenes/deforming/deforming.h"
 #include "tests/command/run_command.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include "tests/data/ccd_frames.h"
 #include "tests/support/ccd_cases.h"
-#include "tests/support/ccd_oracle.h"
+#include "tests/support/oracle/ccd_oracle.h"
 #include "tests/support/paths.h"
 
 #include <filesystem>

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #ifdef ABUT_HAVE_FCL
-#include "bench/fcl_model.h"
+#include "bench/peers/fcl_model.h"
 #endif
 
 namespace abut::test {

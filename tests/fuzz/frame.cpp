@@ -1,6 +1,6 @@
 /// Any text as a frame, or as the data of a PLY file, is a mesh that can be looked at, or a Fault.
-#include "io/fault.h"
-#include "io/frame_formats.h"
+#include "io/file/fault.h"
+#include "io/frames/frame_formats.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 /// What a reader hands back, damaged in any way, is a sound scene or an Error.
 #include <abut/error.h>
 
-#include "io/decode_scene.h"
+#include "io/process/decode_scene.h"
 
 #include <cmath>
 #include <cstdint>

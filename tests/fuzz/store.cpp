@@ -4,14 +4,14 @@
 #include <abut/store.h>
 
 #include "core/hash.h"
-#include "io/fault.h"
-#include "massive/job_rows.h"
-#include "massive/job_tables.h"
-#include "massive/stored_parts.h"
-#include "massive/work_rows.h"
-#include "store/mesh_codec.h"
-#include "store/schema.h"
-#include "store/store_file.h"
+#include "io/file/fault.h"
+#include "massive/record/job_rows.h"
+#include "massive/record/job_tables.h"
+#include "massive/record/work_rows.h"
+#include "massive/work/stored_parts.h"
+#include "store/codec/mesh_codec.h"
+#include "store/database/schema.h"
+#include "store/database/store_file.h"
 #include "tests/support/byte_choices.h"
 #include "tests/support/folder.h"
 

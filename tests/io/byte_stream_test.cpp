@@ -1,7 +1,7 @@
 // Bytes of a file in pieces are the bytes of the file in one.
 
-#include "io/byte_stream.h"
-#include "io/text_scan.h"
+#include "io/file/byte_stream.h"
+#include "io/file/text_scan.h"
 #include "tests/io/support.h"
 #include "tests/support/random.h"
 

@@ -2,8 +2,8 @@
 // programs. The function that takes these rights away is run in forked processes here; then a
 // script of Node.js tries the same through the library.
 
+#include "io/process/scene_stream.h"
 #include "io/reader/confine.h"
-#include "io/scene_stream.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"
 

@@ -1,6 +1,6 @@
 // A reader that crashes, hangs, lies or eats memory becomes an error that names the file.
 
-#include "io/scene_stream.h"
+#include "io/process/scene_stream.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"
 #include "tests/support/paths.h"

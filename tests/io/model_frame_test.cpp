@@ -1,6 +1,6 @@
 // Units and axes: what a path may say of them, quarter turns, and how scenes come together.
 
-#include "io/model_frame.h"
+#include "io/scene/model_frame.h"
 #include "math/transform.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"

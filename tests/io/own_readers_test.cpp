@@ -1,7 +1,7 @@
 // The readers of our own run in the caller's process: they need no helper, heed limits and requests
 // to stop there, and take no more memory than the file justifies.
 
-#include "io/scene_source.h"
+#include "io/scene/scene_source.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"
 

@@ -1,8 +1,8 @@
 // The streaming readers give the scene that read_scene gives, bit for bit; what they do not know is
 // read whole.
 
-#include "io/scene_source.h"
-#include "store/mesh_draft.h"
+#include "io/scene/scene_source.h"
+#include "store/import/mesh_draft.h"
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"
 #include "tests/support/random.h"

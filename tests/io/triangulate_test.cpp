@@ -1,7 +1,7 @@
 // Polygons of all kinds are cut into n - 2 triangles that turn as they do and have their area, with
 // work that grows little faster than the number of corners.
 
-#include "io/triangulate.h"
+#include "io/polygon/triangulate.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 

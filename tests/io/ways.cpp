@@ -1,7 +1,7 @@
 #include "tests/io/ways.h"
 
-#include "io/scene_source.h"
-#include "store/mesh_draft.h"
+#include "io/scene/scene_source.h"
+#include "store/import/mesh_draft.h"
 #include "tests/support/stores.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "rigid/contacts.h"
-#include "rigid/local_penetration.h"
-#include "rigid/meeting.h"
-#include "rigid/placed_solid.h"
+#include "rigid/pair/contacts.h"
+#include "rigid/penetration/contact_evidence.h"
+#include "rigid/penetration/local_penetration.h"
+#include "rigid/solid/placed_solid.h"
 #include "tests/support/shapes.h"
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "store/sqlite.h"
+#include "store/database/sqlite.h"
 #include "tests/support/paths.h"
 
 #include <fstream>

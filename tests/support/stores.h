@@ -3,8 +3,8 @@
 #include <abut/scene.h>
 #include <abut/store.h>
 
-#include "massive/part_instances.h"
-#include "store/store_file.h"
+#include "clash/part_instances.h"
+#include "store/database/store_file.h"
 
 #include <bit>
 #include <cstring>

@@ -4,7 +4,7 @@
 #include <abut/rigid.h>
 
 #include "math/transform.h"
-#include "rigid/solid.h"
+#include "rigid/model/solid.h"
 
 #include <algorithm>
 #include <cmath>

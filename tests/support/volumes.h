@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/support/precise_distance.h"
+#include "tests/support/oracle/precise_distance.h"
 #include "tests/support/random.h"
 #include "volume/kdop.h"
 #include "volume/obb.h"

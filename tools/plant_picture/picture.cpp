@@ -1,6 +1,6 @@
 /// Draws a procedural plant as a binary PPM on standard output: a z-buffer, a sun with its shadow,
 /// two by two samples a pixel. A picture for the README, not a viewer.
-#include "scenes/plant.h"
+#include "scenes/plant/plant.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "io/reader/collada_asset.h"
 
-#include "io/fault.h"
-#include "io/text_scan.h"
+#include "io/file/fault.h"
+#include "io/file/text_scan.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/model_frame.h"
+#include "io/scene/model_frame.h"
 
 #include <string>
 #include <string_view>

@@ -1,6 +1,6 @@
 #include "io/reader/decode.h"
 
-#include "io/decode_request.h"
+#include "io/process/decode_request.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
 #include "io/reader/fbx_frame.h"
 
-#include "io/fault.h"
+#include "io/file/fault.h"
 
 #include <array>
 #include <charconv>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/model_frame.h"
 #include "io/reader/node_parts.h"
+#include "io/scene/model_frame.h"
 
 #include <assimp/scene.h>
 #include <vector>

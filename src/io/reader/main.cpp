@@ -8,12 +8,12 @@
 // Not for users: the library starts it. PARENT is the process that it dies with; MEMORY the bytes
 // of address space that it may take, 0 for any.
 
-#include "io/fault.h"
+#include "io/file/fault.h"
+#include "io/process/scene_stream.h"
 #include "io/reader/confine.h"
 #include "io/reader/decode.h"
 #include "io/reader/read_model.h"
 #include "io/reader/stream_writer.h"
-#include "io/scene_stream.h"
 
 #include <csignal>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "io/reader/node_parts.h"
 
-#include "io/fault.h"
+#include "io/file/fault.h"
 #include "io/reader/affine.h"
 
 #include <string_view>

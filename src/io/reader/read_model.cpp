@@ -1,14 +1,14 @@
 #include "io/reader/read_model.h"
 
-#include "io/fault.h"
-#include "io/input_file.h"
+#include "io/file/fault.h"
+#include "io/file/input_file.h"
+#include "io/polygon/triangulate.h"
+#include "io/process/scene_stream.h"
 #include "io/reader/collada_asset.h"
 #include "io/reader/fbx_frame.h"
 #include "io/reader/joined_vertices.h"
 #include "io/reader/node_parts.h"
 #include "io/reader/threemf.h"
-#include "io/scene_stream.h"
-#include "io/triangulate.h"
 
 #include <algorithm>
 #include <assimp/DefaultIOSystem.h>

@@ -1,6 +1,6 @@
 #include "io/reader/stream_writer.h"
 
-#include "io/scene_stream.h"
+#include "io/process/scene_stream.h"
 
 #include <cerrno>
 #include <cstring>

@@ -3,7 +3,7 @@
 #include <abut/error.h>
 #include <abut/types.h>
 
-#include "io/model_frame.h"
+#include "io/scene/model_frame.h"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "io/reader/threemf.h"
 
-#include "io/fault.h"
+#include "io/file/fault.h"
 #include "io/reader/zip_archive.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "io/reader/zip_archive.h"
 
-#include "io/fault.h"
-#include "io/input_file.h"
+#include "io/file/fault.h"
+#include "io/file/input_file.h"
 
 #include <algorithm>
 #include <cctype>

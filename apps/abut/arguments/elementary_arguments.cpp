@@ -1,0 +1,38 @@
+#include "arguments/elementary_arguments.h"
+
+#include <abut/error.h>
+
+#include <fmt/format.h>
+
+namespace abut::command {
+
+namespace {
+
+/// The delta of the mode `conservative` if --delta is not given, a length.
+constexpr double kDefaultDelta = 1e-6;
+
+} // namespace
+
+ElementaryOptions ElementaryArguments::options() const {
+    if (mode == "conservative")
+        return {.delta = delta.value_or(kDefaultDelta), .thickness = thickness};
+    if (delta)
+        throw Error(ErrorCode::bad_argument, "--delta goes with --mode conservative");
+    return {.thickness = thickness};
+}
+
+void add_elementary_arguments(CLI::App& app, ElementaryArguments& arguments) {
+    app.add_option("--mode", arguments.mode,
+                   "exact (the default), or conservative: pairs nearer than delta may be hits")
+        ->check(CLI::IsMember({"exact", "conservative"}));
+    add_length(app, "--delta", arguments.delta,
+               fmt::format("Of the mode conservative (default {})", metres(kDefaultDelta)));
+    add_length(app, "--thickness", arguments.thickness,
+               "Features this near are hits (default 0: features that touch)");
+}
+
+const char* to_string(ElementaryKind kind) {
+    return kind == ElementaryKind::vertex_face ? "vertex-face" : "edge-edge";
+}
+
+} // namespace abut::command

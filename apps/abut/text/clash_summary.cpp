@@ -1,0 +1,120 @@
+#include "text/clash_summary.h"
+
+#include "arguments/common.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace abut::command {
+
+namespace {
+
+constexpr std::size_t kRows = 5;
+
+/// Returns "name (type)" with the name shortened to the width of a column.
+std::string label(const std::vector<Scene>& models, const Clash& clash, std::size_t side) {
+    const Part& part = models[clash.model.at(side)].parts[clash.part.at(side)];
+    constexpr std::size_t kLongest = 36;
+    std::string name = shown(part.name);
+    if (name.size() > kLongest) {
+        std::size_t end = kLongest - 3;
+        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
+            --end; // does not cut a UTF-8 character
+        name = name.substr(0, end) + "...";
+    }
+    return part.type.empty() ? name : fmt::format("{} ({})", name, shown(part.type));
+}
+
+/// Returns the word of a kind, padded to the width of its column.
+std::string kind_text(ClashKind kind) {
+    return fmt::format("{:<10}", abut::to_string(kind));
+}
+
+/// Returns kind_text, coloured by the severity of the kind.
+std::string kind_column(ClashKind kind) {
+    const bool is_bad = kind == ClashKind::hard || kind == ClashKind::contained;
+    return coloured(is_bad ? Colour::bad : Colour::doubtful, kind_text(kind));
+}
+
+/// Formats a clash in one line, or in two if the terminal is narrower than the line.
+std::string row(const std::vector<Scene>& models, const Clash& clash) {
+    constexpr std::size_t kNames = 27; ///< the column where the names begin
+    const std::string a = label(models, clash, 0), b = label(models, clash, 1);
+    const auto columns = static_cast<std::size_t>(columns_of(stdout));
+    const bool is_narrow = columns > 0 && columns < kNames + a.size() + 5 + b.size();
+    const std::string between = is_narrow ? "\n" + std::string(kNames, ' ') : "  |  ";
+    return fmt::format("  {} {:>10} m  {}{}{}\n", kind_column(clash.kind),
+                       number(clash.distance, 4), a, between, b);
+}
+
+/// Lists the first few clashes of the wanted kinds in the order of `before`.
+template <typename Before>
+std::string extremes(const char* title, const ClashReport& report, const std::vector<Scene>& models,
+                     bool (*wanted)(ClashKind), Before before) {
+    std::vector<const Clash*> rows;
+    for (const Clash& clash : report.clashes)
+        if (wanted(clash.kind))
+            rows.push_back(&clash);
+    if (rows.empty())
+        return {};
+    const std::size_t count = std::min(kRows, rows.size());
+    std::partial_sort(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count), rows.end(),
+                      [&](const Clash* a, const Clash* b) {
+                          // Clashes of equal rank keep the report's order.
+                          return before(*a, *b) || (!before(*b, *a) && a < b);
+                      });
+    std::string text = fmt::format("\n{}\n", title);
+    for (std::size_t i = 0; i < count; ++i)
+        text += row(models, *rows[i]);
+    return text;
+}
+
+} // namespace
+
+std::string summary(const ClashReport& report, const std::vector<Scene>& models) {
+    std::size_t widest = 0;
+    for (const auto& model : report.models)
+        widest = std::max(widest, shown(model.file).size());
+    std::string text;
+    for (const auto& model : report.models)
+        text +=
+            fmt::format("{:<{}}  {:>9} parts  {:>12} triangles  {} m a unit, {} up\n",
+                        shown(model.file), widest, grouped(model.parts), grouped(model.triangles),
+                        number(model.unit), abut::to_string(model.up)) +
+            in_words(model.notes, "  ");
+    for (const std::string& warning : report.warnings)
+        text += fmt::format("warning: {}\n", shown(warning));
+    text += fmt::format("\nframe       metres, {} up, as {}\nclearance {}, touch tolerance {}, "
+                        "{} candidate pairs\n",
+                        abut::to_string(report.frame.up), shown(report.frame.of),
+                        metres(report.clearance), metres(report.touch), grouped(report.candidates));
+    for (const ClashKind kind : kClashKinds) {
+        const std::uint64_t count = report.counts.at(static_cast<std::size_t>(kind));
+        const std::string column = count > 0 ? kind_column(kind) : kind_text(kind);
+        text += fmt::format("  {} {:>9}\n", column, grouped(count));
+    }
+    if (report.statuses) {
+        std::string counts;
+        for (const ClashStatus status : kClashStatuses)
+            counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", abut::to_string(status),
+                                  grouped(report.statuses->at(static_cast<std::size_t>(status))));
+        text += fmt::format("status      {}\n", counts);
+    }
+
+    const auto nearer = [](const Clash& a, const Clash& b) { return a.distance < b.distance; };
+    text += extremes(
+        "deepest", report, models,
+        [](ClashKind kind) { return kind == ClashKind::hard || kind == ClashKind::contained; },
+        nearer);
+    text += extremes(
+        "nearest", report, models, [](ClashKind kind) { return kind == ClashKind::clearance; },
+        nearer);
+
+    const auto& s = report.seconds;
+    text += fmt::format("\nseconds     import {:.2f}, build {:.2f}, broad {:.2f}, narrow {:.2f}, "
+                        "total {:.2f}\npeak memory {:.0f} MiB\n",
+                        s.import, s.build, s.broad, s.narrow, s.total, report.peak_rss_mb);
+    return text;
+}
+
+} // namespace abut::command

@@ -1,0 +1,235 @@
+#include <abut/clash.h>
+#include <abut/crew.h>
+#include <abut/error.h>
+#include <abut/scene.h>
+#include <abut/store.h>
+#include <abut/store_clash.h>
+
+#include "arguments/fail_on.h"
+#include "arguments/interrupt.h"
+#include "arguments/output_files.h"
+#include "commands.h"
+#include "text/clash_summary.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+
+namespace abut::command {
+
+namespace {
+
+struct ClashArguments {
+    std::vector<std::string> files;
+    ClashOptions options; ///< clearance, touch, self; run() fills in the rest
+    std::string rules, out, fail_on;
+    std::optional<std::string> memory;
+    bool no_hierarchies = false;
+    ReadOptions read;
+};
+
+/// Refuses files that are given twice. A file against itself would report each part as its own
+/// duplicate.
+void refuse_repeated(const std::vector<ModelPath>& files) {
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            std::error_code missing; // ignored: the reader reports it better
+            if (files[i].path == files[j].path ||
+                std::filesystem::equivalent(files[i].path, files[j].path, missing))
+                throw Error(ErrorCode::bad_argument, files[i].path, "is given twice");
+        }
+}
+
+void write_reports(OutputFiles& outputs, const ClashReport& report,
+                   const std::vector<Scene>& models) {
+    const InterruptScope scope(OnInterrupt::defer);
+    using Writer = decltype(&write_clash_json);
+    constexpr std::array<std::pair<const char*, Writer>, 3> kWriters{
+        {{"report.html", write_clash_html},
+         {"report.json", write_clash_json},
+         {"report.csv", write_clash_csv}}};
+    for (const auto& [name, writer] : kWriters) {
+        throw_if_interrupted();
+        outputs.stage(
+            name, [&, write = writer](const std::string& path) { write(report, models, path); });
+    }
+    throw_if_interrupted();
+    outputs.commit();
+}
+
+/// Returns the JSON member about the out-of-core job, to be appended to those of the report.
+std::string out_of_core_member(const OutOfCoreCounters& c) {
+    std::string workers;
+    for (const OutOfCoreCounters::Worker& w : c.workers)
+        workers +=
+            fmt::format("{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
+                        "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"waiting_seconds\": "
+                        "{}, \"peak_rss_mb\": {}}}",
+                        workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
+                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mb);
+    return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
+                       "\"blocks\": {}, \"block_loads\": {}, \"hierarchies_found\": {}, "
+                       "\"hierarchies_kept\": {}, \"bytes_needed\": {}, \"bytes_read\": "
+                       "{}, \"peak_model_bytes\": {}, \"kept\": {}, "
+                       "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
+                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads,
+                       c.hierarchies_found, c.hierarchies_kept, c.bytes_needed, c.bytes_read,
+                       c.peak_bytes, c.kept, c.recalled_pairs, workers);
+}
+
+std::string out_of_core_summary(const OutOfCoreCounters& c) {
+    return fmt::format(
+        "out of core {} units, {} meshes loaded for {} that are needed, {} bytes read "
+        "for {}\n",
+        grouped(c.units), grouped(c.mesh_loads), grouped(c.meshes), grouped(c.bytes_read),
+        grouped(c.bytes_needed));
+}
+
+/// Runs a helper, that is a process other than the first one that mpirun started. It works and
+/// prints nothing.
+int help(const ClashArguments& arguments, Crew& crew) {
+    const InterruptScope scope(OnInterrupt::ask);
+    help_find_clashes(arguments.files.front(), crew, {.report = {}, .stop = &interrupt_flag()});
+    return kExitDone;
+}
+
+int run(const ClashArguments& arguments, const CommonOptions& common) {
+    const Stopwatch watch;
+    std::unique_ptr<Crew> crew = join_crew();
+    if (crew && common.threads == 0)
+        set_threads(crew->threads());
+    if (crew && crew->rank() > 0)
+        return help(arguments, *crew);
+    // Arguments that can be refused without reading a model are refused first.
+    const std::vector<ModelPath> files = parse_model_paths(arguments.files);
+    refuse_repeated(files);
+    const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
+    const FailOn fail_on(arguments.fail_on, from_store);
+    ClashOptions options = arguments.options;
+    if (!arguments.rules.empty())
+        options.rules = read_rules(arguments.rules);
+    std::optional<OutputFiles> outputs;
+    if (!arguments.out.empty())
+        outputs.emplace(arguments.out,
+                        std::vector<std::string>{"report.html", "report.json", "report.csv"});
+
+    if (arguments.no_hierarchies && !from_store)
+        throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
+                    "is for a store: what was read of models is not kept");
+    if (arguments.memory && !from_store)
+        throw Error(ErrorCode::bad_argument, "--memory",
+                    "is for a store alone: bring the models into one with abut import");
+    if (arguments.read.up != ReadOptions().up && from_store)
+        throw Error(ErrorCode::bad_argument, "--up",
+                    "is for models alone: a store has the axes of its first import");
+    if (arguments.read.spaces && from_store)
+        throw Error(ErrorCode::bad_argument, "--spaces",
+                    "is for models alone: a store has those of its import");
+    if (!arguments.read.map && from_store)
+        throw Error(ErrorCode::bad_argument, "--no-map",
+                    "is for models alone: a store has the coordinates of its import");
+    if (arguments.read.unit != 0 && from_store)
+        throw Error(ErrorCode::bad_argument, "--unit",
+                    "is for models alone: a store has the one of its import");
+    if (crew && !from_store)
+        throw Error(ErrorCode::bad_argument, arguments.files.front(),
+                    "is no store: several processes share the work on a store alone");
+    ProgressBar bar(common.progress_style());
+    options.progress = bar.progress();
+    std::vector<Scene> models;
+    ClashReport report;
+    std::optional<OutOfCoreCounters> out_of_core;
+    {
+        const InterruptScope scope(OnInterrupt::ask);
+        if (from_store) {
+            OutOfCoreOptions limits;
+            if (arguments.memory)
+                limits.memory = parse_bytes("--memory", *arguments.memory);
+            limits.keep_hierarchies = !arguments.no_hierarchies;
+            limits.crew = crew.get();
+            StoreClashReport found =
+                find_clashes(open_store(arguments.files.front()), options, limits);
+            report = std::move(found.report);
+            models = std::move(found.models);
+            out_of_core = std::move(found.counters);
+            crew.reset(); // the helpers need not wait for the reports
+        } else {
+            ReadOptions read = arguments.read;
+            read.progress = options.progress;
+            models = read_scenes(files, read);
+            const double seconds_import = watch.seconds();
+            report = find_clashes(models, options);
+            report.seconds.import = seconds_import;
+        }
+        report.seconds.total = watch.seconds();
+    }
+    bar.finish();
+    throw_if_interrupted();
+
+    if (outputs)
+        write_reports(*outputs, report, models);
+    if (common.json) {
+        std::string text = abut::to_json(report, models);
+        if (text.empty() || text.back() != '\n')
+            text += '\n';
+        if (out_of_core)
+            text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
+        print_json(text);
+    } else if (!common.quiet) {
+        std::string text = summary(report, models);
+        if (out_of_core)
+            text += out_of_core_summary(*out_of_core);
+        if (outputs)
+            text +=
+                fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
+        print_text(text);
+    }
+    return fail_on.is_problem(report) ? kExitProblem : kExitDone;
+}
+
+} // namespace
+
+Subcommand add_clash(CLI::App& root, CommonOptions& common) {
+    auto arguments = std::make_shared<ClashArguments>();
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"clash",
+         kClashes,
+         "Every clash and clearance between the parts of models",
+         {{"abut clash design.glb pipes.glb --clearance 50mm --out report",
+           "between two models: report/report.html, report.json and report.csv"},
+          {"abut clash model.glb --fail-on hard,contained",
+           "within one model; exit status 1 if anything goes into or is inside of another part"},
+          {"mpirun -n 2 abut clash site.abut --memory 1G",
+           "of a store, by two processes of at most a gigabyte each (as root, mpirun needs "
+           "--allow-run-as-root)"}},
+         "there is a clash that --fail-on names"});
+    app->add_option("MODEL", arguments->files,
+                    fmt::format("Models ({}), or a store of them (abut import)", kModelHelp))
+        ->required();
+    app->add_option("--memory", arguments->memory,
+                    "A store: bytes to keep to, with K, M or G (default 512M)")
+        ->check(not_empty("BYTES"));
+    app->add_flag("--no-keep-hierarchies", arguments->no_hierarchies,
+                  "A store: do not keep there the hierarchies that are built");
+    add_length(*app, "--clearance", arguments->options.clearance,
+               "Report parts that are nearer than this (default 0: off)");
+    add_length(*app, "--touch", arguments->options.touch,
+               "Surfaces that meet no deeper than this only touch (default 0)");
+    app->add_flag("--self", arguments->options.self,
+                  "With several models: also the pairs within each");
+    app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")
+        ->check(not_empty("FILE"));
+    app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv")
+        ->check(not_empty("FOLDER"));
+    app->add_option("--fail-on", arguments->fail_on,
+                    "Exit with status 1 if there is one of these kinds: hard, touch, contained, "
+                    "duplicate, clearance (comma-separated), or any; of a store one that is not "
+                    "approved, or one of these statuses: new, active, reviewed, approved")
+        ->check(not_empty("WORDS"));
+    add_read_options(*app, arguments->read);
+    return {app, [arguments, &common] { return run(*arguments, common); }};
+}
+
+} // namespace abut::command

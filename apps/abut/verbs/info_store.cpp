@@ -1,0 +1,119 @@
+#include "verbs/info_store.h"
+
+#include <abut/clash_review.h>
+#include <abut/error.h>
+#include <abut/store.h>
+
+#include "arguments/interrupt.h"
+
+#include <fmt/format.h>
+
+namespace abut::command {
+
+namespace {
+
+nlohmann::ordered_json describe_frame(const StoreSummary& summary) {
+    return summary.models.empty() ? nlohmann::ordered_json()
+                                  : command::describe_frame(summary.up, summary.models[0].file);
+}
+
+nlohmann::ordered_json describe(const StoreSummary& summary, bool verified) {
+    nlohmann::ordered_json models = nlohmann::ordered_json::array();
+    for (const StoreSummary::Model& model : summary.models)
+        models.push_back({{"file", model.file},
+                          {"complete", model.complete},
+                          {"parts", model.parts},
+                          {"triangles", model.triangles},
+                          {"generation", model.generation},
+                          {"unit", model.unit},
+                          {"up", abut::to_string(model.up)},
+                          {"notes", to_json(model.notes)}});
+    nlohmann::ordered_json store{{"store", summary.path},
+                                 {"version", summary.version},
+                                 {"complete", summary.complete},
+                                 {"generation", summary.generation},
+                                 {"frame", describe_frame(summary)},
+                                 {"models", std::move(models)},
+                                 {"parts", summary.parts},
+                                 {"triangles", summary.triangles},
+                                 {"meshes", summary.meshes},
+                                 {"stored_triangles", summary.stored_triangles},
+                                 {"blocks", summary.blocks},
+                                 {"raw_bytes", summary.raw_bytes},
+                                 {"stored_bytes", summary.stored_bytes},
+                                 {"hierarchies", summary.hierarchies},
+                                 {"hierarchy_bytes", summary.hierarchy_bytes},
+                                 {"file_bytes", summary.file_bytes},
+                                 {"unused_bytes", summary.unused_bytes}};
+    // An empty store has infinite bounds, which JSON cannot express.
+    if (summary.bounds.lower.x <= summary.bounds.upper.x)
+        store["bounds"] = {{"lower", to_json(summary.bounds.lower)},
+                           {"upper", to_json(summary.bounds.upper)}};
+    if (verified)
+        store["verified"] = true;
+    return store;
+}
+
+std::string table(const StoreSummary& summary, bool verified) {
+    std::string text =
+        fmt::format("{}\n"
+                    "  store       {:>14}  version, generation {}, {}\n",
+                    shown(summary.path), summary.version, summary.generation,
+                    summary.complete ? "complete" : "incomplete: import again to go on");
+    for (const StoreSummary::Model& model : summary.models)
+        text += fmt::format("  model       {:>14}  parts, {} triangles, {}, {} m a unit, {} up{}\n",
+                            grouped(model.parts), grouped(model.triangles), shown(model.file),
+                            number(model.unit), abut::to_string(model.up),
+                            model.complete ? "" : " (import has not ended)") +
+                in_words(model.notes, "    ");
+    if (!summary.models.empty())
+        text += fmt::format("  frame       {:>14}  up; metres\n", abut::to_string(summary.up));
+    text += fmt::format("  parts       {:>14}  {} triangles\n"
+                        "  meshes      {:>14}  {} triangles in {} blocks\n"
+                        "  geometry    {:>14}  bytes, {} before compression\n"
+                        "  hierarchies {:>14}  bytes, of {} blocks\n"
+                        "  file        {:>14}  bytes, {} of them unused\n",
+                        grouped(summary.parts), grouped(summary.triangles), grouped(summary.meshes),
+                        grouped(summary.stored_triangles), grouped(summary.blocks),
+                        grouped(summary.stored_bytes), grouped(summary.raw_bytes),
+                        grouped(summary.hierarchy_bytes), grouped(summary.hierarchies),
+                        grouped(summary.file_bytes), grouped(summary.unused_bytes));
+    const Vec3 &lower = summary.bounds.lower, &upper = summary.bounds.upper;
+    if (lower.x <= upper.x)
+        text += fmt::format("  bounds      {} to {}\n", direction(lower), point(upper));
+    return text + (verified ? "  verified    all pages, rows and blocks\n" : "");
+}
+
+} // namespace
+
+bool looks_like_store(const std::string& file) {
+    return is_store(file) || file.ends_with(".abut");
+}
+
+int describe_stores(const std::vector<std::string>& files, bool verify,
+                    const CommonOptions& common) {
+    nlohmann::ordered_json stores = nlohmann::ordered_json::array();
+    std::string text;
+    for (const std::string& file : files) {
+        const Store store = open_store(file);
+        if (verify) {
+            ProgressBar bar(common.progress_style());
+            const InterruptScope scope(OnInterrupt::ask);
+            abut::verify(store, bar.progress());
+            abut::verify_jobs(store);
+        }
+        throw_if_interrupted();
+        const StoreSummary found = summary(store);
+        if (common.json)
+            stores.push_back(describe(found, verify));
+        else
+            text += (text.empty() ? "" : "\n") + table(found, verify);
+    }
+    if (common.json)
+        print_json(dump({{"stores", std::move(stores)}}));
+    else if (!common.quiet)
+        print_text(text);
+    return kExitDone;
+}
+
+} // namespace abut::command

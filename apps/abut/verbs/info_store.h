@@ -1,0 +1,15 @@
+#pragma once
+
+#include "arguments/common.h"
+
+namespace abut::command {
+
+/// Whether `abut info` should treat a file as a store, judged by its first bytes or else by its
+/// name.
+bool looks_like_store(const std::string& file);
+
+/// Runs `abut info STORE…`. Returns the exit status.
+int describe_stores(const std::vector<std::string>& files, bool verify,
+                    const CommonOptions& common);
+
+} // namespace abut::command

@@ -1,0 +1,122 @@
+#include <abut/error.h>
+
+#include "commands.h"
+#include "verbs/scene_frames.h"
+#include "verbs/scene_plant.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace abut::command {
+
+namespace {
+
+constexpr std::uint64_t kMostTriangles = 1'000'000'000;
+constexpr std::uint64_t kMostClashes = 1'000'000; // PlantOptions counts them as int
+constexpr std::uint64_t kMostFrames = 10'000;     // file names have four digits
+constexpr const char* kPlant = "plant";
+
+struct SceneArguments {
+    std::string name, out;
+    std::optional<std::uint64_t> triangles, frames;
+    std::optional<int> clashes;
+    std::optional<double> clearance;
+    std::uint64_t seed = 1;
+    bool distinct = false;
+};
+
+/// Errors      Error{bad_argument} if the option is given.
+template <class Value>
+void refuse(const char* option, const std::optional<Value>& value, const std::string& scene) {
+    if (value)
+        throw Error(ErrorCode::bad_argument, option,
+                    fmt::format("the scene '{}' has no such option", scene));
+}
+
+int make_plant_scene(const SceneArguments& arguments, const CommonOptions& common) {
+    refuse("--frames", arguments.frames, arguments.name);
+    PlantOptions options;
+    options.triangles = arguments.triangles.value_or(options.triangles);
+    options.clashes = arguments.clashes.value_or(options.clashes);
+    options.clearance = arguments.clearance.value_or(options.clearance);
+    options.seed = arguments.seed;
+    options.distinct = arguments.distinct;
+    return make_plant_files(arguments.out, options, common);
+}
+
+int make_deforming(const DeformingSceneInfo& scene, const SceneArguments& arguments,
+                   const CommonOptions& common) {
+    refuse("--clashes", arguments.clashes, arguments.name);
+    refuse("--clearance", arguments.clearance, arguments.name);
+    refuse("--distinct", arguments.distinct ? std::optional(true) : std::nullopt, arguments.name);
+    return make_frame_files(
+        arguments.name, arguments.out, arguments.frames.value_or(scene.frames),
+        {.triangles = arguments.triangles.value_or(scene.triangles), .seed = arguments.seed},
+        common);
+}
+
+int run(const SceneArguments& arguments, const CommonOptions& common) {
+    const auto* deforming =
+        std::ranges::find(kDeformingScenes, arguments.name, &DeformingSceneInfo::name);
+    return deforming == kDeformingScenes.end() ? make_plant_scene(arguments, common)
+                                               : make_deforming(*deforming, arguments, common);
+}
+
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names{kPlant};
+    for (const DeformingSceneInfo& scene : kDeformingScenes)
+        names.emplace_back(scene.name);
+    return names;
+}
+
+std::string scene_help() {
+    std::string text = "plant: a power plant with planted clashes";
+    for (const DeformingSceneInfo& scene : kDeformingScenes)
+        text += fmt::format("; {}: {}", scene.name, scene.description);
+    return text;
+}
+
+} // namespace
+
+Subcommand add_scene(CLI::App& root, CommonOptions& common) {
+    auto arguments = std::make_shared<SceneArguments>();
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"scene",
+         kScenes,
+         "Make a procedural scene: a plant and the truth that it holds, or frames of a surface "
+         "that "
+         "deforms",
+         {{"abut scene plant --triangles 50000 --clashes 20 --out plant.glb",
+           "a power plant, and in plant.truth.json the clashes that were planted"},
+          {"abut scene twist --frames 5 --triangles 2000 --out frames",
+           "five frames of a tube that is twisted: frames/twist-0000.ply and so on"}},
+         ""});
+    app->add_option("NAME", arguments->name, scene_help())
+        ->required()
+        ->check(CLI::IsMember(scene_names()));
+    app->add_option("--out", arguments->out,
+                    "plant: FILE.glb to write; the truth goes to FILE.truth.json. Frames: a folder "
+                    "for NAME-0000.ply and so on, or FILE.ply for FILE-0000.ply and so on")
+        ->required()
+        ->check(not_empty("FILE"));
+    app->add_option("--triangles", arguments->triangles, "About how many triangles")
+        ->check(whole_number(1, kMostTriangles));
+    app->add_option("--frames", arguments->frames, "How many frames; all but plant")
+        ->check(whole_number(1, kMostFrames));
+    app->add_option("--clashes", arguments->clashes,
+                    "How many clashes to plant, of the kinds in turn; plant")
+        ->check(whole_number(0, kMostClashes));
+    app->add_option("--seed", arguments->seed, "Seed of everything random")
+        ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
+    add_length(*app, "--clearance", arguments->clearance,
+               "Up to this clearance nothing but the planted pairs is near; plant");
+    app->add_flag("--distinct", arguments->distinct,
+                  "Every part has a mesh of its own, none is shared; plant");
+    return {app, [arguments, &common] { return run(*arguments, common); }};
+}
+
+} // namespace abut::command

@@ -1,0 +1,308 @@
+#include <abut/error.h>
+#include <abut/model.h>
+#include <abut/rigid.h>
+#include <abut/scene.h>
+
+#include "measure.h"
+#include "peers/peer_rigid.h"
+#include "scenes/bodies.h"
+#include "suites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+#include <numeric>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr double kNear = 0.005, kFar = 0.1; ///< tolerances, in diagonals
+/// Time to try each of FCL's volumes for a case: with some, a pose takes seconds.
+constexpr double kSampleSeconds = 2;
+
+double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+struct Case {
+    const char* name = "";
+    RigidQuery query = RigidQuery::first_contact;
+    Regime regime = Regime::deep;
+    double tolerance = 0;
+};
+constexpr std::array kCases{
+    Case{"first contact, deep", RigidQuery::first_contact, Regime::deep},
+    Case{"first contact, graze in", RigidQuery::first_contact, Regime::graze_in},
+    Case{"first contact, graze out", RigidQuery::first_contact, Regime::graze_out},
+    Case{"all contacts, deep", RigidQuery::all_contacts, Regime::deep},
+    Case{"all contacts, graze in", RigidQuery::all_contacts, Regime::graze_in},
+    Case{"distance, graze out", RigidQuery::distance, Regime::graze_out},
+    Case{"distance, separated", RigidQuery::distance, Regime::separated},
+    Case{"distance, coherent path", RigidQuery::distance, Regime::path},
+    Case{"within 0.005, graze out", RigidQuery::within, Regime::graze_out, kNear},
+    Case{"within 0.1, graze out", RigidQuery::within, Regime::graze_out, kFar},
+    Case{"within 0.1, separated", RigidQuery::within, Regime::separated, kFar},
+};
+
+/// The times of each pose, and their median over the rounds.
+class PoseTimes {
+public:
+    explicit PoseTimes(std::size_t poses) : seconds_(poses) {}
+    void add(std::size_t pose, double seconds) { seconds_[pose].push_back(seconds); }
+    [[nodiscard]] double median_us() const {
+        std::vector<double> each;
+        for (const auto& rounds : seconds_)
+            each.push_back(median(rounds));
+        return 1e6 * median(each);
+    }
+
+private:
+    std::vector<std::vector<double>> seconds_;
+};
+
+struct Answer {
+    double value = 0;
+    Counters counters;
+};
+
+class RigidSuite {
+public:
+    /// In: alone, to leave out the peers when kinds of volumes are compared with each other.
+    RigidSuite(const RigidSuiteOptions& options, const RigidScene& scene, Report& report,
+               Volume volume, bool alone)
+        : options_(options), scene_(scene), report_(report), volume_(volume),
+          a_(scene.a, {.volume = volume}), b_(scene.b, {.volume = volume}) {
+        if (alone)
+            return;
+        peers_ = make_fcl_peers(scene.a, scene.b);
+        fcl_ = peers_.size();
+        if (auto cgal = make_cgal_peer(scene.a, scene.b))
+            peers_.push_back(std::move(cgal));
+        if (auto embree = make_embree_peer(scene.a, scene.b))
+            peers_.push_back(std::move(embree));
+    }
+
+    void run() {
+        for (const Case& c : kCases)
+            if (options_.only.empty() ||
+                std::string_view(c.name).find(options_.only) != std::string_view::npos)
+                run(c);
+    }
+
+private:
+    Answer ours(const Case& c, const PosedPair& poses, Workspace* workspace) {
+        switch (c.query) {
+        case RigidQuery::first_contact:
+        case RigidQuery::all_contacts: {
+            const auto mode =
+                c.query == RigidQuery::all_contacts ? ContactMode::all : ContactMode::first;
+            const Contacts contacts = collide(a_, poses.a, b_, poses.b, {.mode = mode});
+            return {static_cast<double>(contacts.pairs.size()), contacts.counters};
+        }
+        case RigidQuery::distance: {
+            const Gap gap = distance(a_, poses.a, b_, poses.b, {.workspace = workspace});
+            return {gap.distance, gap.counters};
+        }
+        default:
+            return {within(a_, poses.a, b_, poses.b, c.tolerance) ? 1.0 : 0.0, {}};
+        }
+    }
+
+    /// FCL's fastest volume for the case, on a sample of the poses.
+    RigidPeer* best_fcl(const Case& c) {
+        RigidPeer* best = nullptr;
+        double least = 0;
+        std::string line = fmt::format("{}, {}: FCL on a sample, us:", scene_.name, c.name);
+        const auto& poses = scene_.of(c.regime);
+        for (std::size_t i = 0; i < fcl_; ++i) {
+            RigidPeer& peer = *peers_[i];
+            if (!peer.answers(c.query))
+                continue;
+            std::vector<double> seconds;
+            const std::size_t sample = std::min<std::size_t>(poses.size(), 25);
+            for (std::size_t k = 0; k < sample && sum(seconds) < kSampleSeconds; ++k) {
+                const PosedPair& posed = poses[k * poses.size() / sample];
+                peer.place(posed);
+                const double start = wall_seconds();
+                peer.run(c.query, posed, c.tolerance);
+                seconds.push_back(wall_seconds() - start);
+            }
+            const double us = 1e6 * median(seconds);
+            line += fmt::format(" {} {:.3g}", peer.name(), us);
+            if (best == nullptr || us < least)
+                best = &peer, least = us;
+        }
+        if (best != nullptr)
+            report_.notes.push_back(line);
+        return best;
+    }
+
+    void run(const Case& c) {
+        std::vector<RigidPeer*> opponents;
+        if (RigidPeer* fcl = best_fcl(c))
+            opponents.push_back(fcl);
+        for (std::size_t i = fcl_; i < peers_.size(); ++i)
+            if (peers_[i]->answers(c.query))
+                opponents.push_back(peers_[i].get());
+        if (opponents.empty())
+            opponents.push_back(nullptr);
+        for (RigidPeer* peer : opponents)
+            compare(c, peer);
+    }
+
+    void compare(const Case& c, RigidPeer* peer) {
+        const auto& poses = scene_.of(c.regime);
+        PoseTimes our_times(poses.size()), their_times(poses.size());
+        std::vector<Answer> our_answers(poses.size());
+        std::vector<double> their_answers(poses.size());
+        // Takes turns, some poses each. Either side then has its own data in the caches, as a user
+        // would.
+        constexpr std::size_t kBlock = kPathSteps;
+        for (int round = 0; round < options_.rounds; ++round)
+            for (std::size_t first = 0; first < poses.size(); first += kBlock) {
+                const std::size_t end = std::min(first + kBlock, poses.size());
+                Workspace workspace;
+                for (std::size_t i = first; i < end; ++i) {
+                    const double start = wall_seconds();
+                    our_answers[i] =
+                        ours(c, poses[i], c.regime == Regime::path ? &workspace : nullptr);
+                    our_times.add(i, wall_seconds() - start - clock_);
+                }
+                for (std::size_t i = first; i < end && peer != nullptr; ++i) {
+                    peer->place(poses[i]);
+                    const double start = wall_seconds();
+                    their_answers[i] = peer->run(c.query, poses[i], c.tolerance);
+                    their_times.add(i, wall_seconds() - start - clock_);
+                }
+            }
+
+        const std::string volume =
+            volume_ == Volume::automatic ? "" : fmt::format(", {}", to_string(volume_));
+        Row row{scene_.name + ", " + c.name + volume, our_times.median_us(), {}, {}, "us", 1, {}};
+        if (peer != nullptr)
+            row.peer = peer->name(), row.theirs = their_times.median_us();
+        std::vector<double> volumes, primitives, values;
+        for (const Answer& answer : our_answers) {
+            volumes.push_back(static_cast<double>(answer.counters.volume_tests));
+            primitives.push_back(static_cast<double>(answer.counters.primitive_tests));
+            values.push_back(answer.value);
+        }
+        row.counters["volume tests"] = median(volumes);
+        row.counters["triangle tests"] = median(primitives);
+        row.counters["answer"] = median(values);
+        if (peer != nullptr && peer->name().starts_with("FCL"))
+            row.counters["disagreements"] =
+                static_cast<double>(count_disagreements(c, our_answers, their_answers));
+        report_.rows.push_back(row);
+    }
+
+    /// Counts disagreements. FCL is not exact: contacts may differ if triangles almost touch.
+    /// Distances should not differ.
+    static std::size_t count_disagreements(const Case& c, const std::vector<Answer>& ours,
+                                           const std::vector<double>& theirs) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < ours.size(); ++i)
+            count +=
+                std::abs(ours[i].value - theirs[i]) > (c.query == RigidQuery::distance ? 1e-12 : 0);
+        return count;
+    }
+
+    const RigidSuiteOptions& options_;
+    const RigidScene& scene_;
+    Report& report_;
+    Volume volume_;
+    Model a_, b_;
+    std::vector<std::unique_ptr<RigidPeer>> peers_;
+    /// Subtracted from each time: the shortest queries take no longer than reading the clock.
+    double clock_ = clock_seconds();
+    std::size_t fcl_ = 0; ///< the number of peers that are FCL; they come first
+};
+
+/// Measures the build. Compares it with the peers only if the volume is chosen automatically.
+void run_build(const std::string& name, const Mesh& mesh, int rounds, Volume volume,
+               Report& report) {
+    const bool alone = volume != Volume::automatic;
+    set_threads(1);
+    std::vector<double> ours, embree, fcl;
+    std::size_t bytes = 0;
+    double fcl_bytes = 0;
+    for (int round = 0; round < rounds; ++round) {
+        Mesh copy = mesh;
+        const double start = thread_seconds();
+        const Model model(std::move(copy), {.volume = volume});
+        ours.push_back(1e3 * (thread_seconds() - start));
+        bytes = model.bytes();
+        if (alone)
+            continue;
+        if (const auto seconds = embree_build_seconds(mesh))
+            embree.push_back(1e3 * *seconds);
+        if (round < 1)
+            if (const auto built = fcl_build(mesh))
+                fcl.push_back(1e3 * built->seconds), fcl_bytes = built->bytes;
+    }
+    set_threads(0);
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    Row row{fmt::format("{} ({} triangles), build{}", name, mesh.triangles.size(),
+                        alone ? fmt::format(", {}", to_string(volume)) : ""),
+            median(ours),
+            {},
+            {},
+            "ms",
+            1,
+            {}};
+    row.counters["bytes a triangle"] = static_cast<double>(bytes) / triangles;
+    if (!embree.empty()) {
+        row.peer = "Embree 3, medium", row.theirs = median(embree);
+        report.rows.push_back(row);
+    }
+    if (!fcl.empty()) {
+        row.peer = "FCL OBBRSS", row.theirs = median(fcl);
+        if (fcl_bytes > 0)
+            row.counters["FCL's bytes a triangle"] = fcl_bytes / triangles;
+    }
+    if (!fcl.empty() || embree.empty())
+        report.rows.push_back(row);
+}
+
+} // namespace
+
+Report run_rigid_suite(const RigidSuiteOptions& options) {
+    if (options.files.size() % 2 != 0)
+        throw Error(ErrorCode::bad_argument, "an odd number of files: they come in pairs");
+    Report report;
+    report.suite = "rigid";
+    const auto run = [&](const std::string& name_a, Mesh a, const std::string& name_b, Mesh b) {
+        const RigidScene scene = make_rigid_scene(name_a + " / " + name_b, std::move(a),
+                                                  std::move(b), options.poses, options.seed);
+        if (options.only.empty() || options.only == "build") {
+            run_build(name_a, scene.a, options.rounds, Volume::automatic, report);
+            run_build(name_b, scene.b, options.rounds, Volume::automatic, report);
+        }
+        RigidSuite(options, scene, report, Volume::automatic, options.alone).run();
+        if (options.volumes)
+            for (const Volume volume : kVolumes) {
+                if (volume == Volume::automatic)
+                    continue;
+                run_build(name_a, scene.a, 1, volume, report);
+                RigidSuite(options, scene, report, volume, true).run();
+            }
+    };
+    const auto stem = [](const std::string& file) {
+        return std::filesystem::path(file).stem().string();
+    };
+    for (std::size_t i = 0; i + 1 < options.files.size(); i += 2)
+        run(stem(options.files[i]), read_mesh(options.files[i]), stem(options.files[i + 1]),
+            read_mesh(options.files[i + 1]));
+    std::vector<std::uint32_t> generated = options.generated;
+    if (options.files.empty() && generated.empty())
+        generated = {100000, 1000000};
+    for (const std::uint32_t triangles : generated)
+        run(fmt::format("boulder {}k", triangles / 1000), scenes::boulder(triangles),
+            fmt::format("knot {}k", triangles / 1000), scenes::knot(triangles));
+    return report;
+}
+
+} // namespace abut::bench

@@ -1,0 +1,57 @@
+#include "convex/hull/coplanar_faces.h"
+
+#include "math/predicates.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace abut {
+
+namespace {
+
+/// One side of a triangle: its ends in ascending order, and the triangle's third corner.
+struct Side {
+    std::uint32_t low, high, apex, triangle;
+};
+
+std::vector<Side> sides_by_edge(std::span<const IndexTriangle> triangles) {
+    std::vector<Side> sides;
+    sides.reserve(3 * triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = triangles[i][k], w = triangles[i][(k + 1) % 3];
+            sides.push_back({std::min(v, w), std::max(v, w), triangles[i][(k + 2) % 3], i});
+        }
+    std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
+        return s.low != t.low ? s.low < t.low : s.high < t.high;
+    });
+    return sides;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> coplanar_groups(std::span<const Vec3> points,
+                                           std::span<const IndexTriangle> triangles) {
+    std::vector<std::uint32_t> parent(triangles.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](std::uint32_t i) {
+        while (parent[i] != i)
+            i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    const std::vector<Side> sides = sides_by_edge(triangles);
+    for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+        const Side &s = sides[i], &t = sides[i + 1];
+        if (orient3d(points[s.low], points[s.high], points[s.apex], points[t.apex]) != 0)
+            continue;
+        // The first triangle of a group is its root.
+        const std::uint32_t i_root = root(s.triangle), j_root = root(t.triangle);
+        parent[std::max(i_root, j_root)] = std::min(i_root, j_root);
+    }
+    std::vector<std::uint32_t> group(triangles.size());
+    for (std::uint32_t i = 0, count = 0; i < triangles.size(); ++i)
+        group[i] = root(i) == i ? count++ : group[root(i)];
+    return group;
+}
+
+} // namespace abut

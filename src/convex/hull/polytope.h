@@ -1,0 +1,79 @@
+#pragma once
+
+#include "convex/hull/normal_table.h"
+#include "math/vector.h"
+#include "mesh/surface_features.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// Four neighbours of a vertex, coordinate by coordinate: two cache lines that are compared with a
+/// direction at once.
+struct alignas(64) RingBlock {
+    static constexpr std::uint32_t kEdges = 4;
+    std::array<double, kEdges> x{}, y{}, z{};
+    std::array<std::uint32_t, kEdges> target{};
+    std::array<std::uint32_t, kEdges> twin{}; ///< the same edge from the other end
+};
+
+struct HullVertex {
+    Vec3 at;
+    std::uint32_t first_edge = 0, degree = 0;
+};
+
+/// A convex polytope as a graph for walking: every vertex with the ring of its edges,
+/// counter-clockwise as seen from outside. The surface is triangulated, so that edges next to each
+/// other in a ring span a triangle; some triangles may be coplanar.
+///
+/// An edge is numbered by its place in the rings, which holds where the other end is, so that a look
+/// at all neighbours of a vertex touches one run of memory. A ring begins with a block; what is left
+/// of its last block repeats its first edge, and has numbers that no edge has.
+///
+/// A point is a vertex without edges, a segment two with one edge each, a polygon has triangles on
+/// both sides: nothing that walks needs to know.
+struct Polytope {
+    std::vector<HullVertex> vertices;
+    std::vector<RingBlock> rings; ///< by vertex, then around it; one more at the end
+    NormalTable starts;
+    /// Of a small hull: all x, then all y, all z, padded to whole blocks by the last vertex.
+    std::vector<double> columns;
+
+    /// One more than the largest number of an edge.
+    [[nodiscard]] std::uint32_t edge_end() const {
+        return static_cast<std::uint32_t>(rings.size()) * RingBlock::kEdges;
+    }
+    [[nodiscard]] Vec3 to(std::uint32_t edge) const {
+        const RingBlock& block = rings[edge / RingBlock::kEdges];
+        const std::uint32_t k = edge % RingBlock::kEdges;
+        return {block.x[k], block.y[k], block.z[k]};
+    }
+    [[nodiscard]] std::uint32_t target(std::uint32_t edge) const {
+        return rings[edge / RingBlock::kEdges].target[edge % RingBlock::kEdges];
+    }
+    [[nodiscard]] std::uint32_t twin(std::uint32_t edge) const {
+        return rings[edge / RingBlock::kEdges].twin[edge % RingBlock::kEdges];
+    }
+    [[nodiscard]] std::uint32_t origin(std::uint32_t edge) const { return target(twin(edge)); }
+
+    /// Next edge counter-clockwise around the vertex that this edge leaves from.
+    [[nodiscard]] std::uint32_t after(const HullVertex& v, std::uint32_t edge) const {
+        return edge + 1 == v.first_edge + v.degree ? v.first_edge : edge + 1;
+    }
+    [[nodiscard]] std::uint32_t before(const HullVertex& v, std::uint32_t edge) const {
+        return edge == v.first_edge ? v.first_edge + v.degree - 1 : edge - 1;
+    }
+    [[nodiscard]] std::size_t bytes() const;
+
+    static constexpr std::size_t kSmall = 64; ///< vertices, of a hull that has columns
+};
+
+/// In          an exact hull (exact_hull.h) of points that are all vertices: counter-clockwise
+///             triangles, none for a point or a segment.
+Polytope make_polytope(std::span<const Vec3> points, std::span<const IndexTriangle> triangles);
+
+} // namespace abut

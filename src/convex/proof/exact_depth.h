@@ -1,0 +1,21 @@
+#pragma once
+
+#include "convex/proof/integer_difference.h"
+#include "convex/proof/placed_points.h"
+#include "convex/search/epa.h"
+#include "convex/search/gjk.h"
+
+namespace abut {
+
+/// The boundary point of the difference of two sets' convex hulls that is nearest to the origin.
+///
+/// In          `start`: corners whose hull holds the origin, without a doubt (exact_closest_points.h);
+///             numbers of corners are those of points.
+/// Out         `depth` and `at_least` differ by rounding alone: 2^-48 of the depth.
+/// Accuracy    every decision is exact; the numbers are rounded.
+/// Source      [van den Bergen 2001] in integers. Corners in the plane of a face count as beyond it,
+///             so that no face has zero area.
+NearestBoundary exact_depth(const PlacedPoints& points, const IntegerGrid& grid,
+                            const DifferenceSimplex& start);
+
+} // namespace abut

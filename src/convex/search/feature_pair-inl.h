@@ -1,0 +1,232 @@
+// Closest points of two features of convex polytopes.
+
+// Included once for each target.
+#if defined(ABUT_CONVEX_FEATURE_PAIR_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef ABUT_CONVEX_FEATURE_PAIR_INL_H
+#undef ABUT_CONVEX_FEATURE_PAIR_INL_H
+#else
+#define ABUT_CONVEX_FEATURE_PAIR_INL_H
+#endif
+
+#include "convex/hull/placed_xyz-inl.h"
+#include "convex/search/voronoi_marching.h"
+#include "geometry/nearest-inl.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+using XyzTriangle = std::array<Xyz, 3>;
+
+/// Corners of a feature that hold the closest point: bit 0 its vertex, bit 1 the end of its edge,
+/// bit 2 the end of the next edge.
+using Corners = std::uint32_t;
+
+/// Closest points of two features, and what of each holds them.
+struct Measured {
+    Xyz point_a, gap;
+    double distance_sq = std::numeric_limits<double>::infinity();
+    Corners a = 1, b = 1;
+    /// How far rounding of the corners may turn the gap between the features' lines and planes: by its
+    /// share of the root of this, an edge's length or a triangle's height. 0: that is not known.
+    /// kOfEdges: as spread_of_edges says.
+    double spread_sq = std::numeric_limits<double>::infinity();
+};
+
+inline constexpr double kOfEdges = -1;
+
+/// Two edges, from end to end.
+struct EdgePair {
+    Xyz u, v;
+};
+
+HWY_INLINE Measured turned(const Measured& m) {
+    return {m.point_a + m.gap, -m.gap, m.distance_sq, m.b, m.a, m.spread_sq};
+}
+
+HWY_INLINE Measured measured(const Xyz& point_a, const Xyz& gap, Corners a, Corners b,
+                             double spread_sq = std::numeric_limits<double>::infinity()) {
+    return {point_a, gap, length_sq(gap), a, b, spread_sq};
+}
+
+/// A point q and the segment from p0 to p1, that of a.
+HWY_INLINE Measured measure_edge_vertex(const Xyz& p0, const Xyz& p1, const Xyz& q) {
+    const Xyz u = p1 - p0, w = q - p0;
+    const double along = dot(w, u), all = length_sq(u);
+    if (!(along > 0))
+        return measured(p0, w, 1, 1);
+    if (along >= all)
+        return measured(p1, q - p1, 2, 1);
+    const Xyz foot = (along / all) * u;
+    return measured(p0 + foot, w - foot, 3, 1, all);
+}
+
+HWY_INLINE Corners corners_at(double parameter) {
+    return parameter <= 0 ? 1 : parameter >= 1 ? 2 : 3;
+}
+
+/// Measured::spread_sq of two edges: of those of them that have the closest point in their inside,
+/// if the gap is across them to rounding, and they are not almost parallel.
+///
+/// In          closest points as by nearest_on_segments.
+HWY_INLINE double spread_of_edges(const EdgePair& edges, const Xyz& gap, double gap_sq,
+                                  Corners on_u, Corners on_v) {
+    const auto& [u, v] = edges;
+    const double uu = length_sq(u), vv = length_sq(v);
+    // The point of u was chosen last, and makes up for what that of v is off by.
+    if (on_v != 3)
+        return on_u == 3 ? uu : std::numeric_limits<double>::infinity();
+    const double along = dot(gap, v);
+    if (!(along * along <= 0x1p-98 * (gap_sq + uu + vv) * vv))
+        return 0;
+    if (on_u != 3)
+        return vv;
+    const double nn = length_sq(cross(u, v));
+    return nn >= 0x1p-8 * uu * vv ? nn / std::max(uu, vv) : 0;
+}
+
+HWY_INLINE Measured measure_edge_edge(const Xyz& p0, const Xyz& p1, const Xyz& q0, const Xyz& q1) {
+    const Xyz u = p1 - p0, v = q1 - q0, r = q0 - p0;
+    const SegmentPoints c = nearest_on_segments(u, v, r);
+    const Xyz from = c.s * u, gap = r + c.t * v - from;
+    return {p0 + from, gap, c.distance_sq, corners_at(c.s), corners_at(c.t), kOfEdges};
+}
+
+/// Corners of a triangle's foot that have weight.
+HWY_INLINE Corners corners_of(const Foot<Xyz>& foot) {
+    const Corners corners =
+        (1 - foot.g - foot.h > 0 ? 1U : 0U) | (foot.g > 0 ? 2U : 0U) | (foot.h > 0 ? 4U : 0U);
+    return (corners << foot.first | corners >> (3 - foot.first)) & 7U;
+}
+
+/// For each edge of a triangle, what of the triangle corners of that edge are.
+constexpr Corners kEdgeCorners[3][4] = {{0, 1, 2, 3}, {0, 2, 4, 6}, {0, 4, 1, 5}};
+
+/// A triangle of a and a point of b that has no foot in it.
+inline HWY_NOINLINE void measure_border_vertex(const XyzTriangle& t, const Xyz& q,
+                                               Measured& nearest) {
+    nearest.distance_sq = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Measured m = measure_edge_vertex(t[k], t[(k + 1) % 3], q);
+        if (!(m.distance_sq < nearest.distance_sq))
+            continue;
+        nearest = m;
+        nearest.a = kEdgeCorners[k][m.a];
+    }
+}
+
+/// A triangle of a and a point of b.
+HWY_INLINE Measured measure_face_vertex(const XyzTriangle& t, const Xyz& q) {
+    const Foot<Xyz> foot = foot_on(q, t);
+    if (foot.within)
+        return measured(foot.point, foot.gap, corners_of(foot), 1, foot.height_sq());
+    Measured nearest;
+    measure_border_vertex(t, q, nearest);
+    return nearest;
+}
+
+/// A triangle of a and the segment from q0 to q1, that of b.
+inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, const Xyz& q1,
+                                           Measured& nearest) {
+    const Xyz normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double h0 = dot(normal, q0 - t[0]), h1 = dot(normal, q1 - t[0]);
+    const bool pierces_plane = (h0 > 0) != (h1 > 0);
+    if (pierces_plane) {
+        const Xyz crossing = q0 + (h0 / (h0 - h1)) * (q1 - q0);
+        if (foot_on(crossing, t).within) {
+            nearest = {crossing, {}, 0, 7, 3, 0};
+            return;
+        }
+    }
+    nearest.distance_sq = std::numeric_limits<double>::infinity();
+    const auto take = [&](const Measured& m) HWY_ATTR {
+        if (m.distance_sq < nearest.distance_sq)
+            nearest = m;
+    };
+    // Inside of the triangle only an end of the segment can be nearest, and if the segment stays on
+    // one side, only the end that is nearer to the plane: then nothing else is nearer.
+    const bool first_is_nearer = std::abs(h0) < std::abs(h1);
+    if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q0 : q1, t); foot.within) {
+        take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 1 : 2,
+                      foot.height_sq()));
+        if (!pierces_plane)
+            return;
+    }
+    if (pierces_plane)
+        if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q1 : q0, t); foot.within)
+            take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 2 : 1,
+                          foot.height_sq()));
+    std::size_t edge = 0;
+    Corners on_edge = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
+        if (!(m.distance_sq < nearest.distance_sq))
+            continue;
+        nearest = m;
+        nearest.a = kEdgeCorners[k][m.a];
+        edge = k, on_edge = m.a;
+    }
+    if (nearest.spread_sq == kOfEdges)
+        nearest.spread_sq = spread_of_edges({t[(edge + 1) % 3] - t[edge], q1 - q0}, nearest.gap,
+                                            nearest.distance_sq, on_edge, nearest.b);
+}
+
+HWY_INLINE Xyz corner0(const PlacedXyz& side, const HullFeature& f) {
+    return side.vertex(f.vertex);
+}
+HWY_INLINE Xyz corner1(const PlacedXyz& side, const HullFeature& f) {
+    return side.place(side.polytope().to(f.edge));
+}
+HWY_INLINE XyzTriangle triangle(const PlacedXyz& side, const HullFeature& f) {
+    const Polytope& p = side.polytope();
+    return {corner0(side, f), corner1(side, f),
+            side.place(p.to(p.after(p.vertices[f.vertex], f.edge)))};
+}
+
+/// In          any two features but two triangles.
+/// Out         `edges`: set if both are edges, whose spread is left to the caller: a walk needs only
+///             that of its last pair.
+HWY_INLINE Measured measure(const PlacedXyz& side_a, const PlacedXyz& side_b, const HullFeature& a,
+                            const HullFeature& b, EdgePair& edges) {
+    switch (3 * static_cast<int>(a.kind) + static_cast<int>(b.kind)) {
+    case 0: {
+        const Xyz p = corner0(side_a, a);
+        return measured(p, corner0(side_b, b) - p, 1, 1);
+    }
+    case 1:
+        return turned(
+            measure_edge_vertex(corner0(side_b, b), corner1(side_b, b), corner0(side_a, a)));
+    case 2:
+        return turned(measure_face_vertex(triangle(side_b, b), corner0(side_a, a)));
+    case 3:
+        return measure_edge_vertex(corner0(side_a, a), corner1(side_a, a), corner0(side_b, b));
+    case 4: {
+        const Xyz p0 = corner0(side_a, a), p1 = corner1(side_a, a), q0 = corner0(side_b, b),
+                  q1 = corner1(side_b, b);
+        edges = {p1 - p0, q1 - q0};
+        return measure_edge_edge(p0, p1, q0, q1);
+    }
+    case 5: {
+        Measured nearest;
+        measure_face_edge(triangle(side_b, b), corner0(side_a, a), corner1(side_a, a), nearest);
+        return turned(nearest);
+    }
+    case 6:
+        return measure_face_vertex(triangle(side_a, a), corner0(side_b, b));
+    default: {
+        Measured nearest;
+        measure_face_edge(triangle(side_a, a), corner0(side_b, b), corner1(side_b, b), nearest);
+        return nearest;
+    }
+    }
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

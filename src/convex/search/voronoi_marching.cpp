@@ -1,0 +1,169 @@
+#include "convex/search/voronoi_marching.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "convex/search/voronoi_marching.cpp"
+#include "simd/foreach_target.h"
+#include "convex/hull/climb-inl.h"
+#include "convex/hull/placed_xyz-inl.h"
+#include "convex/search/feature_pair-inl.h"
+
+#include <algorithm>
+#include <limits>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+/// What remains of a feature of which these corners hold the closest point.
+HWY_INLINE void shrink(const Polytope& p, Corners corners, HullFeature& f) {
+    const std::uint32_t next = f.kind == Feature::face ? p.after(p.vertices[f.vertex], f.edge) : 0;
+    switch (corners) {
+    case 1:
+        f.kind = Feature::vertex;
+        break;
+    case 2:
+        f.vertex = p.target(f.edge);
+        f.kind = Feature::vertex;
+        break;
+    case 3:
+        f.kind = Feature::edge;
+        break;
+    case 4:
+        f.vertex = p.target(next);
+        f.kind = Feature::vertex;
+        break;
+    case 5:
+        f.edge = next;
+        f.kind = Feature::edge;
+        break;
+    case 6:
+        f.vertex = p.target(f.edge);
+        f.edge = p.before(p.vertices[f.vertex], p.twin(f.edge));
+        f.kind = Feature::edge;
+        break;
+    default:
+        break;
+    }
+}
+
+/// How much further along the gap than a feature a neighbour lies at most, and the feature grown
+/// towards it.
+struct Growth {
+    double excess = 0;
+    HullFeature feature;
+    bool possible = false;
+    /// The same excess, below 0 if all neighbours lie behind the feature; of a triangle that of the
+    /// neighbour that lies behind it most, which tells on which side the body is.
+    double most = 0;
+};
+
+/// `tolerance_sq`: the square of an excess that is rounding.
+HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& gap,
+                       double tolerance_sq) {
+    const Polytope& p = side.polytope();
+    const Vec3 n = to_vec3(side.pulled_back(gap));
+    const HullVertex& v = p.vertices[f.vertex];
+    const auto excess = [&](std::uint32_t edge) HWY_ATTR { return dot(n, p.to(edge) - v.at); };
+    if (f.kind == Feature::edge) {
+        const std::uint32_t right = p.before(v, f.edge);
+        const double to_left = excess(p.after(v, f.edge)), to_right = excess(right);
+        const bool left = to_left >= to_right;
+        const double most = left ? to_left : to_right;
+        if (most * most > tolerance_sq)
+            return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0, most};
+        // Between coplanar triangles: a part of a face, whose side only the others tell.
+    }
+    const bool is_face = f.kind == Feature::face;
+    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n, is_face);
+    return {h.excess,
+            {f.vertex, h.edge, Feature::edge},
+            h.excess > 0 && f.kind == Feature::vertex,
+            is_face ? h.least : h.most};
+}
+
+/// Whether the features' neighbours lie behind them by more than rounding can be the reason of:
+/// docs/convex.md, "Proofs". `most`: as Growth has it.
+HWY_INLINE bool is_proof(double most, double spread_sq, double distance_sq, double rounding_sq) {
+    const double spread = std::min(spread_sq, distance_sq);
+    return most < 0 && spread * spread >= 0x1p12 * rounding_sq * distance_sq &&
+           most * most * spread > 0x1p125 * (rounding_sq * rounding_sq) * (spread + distance_sq);
+}
+
+void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limit,
+                   WalkState& state) {
+    const PlacedXyz side_a(pair.a), side_b(pair.b);
+    const double rounding_sq = rounding * rounding;
+    HullFeature a = state.a, b = state.b; ///< the pair that was accepted last
+    HullFeature next_a = a, next_b = b;   ///< the pair to measure
+    Growth grown_a{}, grown_b{};
+    Xyz point_a, gap;
+    double distance_sq = std::numeric_limits<double>::infinity(), excess = 0;
+    std::uint32_t count = 0;
+    WalkEnd end = WalkEnd::closest;
+    Measured next;
+    EdgePair edges;
+    for (;;) {
+        next = measure(side_a, side_b, next_a, next_b, edges);
+        ++count;
+        if (next.distance_sq < distance_sq) {
+            a = next_a, b = next_b;
+            shrink(*pair.a.polytope, next.a, a);
+            shrink(*pair.b.polytope, next.b, b);
+            point_a = next.point_a, gap = next.gap, distance_sq = next.distance_sq;
+            if (!(distance_sq > rounding_sq)) {
+                end = WalkEnd::meeting;
+                break;
+            }
+            const double tolerance_sq = rounding_sq * distance_sq;
+            grown_a = grow(side_a, a, gap, tolerance_sq);
+            grown_b = grow(side_b, b, -gap, tolerance_sq);
+            excess = std::max(grown_a.excess, 0.0) + std::max(grown_b.excess, 0.0);
+            if (excess * excess <= tolerance_sq)
+                break;
+        }
+        if (count >= limit) {
+            end = WalkEnd::limit;
+            break;
+        }
+        // The larger excess first. What has been tried is not possible any more.
+        next_a = a, next_b = b;
+        if (grown_a.possible && !(grown_b.possible && grown_b.excess > grown_a.excess)) {
+            next_a = grown_a.feature;
+            grown_a.possible = false;
+        } else if (grown_b.possible) {
+            next_b = grown_b.feature;
+            grown_b.possible = false;
+        } else {
+            end = WalkEnd::stuck;
+            break;
+        }
+    }
+    state.a = a, state.b = b;
+    state.point_a = to_vec3(point_a), state.gap = to_vec3(gap);
+    state.distance_sq = distance_sq, state.excess = excess;
+    state.feature_pairs += count;
+    state.end = end;
+    state.proven = false;
+    if (end != WalkEnd::closest)
+        return;
+    // The pair that was measured last is the one that ended the walk.
+    const double spread_sq = next.spread_sq == kOfEdges
+                                 ? spread_of_edges(edges, gap, distance_sq, next.a, next.b)
+                                 : next.spread_sq;
+    state.proven =
+        is_proof(std::max(grown_a.most, grown_b.most), spread_sq, distance_sq, rounding_sq);
+}
+
+} // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(walk_features);
+
+void walk(const PolytopePair& pair, double rounding, std::uint32_t limit, WalkState& state) {
+    HWY_DYNAMIC_DISPATCH(walk_features)(pair, rounding, limit, state);
+}
+
+} // namespace abut
+#endif

@@ -1,0 +1,341 @@
+#include "io/polygon/triangulate.h"
+
+#include <algorithm>
+#include <numeric>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+
+struct Point {
+    double x = 0, y = 0;
+    bool operator==(const Point&) const = default;
+};
+
+/// Twice the signed area. Its sign is exact for points that were floats of like size.
+double turn(const Point& a, const Point& b, const Point& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// A triangle that turns left, for questions about what lies in it.
+struct Ear {
+    std::array<Point, 3> corner;
+
+    /// On the inner side of edge i, which begins at corner i; 0 on its line.
+    [[nodiscard]] double side(std::size_t i, const Point& p) const {
+        return turn(corner.at(i), corner.at((i + 1) % 3), p);
+    }
+    /// Whether a box lies wholly on the outer side of an edge, or beyond the triangle's own box: a
+    /// thin triangle's edges nearly lie on one line, and that is long.
+    [[nodiscard]] bool misses(const Point& low, const Point& high) const {
+        const auto& [p, q, r] = corner;
+        if (std::max({p.x, q.x, r.x}) < low.x || std::min({p.x, q.x, r.x}) > high.x ||
+            std::max({p.y, q.y, r.y}) < low.y || std::min({p.y, q.y, r.y}) > high.y)
+            return true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Point& a = corner.at(i);
+            const Point& b = corner.at((i + 1) % 3);
+            // The box's corner that lies farthest on the inner side.
+            const Point far{b.y > a.y ? low.x : high.x, b.x > a.x ? high.y : low.y};
+            if (turn(a, b, far) < 0)
+                return true;
+        }
+        return false;
+    }
+};
+
+/// The corners that are left, as a k-d tree over where they lie.
+class CornerTree {
+public:
+    explicit CornerTree(const std::vector<Point>& points) : points_(points), order_(points.size()) {
+        std::iota(order_.begin(), order_.end(), 0U);
+        nodes_.reserve(2 * points.size() / kLeafCorners + 2);
+        leaf_of_.resize(points.size());
+        build(0, static_cast<std::uint32_t>(points.size()), kNone);
+    }
+
+    void remove(std::uint32_t corner) {
+        for (std::uint32_t node = leaf_of_[corner]; node != kNone; node = nodes_[node].parent)
+            --nodes_[node].left;
+    }
+
+    /// The first corner in or on the ear for which `blocks` says yes; kNone if there is none.
+    template <typename Blocks>
+    std::uint32_t find(const Ear& ear, std::uint64_t& visits, const Blocks& blocks) const {
+        std::array<std::uint32_t, 64> open{};
+        std::size_t count = 0;
+        open.at(count++) = 0;
+        while (count > 0) {
+            const Node& node = nodes_[open.at(--count)];
+            ++visits;
+            if (node.left == 0 || ear.misses(node.low, node.high))
+                continue;
+            if (node.second != kNone) {
+                open.at(count++) = node.second;
+                open.at(count++) = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
+                continue;
+            }
+            for (std::uint32_t i = node.begin; i < node.end; ++i) {
+                ++visits;
+                if (blocks(order_[i]))
+                    return order_[i];
+            }
+        }
+        return kNone;
+    }
+
+private:
+    static constexpr std::uint32_t kLeafCorners = 8;
+
+    struct Node {
+        Point low, high;
+        std::uint32_t begin = 0, end = 0; ///< in order_
+        std::uint32_t left = 0;           ///< corners that have not been removed
+        std::uint32_t parent = kNone;
+        std::uint32_t second = kNone; ///< child; the first one is the next node. kNone: a leaf
+    };
+
+    void build(std::uint32_t begin, std::uint32_t end, std::uint32_t parent) {
+        const auto number = static_cast<std::uint32_t>(nodes_.size());
+        Node node;
+        node.begin = begin;
+        node.end = end;
+        node.left = end - begin;
+        node.parent = parent;
+        node.low = node.high = points_[order_[begin]];
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const Point& p = points_[order_[i]];
+            node.low = {std::min(node.low.x, p.x), std::min(node.low.y, p.y)};
+            node.high = {std::max(node.high.x, p.x), std::max(node.high.y, p.y)};
+        }
+        nodes_.push_back(node);
+        if (end - begin <= kLeafCorners) {
+            for (std::uint32_t i = begin; i < end; ++i)
+                leaf_of_[order_[i]] = number;
+            return;
+        }
+        const bool wide = node.high.x - node.low.x >= node.high.y - node.low.y;
+        const std::uint32_t middle = begin + (end - begin) / 2;
+        // Equal coordinates in the polygon's order, so that halves are neighbours there too.
+        std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                         [&](std::uint32_t a, std::uint32_t b) {
+                             const double p = wide ? points_[a].x : points_[a].y;
+                             const double q = wide ? points_[b].x : points_[b].y;
+                             return p < q || (p == q && a < b);
+                         });
+        build(begin, middle, number);
+        nodes_[number].second = static_cast<std::uint32_t>(nodes_.size());
+        build(middle, end, number);
+    }
+
+    const std::vector<Point>& points_;
+    std::vector<std::uint32_t> order_, leaf_of_;
+    std::vector<Node> nodes_;
+};
+
+class EarClipper {
+public:
+    EarClipper(std::span<const PlaneCorner> corners,
+               std::vector<std::array<std::uint32_t, 3>>& triangles, TriangulationWork& work)
+        : corners_(corners), triangles_(triangles), work_(work), points_(points_of(corners)),
+          tree_(points_), links_(corners.size()) {
+        const auto count = static_cast<std::uint32_t>(corners.size());
+        for (std::uint32_t i = 0; i < count; ++i) {
+            links_[i].before = i == 0 ? count - 1 : i - 1;
+            links_[i].after = i + 1 == count ? 0 : i + 1;
+        }
+        for (std::uint32_t i = 0; i < count; ++i)
+            offer(i);
+    }
+
+    void run() {
+        for (std::size_t left = corners_.size(); left > 3;) {
+            const Candidate best = candidates_.top();
+            candidates_.pop();
+            const Link& link = links_[best.corner];
+            if (link.is_cut || link.version != best.version)
+                continue;
+            if (best.rank == Rank::untested) {
+                bool touches = false;
+                const std::uint32_t blocker = blocker_of(best.corner, touches);
+                if (blocker != kNone) {
+                    std::uint32_t& first =
+                        touches ? links_[blocker].first_touched : links_[blocker].first_waiting;
+                    waiting_.push_back({best.corner, best.version, first});
+                    first = static_cast<std::uint32_t>(waiting_.size() - 1);
+                    candidates_.push({Rank::blocked, best.length, best.corner, best.version});
+                    continue;
+                }
+            }
+            cut(best.corner);
+            --left;
+        }
+        const auto last = std::find_if(links_.begin(), links_.end(),
+                                       [](const Link& link) { return !link.is_cut; });
+        emit(static_cast<std::uint32_t>(last - links_.begin()));
+    }
+
+private:
+    /// In the order in which candidates are cut. Flat ones lose no area, but a triangle that has
+    /// one is better; blocked and turned ones are cut only where the polygon crosses itself.
+    enum class Rank : std::uint8_t { untested, flat, blocked, turned };
+
+    struct Link {
+        std::uint32_t before = 0, after = 0;
+        std::uint32_t version = 0; ///< candidates of another one are out of date
+        bool is_cut = false;
+        /// Lists in waiting_: candidates that this corner blocks, from inside and by touching.
+        std::uint32_t first_waiting = kNone, first_touched = kNone;
+    };
+
+    struct Waiting {
+        std::uint32_t corner = 0, version = 0, next = kNone;
+    };
+
+    struct Candidate {
+        Rank rank = Rank::untested;
+        double length = 0; ///< of the diagonal, squared
+        std::uint32_t corner = 0, version = 0;
+        bool operator<(const Candidate& other) const { // the top of a queue is its greatest
+            return std::tie(other.rank, other.length, other.corner) <
+                   std::tie(rank, length, corner);
+        }
+    };
+
+    static std::vector<Point> points_of(std::span<const PlaneCorner> corners) {
+        std::vector<Point> points;
+        points.reserve(corners.size());
+        for (const PlaneCorner& corner : corners)
+            points.push_back({corner.x, corner.y});
+        return points;
+    }
+
+    [[nodiscard]] Ear ear_of(std::uint32_t tip) const {
+        return {{points_[links_[tip].before], points_[tip], points_[links_[tip].after]}};
+    }
+
+    void offer(std::uint32_t tip) {
+        const Ear ear = ear_of(tip);
+        const auto& [a, b, c] = ear.corner;
+        const double area = turn(a, b, c);
+        const double dx = c.x - a.x, dy = c.y - a.y;
+        // A corner where the outline turns back on itself, or repeats, can go at once; left alone, it
+        // would let an ear be cut off that the outline covers once there and once back.
+        const bool turns_back =
+            area == 0 && (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
+        const Rank rank = turns_back || area > 0 ? Rank::untested
+                          : area == 0            ? Rank::flat
+                                                 : Rank::turned;
+        candidates_.push({rank, turns_back ? 0 : dx * dx + dy * dy, tip, links_[tip].version});
+    }
+
+    /// A corner that keeps an ear from being cut; kNone if it is free.
+    ///
+    /// A corner inside does. One on the ear's boundary, be it at a corner of the ear, does if an
+    /// edge leads from it into the ear's interior: else the polygon only touches the ear there.
+    /// Out         touches: the corner lies on the ear's boundary.
+    std::uint32_t blocker_of(std::uint32_t tip, bool& touches) {
+        ++work_.tests;
+        const Ear ear = ear_of(tip);
+        if (!(turn(ear.corner[0], ear.corner[1], ear.corner[2]) > 0))
+            return kNone;
+        const Link& own = links_[tip];
+        return tree_.find(ear, work_.visits, [&](std::uint32_t other) {
+            const Link& link = links_[other];
+            if (link.is_cut || other == tip || other == own.before || other == own.after)
+                return false;
+            std::array<bool, 3> on_line{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double side = ear.side(i, points_[other]);
+                if (side < 0)
+                    return false;
+                on_line.at(i) = side == 0;
+            }
+            const auto leads_inside = [&](std::uint32_t neighbour) {
+                for (std::size_t i = 0; i < 3; ++i)
+                    if (on_line.at(i) && !(ear.side(i, points_[neighbour]) > 0))
+                        return false;
+                return true;
+            };
+            touches = on_line[0] || on_line[1] || on_line[2];
+            return leads_inside(link.before) || leads_inside(link.after);
+        });
+    }
+
+    void emit(std::uint32_t tip) {
+        triangles_.push_back({corners_[links_[tip].before].vertex, corners_[tip].vertex,
+                              corners_[links_[tip].after].vertex});
+    }
+
+    void cut(std::uint32_t tip) {
+        emit(tip);
+        Link& link = links_[tip];
+        link.is_cut = true;
+        tree_.remove(tip);
+        links_[link.before].after = link.after;
+        links_[link.after].before = link.before;
+        release(link.first_waiting);
+        for (const std::uint32_t corner : {tip, link.before, link.after})
+            release(links_[corner].first_touched); // its edges have changed
+        for (const std::uint32_t corner : {link.before, link.after}) {
+            ++links_[corner].version;
+            offer(corner);
+        }
+    }
+
+    /// The candidates of a list may be free now.
+    void release(std::uint32_t& first) {
+        for (std::uint32_t entry = std::exchange(first, kNone); entry != kNone;) {
+            const Waiting waiting = waiting_[entry];
+            Link& link = links_[waiting.corner];
+            if (!link.is_cut && link.version == waiting.version) {
+                ++link.version;
+                offer(waiting.corner);
+            }
+            entry = waiting.next;
+        }
+    }
+
+    std::span<const PlaneCorner> corners_;
+    std::vector<std::array<std::uint32_t, 3>>& triangles_;
+    TriangulationWork& work_;
+    std::vector<Point> points_;
+    CornerTree tree_;
+    std::vector<Link> links_;
+    std::vector<Waiting> waiting_;
+    std::priority_queue<Candidate> candidates_;
+};
+
+/// Cuts a quadrilateral along the diagonal that lies inside, the one from its first corner if both
+/// do. False if none does, strictly.
+bool cut_quadrilateral(std::span<const PlaneCorner> q,
+                       std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    for (std::size_t i = 0; i < 2; ++i) {
+        const PlaneCorner &a = q[i], &b = q[i + 1], &c = q[i + 2], &d = q[(i + 3) % 4];
+        const Point pa{a.x, a.y}, pc{c.x, c.y};
+        if (turn(pa, {b.x, b.y}, pc) > 0 && turn(pa, pc, {d.x, d.y}) > 0) {
+            triangles.push_back({a.vertex, b.vertex, c.vertex});
+            triangles.push_back({a.vertex, c.vertex, d.vertex});
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+void triangulate_in_plane(std::span<const PlaneCorner> corners,
+                          std::vector<std::array<std::uint32_t, 3>>& triangles,
+                          TriangulationWork* work) {
+    if (corners.size() == 4 && cut_quadrilateral(corners, triangles))
+        return;
+    TriangulationWork unused;
+    EarClipper(corners, triangles, work == nullptr ? unused : *work).run();
+}
+
+} // namespace abut

@@ -1,0 +1,169 @@
+#include "massive/job/job_result.h"
+
+#include "clash/clash_identity.h"
+#include "clash/model_boxes.h"
+#include "math/vector.h"
+#include "store/import/note_text.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+std::vector<std::string> warn_of_distant_models(const StoredParts& stored,
+                                                const ClashOptions& options) {
+    std::vector<std::string> files;
+    files.reserve(stored.models.size());
+    for (const ModelRow& model : stored.models)
+        files.push_back(model.file);
+    std::vector<Box3> boxes(files.size());
+    for (std::size_t i = 0; i < stored.parts.size(); ++i) {
+        Box3& box = boxes[stored.parts[i].model];
+        box.lower = min(box.lower, stored.boxes[i].lower);
+        box.upper = max(box.upper, stored.boxes[i].upper);
+    }
+    return abut::warn_of_distant_models(files, boxes, largest_clearance(options));
+}
+
+} // namespace
+
+JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store,
+                     std::size_t workers)
+    : plan_(plan), options_(options), store_(store) {
+    ClashReport& report = result_.report;
+    report.clearance = options.clearance;
+    report.touch = options.touch;
+    report.candidates = plan_.candidates;
+    for (const ModelRow& model : plan_.stored.models)
+        report.models.push_back({model.file, model.parts, model.triangles, model.unit, model.up,
+                                 parse_notes(model.notes, store.path())});
+    if (!plan_.stored.models.empty())
+        report.frame = {plan_.stored.models.front().world_up, plan_.stored.models.front().file};
+    report.warnings = warn_of_distant_models(plan_.stored, options);
+    OutOfCoreCounters& counters = result_.counters;
+    counters.units = plan_.units.size();
+    counters.workers.resize(workers);
+    std::vector<bool> needed(plan_.stored.meshes.size());
+    for (const WorkUnit& unit : plan_.units)
+        for (const std::uint32_t mesh : unit.meshes)
+            needed[mesh] = true;
+    for (std::size_t i = 0; i < needed.size(); ++i)
+        if (needed[i]) {
+            ++counters.meshes;
+            counters.bytes_needed += plan_.stored.meshes[i].stored_bytes;
+        }
+}
+
+void JobResult::set_models(Clash& clash) const {
+    for (std::size_t side = 0; side < 2; ++side)
+        clash.model[side] = plan_.stored.parts[clash.part[side]].model;
+}
+
+void JobResult::recall() {
+    if (plan_.record == nullptr)
+        return;
+    std::uint64_t left = 0;
+    for (const WorkUnit& unit : plan_.units)
+        left += unit.pairs.size();
+    result_.counters.kept = true;
+    result_.counters.recalled_pairs = plan_.candidates - left;
+    result_.report.clashes = plan_.record->found(plan_.stored);
+    for (Clash& clash : result_.report.clashes) {
+        set_models(clash);
+        for (const std::uint32_t part : clash.part) {
+            if (named_.contains(part))
+                continue;
+            const PartRow row = store_.part(plan_.stored.parts[part].row);
+            named_.try_emplace(part, Part{row.id, row.name, row.type, 0, {}});
+        }
+    }
+}
+
+void JobResult::take(std::vector<PieceResult> results) {
+    const auto add_all = [&] {
+        for (PieceResult& result : results)
+            add(std::move(result));
+    };
+    if (plan_.record == nullptr)
+        return add_all();
+    Transaction together = plan_.record->together();
+    add_all();
+    together.commit();
+}
+
+void JobResult::add(PieceResult result) {
+    std::unordered_map<std::int64_t, Part*> names;
+    for (PieceResult::Named& named : result.named)
+        names.emplace(named.row, &named.part);
+    std::vector<Clash>& clashes = result_.report.clashes;
+    const std::size_t before = clashes.size();
+    for (PieceResult::Found& found : result.clashes) {
+        const IndexPair pair = plan_.units[result.unit].pairs[found.pair];
+        found.clash.part = {pair.a(), pair.b()};
+        set_models(found.clash);
+        for (const std::uint32_t part : found.clash.part)
+            named_.try_emplace(part, *names.at(plan_.stored.parts[part].row));
+        clashes.push_back(std::move(found.clash));
+    }
+    if (plan_.record != nullptr)
+        plan_.record->commit(plan_.stored, result.unit, std::span(clashes).subspan(before),
+                             result.hierarchies);
+    result_.counters.hierarchies_kept += result.hierarchies.size();
+    OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
+    result.worker.units = figures.units + 1;
+    result.worker.pairs = figures.pairs + result.pairs;
+    figures = result.worker;
+}
+
+void JobResult::sum_up_workers() {
+    OutOfCoreCounters& counters = result_.counters;
+    for (const OutOfCoreCounters::Worker& worker : counters.workers) {
+        counters.mesh_loads += worker.mesh_loads;
+        counters.blocks += worker.blocks;
+        counters.block_loads += worker.block_loads;
+        counters.hierarchies_found += worker.hierarchies_found;
+        counters.bytes_needed += worker.block_bytes_needed;
+        counters.bytes_read += worker.bytes_read;
+        counters.peak_bytes = std::max(counters.peak_bytes, worker.peak_bytes);
+        result_.report.peak_rss_mb = std::max(result_.report.peak_rss_mb, worker.peak_rss_mb);
+    }
+}
+
+void JobResult::add_model(const ModelRow& row) {
+    Scene& model = result_.models.emplace_back();
+    model.file = row.file;
+    model.unit = row.unit;
+    model.up = row.world_up;
+}
+
+StoreClashReport JobResult::finish() {
+    sum_up_workers();
+    for (const ModelRow& model : plan_.stored.models)
+        add_model(model);
+    std::unordered_map<std::uint32_t, std::uint32_t> place;
+    for (auto& [part, named] : named_) {
+        std::vector<Part>& parts = result_.models[plan_.stored.parts[part].model].parts;
+        place.emplace(part, static_cast<std::uint32_t>(parts.size()));
+        parts.push_back(std::move(named));
+    }
+    std::vector<Clash>& clashes = result_.report.clashes;
+    std::ranges::sort(clashes, {}, &Clash::part);
+    for (Clash& clash : clashes) {
+        clash.part = {place.at(clash.part[0]), place.at(clash.part[1])};
+        ++result_.report.counts.at(static_cast<std::size_t>(clash.kind));
+    }
+    if (plan_.record != nullptr)
+        plan_.record->finish(result_.report, result_.models);
+    else
+        store_.with_connection([&](Database& database) {
+            tell_statuses(database, plan_.stored, options_, result_.report);
+        });
+    return std::move(result_);
+}
+
+} // namespace abut

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <abut/scene.h>
+#include <abut/store_clash.h>
+
+#include "massive/job/job_plan.h"
+#include "massive/work/work_piece.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace abut {
+
+/// Collects the results of a job, unit by unit. They are recorded in the store if the plan has a
+/// record.
+class JobResult {
+public:
+    /// In          plan, options, store: must outlive this object.
+    JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& store, std::size_t workers);
+
+    /// Adds the clashes that the record already knows, found before the job was stopped or taken
+    /// over from an earlier one.
+    void recall();
+
+    /// Adds the results of some tasks. When it returns they are recorded, at the cost of one
+    /// commit.
+    void take(std::vector<PieceResult> results);
+
+    /// Ends the job and returns the report. Clashes are sorted by part; their parts are indices in
+    /// the report's lists of clashing parts.
+    StoreClashReport finish();
+
+    [[nodiscard]] const OutOfCoreCounters& counters() const { return result_.counters; }
+
+private:
+    void add(PieceResult result);
+    void sum_up_workers();
+    void add_model(const ModelRow& row);
+    void set_models(Clash& clash) const;
+
+    JobPlan& plan_;
+    const ClashOptions& options_;
+    StoreFile& store_;
+    StoreClashReport result_; ///< until finish(), parts of clashes are indices in the plan's parts
+    std::map<std::uint32_t, Part> named_; ///< parts that clash, by index in the plan's parts
+};
+
+} // namespace abut

@@ -1,0 +1,149 @@
+#include "massive/work/stored_parts.h"
+
+#include <abut/error.h>
+
+#include "clash/clash_identity.h"
+#include "math/vector.h"
+#include "rigid/model/model_data.h"
+#include "store/database/row_hash.h"
+#include "store/import/cut_mesh.h"
+#include "volume/aabb.h"
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <numeric>
+
+namespace abut {
+
+StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
+    StoredParts result;
+    std::vector<MeshRow> large;
+    store.for_each_mesh([&](const MeshRow& mesh) {
+        StoredMesh stored{mesh.mesh};
+        if (is_whole(mesh.vertices, mesh.triangles)) {
+            stored.bytes =
+                static_cast<std::uint32_t>(most_model_bytes(mesh.triangles, mesh.vertices));
+            stored.stored_bytes = static_cast<std::uint32_t>(mesh.stored_bytes);
+        } else {
+            result.large.push_back({static_cast<std::uint32_t>(result.meshes.size()), mesh.blocks});
+            large.push_back(mesh);
+        }
+        result.meshes.push_back(stored);
+    });
+    result.meshes.shrink_to_fit(); // the table stays in memory for the whole job
+    for (std::size_t i = 0; i < large.size(); ++i)
+        for (const StoredBlock& block : stored_blocks(store, large[i])) {
+            result.large[i].largest_block = std::max(result.large[i].largest_block, block.bytes);
+            result.large[i].bytes += block.bytes;
+        }
+    result.models = store.models();
+    // A part's row takes more bytes of the file than kLeastRow. The bound keeps a damaged number of
+    // parts from reserving too much memory.
+    constexpr std::uint64_t kLeastRow = 64;
+    const std::uint64_t most_parts = std::filesystem::file_size(store.path()) / kLeastRow;
+    std::uint64_t parts = 0;
+    for (const ModelRow& model : result.models) {
+        if (model.importing)
+            throw Error(ErrorCode::bad_argument, store.path(),
+                        "is incomplete: the import of " + model.file + " has not ended");
+        parts += std::min(model.parts, most_parts);
+    }
+    result.parts.reserve(std::min(parts, most_parts));
+    result.boxes.reserve(result.parts.capacity());
+    for (std::uint32_t m = 0; m < result.models.size(); ++m) {
+        store.for_each_part(result.models[m], [&](const PartRow& part) {
+            // The meshes are sorted by number.
+            const auto mesh =
+                std::ranges::lower_bound(result.meshes, part.mesh, {}, &StoredMesh::mesh);
+            if (mesh == result.meshes.end() || mesh->mesh != part.mesh)
+                throw Error(ErrorCode::malformed, store.path(),
+                            "is damaged: part " + part.id + " shows a mesh that is missing");
+            result.boxes.push_back(part.box);
+            result.parts.push_back(
+                {part.part, static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
+                 static_cast<std::uint32_t>(
+                     std::min<std::uint64_t>(part.generation, kLastGeneration))});
+            if (rules != nullptr)
+                rules->add({m, result.models[m].file, part.id, part.name, part.type});
+        });
+    }
+    return result;
+}
+
+Hash128 parts_key(const std::vector<ModelRow>& models) {
+    RowHash hash;
+    for (const ModelRow& model : models)
+        hash.add(model.model).add(model.file).add(model.parts).add(model.parts_sum);
+    return hash.value_128();
+}
+
+void require_parts(const std::vector<ModelRow>& models, const Hash128& key,
+                   const std::string& store) {
+    if (parts_key(models) != key || std::ranges::any_of(models, &ModelRow::importing))
+        throw Error(ErrorCode::unreadable, store,
+                    "has been changed by an import while the job was under way: run it again");
+}
+
+PartsByRow::PartsByRow(const StoredParts& stored)
+    : parts_(stored.parts), order_(stored.parts.size()) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::sort(order_, {}, [&](std::uint32_t i) { return parts_[i].row; });
+}
+
+std::optional<std::uint32_t> PartsByRow::find(std::int64_t row) const {
+    const auto at =
+        std::ranges::lower_bound(order_, row, {}, [&](std::uint32_t i) { return parts_[i].row; });
+    if (at == order_.end() || parts_[*at].row != row)
+        return std::nullopt;
+    return *at;
+}
+
+std::uint64_t StoredParts::bytes() const {
+    std::uint64_t sum = parts.capacity() * sizeof(StoredPart) + boxes.capacity() * sizeof(Box3) +
+                        meshes.capacity() * sizeof(StoredMesh) +
+                        large.capacity() * sizeof(StoredLargeMesh);
+    for (const StoredLargeMesh& mesh : large)
+        sum += mesh.blocks * (sizeof(StoredBlock) + sizeof(Box3));
+    return sum;
+}
+
+const StoredLargeMesh* StoredParts::find_large(std::uint32_t mesh) const {
+    if (meshes[mesh].bytes != 0)
+        return nullptr;
+    return &*std::ranges::lower_bound(large, mesh, {}, &StoredLargeMesh::mesh);
+}
+
+PairCell StoredParts::cell_of(const IndexPair& pair) const {
+    const StoredLargeMesh* const of_a = find_large(parts[pair.a()].mesh);
+    const StoredLargeMesh* const of_b = find_large(parts[pair.b()].mesh);
+    const bool a_counts = of_b == nullptr || (of_a != nullptr && of_a->blocks >= of_b->blocks);
+    const std::uint32_t part = a_counts ? pair.a() : pair.b(),
+                        other = a_counts ? pair.b() : pair.a();
+    const Box3& box = boxes[other];
+    const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
+    // The key has three bits for each level of cells. Blocks lie on a surface, which meets about 4
+    // of the 8 cells of a level: so 3/2 bits of the key are kept per bit of the number of blocks.
+    const auto bits = static_cast<unsigned>(std::bit_width((a_counts ? of_a : of_b)->blocks));
+    return {part, middle, spatial_key(boxes[part], middle, middle, middle) >> (63 - 3 * bits / 2)};
+}
+
+std::vector<IndexPair> find_candidates(const StoredParts& stored, const RuleTable& rules,
+                                       const ClashOptions& options) {
+    const bool across = stored.models.size() > 1 && !options.self;
+    const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
+        return !across || stored.parts[i].model != stored.parts[j].model;
+    };
+    std::vector<IndexPair> pairs =
+        overlapping_boxes(stored.boxes, largest_clearance(options), wanted);
+    if (options.rules.empty())
+        return pairs;
+    const auto out_of_reach = [&](const IndexPair& pair) {
+        const auto terms = rules.terms(pair.a(), pair.b());
+        return !terms || !overlap(stored.boxes[pair.a()], stored.boxes[pair.b()], terms->clearance);
+    };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_reach), pairs.end());
+    return pairs;
+}
+
+} // namespace abut

@@ -1,0 +1,83 @@
+#include "massive/work/work_piece.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace abut {
+
+namespace {
+
+/// Returns the index of a value in a sorted list that contains it.
+std::uint32_t place_of(const std::vector<std::uint32_t>& sorted, std::uint32_t value) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, value) - sorted.begin());
+}
+
+/// The sort key of a pair with a large mesh: pairs of one part and cell follow each other.
+struct PlaceOfPair {
+    std::uint32_t part = 0;
+    std::uint64_t cell = 0;
+    std::uint32_t pair = 0;
+    friend bool operator<(const PlaceOfPair& a, const PlaceOfPair& b) {
+        return std::tie(a.part, a.cell, a.pair) < std::tie(b.part, b.cell, b.pair);
+    }
+};
+
+std::vector<std::uint32_t> large_pairs(const StoredParts& stored,
+                                       const std::vector<IndexPair>& pairs) {
+    const auto is_large = [&](std::uint32_t part) {
+        return stored.find_large(stored.parts[part].mesh) != nullptr;
+    };
+    std::vector<PlaceOfPair> places;
+    for (std::uint32_t k = 0; k < pairs.size(); ++k)
+        if (is_large(pairs[k].a()) || is_large(pairs[k].b())) {
+            const PairCell cell = stored.cell_of(pairs[k]);
+            places.push_back({cell.part, cell.cell, k});
+        }
+    std::sort(places.begin(), places.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(places.size());
+    for (const PlaceOfPair& place : places)
+        order.push_back(place.pair);
+    return order;
+}
+
+} // namespace
+
+WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& units,
+                     std::size_t unit) {
+    const WorkUnit& work = units[unit];
+    WorkPiece piece;
+    piece.unit = static_cast<std::uint32_t>(unit);
+    piece.alone = work.alone;
+    for (const std::uint32_t mesh : work.meshes)
+        piece.meshes.push_back(
+            {stored.meshes[mesh].mesh, stored.meshes[mesh].bytes, WorkPiece::kNoUse});
+    std::vector<std::uint32_t> parts;
+    parts.reserve(2 * work.pairs.size());
+    for (const IndexPair& pair : work.pairs)
+        parts.insert(parts.end(), {pair.a(), pair.b()});
+    std::ranges::sort(parts);
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    const auto whole = static_cast<std::uint32_t>(work.meshes.size());
+    for (const std::uint32_t part : parts) {
+        const StoredPart& p = stored.parts[part];
+        std::uint32_t mesh = 0;
+        if (stored.find_large(p.mesh) == nullptr) {
+            mesh = place_of(work.meshes, p.mesh);
+        } else {
+            const std::int64_t row = stored.meshes[p.mesh].mesh;
+            const auto at = std::ranges::find(piece.large, row);
+            mesh = whole + static_cast<std::uint32_t>(at - piece.large.begin());
+            if (at == piece.large.end())
+                piece.large.push_back(row);
+        }
+        piece.parts.push_back({p.row, mesh, p.model});
+    }
+    for (const IndexPair& pair : work.pairs)
+        piece.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b())});
+    if (!piece.large.empty())
+        piece.large_pairs = large_pairs(stored, work.pairs);
+    return piece;
+}
+
+} // namespace abut

@@ -1,0 +1,381 @@
+#include <abut/error.h>
+#include <abut/motion.h>
+
+#include "geometry/triangle_triangle_distance.h"
+#include "geometry/triangle_triangle_intersect.h"
+#include "math/predicates.h"
+#include "rigid/motion/impact_steps.h"
+#include "rigid/motion/motion_bounds.h"
+#include "rigid/motion/moving_ball.h"
+#include "rigid/motion/moving_nodes.h"
+#include "rigid/motion/moving_pair.h"
+#include "rigid/motion/moving_triangles.h"
+#include "rigid/pair/contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <boost/container/static_vector.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+constexpr double kEnd = 1; ///< of the time that is looked at
+constexpr double kNoTime = std::numeric_limits<double>::infinity();
+/// How often pairs of triangles within the tolerance are followed, in all and for each pair that
+/// was found, before contact is reported as possible.
+constexpr std::uint64_t kMostFollowed = 4096, kMostFollowedOfPair = 64;
+/// Below this many times the margin for rounding, nothing is told from contact: twice, so that what
+/// is left of larger gaps always moves the time on.
+constexpr double kUndecided = 2;
+/// Radians by which both together turn within a window: bounds hold for one, and are good for
+/// turns this small.
+constexpr double kMostTurn = 0.25;
+/// A window is not shorter, so that they come to an end.
+constexpr double kLeastWindow = 0x1p-20;
+/// A moment is used again while what its bounds have lost by its age is no more than this share of
+/// a box's radius.
+constexpr double kStale = 1.0 / 64;
+/// A box of less than this share of another's radius is lost in the rounding of single precision.
+constexpr double kBlurred = 0x1p-16;
+/// A ball that is nearer than this share of its radius, or free for less than this share of a window,
+/// is not waited for: what is in it is looked at.
+constexpr double kNear = 0.25, kShortWait = 1.0 / 256;
+/// Where one box has so many times the radius of the other, it is opened alone.
+constexpr double kUnlike = 3;
+constexpr std::uint32_t kAllLanes = (1U << Node::kWidth) - 1;
+
+/// Two boxes by their names, or two triangles by their slots, that certainly do not meet before
+/// `time`.
+struct Waiting {
+    double time;
+    std::uint32_t a, b;
+};
+
+/// Gives the pair of the earliest time first; of the same time, one that is deeper in the tree of
+/// a: nodes come after those above them.
+class WaitingQueue {
+public:
+    void clear() { heap_.clear(); }
+    /// Infinite if none waits.
+    [[nodiscard]] double first_time() const { return heap_.empty() ? kNoTime : heap_.front().time; }
+
+    void push(const Waiting& pair) {
+        heap_.push_back(pair);
+        std::push_heap(heap_.begin(), heap_.end(), Later{});
+    }
+    Waiting pop() {
+        std::pop_heap(heap_.begin(), heap_.end(), Later{});
+        const Waiting first = heap_.back();
+        heap_.pop_back();
+        return first;
+    }
+
+private:
+    struct Later {
+        bool operator()(const Waiting& x, const Waiting& y) const {
+            return x.time > y.time || (x.time == y.time && x.a < y.a);
+        }
+    };
+    std::vector<Waiting> heap_;
+};
+
+/// Half the diagonal of a box, in units of its tree; in single precision, as it only decides what is
+/// opened and when a moment is too old.
+double radius_of(const Tree& tree, std::uint32_t name) {
+    const auto half_of = [](float x, float y, float z) {
+        return 0.5F * std::sqrt(x * x + y * y + z * z);
+    };
+    if (name == kRootName) {
+        const auto &low = tree.bounds.lower, &high = tree.bounds.upper;
+        return half_of(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    }
+    const Node& node = tree.nodes[node_of(name)];
+    const std::size_t i = lane_of(name);
+    return half_of(node.upper[0][i] - node.lower[0][i], node.upper[1][i] - node.lower[1][i],
+                   node.upper[2][i] - node.lower[2][i]);
+}
+
+/// Advances all pairs in the order of the times before which they cannot meet.
+class ImpactSearch {
+public:
+    ImpactSearch(const Model& a, const Model& b, const MovingPair& pair,
+                 const ImpactOptions& options)
+        : a_(a), b_(b), pair_(pair), tree_a_(pair.a.tree), tree_b_(pair.b.tree),
+          asked_tolerance_(options.tolerance.value_or(
+              kImpactTolerance * std::max(a.data().diagonal(), b.data().diagonal()))),
+          tolerance_(std::max(asked_tolerance_, kUndecided * pair.margin)), steps_(options),
+          window_(std::max(kLeastWindow, kMostTurn / (pair.a.trajectory.speed_of_rotation() +
+                                                      pair.b.trajectory.speed_of_rotation()))),
+          blur_(std::min(kEnd, window_) * pair.bend + 0x1p-18 * pair.speed) {}
+
+    Impact run() {
+        for (double begin = 0; begin <= kEnd && !answered_; begin = next_begin_)
+            search_from(begin);
+        impact_.counters = counters_;
+        impact_.steps = steps_.count();
+        return impact_;
+    }
+
+private:
+    /// One window of time. What can only meet after it is not kept: the next window finds it again
+    /// from the roots, in fewer pairs than the many small ones into which it was split here.
+    void search_from(double begin) {
+        begin += pair_.free_time_of_balls(begin, kEnd - begin);
+        window_end_ = std::min(kEnd, begin + window_);
+        next_begin_ = window_end_ < kEnd ? window_end_ : kNoTime;
+        boxes_.clear();
+        triangles_.clear();
+        if (begin <= window_end_)
+            boxes_.push({begin, kRootName, kRootName});
+        while (!answered_) {
+            const double box_time = boxes_.first_time(), triangle_time = triangles_.first_time(),
+                         time = std::min(box_time, triangle_time);
+            if (!(time <= window_end_))
+                break;
+            if (!steps_.take(time)) {
+                impact_ = out_of_steps(time);
+                answered_ = true;
+            } else if (triangle_time <= box_time) {
+                advance(triangles_.pop());
+            } else {
+                open(boxes_.pop());
+            }
+        }
+    }
+
+    /// The time span from a pair's on, from a moment that serves boxes of this size.
+    TimeSpan span_from(double time, double radius) {
+        const double passed = time - moment_.time;
+        if (moment_.time < 0 || passed * blur_ > kStale * radius)
+            moment_ = Moment(pair_, time);
+        return {moment_, time, window_end_};
+    }
+
+    /// Replaces a pair of boxes by the pairs below it.
+    void open(const Waiting& pair) {
+        const NodeRef a = tree_a_.named(pair.a), b = tree_b_.named(pair.b);
+        const double radius_a = pair_.a.scale * radius_of(tree_a_, pair.a),
+                     radius_b = pair_.b.scale * radius_of(tree_b_, pair.b);
+        if ((b.is_leaf() && radius_a < kBlurred * radius_b &&
+             postpone(pair, {pair_.a, pair.a}, {pair_.b, b_, b})) ||
+            (a.is_leaf() && radius_b < kBlurred * radius_a &&
+             postpone(pair, {pair_.b, pair.b}, {pair_.a, a_, a})))
+            return;
+        const TimeSpan span = span_from(pair.time, std::min(radius_a, radius_b));
+        if (a.is_leaf() && b.is_leaf()) {
+            open_leaves(pair, span);
+            return;
+        }
+        const bool open_a = !a.is_leaf() &&
+                            (b.is_leaf() || pair.b == kRootName || radius_b < kUnlike * radius_a),
+                   open_b = !b.is_leaf() &&
+                            (a.is_leaf() || pair.a == kRootName || radius_a < kUnlike * radius_b);
+        // What is not opened is compared as the child that it is.
+        const std::uint32_t index_a = open_a ? a.index() : node_of(pair.a),
+                            index_b = open_b ? b.index() : node_of(pair.b);
+        const std::uint32_t lanes_a = open_a ? kAllLanes : 1U << lane_of(pair.a),
+                            lanes_b = open_b ? kAllLanes : 1U << lane_of(pair.b);
+        MeetingChildren found;
+        find_meeting(span, {tree_a_.nodes[index_a], lanes_a}, {tree_b_.nodes[index_b], lanes_b},
+                     found);
+        counters_.volume_tests += std::uint64_t(std::popcount(lanes_a)) * std::popcount(lanes_b);
+        for (std::uint64_t left = found.pairs; left != 0; left &= left - 1) {
+            const auto bit = static_cast<std::uint32_t>(std::countr_zero(left));
+            const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
+            boxes_.push(
+                {span.at(found.share[i][j]), child_name(index_a, i), child_name(index_b, j)});
+        }
+    }
+
+    struct SmallBox {
+        const MovingPair::Body& body;
+        std::uint32_t name;
+    };
+    struct LargeLeaf {
+        const MovingPair::Body& body;
+        const Model& model;
+        NodeRef leaf;
+    };
+
+    /// In single precision, relative to a large leaf, a small box is anywhere: in double precision
+    /// the ball around it may be told to be apart from the leaf's triangles for some time. Not if
+    /// it is so near that what is below it must be looked at.
+    bool postpone(const Waiting& pair, const SmallBox& small, const LargeLeaf& large) {
+        if (small.name == kRootName)
+            return false;
+        const Transform world_from_small = small.body.trajectory.at(pair.time),
+                        world_from_large = large.body.trajectory.at(pair.time);
+        const MovingBall ball =
+            ball_of_child(small.body.tree, small.name,
+                          compose(world_from_small, small.body.model_from_tree), small.body.scale);
+        boost::container::static_vector<Triangle, TriangleLeaf::kLanes> triangles;
+        for (std::uint32_t i = 0; i < large.leaf.count(); ++i)
+            triangles.push_back(
+                large.model.data().world_slot(large.leaf.first() + i, world_from_large));
+        const BallGap gap =
+            gap_of_ball(ball, small.body.trajectory, {triangles.data(), triangles.size()},
+                        large.body.trajectory, pair.time, pair_.margin);
+        // Also where something is not a number.
+        if (!(gap.distance >= kNear * ball.radius &&
+              gap.free_time >= kShortWait * std::min(kEnd, window_)))
+            return false;
+        const double next = pair.time + gap.free_time;
+        if (next <= window_end_)
+            boxes_.push({next, pair.a, pair.b});
+        return true;
+    }
+
+    void open_leaves(const Waiting& pair, const TimeSpan& span) {
+        const NodeRef leaf_a = tree_a_.named(pair.a), leaf_b = tree_b_.named(pair.b);
+        MeetingTriangles found;
+        find_meeting(span, tree_a_.nodes[node_of(pair.a)], tree_a_.leaf(leaf_a),
+                     tree_b_.nodes[node_of(pair.b)], tree_b_.leaf(leaf_b), found);
+        for (std::uint32_t i = 0; i < leaf_a.count(); ++i)
+            for (std::uint32_t j = 0; j < leaf_b.count(); ++j) {
+                ++counters_.primitive_tests;
+                if ((found.pairs >> (TriangleLeaf::kLanes * i + j) & 1U) == 0)
+                    continue;
+                most_followed_ += kMostFollowedOfPair;
+                triangles_.push(
+                    {span.at(found.share[i][j]), leaf_a.first() + i, leaf_b.first() + j});
+            }
+    }
+
+    [[nodiscard]] Triangle triangle_a(std::uint32_t slot, double time) const {
+        return a_.data().world_slot(slot, pair_.a.trajectory.at(time));
+    }
+    [[nodiscard]] Triangle triangle_b(std::uint32_t slot, double time) const {
+        return b_.data().world_slot(slot, pair_.b.trajectory.at(time));
+    }
+
+    /// Measures two triangles: they are the answer, or wait for their next time.
+    void advance(const Waiting& pair) {
+        ++counters_.primitive_tests;
+        const Triangle a = triangle_a(pair.a, pair.time), b = triangle_b(pair.b, pair.time);
+        const ClosestPoints closest = triangle_triangle_distance(a, b);
+        const double gap = std::sqrt(closest.distance_sq);
+        if (gap <= tolerance_ && decide(pair, closest, gap))
+            return;
+        const double next =
+            pair.time + free_time(pair_, pair.time, a, b, closest, window_end_ - pair.time);
+        if (next <= window_end_)
+            triangles_.push({next, pair.a, pair.b});
+    }
+
+    /// Whether two triangles within the tolerance end the search: they will meet, or nobody knows.
+    bool decide(const Waiting& pair, const ClosestPoints& closest, double gap) {
+        const Vec3 normal = normalized_or_zero(closest.b - closest.a);
+        const double closing =
+            dot(normal, pair_.a.trajectory.velocity_at(closest.a, pair.time) -
+                            pair_.b.trajectory.velocity_at(closest.b, pair.time));
+        const bool undecided = gap <= kUndecided * pair_.margin || ++followed_ > most_followed_;
+        double contact_time = contact_of_triangles(pair, closing > 0 ? gap / closing : 0);
+        if (contact_time > kEnd && undecided)
+            contact_time = contact_of_models(
+                pair.time, pair_.margin / (closing > 0 ? closing : std::max(pair_.speed, kEnd)));
+        answered_ = contact_time <= kEnd || undecided;
+        if (!answered_)
+            return false;
+        impact_.hit = true;
+        impact_.time = pair.time;
+        impact_.contact_time = contact_time;
+        impact_.gap = gap;
+        impact_.point_a = closest.a, impact_.point_b = closest.b;
+        impact_.normal = normal;
+        impact_.triangle_a = a_.data().triangle_at(pair.a);
+        impact_.triangle_b = b_.data().triangle_at(pair.b);
+        impact_.status = contact_time > kEnd       ? Status::bound_only
+                         : gap <= asked_tolerance_ ? Status::exact
+                                                   : Status::converged;
+        return true;
+    }
+
+    /// A time at which the two triangles share a point, now or where they should at their present
+    /// speed; infinite if none is found.
+    double contact_of_triangles(const Waiting& pair, double expected) {
+        for (const double part : {0.0, 1.001, 1.1, 2.0, 8.0}) {
+            const double time = std::min(kEnd, pair.time + part * expected);
+            ++counters_.primitive_tests;
+            if (triangle_triangle_intersect(triangle_a(pair.a, time), triangle_b(pair.b, time)) !=
+                TriangleContact::none)
+                return time;
+            if (expected == 0)
+                break;
+        }
+        return kNoTime;
+    }
+
+    /// The same for the whole models: near two triangles that only touch, others may cross.
+    double contact_of_models(double time, double step) {
+        for (const double steps : {1.0, 16.0, 256.0, 4096.0}) {
+            const double then = std::min(kEnd, time + steps * step);
+            const PlacedPair placed(a_, pair_.a.trajectory.at(then), b_,
+                                    pair_.b.trajectory.at(then));
+            if (!find_contacts(placed, ContactMode::first, counters_).empty())
+                return then;
+        }
+        return kNoTime;
+    }
+
+    const Model& a_;
+    const Model& b_;
+    const MovingPair& pair_;
+    const Tree &tree_a_, &tree_b_;
+    double asked_tolerance_, tolerance_;
+    ImpactSteps steps_;
+    double window_; ///< length of a window
+    /// Speed at which the bounds of a moment become worse: rotation within a window, and roundings
+    /// of single precision.
+    double blur_;
+    double window_end_ = 0; ///< of the present one
+    double next_begin_ = 0; ///< no pair that was left out can meet before this time
+    bool answered_ = false;
+    WaitingQueue boxes_, triangles_;
+    Moment moment_;
+    std::uint64_t followed_ = 0, most_followed_ = kMostFollowed;
+    Counters counters_;
+    Impact impact_;
+};
+
+/// The models share a point at the start.
+Impact impact_at_start(const PlacedPair& placed, const Contact& contact) {
+    const ClosestPoints common = triangle_triangle_distance(placed.triangle_a(contact.pair.a),
+                                                            placed.triangle_b(contact.pair.b));
+    Impact impact;
+    impact.hit = true;
+    impact.time = impact.contact_time = impact.gap = 0;
+    impact.point_a = common.a, impact.point_b = common.b;
+    impact.triangle_a = contact.pair.a, impact.triangle_b = contact.pair.b;
+    return impact;
+}
+
+} // namespace
+
+Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
+                      const Motion& motion_b, const ImpactOptions& options) {
+    if (options.tolerance && !(*options.tolerance >= 0))
+        throw Error(ErrorCode::bad_argument, "tolerance must not be negative");
+    const StopScope stopping(options.progress);
+    const ModelData &data_a = a.data(), &data_b = b.data();
+    const MovingPair pair(data_a.tree(), data_a.model_from_tree(), motion_a, data_b.tree(),
+                          data_b.model_from_tree(), motion_b);
+    if (data_a.tree().empty() || data_b.tree().empty())
+        return {};
+    const std::uint64_t exact_before = exact_signs();
+    Counters at_start;
+    const PlacedPair placed(a, pair.a.trajectory.at(0), b, pair.b.trajectory.at(0));
+    const std::vector<Contact> contact = find_contacts(placed, ContactMode::first, at_start);
+    Impact impact = contact.empty() ? ImpactSearch(a, b, pair, options).run()
+                                    : impact_at_start(placed, contact.front());
+    impact.counters.volume_tests += at_start.volume_tests;
+    impact.counters.primitive_tests += at_start.primitive_tests;
+    impact.counters.exact_tests = exact_signs() - exact_before;
+    return impact;
+}
+
+} // namespace abut

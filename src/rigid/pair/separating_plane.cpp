@@ -1,0 +1,76 @@
+#include "rigid/pair/separating_plane.h"
+
+#include "math/transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+constexpr int kDirections = 4;
+/// Where models overlap by more than this share of their distance along a direction, others hardly
+/// ever tell them apart.
+constexpr double kHopeless = 0.125;
+/// Nothing that is not smaller is lost where products underflow.
+constexpr double kSmallest = 0x1p-900;
+
+/// A model's support in the world.
+class PlacedSupport {
+public:
+    PlacedSupport(const SupportBound& support, const Transform& world)
+        : support_(support), world_(world), middle_(apply(world, support.middle())) {}
+
+    [[nodiscard]] const Vec3& middle() const { return middle_; }
+
+    /// A direction of the world as the model sees it.
+    [[nodiscard]] Vec3 seen(const Vec3& n) const { return pull_back(world_, n); }
+    /// From the middle, along a direction that the model sees: as SupportBound.
+    [[nodiscard]] double height(const Vec3& seen) const { return support_.height(seen); }
+    [[nodiscard]] Vec3 support(const Vec3& seen) const {
+        return apply_linear(world_, support_.support(seen));
+    }
+
+    /// No world coordinate, and no sum on the way to one, is larger.
+    [[nodiscard]] double reach() const {
+        return sum_of_sizes(world_) * (support_.size() + sum_of_sizes(support_.middle())) +
+               sum_of_sizes(Vec3{world_.m[9], world_.m[10], world_.m[11]});
+    }
+
+private:
+    const SupportBound& support_;
+    const Transform& world_;
+    Vec3 middle_;
+};
+
+/// How far along a segment its point nearest to the origin lies, in lengths of it.
+double nearest_to_origin(const Vec3& p, const Vec3& along) {
+    return std::clamp(-dot(p, along) / length_sq(along), 0.0, 1.0);
+}
+
+} // namespace
+
+bool far_apart(const ModelData& model_a, const Transform& world_from_a, const ModelData& model_b,
+               const Transform& world_from_b, double gap) {
+    const PlacedSupport a(model_a.support(), world_from_a), b(model_b.support(), world_from_b);
+    const Vec3 between = b.middle() - a.middle();
+    const double margin = 0x1p-46 * (a.reach() + b.reach());
+    Vec3 nearest = between;
+    for (int i = 0; i < kDirections; ++i) {
+        const Vec3 n = nearest, n_a = a.seen(n), n_b = b.seen(-n);
+        const double apart =
+            (dot(n, between) - margin * sum_of_sizes(n)) - (a.height(n_a) + b.height(n_b));
+        const double n_sq = length_sq(n);
+        if (!(apart > -kHopeless * n_sq) || !(n_sq > kSmallest))
+            return false;
+        if (apart > kSmallest && apart * apart > gap * gap * n_sq * (1 + 0x1p-40))
+            return true;
+        const Vec3 along = between + b.support(n_b) - a.support(n_a) - nearest;
+        // From the middle, half the step: the first support is far to one side.
+        nearest = nearest + (i == 0 ? 0.5 : 1) * nearest_to_origin(nearest, along) * along;
+    }
+    return false;
+}
+
+} // namespace abut

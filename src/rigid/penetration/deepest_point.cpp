@@ -1,0 +1,382 @@
+#include "rigid/penetration/deepest_point.h"
+
+#include "geometry/triangle_triangle_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/container/static_vector.hpp>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace abut {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Bounds are rounded by some units in the last place: this much outweighs that.
+constexpr double kSafe = 1 + 0x1p-40;
+/// Faces of the solid that a piece remembers.
+constexpr std::size_t kFaces = 4;
+
+/// A point and its distance to the solid's surface.
+struct Sample {
+    Vec3 point;
+    double distance = kInfinity;
+    std::uint32_t slot = 0; ///< of the solid: the nearest triangle
+    bool inside = false;
+
+    [[nodiscard]] bool any() const { return distance < kInfinity; }
+};
+
+/// A part of the surface that may hold its deepest point: a box of its tree, or a piece of a
+/// triangle.
+struct Piece {
+    double at_most = kInfinity; ///< no point of the piece is deeper
+    NodeRef box;                ///< none: the piece is a triangle
+    std::uint32_t slot = 0;     ///< of that triangle
+    boost::container::static_vector<Vec3, 8> corners;
+    Vec3 middle;
+    double radius = 0; ///< of a ball around the middle that holds the piece
+    Sample sample;     ///< at the middle if sampled, else at that of an enclosing piece
+    bool sampled = false;
+    /// Slots of the solid, of the last samples of this piece and those around it.
+    boost::container::static_vector<std::uint32_t, kFaces> faces;
+    bool operator<(const Piece& other) const { return at_most < other.at_most; }
+};
+
+/// Distances of a piece's corners from a face. Distance to a convex set is convex: at any mean of
+/// the corners it is at most the mean of theirs.
+using CornerDistances = std::array<double, 8>;
+
+/// The largest that the smaller of two functions can be that are linear in the weights of n corners:
+/// at a corner, or between two where they are equal.
+double largest_of_smaller(const CornerDistances& f, const CornerDistances& g, std::size_t n) {
+    double largest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        largest = std::max(largest, std::min(f[i], g[i]));
+        for (std::size_t j = 0; f[i] > g[i] && j < n; ++j)
+            if (f[j] < g[j]) {
+                const double share = (f[i] - g[i]) / ((f[i] - g[i]) + (g[j] - f[j]));
+                largest = std::max(largest, f[i] + share * (f[j] - f[i]));
+            }
+    }
+    return largest;
+}
+
+class Search {
+public:
+    Search(const PlacedModel& surface, const WorldSolid& solid, const SurfacePart& part,
+           const DepthSearch& options, double deeper_than)
+        : surface_(surface), solid_(solid), bounds_(solid.bounds()), part_(part),
+          options_(options) {
+        best_.depth = deeper_than;
+    }
+
+    DeepestPoint run(std::span<const std::uint32_t> starts) {
+        for (const std::uint32_t triangle : starts)
+            for (const Vec3& corner : surface_.world_triangle(triangle))
+                try_point(corner, triangle, nullptr);
+        if (!surface_.model().tree().empty() && bounds_.box.lower[0] <= bounds_.box.upper[0])
+            add_box(NodeRef::node(0), surface_.model().tree().bounds, {}, {});
+        while (!pieces_.empty() && !finished(pieces_.top().at_most)) {
+            poll_stop();
+            if (options_.steps != nullptr && !options_.steps->take())
+                break;
+            const Piece piece = pieces_.top();
+            pieces_.pop();
+            if (!piece.sampled)
+                sample(piece);
+            else if (!piece.box.is_none())
+                open(piece);
+            else
+                bisect(piece);
+        }
+        best_.at_most =
+            std::max({best_.depth, dropped_, pieces_.empty() ? 0 : pieces_.top().at_most});
+        return best_;
+    }
+
+private:
+    using Polygon = boost::container::static_vector<Vec3, 9>;
+
+    /// Not worth a closer look.
+    [[nodiscard]] double wanted() const { return best_.depth * (1 + options_.relative_accuracy); }
+
+    [[nodiscard]] bool finished(double at_most) const {
+        if (at_most <= wanted())
+            return true;
+        const bool undecided = options_.threshold > 0 && best_.depth <= options_.threshold &&
+                               at_most > options_.threshold;
+        if (undecided)
+            return evaluations_ > options_.threshold_budget;
+        return evaluations_ > (best_.depth > 0 ? options_.accuracy_budget : options_.reach_budget);
+    }
+
+    // ---- pieces
+
+    void open(const Piece& parent) {
+        const Tree& tree = surface_.model().tree();
+        if (parent.box.is_leaf()) {
+            const std::uint32_t first = parent.box.first();
+            for (std::uint32_t slot = first; slot < first + parent.box.count(); ++slot)
+                if (part_.takes(surface_.model().triangle_at(slot)))
+                    add_clipped(slot, parent);
+            return;
+        }
+        const Node& node = tree.nodes[parent.box.index()];
+        for (std::size_t i = 0; i < Node::kWidth && !node.child[i].is_none(); ++i)
+            add_box(node.child[i], node.box(i), node.frame, parent);
+    }
+
+    void add_box(NodeRef ref, const Aabb& box, const NodeFrame& frame, const Piece& parent) {
+        Vec3 lower{box.lower[0], box.lower[1], box.lower[2]},
+            upper{box.upper[0], box.upper[1], box.upper[2]};
+        // The frame's axes are at right angles to a few parts in 2^24.
+        const double off = 0x1p-20 * (length(lower) + length(upper));
+        lower = lower - Vec3{off, off, off}, upper = upper + Vec3{off, off, off};
+        const Vec3 middle = 0.5 * lower + 0.5 * upper;
+        const auto to_world = [&](const Vec3& p) {
+            return apply(surface_.world_from_tree(), frame.point_to_tree(p));
+        };
+        Piece piece;
+        piece.box = ref;
+        piece.radius = surface_.most_stretch() * length(upper - middle) * (1 + 0x1p-20);
+        piece.middle = to_world(middle);
+        for (unsigned i = 0; i < 8; ++i)
+            piece.corners.push_back(
+                to_world({i & 1U ? upper.x : lower.x, i & 2U ? upper.y : lower.y,
+                          i & 4U ? upper.z : lower.z}));
+        inherit(piece, parent);
+    }
+
+    /// Only what lies in the solid's box can lie inside it.
+    void add_clipped(std::uint32_t slot, const Piece& parent) {
+        Polygon polygon;
+        for (const Vec3& p : surface_.world_slot(slot))
+            polygon.push_back(apply(bounds_.frame_from_world, p));
+        clip(polygon, bounds_.box);
+        for (std::size_t i = 2; i < polygon.size(); ++i)
+            add_triangle({apply(bounds_.world_from_frame, polygon[0]),
+                          apply(bounds_.world_from_frame, polygon[i - 1]),
+                          apply(bounds_.world_from_frame, polygon[i])},
+                         slot, parent);
+    }
+
+    /// Source: [Sutherland, Hodgman 1974].
+    static void clip(Polygon& polygon, const Aabb& box) {
+        for (int plane = 0; plane < 6 && !polygon.empty(); ++plane) {
+            const int axis = plane / 2;
+            const double sign = plane % 2 == 0 ? 1 : -1;
+            const double limit =
+                sign * (plane % 2 == 0 ? box.upper : box.lower)[static_cast<std::size_t>(axis)];
+            const auto over = [&](const Vec3& p) { return sign * component(p, axis) - limit; };
+            Polygon kept;
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+                const double op = over(p), oq = over(q);
+                if (op <= 0)
+                    kept.push_back(p);
+                if ((op < 0 && oq > 0) || (op > 0 && oq < 0))
+                    kept.push_back(p + (op / (op - oq)) * (q - p));
+            }
+            polygon = kept;
+        }
+    }
+
+    void bisect(const Piece& parent) {
+        const auto& t = parent.corners;
+        std::size_t longest = 0;
+        for (std::size_t i = 1; i < 3; ++i)
+            if (length_sq(t[(i + 1) % 3] - t[i]) > length_sq(t[(longest + 1) % 3] - t[longest]))
+                longest = i;
+        const Vec3 &p = t[longest], &q = t[(longest + 1) % 3], &r = t[(longest + 2) % 3];
+        const Vec3 m = 0.5 * (p + q);
+        add_triangle({p, m, r}, parent.slot, parent);
+        add_triangle({m, q, r}, parent.slot, parent);
+    }
+
+    void add_triangle(const Triangle& t, std::uint32_t slot, const Piece& parent) {
+        Piece piece;
+        piece.slot = slot;
+        piece.corners.assign(t.begin(), t.end());
+        piece.middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
+        for (const Vec3& corner : t)
+            piece.radius = std::max(piece.radius, length(corner - piece.middle));
+        piece.radius *= kSafe;
+        inherit(piece, parent);
+    }
+
+    /// Keeps a piece unless what is known of the piece that it is part of rules it out.
+    void inherit(Piece& piece, const Piece& parent) {
+        piece.sample = parent.sample;
+        piece.faces = parent.faces;
+        piece.at_most = bound(piece);
+        if (worth_keeping(piece.at_most) && part_.may_hold(piece.middle, piece.radius))
+            pieces_.push(piece);
+    }
+
+    bool worth_keeping(double at_most) {
+        if (at_most <= best_.depth)
+            return false;
+        if (at_most > wanted())
+            return true;
+        dropped_ = std::max(dropped_, at_most);
+        return false;
+    }
+
+    /// What the sample, at the piece's middle or farther off, says of the piece's depth.
+    [[nodiscard]] double bound(const Piece& piece) const {
+        const Sample& s = piece.sample;
+        if (!s.any())
+            return kInfinity;
+        const double reach = (length(piece.middle - s.point) + piece.radius) * kSafe;
+        // From outside, a point is at least as far away from the first one inside.
+        const double across = s.inside ? kInfinity : reach - s.distance / kSafe;
+        if (across <= 0)
+            return 0;
+        const double limit = std::min(across, s.distance + reach);
+        if (limit <= wanted())
+            return limit;
+        return std::min(limit, bound_by_faces(piece) * kSafe);
+    }
+
+    /// The least that a pair of faces allows: it is tight where the piece lies across the middle
+    /// between two.
+    [[nodiscard]] double bound_by_faces(const Piece& piece) const {
+        const std::size_t n = piece.corners.size();
+        std::array<CornerDistances, kFaces> distances{};
+        double least = kInfinity;
+        for (std::size_t k = 0; k < piece.faces.size() && least > wanted(); ++k) {
+            const Triangle face = solid_.world_slot(piece.faces[k]);
+            for (std::size_t i = 0; i < n; ++i)
+                distances[k][i] =
+                    std::sqrt(point_triangle_distance(piece.corners[i], face).distance_sq);
+            for (std::size_t other = 0; other <= k; ++other)
+                least = std::min(least, largest_of_smaller(distances[other], distances[k], n));
+        }
+        return least;
+    }
+
+    // ---- points
+
+    void sample(Piece piece) {
+        ++evaluations_;
+        const Sample known = piece.sample;
+        // A triangle that is near enough to rule the piece out ends the search for the nearest.
+        const WorldSolid::NearestSearch search{.enough = wanted() - piece.radius,
+                                               .seed = known.any() ? &known.slot : nullptr};
+        const WorldSolid::Nearest nearest = solid_.nearest(piece.middle, search);
+        if (nearest.distance <= search.enough) {
+            // Nothing in the piece is deeper than that.
+            (void)worth_keeping((nearest.distance + piece.radius) * kSafe);
+            return;
+        }
+        piece.sampled = true;
+        // Whether it is inside is asked only where that matters.
+        piece.sample = {piece.middle, nearest.distance, nearest.slot, true};
+        remember(piece, nearest.slot);
+        piece.at_most = std::min(piece.at_most, bound(piece));
+        if (piece.at_most > wanted()) {
+            piece.sample.inside = is_inside(piece.sample, known);
+            piece.at_most = std::min(piece.at_most, bound(piece));
+        }
+        if (!worth_keeping(piece.at_most))
+            return;
+        pieces_.push(piece);
+        if (!piece.sample.inside)
+            return;
+        if (piece.box.is_none())
+            try_points(piece, nearest);
+        else
+            try_any_point(piece.box, nearest.slot);
+    }
+
+    [[nodiscard]] bool is_inside(const Sample& s, const Sample& known) const {
+        if (!(s.distance > 0))
+            return false;
+        // Between two points nearer to each other than to the surface, nothing changes from inside
+        // to outside.
+        if (known.any() && length(s.point - known.point) * kSafe * kSafe < known.distance)
+            return known.inside;
+        return known.any() && known.distance > 0
+                   ? solid_.contains_off_surface(s.point, known.point, known.inside)
+                   : solid_.contains_off_surface(s.point);
+    }
+
+    /// First; the last makes room.
+    static void remember(Piece& piece, std::uint32_t slot) {
+        auto& faces = piece.faces;
+        const auto known = std::find(faces.begin(), faces.end(), slot);
+        if (known != faces.end())
+            faces.erase(known);
+        else if (faces.size() == kFaces)
+            faces.pop_back();
+        faces.insert(faces.begin(), slot);
+    }
+
+    // ---- points of the surface, for a depth that is reached
+
+    /// The sample of a piece of a triangle; its corners, if that is deeper than what was known.
+    void try_points(const Piece& piece, const WorldSolid::Nearest& nearest) {
+        const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
+        if (!(nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle)))
+            return;
+        take(piece.middle, triangle, nearest);
+        for (const Vec3& corner : piece.corners) // depth is often greatest at a corner
+            try_point(corner, triangle, &nearest.slot);
+    }
+
+    /// A vertex in a box.
+    void try_any_point(NodeRef box, std::uint32_t seed) {
+        while (!box.is_leaf())
+            box = surface_.model().tree().nodes[box.index()].child[0];
+        try_point(surface_.world_slot(box.first())[0], surface_.model().triangle_at(box.first()),
+                  &seed);
+    }
+
+    /// `seed`: a slot of the solid that is likely near, or null.
+    void try_point(const Vec3& point, std::uint32_t triangle, const std::uint32_t* seed) {
+        if (!belongs(point, triangle))
+            return;
+        const double least = beyond(point);
+        const WorldSolid::Nearest nearest = solid_.nearest(point, {.enough = least, .seed = seed});
+        if (nearest.distance > least && solid_.contains_off_surface(point))
+            take(point, triangle, nearest);
+    }
+
+    /// A point of a face that lies in the surface is inside or outside by rounding alone.
+    [[nodiscard]] double beyond(const Vec3& point) const {
+        return std::max(best_.depth,
+                        16 * 0x1p-53 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z)));
+    }
+    [[nodiscard]] bool belongs(const Vec3& point, std::uint32_t triangle) const {
+        return part_.takes(triangle) && part_.may_hold(point, 0);
+    }
+    void take(const Vec3& point, std::uint32_t triangle, const WorldSolid::Nearest& nearest) {
+        best_.depth = nearest.distance;
+        best_.on_surface = point, best_.on_solid = nearest.point;
+        best_.surface_triangle = triangle;
+        best_.solid_triangle = solid_.triangle_at(nearest.slot);
+    }
+
+    const PlacedModel& surface_;
+    const WorldSolid& solid_;
+    const WorldSolid::Bounds bounds_;
+    const SurfacePart& part_;
+    const DepthSearch& options_;
+    DeepestPoint best_;
+    double dropped_ = 0; ///< largest bound of a piece that was dropped although deeper
+    std::priority_queue<Piece> pieces_;
+    int evaluations_ = 0;
+};
+
+} // namespace
+
+DeepestPoint find_deepest_point(const PlacedModel& surface, const WorldSolid& solid,
+                                std::span<const std::uint32_t> starts, const SurfacePart& part,
+                                const DepthSearch& options, double deeper_than) {
+    return Search(surface, solid, part, options, deeper_than).run(starts);
+}
+
+} // namespace abut

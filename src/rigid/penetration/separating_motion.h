@@ -1,0 +1,26 @@
+#pragma once
+
+#include "rigid/pair/contacts.h"
+#include "rigid/solid/world_solid.h"
+
+#include <span>
+
+namespace abut {
+
+/// A translation of b after which the surfaces share no point.
+struct Escape {
+    double length = 0; ///< 0: none was found
+    Vec3 direction;    ///< unit vector
+};
+
+/// A direction in which b, moved by 2^-30 of the pair's size, no longer meets a; zero if none was
+/// found.
+///
+/// Accuracy    exact for the moved positions; the directions tried are the separating ones of the
+///             contacts, the commonest first, their mean, and 26 evenly spread.
+Vec3 nudge_that_parts(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
+
+/// The shortest translation along the same directions that parts the surfaces, to 2^-24 of it.
+Escape find_escape(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
+
+} // namespace abut

@@ -1,0 +1,62 @@
+#include <abut/shape_queries.h>
+
+#include "core/parallel.h"
+#include "rigid/shapes/shape_arguments.h"
+#include "rigid/solid/placed_solid.h"
+
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+class ContainmentQuery {
+public:
+    ContainmentQuery(const Model& model, const Transform& world_from_model)
+        : placed_(model, model.data().solid(), world_from_model),
+          model_from_world_(inverse(placed_.world())) {}
+
+    [[nodiscard]] Containment operator()(const Vec3& point) const {
+        Containment result;
+        const bool closed = placed_.solid().closed;
+        result.method = closed ? ContainmentMethod::crossings : ContainmentMethod::winding;
+        if (placed_.on_surface(point)) {
+            result.side = Side::on_surface;
+        } else if (closed) {
+            result.side = placed_.contains_off_surface(point) ? Side::inside : Side::outside;
+        } else {
+            // An affine map moves mesh and point alike; a mirroring one turns the number's sign.
+            const double number =
+                winding_number(placed_.model().mesh(), apply(model_from_world_, point));
+            result.winding_number = placed_.mirrored() ? -number : number;
+            result.side = std::abs(number) >= 0.5 ? Side::inside : Side::outside;
+        }
+        return result;
+    }
+
+private:
+    PlacedSolid placed_;
+    Transform model_from_world_;
+};
+
+} // namespace
+
+Containment contains(const Model& model, const Transform& world_from_model, const Vec3& point,
+                     const Progress& progress) {
+    require_point(point, "point");
+    const StopScope stopping(progress);
+    return ContainmentQuery(model, world_from_model)(point);
+}
+
+std::vector<Containment> contains(const Model& model, const Transform& world_from_model,
+                                  std::span<const Vec3> points, const Progress& progress) {
+    for (const Vec3& point : points)
+        require_point(point, "point");
+    const StopScope stopping(progress);
+    const ContainmentQuery query(model, world_from_model);
+    std::vector<Containment> results(points.size());
+    parallel_for(points.size(), 8, [&](std::size_t i) { results[i] = query(points[i]); });
+    return results;
+}
+
+} // namespace abut

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "rigid/model/placed_model.h"
+#include "rigid/model/solid.h"
+#include "rigid/solid/world_solid.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace abut {
+
+/// A placed model that may bound a solid: what is inside, what is nearest. The solid must outlive
+/// it.
+class PlacedSolid final : public PlacedModel, public WorldSolid {
+public:
+    /// Errors      as PlacedModel.
+    PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model,
+                const std::optional<Vec3>& origin = {});
+
+    /// The transform with a translation added.
+    [[nodiscard]] Transform world_moved(const Vec3& shift) const {
+        return translated(world(), shift);
+    }
+    [[nodiscard]] const Solid& solid() const { return solid_; }
+
+    /// Whether world() turns left hands into right ones.
+    [[nodiscard]] bool mirrored() const { return mirrored_; }
+
+    [[nodiscard]] std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const override {
+        return std::make_unique<PlacedSolid>(public_model(), solid_, world(), origin);
+    }
+    [[nodiscard]] bool closed() const override { return solid_.closed; }
+    [[nodiscard]] bool bounds_solid() const override { return solid_.solid; }
+    /// solid().outward as seen in the world: a mirroring transform turns it round.
+    [[nodiscard]] int outward() const override {
+        return mirrored_ ? -solid_.outward : solid_.outward;
+    }
+    [[nodiscard]] std::vector<Vec3> component_points() const override;
+    [[nodiscard]] Vec3 middle() const override { return PlacedModel::middle(); }
+    [[nodiscard]] double reach() const override { return PlacedModel::reach(); }
+    [[nodiscard]] Box3 world_box() const override;
+    using WorldSolid::world_size;
+    [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const override {
+        return PlacedModel::world_triangle(triangle);
+    }
+    [[nodiscard]] std::vector<EdgeFace> faces_around(std::uint32_t triangle,
+                                                     std::size_t edge) const override;
+    [[nodiscard]] bool on_surface(const Vec3& point) const override {
+        return PlacedModel::on_surface(point);
+    }
+    using WorldSolid::nearest;
+    [[nodiscard]] Nearest nearest(const Vec3& point, const NearestSearch& search) const override {
+        return nearest_point(*this, point, search);
+    }
+    /// Of the tree.
+    [[nodiscard]] Triangle world_slot(std::uint32_t slot) const override {
+        return PlacedModel::world_slot(slot);
+    }
+    [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const override {
+        return model().triangle_at(slot);
+    }
+    [[nodiscard]] Bounds bounds() const override {
+        return {tree_from_world(), world_from_tree(), model().tree().bounds};
+    }
+    /// The model itself, wherever it is.
+    void for_each_block(const Box3& region,
+                        const std::function<bool(const Block&)>& visit) const override;
+
+protected:
+    [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override {
+        return abut::crossings(*this, from, to);
+    }
+    [[nodiscard]] double winding(const Vec3& point) const override;
+
+private:
+    const Solid& solid_;
+    bool mirrored_;
+};
+
+} // namespace abut

@@ -1,0 +1,228 @@
+#include "world/broad_phase/block_tree.h"
+
+#include "core/parallel.h"
+#include "simd/simd.h"
+#include "world/broad_phase/median_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace abut {
+
+namespace {
+
+constexpr std::size_t kBlocksOfTask = 256;
+
+Middle middle_of(const Aabb& box, std::uint32_t index) {
+    Middle middle{{}, index};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        middle.point[axis] = 0.5F * box.lower[axis] + 0.5F * box.upper[axis];
+    return middle;
+}
+
+/// Prefetches both cache lines that a box may lie in.
+void prefetch(const Box3* box) {
+    hwy::Prefetch(&box->lower);
+    hwy::Prefetch(&box->upper.z);
+}
+
+/// Sum of the edge lengths; 0 if the box is empty.
+float size_of(const Aabb& box) {
+    float size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        size += std::max(0.0F, box.upper[axis] - box.lower[axis]);
+    return size;
+}
+
+} // namespace
+
+void BlockTree::build(std::span<const Box3> boxes) {
+    frame_ = NarrowFrame::about(boxes);
+    order_.resize(boxes.size()), lane_.resize(boxes.size());
+    std::vector<Middle> middles;
+    middles.reserve(boxes.size());
+    std::size_t last = boxes.size(); // empty boxes come last
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        if (takes_part(boxes[i]))
+            middles.push_back(middle_of(frame_.narrow(boxes[i]), i));
+        else
+            order_[--last] = i;
+    order_by_medians(middles);
+    std::transform(middles.begin(), middles.end(), order_.begin(),
+                   [](const Middle& middle) { return middle.box; });
+    for (std::uint32_t i = 0; i < order_.size(); ++i)
+        lane_[order_[i]] = i;
+    resize_levels();
+    refit_all(boxes);
+    mark(order_);
+    built_size_.resize(levels_[0].blocks.size());
+    for (std::size_t i = 0; i < built_size_.size(); ++i)
+        built_size_[i] = size_of(levels_[0].blocks[i].bounds());
+    wear_ = 0;
+}
+
+void BlockTree::refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
+    if (boxes.size() > order_.size())
+        append(boxes.size());
+    if (changed.size() == order_.size() && sampled_wear(boxes) > most_wear()) {
+        wear_ = 2 * most_wear();
+        return;
+    }
+    // If many boxes have changed, it is cheaper to go through all blocks in order.
+    constexpr std::size_t kFew = 16;
+    if (changed.size() * kFew > order_.size()) {
+        refit_all(boxes);
+        mark(changed);
+    } else {
+        refit_some(boxes, changed);
+    }
+    add_wear();
+}
+
+void BlockTree::resize_levels() {
+    std::size_t blocks = std::max<std::size_t>((order_.size() + kWidth - 1) / kWidth, 1);
+    std::size_t count = 1;
+    for (std::size_t n = blocks; n > 1; n = (n + kWidth - 1) / kWidth)
+        ++count;
+    BoxBlock empty{};
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+        empty.set(lane, Aabb());
+    levels_.resize(count);
+    for (Level& level : levels_) {
+        level.blocks.resize(blocks, empty);
+        level.marks.resize(blocks, 0);
+        blocks = (blocks + kWidth - 1) / kWidth;
+    }
+}
+
+void BlockTree::append(std::size_t count) {
+    const std::size_t old = order_.size();
+    order_.resize(count), lane_.resize(count);
+    std::iota(order_.begin() + static_cast<std::ptrdiff_t>(old), order_.end(),
+              static_cast<std::uint32_t>(old));
+    std::iota(lane_.begin() + static_cast<std::ptrdiff_t>(old), lane_.end(),
+              static_cast<std::uint32_t>(old));
+    const std::size_t parents = levels_.size();
+    resize_levels();
+    if (levels_.size() != parents) // a new root must take over the bounds of the old one
+        for (std::size_t level = 1; level < levels_.size(); ++level)
+            fit_parents(level);
+    built_size_.resize(levels_[0].blocks.size(), 0);
+}
+
+void BlockTree::fit_block(std::span<const Box3> boxes, std::size_t block) {
+    BoxBlock& to = levels_[0].blocks[block];
+    const std::size_t first = block * kWidth, ahead = first + 2 * kWidth;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        // Neighbours in space are not neighbours in memory.
+        if (ahead + lane < order_.size())
+            prefetch(&boxes[order_[ahead + lane]]);
+        to.set(lane,
+               first + lane < order_.size() ? frame_.narrow(boxes[order_[first + lane]]) : Aabb());
+    }
+}
+
+void BlockTree::refit_all(std::span<const Box3> boxes) {
+    parallel_for(levels_[0].blocks.size(), kBlocksOfTask,
+                 [&](std::size_t block) { fit_block(boxes, block); });
+    for (std::size_t level = 1; level < levels_.size(); ++level)
+        fit_parents(level);
+}
+
+void BlockTree::fit_parents(std::size_t level) {
+    const std::vector<BoxBlock>& children = levels_[level - 1].blocks;
+    parallel_for(levels_[level].blocks.size(), kBlocksOfTask, [&](std::size_t block) {
+        for (std::size_t lane = 0; lane < kWidth; ++lane) {
+            const std::size_t child = block * kWidth + lane;
+            levels_[level].blocks[block].set(
+                lane, child < children.size() ? children[child].bounds() : Aabb());
+        }
+    });
+}
+
+void BlockTree::refit_some(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
+    forget_marks();
+    std::vector<std::size_t> lanes, parents;
+    lanes.reserve(changed.size());
+    for (const std::uint32_t box : changed) {
+        lanes.push_back(lane_[box]);
+        levels_[0].blocks[lane_[box] / kWidth].set(lane_[box] % kWidth, frame_.narrow(boxes[box]));
+    }
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        parents.clear();
+        for (const std::size_t lane : lanes) {
+            std::uint32_t& marks = levels_[level].marks[lane / kWidth];
+            if (marks == 0)
+                parents.push_back(lane / kWidth);
+            marks |= 1U << lane % kWidth;
+        }
+        if (level + 1 < levels_.size())
+            for (const std::size_t block : parents)
+                levels_[level + 1].blocks[block / kWidth].set(
+                    block % kWidth, levels_[level].blocks[block].bounds());
+        std::swap(lanes, parents);
+    }
+}
+
+void BlockTree::forget_marks() {
+    for (Level& level : levels_)
+        std::fill(level.marks.begin(), level.marks.end(), 0);
+}
+
+void BlockTree::mark(std::span<const std::uint32_t> changed) {
+    if (changed.size() == order_.size()) {
+        for (Level& level : levels_)
+            std::fill(level.marks.begin(), level.marks.end(), BoxBlock::kAllLanes);
+        return;
+    }
+    forget_marks();
+    for (const std::uint32_t box : changed)
+        levels_[0].marks[lane_[box] / kWidth] |= 1U << lane_[box] % kWidth;
+    for (std::size_t level = 1; level < levels_.size(); ++level)
+        for (std::size_t child = 0; child < levels_[level - 1].marks.size(); ++child)
+            if (levels_[level - 1].marks[child] != 0)
+                levels_[level].marks[child / kWidth] |= 1U << child % kWidth;
+}
+
+double BlockTree::excess(std::size_t block, const Aabb& bounds) const {
+    const float size = size_of(bounds);
+    if (!(size > built_size_[block]))
+        return 0;
+    // The number of additional block pairs is about proportional to the additional volume.
+    const auto most = static_cast<float>(built_size_.size());
+    const float growth = built_size_[block] > 0 ? size / built_size_[block] : most;
+    return double{std::min(growth * growth * growth, most)} - 1;
+}
+
+void BlockTree::add_wear() {
+    if (levels_.size() < 2)
+        return;
+    for (std::size_t block = 0; block < built_size_.size(); ++block)
+        if (levels_[0].marks[block] != 0)
+            wear_ += excess(block, levels_[1].blocks[block / kWidth].box(block % kWidth));
+}
+
+double BlockTree::sampled_wear(std::span<const Box3> boxes) {
+    constexpr std::size_t kStride = 16;
+    if (levels_.size() < 2)
+        return 0;
+    double sum = 0;
+    for (std::size_t block = 0; block < built_size_.size(); block += kStride) {
+        fit_block(boxes, block);
+        sum += excess(block, levels_[0].blocks[block].bounds());
+    }
+    return sum * kStride;
+}
+
+double BlockTree::most_wear() const {
+    // Ordering the boxes of a block takes about as long as testing it against this many others.
+    constexpr double kBlockPairsOfBuild = 12;
+    return kBlockPairsOfBuild * static_cast<double>(built_size_.size());
+}
+
+bool BlockTree::is_worn() const {
+    return wear_ > most_wear();
+}
+
+} // namespace abut

@@ -1,0 +1,183 @@
+#include "core/parallel.h"
+#include "world/broad_phase/block_tree.h"
+#include "world/broad_phase/pair_search.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+
+namespace abut {
+
+namespace {
+
+/// Two blocks of one level. The first does not come after the second.
+struct BlockPair {
+    std::uint32_t a, b;
+};
+
+/// Collects the pairs of one task that have a marked box.
+class MarkedPairs {
+public:
+    MarkedPairs(const BlockTree& tree, std::span<const Box3> boxes, const PairFilter& wanted,
+                std::vector<IndexPair>& found)
+        : tree_(tree), boxes_(boxes), wanted_(wanted), found_(found) {}
+
+    void visit(std::size_t level, BlockPair pair) {
+        if (level == 0) {
+            visit_boxes(pair);
+            return;
+        }
+        for_each_child_pair(tree_, level, pair, [&](BlockPair child) { visit(level - 1, child); });
+    }
+
+    /// Calls visit(children) for each pair of blocks of the level below that meet and have a mark.
+    template <typename Visit>
+    static void for_each_child_pair(const BlockTree& tree, std::size_t level, BlockPair pair,
+                                    const Visit& visit) {
+        BlockMeetings meetings;
+        find(tree, level, pair, meetings);
+        for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
+            const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
+            std::uint32_t meet = meetings.meet[row] & marked_partners(tree, level, pair, row);
+            if (pair.a == pair.b)
+                meet &= BoxBlock::kAllLanes << row;
+            for (; meet != 0; meet &= meet - 1)
+                visit(BlockPair{pair.a * kWidth + row,
+                                pair.b * kWidth +
+                                    static_cast<std::uint32_t>(std::countr_zero(meet))});
+        }
+    }
+
+private:
+    static constexpr auto kWidth = static_cast<std::uint32_t>(BlockTree::kWidth);
+
+    static void find(const BlockTree& tree, std::size_t level, BlockPair pair,
+                     BlockMeetings& meetings) {
+        const BlockTree::Level& here = tree.levels()[level];
+        // If no box of b has changed, only the changed boxes of a need testing.
+        const std::uint32_t rows =
+            here.marks[pair.b] != 0 ? BoxBlock::kAllLanes : here.marks[pair.a];
+        const Aabb bounds =
+            level + 1 < tree.levels().size()
+                ? tree.levels()[level + 1].blocks[pair.b / kWidth].box(pair.b % kWidth)
+                : here.blocks[pair.b].bounds();
+        find_meetings(here.blocks[pair.a], rows, here.blocks[pair.b], bounds, meetings);
+    }
+    static std::uint32_t marked_partners(const BlockTree& tree, std::size_t level, BlockPair pair,
+                                         std::uint32_t row) {
+        const std::vector<std::uint32_t>& marks = tree.levels()[level].marks;
+        return (marks[pair.a] >> row & 1) != 0 ? BoxBlock::kAllLanes : marks[pair.b];
+    }
+
+    void visit_boxes(BlockPair pair) {
+        BlockMeetings meetings;
+        find(tree_, 0, pair, meetings);
+        std::size_t count = 0;
+        for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
+            const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
+            std::uint32_t meet = meetings.meet[row] & marked_partners(tree_, 0, pair, row);
+            if (pair.a == pair.b)
+                meet &= BoxBlock::kAllLanes << row << 1;
+            for (; meet != 0; meet &= meet - 1) {
+                const auto lane = static_cast<std::uint32_t>(std::countr_zero(meet));
+                const std::uint32_t i = tree_.box_at(pair.a, row), k = tree_.box_at(pair.b, lane);
+                const bool certain = (meetings.touch[row] >> lane & 1) == 0;
+                if (certain || meet_exactly(i, k))
+                    pairs_[count++] = IndexPair(i, k);
+            }
+        }
+        keep_wanted(std::span(pairs_).first(count));
+    }
+    [[nodiscard]] bool meet_exactly(std::uint32_t i, std::uint32_t k) const {
+        return abut::meet(boxes_[i], boxes_[k]);
+    }
+    void keep_wanted(std::span<const IndexPair> pairs) {
+        if (!wanted_)
+            found_.insert(found_.end(), pairs.begin(), pairs.end());
+        else
+            std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(found_),
+                         [&](IndexPair pair) { return wanted_(pair.a(), pair.b()); });
+    }
+
+    const BlockTree& tree_;
+    std::span<const Box3> boxes_;
+    const PairFilter& wanted_;
+    std::vector<IndexPair>& found_;
+    std::array<IndexPair, std::size_t{kWidth} * kWidth>
+        pairs_; ///< pairs of two blocks, before the filter
+};
+
+class TreeSearch final : public PairSearch {
+public:
+    explicit TreeSearch(PairFilter wanted) : wanted_(std::move(wanted)) {}
+
+    void restart(std::span<const Box3> boxes, PairList& list) override {
+        tree_.build(boxes);
+        find(boxes);
+        list.replace_all(found_, boxes.size());
+    }
+
+    void update(const BoxStep& step, PairList& list) override {
+        const bool shrunk = step.boxes.size() < tree_.size();
+        if (!shrunk)
+            tree_.refit(step.boxes, step.changed);
+        if (shrunk || tree_.is_worn() || tree_.size() == 0) {
+            restart(step.boxes, list);
+            return;
+        }
+        find(step.boxes);
+        if (step.all_changed()) {
+            list.replace_all(found_, step.boxes.size());
+            return;
+        }
+        marks_.assign(step.boxes.size(), 0);
+        for (const std::uint32_t box : step.changed)
+            marks_[box] = 1;
+        list.replace_marked(found_, marks_);
+    }
+
+private:
+    /// Collects the pairs of marked boxes.
+    void find(std::span<const Box3> boxes) {
+        constexpr std::size_t kPairsOfTask = 16;
+        const std::size_t level = tree_.levels().size() > 1 ? 1 : 0;
+        const std::vector<BlockPair> pairs = block_pairs(level);
+        const std::size_t tasks = (pairs.size() + kPairsOfTask - 1) / kPairsOfTask;
+        found_.resize(std::max<std::size_t>(tasks, 1));
+        for (auto& list : found_)
+            list.clear();
+        parallel_for(tasks, 1, [&](std::size_t task) {
+            MarkedPairs marked(tree_, boxes, wanted_, found_[task]);
+            const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
+            for (std::size_t i = task * kPairsOfTask; i < end; ++i)
+                marked.visit(level, pairs[i]);
+        });
+    }
+
+    /// Pairs of blocks of a level that meet and have a mark.
+    [[nodiscard]] std::vector<BlockPair> block_pairs(std::size_t level) const {
+        std::vector<BlockPair> pairs{{0, 0}}, children;
+        for (std::size_t above = tree_.levels().size() - 1; above > level; --above) {
+            children.clear();
+            for (const BlockPair pair : pairs)
+                MarkedPairs::for_each_child_pair(
+                    tree_, above, pair, [&](BlockPair child) { children.push_back(child); });
+            std::swap(pairs, children);
+        }
+        return pairs;
+    }
+
+    PairFilter wanted_;
+    BlockTree tree_;
+    std::vector<std::vector<IndexPair>> found_;
+    BoxMarks marks_;
+};
+
+} // namespace
+
+std::unique_ptr<PairSearch> make_tree_search(PairFilter wanted) {
+    return std::make_unique<TreeSearch>(std::move(wanted));
+}
+
+} // namespace abut

@@ -1,0 +1,181 @@
+#include "world/narrow_phase/body.h"
+
+#include "convex/body/convex_data.h"
+#include "convex/hull/climb.h"
+#include "core/parallel.h"
+#include "deform/deformable_data.h"
+#include "math/transform.h"
+#include "rigid/shapes/shape_arguments.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+/// Relative error of a computed coordinate.
+constexpr double kBoxRounding = 0x1p-48;
+
+Box3 grown(const Vec3& centre, const Vec3& half) {
+    const auto outward = [](double c, double h) { return h + kBoxRounding * (std::abs(c) + h); };
+    const Vec3 by{outward(centre.x, half.x), outward(centre.y, half.y), outward(centre.z, half.z)};
+    return {centre - by, centre + by};
+}
+
+Vec3 absolute(const Vec3& v) {
+    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+}
+
+Box3 bounds_of_rounded(const RoundedBox& box) {
+    Vec3 half{box.radius, box.radius, box.radius};
+    for (std::size_t k = 0; k < 3; ++k)
+        half = half + box.half[k] * absolute(box.axis[k]);
+    return grown(box.centre, half);
+}
+
+/// The box of the vertices that are extreme along the axes. It is tight.
+Box3 bounds_of_convex(const ConvexData& convex, const Transform& world_from_body) {
+    const Polytope& polytope = convex.levels.front().polytope;
+    const auto& m = world_from_body.m;
+    Box3 box;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0}) {
+            const Vec3 along{sign * m[axis], sign * m[axis + 3], sign * m[axis + 6]};
+            extend(box, apply(world_from_body, polytope.vertices[farthest(polytope, along)].at));
+        }
+    // The extreme vertex is found up to the rounding of sums, whose terms may be larger than the
+    // sum.
+    double size = max_abs({m[9], m[10], m[11]});
+    for (std::size_t i = 0; i < 9; ++i)
+        size = std::max(size, std::abs(m[i]) * convex.reach);
+    const Vec3 error = 8 * kBoxRounding * Vec3{size, size, size};
+    return {box.lower - error, box.upper + error};
+}
+
+Box3 bounds_of_deformable(const Deformable& surface) {
+    Box3 box;
+    for (const MovingVertex& vertex : surface.data().vertices)
+        extend(box, vertex.start), extend(box, vertex.end);
+    return box;
+}
+
+} // namespace
+
+const Model& Snapshot::model() const {
+    const auto make = [&] {
+        Mesh mesh;
+        for (const MovingVertex& vertex : surface_.data().vertices)
+            mesh.positions.push_back(vertex.start);
+        mesh.triangles = surface_.triangles();
+        model_.emplace(std::move(mesh));
+    };
+    std::call_once(once_, [&] { isolated(make); });
+    return *model_;
+}
+
+BodyShape shape_of(const Convex& convex) {
+    return ConvexShape{convex, Model(convex.mesh())};
+}
+
+BodyShape shape_of(const Sphere& sphere) {
+    require_sphere(sphere);
+    RoundedBox box;
+    box.centre = sphere.centre, box.radius = sphere.radius;
+    return box;
+}
+
+BodyShape shape_of(const Capsule& capsule) {
+    require_segment(capsule.axis);
+    require_sphere({capsule.axis.a, capsule.radius});
+    RoundedBox box;
+    box.centre = 0.5 * capsule.axis.a + 0.5 * capsule.axis.b, box.radius = capsule.radius;
+    const Vec3 half = 0.5 * capsule.axis.b - 0.5 * capsule.axis.a;
+    box.half[2] = length(half);
+    if (box.half[2] > 0) {
+        const Vec3 z = (1 / box.half[2]) * half;
+        // Any vector that is not parallel to z determines the other two axes.
+        const Vec3 other = std::abs(z.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+        const Vec3 x = normalized_or_zero(cross(other, z));
+        box.axis = {x, cross(z, x), z};
+    }
+    return box;
+}
+
+BodyShape shape_of(const Box3& box) {
+    require(require_box(box), "box is empty");
+    const Vec3 half = 0.5 * box.upper - 0.5 * box.lower;
+    RoundedBox rounded;
+    rounded.centre = 0.5 * box.lower + 0.5 * box.upper;
+    rounded.half = {half.x, half.y, half.z};
+    return rounded;
+}
+
+BodyShape shape_of(const Deformable& surface) {
+    return DeformableShape{&surface, std::make_shared<const Snapshot>(surface)};
+}
+
+RoundedBox placed(const RoundedBox& box, const Transform& world_from_body) {
+    RoundedBox result = box;
+    result.centre = apply(world_from_body, box.centre);
+    for (Vec3& axis : result.axis)
+        axis = apply_linear(world_from_body, axis);
+    return result;
+}
+
+Box3 bounds_of(const BodyShape& shape) {
+    if (const auto* box = std::get_if<RoundedBox>(&shape))
+        return bounds_of_rounded(*box);
+    if (const auto* deformable = std::get_if<DeformableShape>(&shape))
+        return bounds_of_deformable(*deformable->surface);
+    Box3 box;
+    if (const auto* convex = std::get_if<ConvexShape>(&shape)) {
+        for (const Vec3& vertex : convex->solid.vertices())
+            extend(box, vertex);
+        return box;
+    }
+    const Mesh& mesh = std::get<Model>(shape).mesh();
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t vertex : triangle)
+            extend(box, mesh.positions[vertex]);
+    return box;
+}
+
+Box3 bounds_of(const BodyShape& shape, const Box3& own_bounds, const Transform& world_from_body) {
+    if (const auto* box = std::get_if<RoundedBox>(&shape))
+        return bounds_of_rounded(placed(*box, world_from_body));
+    if (const auto* convex = std::get_if<ConvexShape>(&shape))
+        return bounds_of_convex(convex->solid.data(), world_from_body);
+    if (is_empty(own_bounds) || is_deformable(shape))
+        return own_bounds;
+    return placed_bounds(own_bounds, world_from_body);
+}
+
+Box3 placed_bounds(const Box3& own_bounds, const Transform& world_from_body) {
+    const auto& m = world_from_body.m;
+    const Vec3 centre = 0.5 * own_bounds.lower + 0.5 * own_bounds.upper,
+               half = 0.5 * own_bounds.upper - 0.5 * own_bounds.lower;
+    const Vec3 turned = half.x * absolute({m[0], m[1], m[2]}) +
+                        half.y * absolute({m[3], m[4], m[5]}) +
+                        half.z * absolute({m[6], m[7], m[8]});
+    // The rounding of a position is relative to its terms, which may be larger than their sum.
+    const double stretch = *std::max_element(
+        m.begin(), m.begin() + 9, [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const double size = std::max(1.0, std::abs(stretch)) * (max_abs(centre) + max_abs(half)) +
+                        max_abs({m[9], m[10], m[11]});
+    const double error = 8 * kBoxRounding * size;
+    return grown(apply(world_from_body, centre), turned + Vec3{error, error, error});
+}
+
+double reach_from(const BodyShape& shape, const Box3& own_bounds, const Vec3& point) {
+    if (const auto* box = std::get_if<RoundedBox>(&shape))
+        return (length(box->centre - point) + length({box->half[0], box->half[1], box->half[2]}) +
+                box->radius) *
+               (1 + kBoxRounding);
+    if (is_empty(own_bounds))
+        return 0;
+    return length(max(absolute(own_bounds.lower - point), absolute(own_bounds.upper - point))) *
+           (1 + kBoxRounding);
+}
+
+} // namespace abut

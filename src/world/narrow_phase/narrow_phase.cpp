@@ -1,0 +1,305 @@
+#include "world/narrow_phase/narrow_phase.h"
+
+#include <abut/shape_queries.h>
+
+#include "math/transform.h"
+#include "rigid/model/model_data.h"
+#include "rigid/solid/containment.h"
+#include "world/narrow_phase/offset_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+// The table of shape pairs: an overload of `meet` and of `measure` for each pair of kinds. Surfaces
+// come before convex bodies, and these before rounded boxes. For the opposite order, the result is
+// swapped. A deformable counts as a model here.
+namespace abut {
+
+namespace {
+
+template <typename Shape>
+struct Placed {
+    const Shape& shape;
+    const Transform& world;
+};
+using PlacedSurface = Placed<Model>;
+using PlacedConvex = Placed<ConvexShape>;
+using PlacedRounded = Placed<RoundedBox>;
+
+int dimension(const RoundedBox& box) {
+    return static_cast<int>(3 - std::count(box.half.begin(), box.half.end(), 0.0));
+}
+
+Segment axis_of(const RoundedBox& capsule) {
+    const auto longest = static_cast<std::size_t>(
+        std::max_element(capsule.half.begin(), capsule.half.end()) - capsule.half.begin());
+    const Vec3 along = capsule.half[longest] * capsule.axis[longest];
+    return {capsule.centre - along, capsule.centre + along};
+}
+
+/// The box of a body that is a plain box, in the body's frame, whose axes are the box's.
+Box3 own_box(const RoundedBox& box) {
+    const Vec3 half{box.half[0], box.half[1], box.half[2]};
+    return {box.centre - half, box.centre + half};
+}
+
+/// A rounded box without its radius. It is the image of a point, a segment or a cube whose
+/// coordinates are -1 or 1, under a transform.
+struct Core {
+    const Convex& convex;
+    Transform world;
+};
+Core core_of(const RoundedBox& solid) {
+    static const Convex point(std::vector<Vec3>{{}}), cube(unit_cube().mesh().positions),
+        segment(std::vector<Vec3>{{-1, -1, -1}, {1, 1, 1}});
+    // A flat box is a cube without extent along one axis.
+    return {dimension(solid) == 0   ? point
+            : dimension(solid) == 1 ? segment
+                                    : cube,
+            offset_surface_of(solid).body_from_surface};
+}
+
+bool has_inside(const Model& model) {
+    return model.data().solid().closed;
+}
+
+BodyGap from_rigid(const Gap& gap) {
+    BodyGap result{{},          {}, gap.distance,   gap.point_a,
+                   gap.point_b, {}, gap.triangle_a, gap.triangle_b,
+                   gap.status};
+    // If the bodies overlap, moving b along the normal brings its point to a's point.
+    const Vec3 way = gap.point_b - gap.point_a;
+    result.normal = normalized_or_zero(gap.distance < 0 ? -way : way);
+    return result;
+}
+
+/// The gap of two convex solids; minus the depth if they overlap.
+BodyGap measure_solids(const Convex& a, const Transform& world_from_a, const Convex& b,
+                       const Transform& world_from_b, ConvexWorkspace& workspace) {
+    ConvexDistanceOptions options;
+    options.workspace = &workspace;
+    const ConvexGap gap = distance(a, world_from_a, b, world_from_b, options);
+    BodyGap result;
+    result.distance = gap.distance;
+    result.point_a = gap.point_a, result.point_b = gap.point_b;
+    result.normal = normalized_or_zero(gap.point_b - gap.point_a);
+    if (gap.distance > 0)
+        return result;
+    const ConvexDepth depth = penetration(a, world_from_a, b, world_from_b, &workspace);
+    if (depth.meet) {
+        result.distance = -depth.depth;
+        result.point_a = depth.point_a, result.point_b = depth.point_b;
+        result.normal = depth.direction;
+    }
+    return result;
+}
+
+BodyGap measure_models(const Model& a, const Transform& world_from_a, const Model& b,
+                       const Transform& world_from_b, double upper_bound, Depths depths,
+                       PairWorkspace& workspace) {
+    DistanceOptions options;
+    options.upper_bound = std::max(upper_bound, 0.0);
+    options.signed_distance = depths == Depths::yes;
+    options.workspace = &workspace.surfaces;
+    return from_rigid(distance(a, world_from_a, b, world_from_b, options));
+}
+
+/// Subtracts a radius around b's core, which is a point, a segment or a box.
+BodyGap with_radius(BodyGap core, double radius) {
+    core.distance -= radius;
+    core.point_b = core.point_b - radius * core.normal;
+    return core;
+}
+
+bool meet(const PlacedSurface& a, const PlacedSurface& b, PairWorkspace& workspace) {
+    CollideOptions options;
+    options.workspace = &workspace.surfaces;
+    return collide(a.shape, a.world, b.shape, b.world, options).any();
+}
+
+bool meet(const PlacedSurface& a, const PlacedConvex& b, PairWorkspace& workspace) {
+    if (meet(a, PlacedSurface{b.shape.surface, b.world}, workspace))
+        return true;
+    const Model& surface = b.shape.surface;
+    return any_component_inside(PlacedSolid(a.shape, a.shape.data().solid(), a.world),
+                                PlacedSolid(surface, surface.data().solid(), b.world));
+}
+
+bool meet(const PlacedConvex& a, const PlacedConvex& b, PairWorkspace& workspace) {
+    ConvexDistanceOptions options;
+    options.workspace = &workspace.solids;
+    return distance(a.shape.solid, a.world, b.shape.solid, b.world, options).distance == 0;
+}
+
+bool meet(const PlacedConvex& a, const PlacedRounded& b, PairWorkspace& workspace) {
+    const RoundedBox solid = placed(b.shape, b.world);
+    const Core core = core_of(solid);
+    ConvexDistanceOptions options;
+    options.workspace = &workspace.solids;
+    return distance(a.shape.solid, a.world, core.convex, core.world, options).distance <=
+           solid.radius;
+}
+
+bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWorkspace& /*workspace*/) {
+    const RoundedBox solid = placed(b.shape, b.world);
+    switch (dimension(solid)) {
+    case 0:
+        return overlaps(a.shape, a.world, Sphere{solid.centre, solid.radius});
+    case 1: {
+        DistanceOptions options;
+        options.upper_bound = std::nextafter(solid.radius, HUGE_VAL);
+        return distance(a.shape, a.world, axis_of(solid), options).distance <= solid.radius;
+    }
+    default:
+        return overlaps(a.shape, a.world, OrientedBox{own_box(b.shape), b.world});
+    }
+}
+
+bool meet(const PlacedRounded& a, const PlacedRounded& b, PairWorkspace& /*workspace*/) {
+    return rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), 0).distance <=
+           0;
+}
+
+BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bound, Depths depths,
+                PairWorkspace& workspace) {
+    return measure_models(a.shape, a.world, b.shape, b.world, upper_bound, depths, workspace);
+}
+
+BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_bound, Depths depths,
+                PairWorkspace& workspace) {
+    BodyGap gap =
+        measure_models(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths, workspace);
+    // A surface wholly inside the solid may be far from its faces, but is in contact.
+    if (gap.distance > 0 && meet(a, b, workspace))
+        gap.distance = 0, gap.normal = {};
+    return gap;
+}
+
+BodyGap measure(const PlacedConvex& a, const PlacedConvex& b, double /*upper_bound*/,
+                Depths /*depths*/, PairWorkspace& workspace) {
+    return measure_solids(a.shape.solid, a.world, b.shape.solid, b.world, workspace.solids);
+}
+
+BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bound*/,
+                Depths /*depths*/, PairWorkspace& workspace) {
+    const RoundedBox solid = placed(b.shape, b.world);
+    const Core core = core_of(solid);
+    return with_radius(
+        measure_solids(a.shape.solid, a.world, core.convex, core.world, workspace.solids),
+        solid.radius);
+}
+
+BodyGap measure_point(const PlacedSurface& a, const Vec3& centre, double upper_bound,
+                      Depths depths) {
+    NearestOptions options;
+    options.upper_bound = upper_bound;
+    options.signed_distance = depths == Depths::yes && has_inside(a.shape);
+    const Nearest found = nearest(a.shape, a.world, centre, options);
+    BodyGap gap;
+    gap.distance = found.distance, gap.status = found.status;
+    gap.point_a = found.point, gap.point_b = centre, gap.triangle_a = found.triangle;
+    const Vec3 way = centre - found.point;
+    gap.normal = normalized_or_zero(found.distance < 0 ? -way : way);
+    return gap;
+}
+
+BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bound, Depths depths,
+                PairWorkspace& workspace) {
+    const RoundedBox solid = placed(b.shape, b.world);
+    // Enlarged to cover the rounding when the radius is subtracted again.
+    const double bound = (std::max(upper_bound, 0.0) + solid.radius) * (1 + 0x1p-50);
+    switch (dimension(solid)) {
+    case 0:
+        return with_radius(measure_point(a, solid.centre, bound, depths), solid.radius);
+    case 1: {
+        DistanceOptions options;
+        options.upper_bound = bound;
+        BodyGap core = from_rigid(distance(a.shape, a.world, axis_of(solid), options));
+        // If the axis crosses the surface, the radius is only part of the depth.
+        if (core.distance == 0)
+            core.status = Status::bound_only;
+        return with_radius(core, solid.radius);
+    }
+    default:
+        const OffsetSurface faces = offset_surface_of(b.shape);
+        BodyGap gap = measure_models(a.shape, a.world, faces.surface,
+                                     compose(b.world, faces.body_from_surface), upper_bound, depths,
+                                     workspace);
+        // A surface wholly inside the box may be far from its faces, but is in contact.
+        if (gap.distance > 0 && meet(a, b, workspace))
+            gap.distance = 0, gap.normal = {};
+        return gap;
+    }
+}
+
+BodyGap measure(const PlacedRounded& a, const PlacedRounded& b, double upper_bound,
+                Depths /*depths*/, PairWorkspace& /*workspace*/) {
+    const SolidGap gap =
+        rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), upper_bound);
+    BodyGap result;
+    result.distance = gap.distance, result.normal = gap.normal;
+    result.point_a = gap.point_a, result.point_b = gap.point_b;
+    return result;
+}
+
+BodyGap turned_round(const BodyGap& gap) {
+    return {gap.b,       gap.a,          gap.distance,   gap.point_b, gap.point_a,
+            -gap.normal, gap.triangle_b, gap.triangle_a, gap.status};
+}
+
+const Model& surface_of(const Model& model) {
+    return model;
+}
+const Model& surface_of(const DeformableShape& deformable) {
+    return deformable.snapshot->model();
+}
+const ConvexShape& surface_of(const ConvexShape& convex) {
+    return convex;
+}
+const RoundedBox& surface_of(const RoundedBox& box) {
+    return box;
+}
+
+/// Position of a kind of shape in the table's order.
+template <typename Kind>
+constexpr int kRank = std::is_same_v<Kind, Model>         ? 0
+                      : std::is_same_v<Kind, ConvexShape> ? 1
+                                                          : 2;
+
+/// Calls query(a, b) with the shapes in the table's order. If that swaps them, returns
+/// turn(result).
+template <typename Query, typename Turn>
+auto with_shapes(const PlacedBody& a, const PlacedBody& b, const Query& query, const Turn& turn) {
+    return std::visit(
+        [&](const auto& shape_a, const auto& shape_b) {
+            const auto& kind_a = surface_of(shape_a);
+            const auto& kind_b = surface_of(shape_b);
+            using KindA = std::decay_t<decltype(kind_a)>;
+            using KindB = std::decay_t<decltype(kind_b)>;
+            const Placed<KindA> placed_a{kind_a, a.world_from_body};
+            const Placed<KindB> placed_b{kind_b, b.world_from_body};
+            if constexpr (kRank < KindA >> kRank<KindB>)
+                return turn(query(placed_b, placed_a));
+            else
+                return query(placed_a, placed_b);
+        },
+        a.shape, b.shape);
+}
+
+} // namespace
+
+bool touch(const PlacedBody& a, const PlacedBody& b, PairWorkspace& workspace) {
+    return with_shapes(
+        a, b, [&](const auto& x, const auto& y) { return meet(x, y, workspace); },
+        [](bool met) { return met; });
+}
+
+BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
+                    PairWorkspace& workspace) {
+    return with_shapes(
+        a, b,
+        [&](const auto& x, const auto& y) { return measure(x, y, upper_bound, depths, workspace); },
+        [](const BodyGap& gap) { return turned_round(gap); });
+}
+
+} // namespace abut

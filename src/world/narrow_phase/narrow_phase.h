@@ -1,0 +1,41 @@
+#pragma once
+
+#include <abut/rigid.h>
+
+#include "world/narrow_phase/body.h"
+
+namespace abut {
+
+/// A shape and its transform.
+struct PlacedBody {
+    const BodyShape& shape;
+    const Transform& world_from_body;
+};
+
+/// Data kept from one query of two bodies to the next, for all kinds of shape.
+struct PairWorkspace {
+    Workspace surfaces;
+    ConvexWorkspace solids;
+};
+
+/// Whether two bodies share a point.
+bool touch(const PlacedBody& a, const PlacedBody& b, PairWorkspace& workspace);
+
+/// What gap_between returns for bodies that overlap.
+enum class Depths : std::uint8_t {
+    no,  ///< 0 is sufficient for models
+    yes, ///< minus the depth
+};
+
+/// The gap between two bodies. The ids are not set.
+///
+/// In          upper_bound: if the gap is larger, any distance above the bound may be returned.
+BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
+                    PairWorkspace& workspace);
+
+/// Whether the kind of shape is convex. Models count as not convex.
+inline bool is_convex(const BodyShape& shape) {
+    return std::holds_alternative<RoundedBox>(shape) || std::holds_alternative<ConvexShape>(shape);
+}
+
+} // namespace abut

@@ -1,0 +1,129 @@
+#include "world/narrow_phase/world_data.h"
+
+#include <abut/error.h>
+
+#include <string>
+#include <utility>
+
+namespace abut {
+
+WorldData::WorldData(WorldOptions options)
+    : options_(std::move(options)),
+      broad_phase_({options_.broad_phase,
+                    [this](std::uint32_t i, std::uint32_t k) { return may_meet(i, k); }}) {}
+
+BodyId WorldData::next_id() const {
+    if (free_.empty())
+        return {static_cast<std::uint32_t>(bodies_.size()), 0};
+    return {free_.back(), bodies_[free_.back()].generation + 1};
+}
+
+bool WorldData::is_valid(BodyId id) const {
+    return id.index < bodies_.size() && bodies_[id.index].alive &&
+           bodies_[id.index].generation == id.generation;
+}
+
+const Body& WorldData::body(BodyId id) const {
+    if (!is_valid(id))
+        throw Error(ErrorCode::bad_argument,
+                    "body " + std::to_string(id.index) + ": there is no such body");
+    return bodies_[id.index];
+}
+Body& WorldData::changeable(BodyId id) {
+    static_cast<void>(body(id)); // throws if the id is not valid
+    return bodies_[id.index];
+}
+
+BodyId WorldData::add(BodyShape shape, const Pose& pose, const BodyOptions& options) {
+    const Transform world_from_body = pose;
+    const BodyId id = next_id();
+    if (free_.empty()) {
+        bodies_.emplace_back();
+        boxes_.emplace_back();
+        is_changed_.push_back(0);
+    } else {
+        free_.pop_back();
+    }
+    Body& to = bodies_[id.index];
+    to.own_bounds = bounds_of(shape);
+    to.shape = std::move(shape);
+    to.pose = pose, to.world_from_body = world_from_body;
+    to.options = options;
+    to.generation = id.generation, to.alive = true;
+    ++alive_;
+    fit_box(id.index);
+    return id;
+}
+
+void WorldData::remove(BodyId id) {
+    Body& gone = changeable(id);
+    gone.alive = false;
+    gone.shape = RoundedBox();
+    boxes_[id.index] = Box3();
+    removed_.push_back(id.index);
+    --alive_;
+    set_changed(id.index);
+}
+
+void WorldData::move(BodyId id, const Pose& pose) {
+    Body& moved = changeable(id);
+    moved.world_from_body = pose; // may throw, so nothing is changed before
+    moved.pose = pose;
+    fit_box(id.index);
+}
+
+void WorldData::refresh(BodyId id) {
+    Body& moved = changeable(id);
+    auto* deformable = std::get_if<DeformableShape>(&moved.shape);
+    if (deformable == nullptr)
+        return;
+    moved.shape = shape_of(*deformable->surface);
+    moved.own_bounds = bounds_of(moved.shape);
+    fit_box(id.index);
+}
+
+void WorldData::set_options(BodyId id, const BodyOptions& options) {
+    changeable(id).options = options;
+    refilter();
+}
+
+void WorldData::refilter() {
+    broad_phase_.forget();
+    refiltered_ = true;
+}
+
+bool WorldData::may_meet(std::uint32_t i, std::uint32_t k) const {
+    const BodyOptions &a = bodies_[i].options, &b = bodies_[k].options;
+    return !(a.is_static && b.is_static) && (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0 &&
+           (!options_.filter || options_.filter(id_of(i), id_of(k)));
+}
+
+void WorldData::set_changed(std::uint32_t index) {
+    if (is_changed_[index] == 0)
+        changed_.push_back(index);
+    is_changed_[index] = 1;
+}
+
+void WorldData::fit_box(std::uint32_t index) {
+    const Body& body = bodies_[index];
+    boxes_[index] = bounds_of(body.shape, body.own_bounds, body.world_from_body);
+    set_changed(index);
+}
+
+void WorldData::update() {
+    broad_phase_.update(boxes_, changed_);
+    carry_over(workspaces_, broad_phase_, PairWorkspace());
+    for (const std::uint32_t index : changed_)
+        is_changed_[index] = 0;
+    changed_.clear();
+    refiltered_ = false;
+    free_.insert(free_.end(), ended_.begin(), ended_.end());
+    ended_ = std::exchange(removed_, {});
+}
+
+void WorldData::update_if_changed() {
+    if (refiltered_ || !changed_.empty())
+        update();
+}
+
+} // namespace abut

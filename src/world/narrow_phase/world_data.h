@@ -1,0 +1,110 @@
+#pragma once
+
+#include <abut/world.h>
+
+#include "world/narrow_phase/body.h"
+#include "world/narrow_phase/narrow_phase.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace abut {
+
+/// A body of a world, or a free place for one.
+struct Body {
+    BodyShape shape = RoundedBox();
+    Pose pose;
+    Transform world_from_body;
+    Box3 own_bounds;
+    BodyOptions options;
+    std::uint32_t generation = 0;
+    bool alive = false;
+};
+
+/// The bodies of a world and the data of their pairs. The world's queries work on these.
+class WorldData {
+public:
+    explicit WorldData(WorldOptions options);
+    WorldData(const WorldData&) = delete;
+    WorldData& operator=(const WorldData&) = delete;
+
+    BodyId add(BodyShape shape, const Pose& pose, const BodyOptions& options);
+    void remove(BodyId id);
+    void move(BodyId id, const Pose& pose);
+    void refresh(BodyId id);
+    void set_options(BodyId id, const BodyOptions& options);
+    void refilter();
+
+    /// The id that the next added body will have.
+    [[nodiscard]] BodyId next_id() const;
+    [[nodiscard]] bool is_valid(BodyId id) const;
+    /// Errors      Error{bad_argument} if the id is not valid.
+    [[nodiscard]] const Body& body(BodyId id) const;
+
+    void update();
+    void update_if_changed();
+
+    [[nodiscard]] std::size_t size() const { return alive_; }
+    [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
+    [[nodiscard]] const std::vector<Box3>& boxes() const { return boxes_; }
+    [[nodiscard]] const BroadPhase& broad_phase() const { return broad_phase_; }
+    /// A workspace for each pair of `broad_phase().pairs()`.
+    [[nodiscard]] std::vector<PairWorkspace>& workspaces() { return workspaces_; }
+
+    [[nodiscard]] PlacedBody placed(std::uint32_t index) const {
+        return {bodies_[index].shape, bodies_[index].world_from_body};
+    }
+    [[nodiscard]] BodyId id_of(std::uint32_t index) const {
+        return {index, bodies_[index].generation};
+    }
+    [[nodiscard]] BodyPair ids_of(IndexPair pair) const {
+        return {id_of(pair.a()), id_of(pair.b())};
+    }
+    /// Whether options and filter allow the bodies to meet. In: i < k.
+    [[nodiscard]] bool may_meet(std::uint32_t i, std::uint32_t k) const;
+
+private:
+    Body& changeable(BodyId id);
+    void set_changed(std::uint32_t index);
+    void fit_box(std::uint32_t index);
+
+    WorldOptions options_;
+    std::vector<Body> bodies_;
+    std::vector<Box3> boxes_; ///< empty where there is no body
+    std::vector<std::uint32_t> free_;
+    /// Indices removed since the last update, and in the step before it. An index becomes free when
+    /// no list of ended pairs can refer to it any more.
+    std::vector<std::uint32_t> removed_, ended_;
+    std::vector<std::uint32_t> changed_; ///< changed since the last update, each once
+    std::vector<std::uint8_t> is_changed_;
+    bool refiltered_ = false; ///< whether filters changed since the last update
+    std::size_t alive_ = 0;
+    BroadPhase broad_phase_;
+    std::vector<PairWorkspace> workspaces_;
+};
+
+/// Carries a value for each pair over an update of the broad phase. Values of new pairs are
+/// `fresh`.
+template <typename Value>
+void carry_over(std::vector<Value>& values, const BroadPhase& phase, const Value& fresh) {
+    const std::vector<IndexPair>&begun = phase.begun(), &ended = phase.ended();
+    if (begun.empty() && ended.empty())
+        return;
+    const std::vector<Value> last = std::exchange(values, {});
+    values.reserve(phase.pairs().size());
+    auto next_begun = begun.begin(), next_ended = ended.begin();
+    std::size_t next = 0; // in `last`
+    for (const IndexPair pair : phase.pairs()) {
+        for (; next_ended != ended.end() && *next_ended < pair; ++next_ended)
+            ++next;
+        if (next_begun != begun.end() && *next_begun == pair) {
+            values.push_back(fresh);
+            ++next_begun;
+        } else {
+            values.push_back(last[next++]);
+        }
+    }
+}
+
+} // namespace abut

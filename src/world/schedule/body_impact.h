@@ -1,0 +1,27 @@
+#pragma once
+
+#include <abut/motion.h>
+
+#include "world/narrow_phase/body.h"
+
+namespace abut {
+
+/// A shape and its motion. A deformable moves by its own step, whatever `motion` says.
+struct MovingBody {
+    const BodyShape& shape;
+    const Box3& own_bounds;
+    const Motion& motion;
+};
+
+/// A box that encloses a shape throughout its motion.
+Box3 swept_bounds(const MovingBody& body);
+
+/// The first impact of two bodies.
+///
+/// Accuracy    never later than the first contact, and no contact is missed.
+/// Source      two models: `time_of_impact`; with deformables: `deforming_impact`; else
+///             conservative advancement [Mirtich 1996]. Between two convex bodies it uses the speed
+///             along the direction in which they are apart [Zhang, Lee, Kim 2006].
+Impact body_impact(const MovingBody& a, const MovingBody& b, const ImpactOptions& options);
+
+} // namespace abut

@@ -1,0 +1,128 @@
+// The SIMD kernels, on every target that this machine has, against the one-lane reference and the
+// exact or precise answer.
+
+#include "geometry/leaf/triangle_pair_batch.h"
+#include "geometry/triangle_triangle_distance.h"
+#include "geometry/triangle_triangle_intersect.h"
+#include "tests/support/oracle/precise_distance.h"
+#include "tests/support/random.h"
+#include "tests/support/rounds.h"
+#include "tests/support/simd_targets.h"
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+Triangle any_triangle(Random& random, int kind) {
+    switch (kind % 4) {
+    case 0:
+        return random.lattice_triangle(3);
+    case 1: { // thin
+        const Triangle t = random.triangle();
+        return {t[0], t[1],
+                0.5 * (t[0] + t[1]) + random.in_cube(std::pow(10, random.uniform(-17, 0)))};
+    }
+    case 2: { // far off, small
+        const Vec3 away{3000.5, -70000.25, 12};
+        const Triangle t = random.triangle(0.1);
+        return {away + t[0], away + t[1], away + t[2]};
+    }
+    default:
+        return random.triangle(2);
+    }
+}
+
+/// Largest differences of vertices, of both triangles and in each.
+double sizes(const Triangle& a, const Triangle& b) {
+    double r = 0, u = 0, v = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            r = std::max(r, length(a[i] - b[k]));
+            u = std::max(u, length(a[i] - a[k]));
+            v = std::max(v, length(b[i] - b[k]));
+        }
+    return r + u + v;
+}
+
+TEST(TrianglePairBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(503);
+        double worst = 0;
+        int apart = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const Triangle a = any_triangle(random, i);
+            TrianglePairBlock block{};
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane)
+                block.set(lane, a, any_triangle(random, i));
+            double simd[TrianglePairBlock::kLanes], one[TrianglePairBlock::kLanes];
+            distance_sq(block, simd);
+            distance_sq_reference(block, one);
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
+                const Triangle b = block.get_b(lane);
+                const double unit = 0x1p-53 * size_of(a, b);
+                const double d = std::sqrt(simd[lane]);
+                ASSERT_NEAR(d, std::sqrt(one[lane]), 64 * unit) << "case " << i;
+                worst = std::max(worst, std::abs(d - std::sqrt(one[lane])) / unit);
+                if (triangle_triangle_intersect(a, b) == TriangleContact::none) {
+                    ++apart;
+                    ASSERT_NEAR(d, std::sqrt(triangle_triangle_distance(a, b).distance_sq),
+                                64 * unit)
+                        << "case " << i;
+                }
+            }
+        }
+        std::cout << target << ": worst " << worst << " roundings\n";
+        EXPECT_GT(apart, 30000);
+    });
+}
+
+TEST(TrianglePairBlock, DistanceAgainstAHundredDigits) {
+    for_each_simd_target([](const std::string& target) {
+        SCOPED_TRACE(target);
+        Random random(504);
+        double worst = 0, most = 0;
+        for (int i = 0; i < many(200); ++i) {
+            const Triangle a = any_triangle(random, i);
+            TrianglePairBlock block{};
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
+                Triangle b = any_triangle(random, i);
+                if (i % 2 == 1) { // a vertex just off the face, which may be a needle
+                    const double s = random.uniform(0, 1), t = random.uniform(0, 1 - s);
+                    b[random.bits() % 3] = a[0] + s * (a[1] - a[0]) + t * (a[2] - a[0]) +
+                                           random.in_cube(std::pow(10, random.uniform(-17, 0)));
+                }
+                if (i % 5 == 4) { // edges nearly parallel, at any distance
+                    const double off = std::pow(10, random.uniform(-17, 1));
+                    b = {a[0] + off * random.direction(),
+                         a[1] + off * random.direction() +
+                             random.in_cube(std::pow(10, random.uniform(-17, 0))),
+                         a[0] + off * random.direction()};
+                }
+                block.set(lane, a, b);
+            }
+            double simd[TrianglePairBlock::kLanes];
+            distance_sq(block, simd);
+            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
+                const Triangle b = block.get_b(lane);
+                const double unit = 0x1p-53 * size_of(a, b);
+                const double truth = double(precise_boundary_distance(a, b));
+                ASSERT_NEAR(std::sqrt(simd[lane]), truth, 64 * unit) << "case " << i;
+                worst = std::max(worst, std::abs(std::sqrt(simd[lane]) - truth) / unit);
+                // The bound that is promised, with room to spare.
+                const double scalar = std::sqrt(triangle_triangle_distance(a, b).distance_sq);
+                for (const double d : {std::sqrt(simd[lane]), scalar}) {
+                    const double share = (d - truth) / (kTrianglePairError * sizes(a, b));
+                    ASSERT_LE(share, 0.25) << "case " << i;
+                    most = std::max(most, share);
+                }
+            }
+        }
+        std::cout << target << ": worst " << worst << " roundings, " << most << " of the bound\n";
+        EXPECT_GT(most, 0.001);
+    });
+}
+
+} // namespace
+} // namespace abut::test
