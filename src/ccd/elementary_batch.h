@@ -8,7 +8,7 @@ namespace abut {
 
 /// A batch of eight elementary pairs of one kind, one per lane: the input of one pass of the
 /// filter. Lanes that are not set hold points at the origin.
-struct alignas(64) ElementaryBlock {
+struct alignas(64) ElementaryBatch {
     static constexpr std::size_t kLanes = 8;
     double v[4][2][3][kLanes] = {}; ///< [vertex][0: start, 1: end][axis][lane]
 

@@ -243,7 +243,7 @@ HWY_INLINE void take_where(D /*d*/, hn::Mask<D> mask, const Crossing<D>& b, Cros
 }
 
 template <bool faces, class D>
-HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, CrossingBlock& result) {
+HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, CrossingBatch& result) {
     const auto one = hn::Set(d, 1.0), zero = hn::Zero(d);
     const auto p = Patches<D>::template of<faces>(pairs);
     Cubic<D> cubic = Cubic<D>::of(d, p);
@@ -277,22 +277,22 @@ HWY_INLINE void decide_lanes(D d, const Pairs<D>& pairs, std::size_t lane, Cross
 }
 
 template <class D>
-HWY_INLINE void decide_with(D d, const ElementaryBlock& block, bool faces, CrossingBlock& result) {
+HWY_INLINE void decide_with(D d, const ElementaryBatch& batch, bool faces, CrossingBatch& result) {
     result.apart = result.meet = 0;
-    for (std::size_t lane = 0; lane < ElementaryBlock::kLanes; lane += hn::Lanes(d)) {
-        const Pairs<D> pairs(d, block, lane);
+    for (std::size_t lane = 0; lane < ElementaryBatch::kLanes; lane += hn::Lanes(d)) {
+        const Pairs<D> pairs(d, batch, lane);
         faces ? decide_lanes<true>(d, pairs, lane, result)
               : decide_lanes<false>(d, pairs, lane, result);
     }
 }
 
-void decide_simd(const ElementaryBlock& block, bool faces, CrossingBlock& result) {
-    decide_with(BlockLanes(), block, faces, result);
+void decide_simd(const ElementaryBatch& batch, bool faces, CrossingBatch& result) {
+    decide_with(BatchLanes(), batch, faces, result);
 }
-void decide_reference(const ElementaryBlock& block, bool faces, CrossingBlock& result) {
-    decide_with(OneLane(), block, faces, result);
+void decide_reference(const ElementaryBatch& batch, bool faces, CrossingBatch& result) {
+    decide_with(OneLane(), batch, faces, result);
 }
-void decide_single(const ElementaryPair& pair, CrossingBlock& result) {
+void decide_single(const ElementaryPair& pair, CrossingBatch& result) {
     const OneLane d;
     const Pairs<OneLane> pairs(d, pair);
     result.apart = result.meet = 0;
@@ -309,15 +309,15 @@ namespace abut {
 HWY_EXPORT(decide_simd);
 HWY_EXPORT(decide_single);
 
-void decide_crossings(const ElementaryBlock& block, ElementaryKind kind, CrossingBlock& result) {
-    HWY_DYNAMIC_DISPATCH(decide_simd)(block, kind == ElementaryKind::vertex_face, result);
+void decide_crossings(const ElementaryBatch& batch, ElementaryKind kind, CrossingBatch& result) {
+    HWY_DYNAMIC_DISPATCH(decide_simd)(batch, kind == ElementaryKind::vertex_face, result);
 }
-void decide_crossing(const ElementaryPair& pair, CrossingBlock& result) {
+void decide_crossing(const ElementaryPair& pair, CrossingBatch& result) {
     HWY_DYNAMIC_DISPATCH(decide_single)(pair, result);
 }
-void decide_crossings_reference(const ElementaryBlock& block, ElementaryKind kind,
-                                CrossingBlock& result) {
-    HWY_STATIC_DISPATCH(decide_reference)(block, kind == ElementaryKind::vertex_face, result);
+void decide_crossings_reference(const ElementaryBatch& batch, ElementaryKind kind,
+                                CrossingBatch& result) {
+    HWY_STATIC_DISPATCH(decide_reference)(batch, kind == ElementaryKind::vertex_face, result);
 }
 
 } // namespace abut

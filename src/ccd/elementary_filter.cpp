@@ -195,33 +195,33 @@ HWY_INLINE hn::Mask<D> proven_farther(D d, const Pairs<D>& pairs, bool faces, do
 }
 
 template <class D, class Proven>
-HWY_INLINE std::uint32_t lanes_left(D d, const ElementaryBlock& block, const Proven& proven) {
+HWY_INLINE std::uint32_t lanes_left(D d, const ElementaryBatch& batch, const Proven& proven) {
     std::uint32_t left = 0;
-    for (std::size_t lane = 0; lane < ElementaryBlock::kLanes; lane += hn::Lanes(d)) {
-        const Pairs<D> pairs(d, block, lane);
+    for (std::size_t lane = 0; lane < ElementaryBatch::kLanes; lane += hn::Lanes(d)) {
+        const Pairs<D> pairs(d, batch, lane);
         left |= bits_of(d, hn::Not(proven(pairs))) << lane;
     }
     return left;
 }
 template <class D>
-HWY_INLINE std::uint32_t touching_with(D d, const ElementaryBlock& block, bool faces) {
+HWY_INLINE std::uint32_t touching_with(D d, const ElementaryBatch& batch, bool faces) {
     return lanes_left(
-        d, block, [&](const Pairs<D>& pairs) HWY_ATTR { return proven_apart(d, pairs, faces); });
+        d, batch, [&](const Pairs<D>& pairs) HWY_ATTR { return proven_apart(d, pairs, faces); });
 }
 template <class D>
-HWY_INLINE std::uint32_t within_with(D d, const ElementaryBlock& block, bool faces,
+HWY_INLINE std::uint32_t within_with(D d, const ElementaryBatch& batch, bool faces,
                                      double thickness) {
-    return lanes_left(d, block, [&](const Pairs<D>& pairs) HWY_ATTR {
+    return lanes_left(d, batch, [&](const Pairs<D>& pairs) HWY_ATTR {
         return proven_farther(d, pairs, faces, thickness);
     });
 }
 
 // Separate functions, so that a test without a thickness has no branch for it.
-std::uint32_t touching_simd(const ElementaryBlock& block, bool faces) {
-    return touching_with(BlockLanes(), block, faces);
+std::uint32_t touching_simd(const ElementaryBatch& batch, bool faces) {
+    return touching_with(BatchLanes(), batch, faces);
 }
-std::uint32_t within_simd(const ElementaryBlock& block, bool faces, double thickness) {
-    return within_with(BlockLanes(), block, faces, thickness);
+std::uint32_t within_simd(const ElementaryBatch& batch, bool faces, double thickness) {
+    return within_with(BatchLanes(), batch, faces, thickness);
 }
 bool touching_single(const ElementaryPair& pair) {
     const OneLane d;
@@ -233,11 +233,11 @@ bool within_single(const ElementaryPair& pair, double thickness) {
     return hn::AllFalse(d, proven_farther(d, Pairs<OneLane>(d, pair),
                                           pair.kind == ElementaryKind::vertex_face, thickness));
 }
-std::uint32_t touching_reference(const ElementaryBlock& block, bool faces) {
-    return touching_with(OneLane(), block, faces);
+std::uint32_t touching_reference(const ElementaryBatch& batch, bool faces) {
+    return touching_with(OneLane(), batch, faces);
 }
-std::uint32_t within_reference(const ElementaryBlock& block, bool faces, double thickness) {
-    return within_with(OneLane(), block, faces, thickness);
+std::uint32_t within_reference(const ElementaryBatch& batch, bool faces, double thickness) {
+    return within_with(OneLane(), batch, faces, thickness);
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -251,21 +251,21 @@ HWY_EXPORT(within_simd);
 HWY_EXPORT(touching_single);
 HWY_EXPORT(within_single);
 
-std::uint32_t possible_impacts(const ElementaryBlock& block, ElementaryKind kind,
+std::uint32_t possible_impacts(const ElementaryBatch& batch, ElementaryKind kind,
                                double thickness) {
     const bool faces = kind == ElementaryKind::vertex_face;
-    return thickness > 0 ? HWY_DYNAMIC_DISPATCH(within_simd)(block, faces, thickness)
-                         : HWY_DYNAMIC_DISPATCH(touching_simd)(block, faces);
+    return thickness > 0 ? HWY_DYNAMIC_DISPATCH(within_simd)(batch, faces, thickness)
+                         : HWY_DYNAMIC_DISPATCH(touching_simd)(batch, faces);
 }
 bool possible_impact(const ElementaryPair& pair, double thickness) {
     return thickness > 0 ? HWY_DYNAMIC_DISPATCH(within_single)(pair, thickness)
                          : HWY_DYNAMIC_DISPATCH(touching_single)(pair);
 }
-std::uint32_t possible_impacts_reference(const ElementaryBlock& block, ElementaryKind kind,
+std::uint32_t possible_impacts_reference(const ElementaryBatch& batch, ElementaryKind kind,
                                          double thickness) {
     const bool faces = kind == ElementaryKind::vertex_face;
-    return thickness > 0 ? HWY_STATIC_DISPATCH(within_reference)(block, faces, thickness)
-                         : HWY_STATIC_DISPATCH(touching_reference)(block, faces);
+    return thickness > 0 ? HWY_STATIC_DISPATCH(within_reference)(batch, faces, thickness)
+                         : HWY_STATIC_DISPATCH(touching_reference)(batch, faces);
 }
 
 } // namespace abut

@@ -18,14 +18,14 @@ namespace abut {
 /// Source      directions that separate at both ends separate always, because the motion is linear;
 ///             signs of the Bernstein coefficients of the coplanarity cubic [Tang, Manocha, Tong
 ///             2010]. Differs: with a rounding bound and a thickness.
-std::uint32_t possible_impacts(const ElementaryBlock& block, ElementaryKind kind,
+std::uint32_t possible_impacts(const ElementaryBatch& batch, ElementaryKind kind,
                                double thickness = 0);
 
 /// possible_impacts for one pair, with the same answer.
 bool possible_impact(const ElementaryPair& pair, double thickness = 0);
 
 /// possible_impacts with one lane at a time: the reference for every SIMD target.
-std::uint32_t possible_impacts_reference(const ElementaryBlock& block, ElementaryKind kind,
+std::uint32_t possible_impacts_reference(const ElementaryBatch& batch, ElementaryKind kind,
                                          double thickness = 0);
 
 } // namespace abut

@@ -29,8 +29,8 @@ struct ListedPairs {
     std::span<const ElementaryPair> pairs;
     std::span<ElementaryImpact> impacts;
 
-    void write(std::size_t i, ElementaryBlock& block, std::size_t lane) const {
-        block.set(lane, pairs[i]);
+    void write(std::size_t i, ElementaryBatch& batch, std::size_t lane) const {
+        batch.set(lane, pairs[i]);
     }
     [[nodiscard]] const ElementaryPair& pair(std::size_t i) const { return pairs[i]; }
     void take(std::size_t i, const ElementaryImpact& impact) { impacts[i] = impact; }
@@ -46,7 +46,7 @@ ElementaryImpact elementary_impact(const ElementaryPair& pair, const ElementaryO
         return {};
     if (options.thickness > 0)
         return decide_singly(pair, options);
-    CrossingBlock crossing;
+    CrossingBatch crossing;
     decide_crossing(pair, crossing);
     return (crossing.apart | crossing.meet) != 0 ? impact_of_crossing(pair, crossing, 0)
                                                  : decide_singly(pair, options);

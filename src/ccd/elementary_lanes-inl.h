@@ -22,10 +22,10 @@ template <class D>
 struct Pairs {
     Lanes3<D> p[4][2];
 
-    HWY_INLINE Pairs(D d, const ElementaryBlock& block, std::size_t lane) {
+    HWY_INLINE Pairs(D d, const ElementaryBatch& batch, std::size_t lane) {
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t end = 0; end < 2; ++end) {
-                p[i][end] = load3(d, block.v[i][end], lane);
+                p[i][end] = load3(d, batch.v[i][end], lane);
             }
     }
     /// Sets all lanes to one pair.
@@ -68,7 +68,7 @@ struct Patches {
     }
 };
 
-using BlockLanes = hn::CappedTag<double, ElementaryBlock::kLanes>;
+using BatchLanes = hn::CappedTag<double, ElementaryBatch::kLanes>;
 using OneLane = hn::CappedTag<double, 1>;
 
 } // namespace abut::HWY_NAMESPACE::elementary

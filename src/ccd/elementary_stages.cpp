@@ -18,7 +18,7 @@ void require_valid(const ElementaryOptions& options) {
         throw Error(ErrorCode::bad_argument, "thickness must be a finite number of at least 0");
 }
 
-ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBlock& crossings,
+ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBatch& crossings,
                                     std::size_t lane) {
     ElementaryImpact impact;
     impact.decided_by = ElementaryStage::interval;

@@ -17,7 +17,7 @@ namespace abut {
 void require_valid(const ElementaryOptions& options);
 
 /// The result for a lane that `decide_crossings` has decided.
-ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBlock& crossings,
+ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBatch& crossings,
                                     std::size_t lane);
 
 /// The result for a pair that the filter and, if there is no thickness, decide_crossings have left
@@ -34,7 +34,7 @@ void for_each_bit(std::uint32_t bits, const Visit& visit) {
 /// undecided wait for the next stage until they fill a batch.
 ///
 /// In          Source identifies a pair by an Item of its own type and has
-///                 void write(const Item&, ElementaryBlock&, std::size_t lane) const;
+///                 void write(const Item&, ElementaryBatch&, std::size_t lane) const;
 ///                 ElementaryPair pair(const Item&) const;
 ///                 void take(const Item&, const ElementaryImpact&);
 ///             take() is not called for pairs that the filter rejects.
@@ -59,23 +59,23 @@ public:
 
 private:
     struct Gathered {
-        ElementaryBlock block;
-        std::array<Item, ElementaryBlock::kLanes> items{};
+        ElementaryBatch batch;
+        std::array<Item, ElementaryBatch::kLanes> items{};
         std::size_t count = 0;
 
         /// Returns true if the batch is full now.
         bool add(const Item& item, const Source& source, bool wanted) {
-            source.write(item, block, count);
+            source.write(item, batch, count);
             items[count] = item;
             count += wanted ? 1 : 0;
-            return count == ElementaryBlock::kLanes;
+            return count == ElementaryBatch::kLanes;
         }
         /// A mask of the lanes in use. The others hold pairs of earlier passes.
         [[nodiscard]] std::uint32_t used() const { return (1U << count) - 1; }
     };
 
     void filter() {
-        for_each_bit(possible_impacts(candidates_.block, kind_, options_.thickness) &
+        for_each_bit(possible_impacts(candidates_.batch, kind_, options_.thickness) &
                          candidates_.used(),
                      [&](std::size_t lane) { pass(candidates_.items[lane]); });
         candidates_.count = 0;
@@ -88,7 +88,7 @@ private:
             cross();
     }
     void cross() {
-        decide_crossings(possible_.block, kind_, crossings_);
+        decide_crossings(possible_.batch, kind_, crossings_);
         const std::uint32_t decided = crossings_.apart | crossings_.meet;
         for_each_bit(possible_.used(), [&](std::size_t lane) {
             const Item& item = possible_.items[lane];
@@ -104,7 +104,7 @@ private:
     const ElementaryOptions& options_;
     Source& source_;
     Gathered candidates_, possible_;
-    CrossingBlock crossings_;
+    CrossingBatch crossings_;
 };
 
 } // namespace abut

@@ -40,7 +40,7 @@ std::unique_ptr<const ModelBlocks> in_blocks(const Mesh& mesh, std::uint64_t mos
     require_valid(mesh);
     std::vector<MeshBlock> pieces;
     std::vector<Box3> boxes;
-    cut_into_pieces(mesh, most, [&](const MeshBlock& piece) {
+    cut_into_blocks(mesh, most, [&](const MeshBlock& piece) {
         if (piece.triangle_ids.empty())
             return;
         boxes.push_back({});

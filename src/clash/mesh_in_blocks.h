@@ -14,7 +14,7 @@ namespace abut {
 /// In          most: triangles of a block, at most.
 /// Errors      Error{bad_mesh}.
 std::unique_ptr<const ModelBlocks> in_blocks(const Mesh& mesh,
-                                             std::uint64_t most = kPieceTriangles);
+                                             std::uint64_t most = kBlockTriangles);
 
 /// Builds the model of one mesh block.
 ModelBlock make_model_block(MeshBlock piece);

@@ -54,10 +54,10 @@ public:
         }
     }
     [[nodiscard]] ElementaryPair pair(FeatureIds ids) const { return pair_of(kind, vertices(ids)); }
-    void write(FeatureIds ids, ElementaryBlock& block, std::size_t lane) const {
+    void write(FeatureIds ids, ElementaryBatch& batch, std::size_t lane) const {
         const PairVertices v = vertices(ids);
         for (std::size_t i = 0; i < 4; ++i)
-            block.set_vertex(lane, i, v[i]->start, v[i]->end);
+            batch.set_vertex(lane, i, v[i]->start, v[i]->end);
     }
     /// Whether two features of one surface share a vertex. Without branches: of the pairs of
     /// neighbouring leaves, about half do, which a processor cannot predict.

@@ -28,8 +28,8 @@ public:
     [[nodiscard]] std::uint64_t exact_fallbacks() const { return exact_fallbacks_; }
 
     // The interface that ElementaryStages requires of its source.
-    void write(FeatureIds ids, ElementaryBlock& block, std::size_t lane) const {
-        geometry_.write(ids, block, lane);
+    void write(FeatureIds ids, ElementaryBatch& batch, std::size_t lane) const {
+        geometry_.write(ids, batch, lane);
     }
     [[nodiscard]] ElementaryPair pair(FeatureIds ids) const { return geometry_.pair(ids); }
     void take(FeatureIds ids, const ElementaryImpact& impact) {

@@ -6,8 +6,8 @@
 #include "massive/crew/crew_clashes.h"
 #include "massive/job/job_plan.h"
 #include "massive/job/job_result.h"
-#include "massive/work/piece_worker.h"
 #include "massive/work/stored_parts.h"
+#include "massive/work/task_worker.h"
 #include "massive/work/work_schedule.h"
 #include "store/database/store_file.h"
 
@@ -26,8 +26,8 @@ public:
           progress_(progress, "narrow phase", plan.candidates) {
         progress_.advance(result.counters().recalled_pairs);
     }
-    std::optional<WorkPiece> next() override { return schedule_.next(0); }
-    void done(PieceResult result) override { result_.take({std::move(result)}); }
+    std::optional<Task> next() override { return schedule_.next(0); }
+    void done(TaskResult result) override { result_.take({std::move(result)}); }
     void on_pair() override { progress_.advance(); }
 
 private:
@@ -39,8 +39,8 @@ private:
 void do_alone(const JobPlan& plan, JobResult& result, const ClashOptions& options,
               StoreFile& store) {
     AllWork source(plan, result, options.progress);
-    PieceTester tester(store, options, plan.stored.models, plan.budget, plan.blocks_budget,
-                       plan.hierarchies_room);
+    TaskTester tester(store, options, plan.stored.models, plan.budget, plan.blocks_budget,
+                      plan.hierarchies_room);
     work(tester, source);
 }
 

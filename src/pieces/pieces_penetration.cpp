@@ -75,7 +75,7 @@ private:
         const PolytopePair pair = placed_.hulls(hulls);
         DifferenceSimplex first;
         first.count = 1; // of the first vertices
-        const SimplexState found = search_simplex(pair, first, placed_.rounding);
+        const GjkState found = gjk(pair, first, placed_.rounding);
         result_.counters.simplices += found.steps;
         if (!found.meeting) {
             if (!near_ && may_be_near(hulls, pair, found))
@@ -92,7 +92,7 @@ private:
     }
 
     /// Whether rounding may hide that pieces meet, which a search of simplices says are apart.
-    bool may_be_near(const HullPair& hulls, const PolytopePair& pair, const SimplexState& found) {
+    bool may_be_near(const HullPair& hulls, const PolytopePair& pair, const GjkState& found) {
         const double zone = placed_.contact_zone(), margin = placed_.margin(hulls);
         const double room = proven_room(pair, found.gap, placed_.a.reach, placed_.b.reach, margin);
         if (room > zone || PiecePairSearch(placed_, result_.counters).measure(hulls, {}) > zone)

@@ -13,13 +13,13 @@ namespace {
 /// Whether a vertex has a neighbour that is at least so high along a direction.
 bool has_high_neighbour(const Polytope& polytope, const Vec3& direction, const HullVertex& vertex,
                         double least) {
-    const RingBlock* block = polytope.rings.data() + vertex.first_edge / RingBlock::kEdges;
-    const RingBlock* const end =
-        block + (vertex.degree + RingBlock::kEdges - 1) / RingBlock::kEdges;
+    const RingBatch* block = polytope.rings.data() + vertex.first_edge / RingBatch::kEdges;
+    const RingBatch* const end =
+        block + (vertex.degree + RingBatch::kEdges - 1) / RingBatch::kEdges;
     // What is left of the last block repeats the first edge.
     for (; block != end; ++block) {
         bool high = false;
-        for (std::size_t k = 0; k < RingBlock::kEdges; ++k)
+        for (std::size_t k = 0; k < RingBatch::kEdges; ++k)
             high |=
                 direction.x * block->x[k] + direction.y * block->y[k] + direction.z * block->z[k] >=
                 least;

@@ -32,7 +32,7 @@ struct Slack {
 /// A bound below a distance that was computed of a pair of models, or that a search with it as its
 /// bound left nothing nearer than.
 ///
-/// Accuracy    certified: TrianglePairBlock says what a measured distance exceeds the true one by, and
+/// Accuracy    certified: TrianglePairBatch says what a measured distance exceeds the true one by, and
 ///             `reach` bounds its sizes: no two points of the models are farther apart, so that no
 ///             vertex of one is farther from one of the other, and no edge longer than twice that.
 double rounded_down(double distance, double reach) {
@@ -69,7 +69,7 @@ public:
         for_each_pair(pairs.may_meet | pairs.may_be_near, [&](auto i, auto j) {
             block_.set(collected_, leaves_.a(i), leaves_.b(j));
             indices_[collected_] = leaves_.indices(i, j);
-            if (++collected_ == TrianglePairBlock::kLanes)
+            if (++collected_ == TrianglePairBatch::kLanes)
                 measure();
             return true;
         });
@@ -138,7 +138,7 @@ private:
         if (collected_ == 0)
             return;
         // What stands in unused lanes is measured too, and not looked at.
-        double lanes_sq[TrianglePairBlock::kLanes];
+        double lanes_sq[TrianglePairBatch::kLanes];
         distance_sq(block_, lanes_sq);
         for (std::size_t lane = 0; lane < collected_; ++lane) {
             // Of equal distances, that of the least triangles: so the order of the search is not seen.
@@ -160,8 +160,8 @@ private:
     double best_sq_;
     bool found_ = false, contact_ = false;
     Candidate best_;
-    TrianglePairBlock block_{};
-    std::array<TrianglePair, TrianglePairBlock::kLanes> indices_;
+    TrianglePairBatch block_{};
+    std::array<TrianglePair, TrianglePairBatch::kLanes> indices_;
     std::size_t collected_ = 0;
 };
 

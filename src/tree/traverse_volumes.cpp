@@ -97,7 +97,7 @@ public:
     Verdict best_first() {
         // The circumscribed balls of the roots bound the distance of any two points.
         VolumeBounds bounds{};
-        bound_all<true>(D(), root_block(), image_of(b_.layer.root, a_.from_other), bounds);
+        bound_all<true>(D(), root_batch(), image_of(b_.layer.root, a_.from_other), bounds);
         NearFirstQueue<VolumePair> pending(
             std::min(bound_sq_, bounds.upper_sq[0] * a_.most_stretch_sq));
         pending.push(0, {kRootName, kRootName, 0});
@@ -123,10 +123,10 @@ public:
 private:
     using D = hn::CappedTag<float, VolumeBounds::kLanes>;
 
-    [[nodiscard]] VolumeBlock<V> root_block() const {
-        VolumeBlock<V> block;
-        block.set(0, a_.layer.root);
-        return block;
+    [[nodiscard]] VolumeBatch<V> root_batch() const {
+        VolumeBatch<V> batch;
+        batch.set(0, a_.layer.root);
+        return batch;
     }
 
     /// Visits a pair of leaves, or adds the children of another pair to `found`. Any verdict but

@@ -13,7 +13,7 @@ namespace abut {
 /// place of the boxes.
 template <typename V>
 struct VolumeLayer {
-    std::vector<VolumeBlock<V>> children; ///< children[n] belongs to the tree's nodes[n]
+    std::vector<VolumeBatch<V>> children; ///< children[n] belongs to the tree's nodes[n]
     V root;                               ///< encloses everything
     double reach = 0;                     ///< upper bound of a volume's distance from the origin
 

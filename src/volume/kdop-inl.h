@@ -15,9 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
-/// The block's rows are the lower bounds of all slabs, then the upper bounds.
+/// The batch's rows are the lower bounds of all slabs, then the upper bounds.
 template <class D, std::size_t k>
-HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Kdop<k>>& block, std::size_t lane,
+HWY_INLINE Separation<D> separation(D d, const VolumeBatch<Kdop<k>>& batch, std::size_t lane,
                                     const KdopImage<k>& one) {
     constexpr std::size_t kSlabs = k / 2;
     hn::Vec<D> open[kSlabs];
@@ -27,8 +27,8 @@ HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Kdop<k>>& block, std:
         const int norm_sq = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
         const float inverse_norm = norm_sq == 1 ? 1.0F : norm_sq == 2 ? 0.70710678F : 0.57735027F;
         const auto apart = hn::Max(
-            hn::Sub(hn::Set(d, one.kdop.lower[i]), hn::Load(d, block.row[kSlabs + i] + lane)),
-            hn::Sub(hn::Load(d, block.row[i] + lane), hn::Set(d, one.kdop.upper[i])));
+            hn::Sub(hn::Set(d, one.kdop.lower[i]), hn::Load(d, batch.row[kSlabs + i] + lane)),
+            hn::Sub(hn::Load(d, batch.row[i] + lane), hn::Set(d, one.kdop.upper[i])));
         open[i] = hn::MulSub(apart, hn::Set(d, inverse_norm), hn::Set(d, one.margin));
         gap = hn::Max(gap, open[i]);
     }

@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE::volumes {
 
-/// A ball around the volume in each lane of a block.
+/// A ball around the volume in each lane of a batch.
 template <class D>
 struct LanesBall {
     Lanes3<D> centre;
@@ -35,23 +35,23 @@ HWY_INLINE LanesBall<D> ball_around_core(D d, const float (*row)[VolumeBounds::k
     return {load3(d, row, lane), hn::Add(hn::Sqrt(sum_sq), hn::Load(d, row[3] + lane))};
 }
 template <class D, std::size_t n>
-HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBlock<SweptSphere<n>>& block,
+HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<SweptSphere<n>>& batch,
                                     std::size_t lane) {
-    return ball_around_core<D, n>(d, block.row, lane);
+    return ball_around_core<D, n>(d, batch.row, lane);
 }
 template <class D>
-HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBlock<BoundingSphere>& block,
+HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<BoundingSphere>& batch,
                                     std::size_t lane) {
-    return ball_around_core<D, 0>(d, block.row, lane);
+    return ball_around_core<D, 0>(d, batch.row, lane);
 }
 template <class D>
-HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBlock<Obb>& block, std::size_t lane) {
-    const Lanes3<D> half = load3(d, block.row + 12, lane);
-    return {load3(d, block.row, lane), hn::Sqrt(dot(half, half))};
+HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<Obb>& batch, std::size_t lane) {
+    const Lanes3<D> half = load3(d, batch.row + 12, lane);
+    return {load3(d, batch.row, lane), hn::Sqrt(dot(half, half))};
 }
 template <class D, std::size_t k>
-HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBlock<Kdop<k>>& block, std::size_t lane) {
-    const Lanes3<D> lower = load3(d, block.row, lane), upper = load3(d, block.row + k / 2, lane);
+HWY_INLINE LanesBall<D> ball_around(D d, const VolumeBatch<Kdop<k>>& batch, std::size_t lane) {
+    const Lanes3<D> lower = load3(d, batch.row, lane), upper = load3(d, batch.row + k / 2, lane);
     const auto half = hn::Set(d, 0.5F);
     const Lanes3<D> extent = sub(upper, lower);
     return {{hn::Mul(half, hn::Add(lower.x, upper.x)), hn::Mul(half, hn::Add(lower.y, upper.y)),
@@ -78,20 +78,20 @@ HWY_INLINE ImageBall ball_around(const KdopImage<k>& image) {
     return ball;
 }
 
-/// Bounds the distances of `one` to all volumes of the block. Without `with_upper`, upper_sq is
+/// Bounds the distances of `one` to all volumes of the batch. Without `with_upper`, upper_sq is
 /// left unchanged.
 template <bool with_upper, class D, typename V>
-HWY_INLINE void bound_all(D d, const VolumeBlock<V>& block, const typename V::Image& one,
+HWY_INLINE void bound_all(D d, const VolumeBatch<V>& batch, const typename V::Image& one,
                           VolumeBounds& bounds) {
     ImageBall other{};
     if constexpr (with_upper)
         other = ball_around(one);
     for (std::size_t lane = 0; lane < VolumeBounds::kLanes; lane += hn::Lanes(d)) {
-        const Separation<D> s = separation(d, block, lane, one);
+        const Separation<D> s = separation(d, batch, lane, one);
         hn::Store(hn::Mul(s.lower_sq, hn::Set(d, kSquareRounding)), d, bounds.lower_sq + lane);
         hn::Store(s.gap, d, bounds.gap + lane);
         if constexpr (with_upper) {
-            const LanesBall<D> own = ball_around(d, block, lane);
+            const LanesBall<D> own = ball_around(d, batch, lane);
             const Lanes3<D> w = sub(set3(d, other.centre), own.centre);
             const auto reach = hn::Add(hn::Add(hn::Sqrt(dot(w, w)), own.radius),
                                        hn::Set(d, other.radius + one.margin));

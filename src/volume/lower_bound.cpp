@@ -14,7 +14,7 @@ namespace abut {
 
 template <typename V>
 struct OneToMany {
-    const VolumeBlock<V>* block;
+    const VolumeBatch<V>* batch;
     const typename V::Image* one;
 };
 
@@ -33,7 +33,7 @@ template <std::size_t lanes>
 HWY_INLINE void bound_any(const AnyOneToMany& pair, VolumeBounds& bounds) {
     std::visit(
         [&](const auto& p) HWY_ATTR {
-            volumes::bound_all<true>(hwy::HWY_NAMESPACE::CappedTag<float, lanes>(), *p.block,
+            volumes::bound_all<true>(hwy::HWY_NAMESPACE::CappedTag<float, lanes>(), *p.batch,
                                      *p.one, bounds);
         },
         pair);
@@ -54,24 +54,24 @@ namespace abut {
 HWY_EXPORT(bound_distances_simd);
 
 template <typename V>
-void bound_distances(const VolumeBlock<V>& block, const typename V::Image& one,
+void bound_distances(const VolumeBatch<V>& batch, const typename V::Image& one,
                      VolumeBounds& bounds) {
-    HWY_DYNAMIC_DISPATCH(bound_distances_simd)(OneToMany<V>{&block, &one}, bounds);
+    HWY_DYNAMIC_DISPATCH(bound_distances_simd)(OneToMany<V>{&batch, &one}, bounds);
 }
 
 template <typename V>
-void bound_distances_reference(const VolumeBlock<V>& block, const typename V::Image& one,
+void bound_distances_reference(const VolumeBatch<V>& batch, const typename V::Image& one,
                                VolumeBounds& bounds) {
-    HWY_STATIC_DISPATCH(bound_distances_one)(OneToMany<V>{&block, &one}, bounds);
+    HWY_STATIC_DISPATCH(bound_distances_one)(OneToMany<V>{&batch, &one}, bounds);
 }
 
 template <typename V>
 float distance_lower_bound(const V& a, const V& b, const typename V::Map& map) {
-    VolumeBlock<V> block;
-    block.set(0, a);
+    VolumeBatch<V> batch;
+    batch.set(0, a);
     VolumeBounds bounds{};
     // Only one lane is needed, but eight take no longer.
-    bound_distances(block, image_of(b, map), bounds);
+    bound_distances(batch, image_of(b, map), bounds);
     return std::sqrt(bounds.lower_sq[0]);
 }
 
@@ -81,8 +81,8 @@ bool may_overlap(const V& a, const V& b, const typename V::Map& map) {
 }
 
 #define ABUT_INSTANTIATE_BOUNDS(V)                                                                 \
-    template void bound_distances(const VolumeBlock<V>&, const V::Image&, VolumeBounds&);          \
-    template void bound_distances_reference(const VolumeBlock<V>&, const V::Image&,                \
+    template void bound_distances(const VolumeBatch<V>&, const V::Image&, VolumeBounds&);          \
+    template void bound_distances_reference(const VolumeBatch<V>&, const V::Image&,                \
                                             VolumeBounds&);                                        \
     template float distance_lower_bound(const V&, const V&, const V::Map&);                        \
     template bool may_overlap(const V&, const V&, const V::Map&)

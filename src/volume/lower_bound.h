@@ -16,8 +16,8 @@ struct VolumeBounds {
     alignas(32) float upper_sq[kLanes]; ///< upper bound of the squared distance of any two points
 };
 
-/// Bounds the distances between the volume `one`, given in the frame of the block, and all volumes
-/// of the block.
+/// Bounds the distances between the volume `one`, given in the frame of the batch, and all volumes
+/// of the batch.
 ///
 /// Degenerate  a lane that was never set holds a volume that is a point at the origin.
 /// Accuracy    conservative: the image's margin is subtracted from every gap. For rectangles and
@@ -29,12 +29,12 @@ struct VolumeBounds {
 ///             no branches; the closest points only propose a direction, and the gap along it is
 ///             the result, so their rounding needs no bound.
 template <typename V>
-void bound_distances(const VolumeBlock<V>& block, const typename V::Image& one,
+void bound_distances(const VolumeBatch<V>& batch, const typename V::Image& one,
                      VolumeBounds& bounds);
 
 /// As bound_distances, but with one lane: the reference for every SIMD target.
 template <typename V>
-void bound_distances_reference(const VolumeBlock<V>& block, const typename V::Image& one,
+void bound_distances_reference(const VolumeBatch<V>& batch, const typename V::Image& one,
                                VolumeBounds& bounds);
 
 /// Lower bound of the distance of two volumes, in a's frame. `map` takes b's frame to a's.

@@ -19,7 +19,7 @@ namespace abut::HWY_NAMESPACE::volumes {
 /// of edges.
 ///
 /// Rows 0 to 2 hold the centre, 3 to 11 the axes a_i, 12 to 14 the half lengths h_i. Let w go from
-/// the block's centre to the other's. Let e_k be the directions of the other's edges, g_k their
+/// the batch's centre to the other's. Let e_k be the directions of the other's edges, g_k their
 /// half lengths, N_k its face normals, and g'_k the distances from its centre to its faces. The
 /// gaps are
 ///
@@ -28,16 +28,16 @@ namespace abut::HWY_NAMESPACE::volumes {
 ///     a_i x e_k:  |a_i x e_k . w| - sum_(m != i) h_m |a_i x e_k . a_m|
 ///                                 - sum_(m != k) g_m |a_i x e_k . e_m|, over |a_i x e_k|
 template <class D>
-HWY_INLINE Separation<D> separation(D d, const VolumeBlock<Obb>& block, std::size_t lane,
+HWY_INLINE Separation<D> separation(D d, const VolumeBatch<Obb>& batch, std::size_t lane,
                                     const ObbImage& one) {
     using V = hn::Vec<D>;
     const auto margin = hn::Set(d, one.margin);
-    const Lanes3<D> w = sub(set3(d, one.centre), load3(d, block.row, lane));
+    const Lanes3<D> w = sub(set3(d, one.centre), load3(d, batch.row, lane));
     Lanes3<D> a[3];
     V half[3], shift[3], cosine[3][3], facing[3][3];
     for (std::size_t i = 0; i < 3; ++i) {
-        a[i] = load3(d, block.row + 3 + 3 * i, lane);
-        half[i] = hn::Load(d, block.row[12 + i] + lane);
+        a[i] = load3(d, batch.row + 3 + 3 * i, lane);
+        half[i] = hn::Load(d, batch.row[12 + i] + lane);
         shift[i] = dot(a[i], w);
         for (std::size_t k = 0; k < 3; ++k) {
             cosine[i][k] = dot(a[i], set3(d, one.direction[k]));

@@ -17,7 +17,7 @@ namespace abut {
 /// Number of points processed at a time, a multiple of all lane counts.
 inline constexpr std::size_t kPointsOfBlock = 256;
 /// Coordinates of points.
-using PointBlock = std::array<std::array<float, kPointsOfBlock>, 3>;
+using PointBatch = std::array<std::array<float, kPointsOfBlock>, 3>;
 
 /// Extreme heights of points along the directions to the nodes of a face with the same v. The
 /// lowest ones give the heights along the opposite nodes.
@@ -37,12 +37,12 @@ HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Extends the heights of the nodes (1, u_i, v) of an axis by a block's points.
-void extend_row(const PointBlock& block, std::size_t axis, float v, RowHeights& heights) {
+/// Extends the heights of the nodes (1, u_i, v) of an axis by a batch's points.
+void extend_row(const PointBatch& batch, std::size_t axis, float v, RowHeights& heights) {
     const hn::CappedTag<float, 16> d;
     using V = hn::VFromD<decltype(d)>;
-    const float *const forward = block[axis].data(), *const along_u = block[(axis + 1) % 3].data(),
-                       *const along_v = block[(axis + 2) % 3].data();
+    const float *const forward = batch[axis].data(), *const along_u = batch[(axis + 1) % 3].data(),
+                       *const along_v = batch[(axis + 2) % 3].data();
     constexpr std::size_t kNodes = SupportBound::kNodes;
     V high[kNodes], low[kNodes];
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -75,14 +75,14 @@ HWY_EXPORT(extend_row);
 
 namespace {
 
-/// Fills a block with points, relative to the middle and scaled. The last point is repeated.
-void fill(PointBlock& block, std::span<const Vec3> points, const Vec3& middle,
+/// Fills a batch with points, relative to the middle and scaled. The last point is repeated.
+void fill(PointBatch& batch, std::span<const Vec3> points, const Vec3& middle,
           const PowerOfTwo& scale) {
     for (std::size_t lane = 0; lane < kPointsOfBlock; ++lane) {
         const Vec3 p = scale * (points[std::min(lane, points.size() - 1)] - middle);
-        block[0][lane] = to_float(p.x);
-        block[1][lane] = to_float(p.y);
-        block[2][lane] = to_float(p.z);
+        batch[0][lane] = to_float(p.x);
+        batch[1][lane] = to_float(p.y);
+        batch[2][lane] = to_float(p.z);
     }
 }
 
@@ -108,13 +108,13 @@ SupportBound::SupportBound(std::span<const Vec3> points) {
     // Coordinates are scaled to about 1, far from the limits of single precision.
     const int exponent = size_ > 0 ? std::ilogb(size_) : 0;
     const PowerOfTwo size(exponent), inverse(-exponent);
-    PointBlock block;
+    PointBatch batch;
     for (std::size_t first = 0; first < points.size(); first += kPointsOfBlock) {
-        fill(block, points.subspan(first, std::min(kPointsOfBlock, points.size() - first)), middle_,
+        fill(batch, points.subspan(first, std::min(kPointsOfBlock, points.size() - first)), middle_,
              inverse);
         for (std::size_t row = 0; row < rows.size(); ++row)
             HWY_DYNAMIC_DISPATCH(extend_row)
-        (block, row / kNodes, grid_line(row % kNodes), rows[row]);
+        (batch, row / kNodes, grid_line(row % kNodes), rows[row]);
     }
     // Covers five roundings in single precision of values of at most size().
     const double rounding = 0x1p-21 * size_;

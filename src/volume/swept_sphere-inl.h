@@ -171,14 +171,14 @@ HWY_INLINE Separation<D> separation_of_cores(D d, const float (*row)[VolumeBound
 }
 
 template <class D, std::size_t n>
-HWY_INLINE Separation<D> separation(D d, const VolumeBlock<SweptSphere<n>>& block, std::size_t lane,
+HWY_INLINE Separation<D> separation(D d, const VolumeBatch<SweptSphere<n>>& batch, std::size_t lane,
                                     const SweptSphereImage<n>& one) {
-    return separation_of_cores(d, block.row, lane, one);
+    return separation_of_cores(d, batch.row, lane, one);
 }
 template <class D>
-HWY_INLINE Separation<D> separation(D d, const VolumeBlock<BoundingSphere>& block, std::size_t lane,
+HWY_INLINE Separation<D> separation(D d, const VolumeBatch<BoundingSphere>& batch, std::size_t lane,
                                     const SweptSphereImage<0>& one) {
-    return separation_of_cores(d, block.row, lane, one);
+    return separation_of_cores(d, batch.row, lane, one);
 }
 
 } // namespace abut::HWY_NAMESPACE::volumes

@@ -10,7 +10,7 @@ namespace abut {
 /// Eight volumes in SIMD order: lane i of every row belongs to volume i. The rows are the volume's
 /// members in order. All members are floats.
 template <typename V>
-struct alignas(32) VolumeBlock {
+struct alignas(32) VolumeBatch {
     static constexpr std::size_t kLanes = 8;
     float row[V::kFloats][kLanes] = {};
 

@@ -37,7 +37,7 @@ std::vector<std::uint32_t> BoxTree::build(std::span<const Aabb> boxes) {
     }
     size_ = boxes.size();
     levels_.clear();
-    BoxBlock empty{};
+    BoxNode empty{};
     for (std::size_t lane = 0; lane < kWidth; ++lane)
         empty.set(lane, Aabb());
     levels_.emplace_back(std::max<std::size_t>((size_ + kWidth - 1) / kWidth, 1), empty);
@@ -45,8 +45,8 @@ std::vector<std::uint32_t> BoxTree::build(std::span<const Aabb> boxes) {
         levels_[0][lane / kWidth].set(lane % kWidth,
                                       is_empty(boxes[order[lane]]) ? Aabb() : boxes[order[lane]]);
     while (levels_.back().size() > 1) {
-        const std::vector<BoxBlock>& below = levels_.back();
-        std::vector<BoxBlock> level((below.size() + kWidth - 1) / kWidth, empty);
+        const std::vector<BoxNode>& below = levels_.back();
+        std::vector<BoxNode> level((below.size() + kWidth - 1) / kWidth, empty);
         for (std::size_t block = 0; block < below.size(); ++block)
             level[block / kWidth].set(block % kWidth, below[block].bounds());
         levels_.push_back(std::move(level));
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> BoxTree::build(std::span<const Aabb> boxes) {
 
 void BoxTree::set(std::uint32_t lane, const Aabb& box) {
     Aabb bounds = is_empty(box) ? Aabb() : box;
-    for (std::vector<BoxBlock>& level : levels_) {
+    for (std::vector<BoxNode>& level : levels_) {
         level[lane / kWidth].set(lane % kWidth, bounds);
         lane /= kWidth;
         bounds = level[lane].bounds();
@@ -65,9 +65,9 @@ void BoxTree::set(std::uint32_t lane, const Aabb& box) {
 
 std::size_t BoxTree::bytes() const {
     std::size_t blocks = 0;
-    for (const std::vector<BoxBlock>& level : levels_)
+    for (const std::vector<BoxNode>& level : levels_)
         blocks += level.capacity();
-    return blocks * sizeof(BoxBlock);
+    return blocks * sizeof(BoxNode);
 }
 
 } // namespace abut

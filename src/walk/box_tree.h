@@ -16,12 +16,12 @@
 
 namespace abut {
 
-/// A tree over boxes that finds near boxes. Level 0 consists of batches of 16 boxes (`BoxBlock`),
+/// A tree over boxes that finds near boxes. Level 0 consists of batches of 16 boxes (`BoxNode`),
 /// in an order that keeps neighbours together. Lane i of batch b at level k + 1 bounds batch
 /// 16 b + i of level k. No links are stored, so that a box takes 26 bytes.
 class BoxTree {
 public:
-    static constexpr std::uint32_t kWidth = BoxBlock::kWidth;
+    static constexpr std::uint32_t kWidth = BoxNode::kWidth;
 
     /// Builds the tree. Returns the index of the box in each lane. An empty box is never found.
     std::vector<std::uint32_t> build(std::span<const Aabb> boxes);
@@ -32,25 +32,25 @@ public:
     }
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::size_t bytes() const;
-    [[nodiscard]] const std::vector<std::vector<BoxBlock>>& levels() const { return levels_; }
+    [[nodiscard]] const std::vector<std::vector<BoxNode>>& levels() const { return levels_; }
 
 private:
     std::size_t size_ = 0;
-    std::vector<std::vector<BoxBlock>> levels_;
+    std::vector<std::vector<BoxNode>> levels_;
 };
 
 /// A lower bound for each lane of a batch of boxes; infinite for an empty box.
-using LaneKeys = std::array<float, BoxBlock::kWidth>;
+using LaneKeys = std::array<float, BoxNode::kWidth>;
 
 /// Computes lower bounds of the squared distances from one box to a batch of boxes.
 struct GapToBox {
     Aabb query;
 
-    [[nodiscard]] LaneKeys operator()(const BoxBlock& block) const {
+    [[nodiscard]] LaneKeys operator()(const BoxNode& block) const {
         constexpr float kRounding = 1 - 0x1p-20F;
         LaneKeys keys{};
         for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t lane = 0; lane < BoxBlock::kWidth; ++lane) {
+            for (std::size_t lane = 0; lane < BoxNode::kWidth; ++lane) {
                 const float above = block.lower[axis][lane] - query.upper[axis],
                             below = query.lower[axis] - block.upper[axis][lane];
                 const float gap = std::max(0.0F, std::max(above, below));

@@ -11,9 +11,9 @@ namespace abut {
 
 namespace {
 
-/// Overhead of an entry without its stored piece, and of a piece without its model: map nodes,
+/// Overhead of an entry without its stored chunk, and of a chunk without its model: map nodes,
 /// reference counts.
-constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 128, kPieceBytes = 1536;
+constexpr std::uint64_t kEntryBytes = sizeof(Resident) + 128, kChunkBytes = 1536;
 
 } // namespace
 
@@ -50,13 +50,13 @@ PartCache::Pin PartCache::find(std::uint32_t entry) {
 PartCache::Pin PartCache::load(std::uint32_t entry) {
     Garbage garbage;
     Lock lock(mutex_);
-    const std::uint32_t piece = table_.piece_of(entry);
+    const std::uint32_t chunk = table_.chunk_of(entry);
     for (;;) {
         if (Resident* const resident = find_resident(entry))
             return pin(*resident);
-        if (loading_.contains(piece)) {
+        if (loading_.contains(chunk)) {
             changed_.wait(lock);
-        } else if (make_room_for(piece, Expendable::anything, garbage)) {
+        } else if (make_room_for(chunk, Expendable::anything, garbage)) {
             break;
         } else {
             wait_for_a_load(lock);
@@ -79,15 +79,15 @@ void PartCache::wait_for_a_load(Lock& lock) {
 void PartCache::count_solid(const Pin& pin) {
     Garbage garbage;
     Lock lock(mutex_);
-    LoadedPiece& piece = *pin->piece;
-    if (piece.counts_solid)
+    LoadedChunk& chunk = *pin->chunk;
+    if (chunk.counts_solid)
         return;
-    const Mesh& mesh = std::get<Model>(piece.shape).mesh();
+    const Mesh& mesh = std::get<Model>(chunk.shape).mesh();
     const std::uint64_t bytes = most_solid_bytes(mesh.triangles.size(), mesh.positions.size());
     while (!make_room(bytes, Expendable::anything, garbage))
         wait_for_a_load(lock);
-    piece.counts_solid = true;
-    piece.bytes += bytes;
+    chunk.counts_solid = true;
+    chunk.bytes += bytes;
     add_bytes(bytes);
 }
 
@@ -102,7 +102,7 @@ bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
     Lock lock(mutex_);
     if (urgency == Urgency::at_its_place && placements_.contains(entry))
         return true;
-    const std::uint32_t piece = table_.piece_of(entry);
+    const std::uint32_t chunk = table_.chunk_of(entry);
     for (;;) {
         if (Resident* const resident = find_resident(entry)) {
             urgency == Urgency::asked_for ? move_to_end(*resident) : reach(*resident);
@@ -110,12 +110,12 @@ bool PartCache::prefetch(std::uint32_t entry, Urgency urgency) {
         }
         if (removed_.contains(entry))
             return true;
-        if (!loading_.contains(piece))
+        if (!loading_.contains(chunk))
             break;
         changed_.wait(lock); // a query is reading it
     }
     const bool is_urgent = urgency == Urgency::asked_for;
-    if (!make_room_for(piece, is_urgent ? Expendable::anything : Expendable::beyond_plan, garbage))
+    if (!make_room_for(chunk, is_urgent ? Expendable::anything : Expendable::beyond_plan, garbage))
         return false;
     Resident& resident = bring(lock, entry, garbage);
     if (removed_.contains(entry)) { // it was removed while it was read
@@ -168,23 +168,23 @@ CacheCounters PartCache::counters() const {
 }
 
 std::uint64_t PartCache::least_memory(std::uint64_t bytes) {
-    return kEntryBytes + kPieceBytes + 3 * bytes; // twice to read it, once for its data as a solid
+    return kEntryBytes + kChunkBytes + 3 * bytes; // twice to read it, once for its data as a solid
 }
-std::uint64_t PartCache::bytes_to_load(std::uint32_t piece) const {
-    if (pieces_.contains(piece))
+std::uint64_t PartCache::bytes_to_load(std::uint32_t chunk) const {
+    if (chunks_.contains(chunk))
         return kEntryBytes;
-    return kEntryBytes + kPieceBytes + std::uint64_t{2} * table_.piece(piece).bytes;
+    return kEntryBytes + kChunkBytes + std::uint64_t{2} * table_.chunk(chunk).bytes;
 }
 
 /// Reads an entry. The caller has made room. The lock is released while the store is read.
 Resident& PartCache::bring(Lock& lock, std::uint32_t entry, Garbage& garbage) {
-    const std::uint32_t piece = table_.piece_of(entry);
-    const std::uint64_t reserved = bytes_to_load(piece);
+    const std::uint32_t chunk = table_.chunk_of(entry);
+    const std::uint64_t reserved = bytes_to_load(chunk);
     add_bytes(reserved);
-    loading_.insert(piece);
-    SharedPiece& shared = pieces_[piece];
-    ++shared.users; // keeps the piece in the table
-    std::shared_ptr<LoadedPiece> loaded = shared.piece;
+    loading_.insert(chunk);
+    SharedChunk& shared = chunks_[chunk];
+    ++shared.users; // keeps the chunk in the table
+    std::shared_ptr<LoadedChunk> loaded = shared.chunk;
     const bool is_new = loaded == nullptr;
     const bool is_placed = placements_.contains(entry);
     Transform world_from_mesh;
@@ -193,22 +193,22 @@ Resident& PartCache::bring(Lock& lock, std::uint32_t entry, Garbage& garbage) {
         if (!is_placed)
             world_from_mesh = store_.part(table_.row(entry)).world_from_mesh;
         if (is_new)
-            loaded = read(table_.piece(piece));
+            loaded = read(table_.chunk(chunk));
     } catch (...) {
         lock.lock();
         counters_.bytes -= reserved;
-        loading_.erase(piece);
-        release(piece, garbage);
+        loading_.erase(chunk);
+        release(chunk, garbage);
         changed_.notify_all();
         throw;
     }
     lock.lock();
     counters_.bytes -= reserved;
-    loading_.erase(piece);
+    loading_.erase(chunk);
     if (is_new)
         add_bytes(loaded->bytes);
     add_bytes(kEntryBytes);
-    pieces_[piece].piece = loaded;
+    chunks_[chunk].chunk = loaded;
     if (const auto placed = placements_.find(entry); placed != placements_.end())
         world_from_mesh = placed->second;
     Resident& resident = residents_[entry];
@@ -217,30 +217,30 @@ Resident& PartCache::bring(Lock& lock, std::uint32_t entry, Garbage& garbage) {
     return resident;
 }
 
-std::shared_ptr<LoadedPiece> PartCache::read(const StoredPiece& piece) {
-    std::shared_ptr<LoadedPiece> loaded;
-    if (piece.is_block) {
-        ModelBlock block = reader_.read_block(piece.number);
-        loaded = std::make_shared<LoadedPiece>(std::move(block.model));
+std::shared_ptr<LoadedChunk> PartCache::read(const StoredChunk& chunk) {
+    std::shared_ptr<LoadedChunk> loaded;
+    if (chunk.is_block) {
+        ModelBlock block = reader_.read_block(chunk.number);
+        loaded = std::make_shared<LoadedChunk>(std::move(block.model));
         loaded->is_block = true;
         loaded->triangle_ids = std::move(block.numbers);
     } else {
-        loaded = std::make_shared<LoadedPiece>(reader_.read_mesh(piece.number));
+        loaded = std::make_shared<LoadedChunk>(reader_.read_mesh(chunk.number));
     }
     loaded->bytes = std::get<Model>(loaded->shape).bytes() +
-                    loaded->triangle_ids.capacity() * sizeof(std::uint32_t) + kPieceBytes;
+                    loaded->triangle_ids.capacity() * sizeof(std::uint32_t) + kChunkBytes;
     return loaded;
 }
 
-/// Makes room to read a stored piece.
-bool PartCache::make_room_for(std::uint32_t piece, Expendable expendable, Garbage& garbage) {
+/// Makes room to read a stored chunk.
+bool PartCache::make_room_for(std::uint32_t chunk, Expendable expendable, Garbage& garbage) {
     for (;;) {
-        const std::uint64_t bytes = bytes_to_load(piece);
+        const std::uint64_t bytes = bytes_to_load(chunk);
         if (!make_room(bytes, expendable, garbage))
             return false;
-        if (bytes_to_load(piece) == bytes)
+        if (bytes_to_load(chunk) == bytes)
             return true;
-        // The piece was in memory for another part and was evicted with it: more room is needed.
+        // The chunk was in memory for another part and was evicted with it: more room is needed.
     }
 }
 
@@ -294,23 +294,23 @@ void PartCache::take_out(const Resident& resident) {
 }
 
 void PartCache::evict(std::unordered_map<std::uint32_t, Resident>::iterator at, Garbage& garbage) {
-    const std::uint32_t piece = table_.piece_of(at->first);
+    const std::uint32_t chunk = table_.chunk_of(at->first);
     take_out(at->second);
     order_.erase(at->second.place);
     residents_.erase(at);
     counters_.bytes -= kEntryBytes;
-    release(piece, garbage);
+    release(chunk, garbage);
 }
 
-void PartCache::release(std::uint32_t piece, Garbage& garbage) {
-    const auto shared = pieces_.find(piece);
+void PartCache::release(std::uint32_t chunk, Garbage& garbage) {
+    const auto shared = chunks_.find(chunk);
     if (--shared->second.users > 0)
         return;
-    if (shared->second.piece != nullptr) {
-        counters_.bytes -= shared->second.piece->bytes;
-        garbage.push_back(std::move(shared->second.piece));
+    if (shared->second.chunk != nullptr) {
+        counters_.bytes -= shared->second.chunk->bytes;
+        garbage.push_back(std::move(shared->second.chunk));
     }
-    pieces_.erase(shared);
+    chunks_.erase(shared);
 }
 
 void PartCache::add_bytes(std::uint64_t bytes) {

@@ -18,9 +18,9 @@
 
 namespace abut {
 
-/// A stored piece in memory. All parts that refer to it share it.
-struct LoadedPiece {
-    explicit LoadedPiece(Model model) : shape(std::move(model)) {}
+/// A stored chunk in memory. All parts that refer to it share it.
+struct LoadedChunk {
+    explicit LoadedChunk(Model model) : shape(std::move(model)) {}
 
     BodyShape shape; ///< a Model
     /// For a mesh block: the index in the whole mesh of each triangle. Empty for a whole mesh.
@@ -30,10 +30,10 @@ struct LoadedPiece {
     bool counts_solid = false; ///< `bytes` includes the model's data as a solid
 };
 
-/// An entry in memory: its stored piece and its transform.
+/// An entry in memory: its stored chunk and its transform.
 struct Resident {
     Transform world_from_mesh;
-    std::shared_ptr<LoadedPiece> piece;
+    std::shared_ptr<LoadedChunk> chunk;
     std::list<std::uint32_t>::iterator place; ///< position in the order of eviction
     std::uint64_t last_use = 0;               ///< number of the last lookup that used it
     std::uint64_t plan = 0;                   ///< the last plan that reached it
@@ -59,7 +59,7 @@ struct CacheCounters {
 /// of the plan.
 ///
 /// Two threads use the cache: one queries (find, load and functions that change parts), one reads
-/// ahead (begin_plan, prefetch). Neither holds the lock for long. While a stored piece is read,
+/// ahead (begin_plan, prefetch). Neither holds the lock for long. While a stored chunk is read,
 /// twice its size is reserved, because the bytes that the model is built from are in memory too.
 class PartCache {
 public:
@@ -119,36 +119,36 @@ public:
 
     /// Sets how much of the memory the tables take, and makes room for them.
     void set_table_bytes(std::uint64_t bytes);
-    /// Returns the memory that must remain beside the tables for a stored piece whose model takes
+    /// Returns the memory that must remain beside the tables for a stored chunk whose model takes
     /// `bytes`.
     static std::uint64_t least_memory(std::uint64_t bytes);
     [[nodiscard]] CacheCounters counters() const;
 
 private:
-    struct SharedPiece {
-        std::shared_ptr<LoadedPiece> piece;
+    struct SharedChunk {
+        std::shared_ptr<LoadedChunk> chunk;
         std::uint32_t users = 0;
     };
     /// Which entries may be evicted.
     enum class Expendable : std::uint8_t { anything, beyond_plan };
     using Lock = std::unique_lock<std::mutex>;
-    /// Evicted pieces, which are freed after the lock is released.
-    using Garbage = std::vector<std::shared_ptr<LoadedPiece>>;
+    /// Evicted chunks, which are freed after the lock is released.
+    using Garbage = std::vector<std::shared_ptr<LoadedChunk>>;
 
     Pin pin(Resident& resident);
     void unpin(Resident& resident);
     Resident* find_resident(std::uint32_t entry);
-    [[nodiscard]] std::uint64_t bytes_to_load(std::uint32_t piece) const;
+    [[nodiscard]] std::uint64_t bytes_to_load(std::uint32_t chunk) const;
     Resident& bring(Lock& lock, std::uint32_t entry, Garbage& garbage);
-    std::shared_ptr<LoadedPiece> read(const StoredPiece& piece);
+    std::shared_ptr<LoadedChunk> read(const StoredChunk& chunk);
     void wait_for_a_load(Lock& lock);
-    bool make_room_for(std::uint32_t piece, Expendable expendable, Garbage& garbage);
+    bool make_room_for(std::uint32_t chunk, Expendable expendable, Garbage& garbage);
     bool make_room(std::uint64_t bytes, Expendable expendable, Garbage& garbage);
     void reach(Resident& resident);
     void move_to_end(Resident& resident);
     void take_out(const Resident& resident);
     void evict(std::unordered_map<std::uint32_t, Resident>::iterator at, Garbage& garbage);
-    void release(std::uint32_t piece, Garbage& garbage);
+    void release(std::uint32_t chunk, Garbage& garbage);
     void add_bytes(std::uint64_t bytes);
 
     StoreFile& store_;
@@ -158,8 +158,8 @@ private:
     std::condition_variable changed_; ///< a read has ended or failed
     std::uint64_t memory_, table_bytes_ = 0;
     std::unordered_map<std::uint32_t, Resident> residents_;   ///< by entry
-    std::unordered_map<std::uint32_t, SharedPiece> pieces_;   ///< by piece
-    std::unordered_set<std::uint32_t> loading_;               ///< stored pieces that are being read
+    std::unordered_map<std::uint32_t, SharedChunk> chunks_;   ///< by chunk
+    std::unordered_set<std::uint32_t> loading_;               ///< stored chunks that are being read
     std::unordered_map<std::uint32_t, Transform> placements_; ///< of moved entries
     std::unordered_set<std::uint32_t> removed_;               ///< removed entries
     std::list<std::uint32_t> order_;              ///< residents in the order of eviction

@@ -12,39 +12,39 @@ namespace abut {
 
 namespace {
 
-struct StoredMeshPieces {
+struct StoredMeshChunks {
     std::int64_t mesh = 0;
-    std::uint32_t first_piece = 0, pieces = 0;
+    std::uint32_t first_chunk = 0, chunks = 0;
 };
 
-/// The meshes of a store and their stored pieces, sorted by mesh number.
-class MeshPieces {
+/// The meshes of a store and their stored chunks, sorted by mesh number.
+class MeshChunks {
 public:
-    explicit MeshPieces(StoreFile& store) {
+    explicit MeshChunks(StoreFile& store) {
         std::vector<MeshRow> cut;
         store.for_each_mesh([&](const MeshRow& mesh) {
-            meshes_.push_back({mesh.mesh, static_cast<std::uint32_t>(pieces.size()),
+            meshes_.push_back({mesh.mesh, static_cast<std::uint32_t>(chunks.size()),
                                static_cast<std::uint32_t>(mesh.blocks)});
             if (mesh.blocks != 1) {
                 cut.push_back(mesh);
-                pieces.resize(pieces.size() + mesh.blocks);
+                chunks.resize(chunks.size() + mesh.blocks);
             } else {
-                pieces.push_back({mesh.mesh, bytes_of(mesh.triangles, mesh.vertices), false});
+                chunks.push_back({mesh.mesh, bytes_of(mesh.triangles, mesh.vertices), false});
             }
         });
         for (const MeshRow& mesh : cut) {
-            std::uint32_t piece = of(mesh.mesh, store).first_piece;
+            std::uint32_t chunk = of(mesh.mesh, store).first_chunk;
             for (const BlockRow& block : store.blocks(mesh)) {
                 // Some blocks hold vertices only.
                 if (block.triangles > 0)
-                    boxes.emplace(piece, block.box);
-                pieces[piece++] = {block.block, bytes_of(block.triangles, block.vertices), true};
+                    boxes.emplace(chunk, block.box);
+                chunks[chunk++] = {block.block, bytes_of(block.triangles, block.vertices), true};
             }
         }
     }
 
-    [[nodiscard]] const StoredMeshPieces& of(std::int64_t mesh, const StoreFile& store) const {
-        const auto at = std::ranges::lower_bound(meshes_, mesh, {}, &StoredMeshPieces::mesh);
+    [[nodiscard]] const StoredMeshChunks& of(std::int64_t mesh, const StoreFile& store) const {
+        const auto at = std::ranges::lower_bound(meshes_, mesh, {}, &StoredMeshChunks::mesh);
         if (at == meshes_.end() || at->mesh != mesh)
             throw Error(ErrorCode::malformed, store.path(),
                         "is damaged: a part shows mesh " + std::to_string(mesh) +
@@ -52,7 +52,7 @@ public:
         return *at;
     }
 
-    std::vector<StoredPiece> pieces;
+    std::vector<StoredChunk> chunks;
     std::unordered_map<std::uint32_t, Box3> boxes; ///< of mesh blocks, in the mesh's frame
 
 private:
@@ -60,7 +60,7 @@ private:
         return static_cast<std::uint32_t>(most_model_bytes(triangles, vertices));
     }
 
-    std::vector<StoredMeshPieces> meshes_;
+    std::vector<StoredMeshChunks> meshes_;
 };
 
 template <typename Value>
@@ -76,7 +76,7 @@ std::vector<Value> permuted(const std::vector<Value>& values,
 } // namespace
 
 PartTable::PartTable(StoreFile& store) {
-    MeshPieces meshes(store);
+    MeshChunks meshes(store);
     std::vector<Aabb> boxes;
     const std::vector<ModelRow> models = store.models();
     std::uint64_t parts = 0;
@@ -86,32 +86,32 @@ PartTable::PartTable(StoreFile& store) {
                         "is incomplete: the import of " + model.file + " has not ended");
         parts += model.parts;
     }
-    boxes.reserve(parts), rows_.reserve(parts), pieces_of_.reserve(parts);
-    const auto add = [&](const PartRow& part, std::uint32_t piece, const Box3& box) {
+    boxes.reserve(parts), rows_.reserve(parts), chunks_of_.reserve(parts);
+    const auto add = [&](const PartRow& part, std::uint32_t chunk, const Box3& box) {
         if (rows_.empty())
             middle_ = 0.5 * box.lower + 0.5 * box.upper;
         boxes.push_back(narrow(box));
         rows_.push_back(part.part);
-        pieces_of_.push_back(piece);
+        chunks_of_.push_back(chunk);
     };
     for (const ModelRow& model : models)
         store.for_each_part(model, [&](const PartRow& part) {
-            const StoredMeshPieces& mesh = meshes.of(part.mesh, store);
+            const StoredMeshChunks& mesh = meshes.of(part.mesh, store);
             if (is_empty(part.box))
                 return;
-            if (mesh.pieces == 1) {
-                add(part, mesh.first_piece, part.box);
+            if (mesh.chunks == 1) {
+                add(part, mesh.first_chunk, part.box);
                 return;
             }
-            for (std::uint32_t piece = mesh.first_piece; piece < mesh.first_piece + mesh.pieces;
-                 ++piece)
-                if (const auto box = meshes.boxes.find(piece); box != meshes.boxes.end())
-                    add(part, piece, placed_bounds(box->second, part.world_from_mesh));
+            for (std::uint32_t chunk = mesh.first_chunk; chunk < mesh.first_chunk + mesh.chunks;
+                 ++chunk)
+                if (const auto box = meshes.boxes.find(chunk); box != meshes.boxes.end())
+                    add(part, chunk, placed_bounds(box->second, part.world_from_mesh));
         });
-    pieces_ = std::move(meshes.pieces);
+    chunks_ = std::move(meshes.chunks);
     const std::vector<std::uint32_t> order = tree_.build(boxes);
     rows_ = permuted(rows_, order);
-    pieces_of_ = permuted(pieces_of_, order);
+    chunks_of_ = permuted(chunks_of_, order);
     by_row_.resize(rows_.size());
     for (std::uint32_t entry = 0; entry < size(); ++entry)
         by_row_[entry] = entry;
@@ -128,17 +128,17 @@ std::span<const std::uint32_t> PartTable::entries(std::int64_t row) const {
     return {first, last};
 }
 
-std::uint64_t PartTable::largest_piece() const {
+std::uint64_t PartTable::largest_chunk() const {
     std::uint64_t largest = 0;
-    for (const StoredPiece& piece : pieces_)
-        largest = std::max<std::uint64_t>(largest, piece.bytes);
+    for (const StoredChunk& chunk : chunks_)
+        largest = std::max<std::uint64_t>(largest, chunk.bytes);
     return largest;
 }
 
 std::size_t PartTable::bytes() const {
     return tree_.bytes() + rows_.capacity() * sizeof(rows_[0]) +
-           pieces_of_.capacity() * sizeof(pieces_of_[0]) + by_row_.capacity() * sizeof(by_row_[0]) +
-           pieces_.capacity() * sizeof(pieces_[0]);
+           chunks_of_.capacity() * sizeof(chunks_of_[0]) + by_row_.capacity() * sizeof(by_row_[0]) +
+           chunks_.capacity() * sizeof(chunks_[0]);
 }
 
 Aabb PartTable::narrow(const Box3& box) const {

@@ -33,11 +33,11 @@ public:
         }
     }
 
-    [[nodiscard]] LaneKeys operator()(const BoxBlock& block) const {
+    [[nodiscard]] LaneKeys operator()(const BoxNode& block) const {
         LaneKeys keys;
         keys.fill(std::numeric_limits<float>::infinity());
         for (std::size_t i = 0; i < points_; ++i)
-            for (std::size_t lane = 0; lane < BoxBlock::kWidth; ++lane)
+            for (std::size_t lane = 0; lane < BoxNode::kWidth; ++lane)
                 keys[lane] = std::min(keys[lane],
                                       cost_[i] + std::sqrt(square_of_gap(block, 0, lane, x_[i]) +
                                                            square_of_gap(block, 1, lane, y_[i]) +
@@ -60,8 +60,7 @@ private:
     static constexpr double kShareOfWay = 0.125;
 
     static float square(float v) { return v * v; }
-    static float square_of_gap(const BoxBlock& block, std::size_t axis, std::size_t lane,
-                               float at) {
+    static float square_of_gap(const BoxNode& block, std::size_t axis, std::size_t lane, float at) {
         return square(
             std::max(0.0F, std::max(block.lower[axis][lane] - at, at - block.upper[axis][lane])));
     }

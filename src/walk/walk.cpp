@@ -18,7 +18,7 @@ struct NearEntry {
     WalkPart part;
     const BodyShape& shape;
     const Transform& world;
-    const LoadedPiece* piece = nullptr; ///< null for a part that was added
+    const LoadedChunk* chunk = nullptr; ///< null for a part that was added
 
     [[nodiscard]] PlacedBody body() const { return {shape, world}; }
 };
@@ -54,10 +54,10 @@ public:
                 skip(key);
                 return reach;
             }
-            if (asks_for_solids_ && !pin->piece->is_block)
+            if (asks_for_solids_ && !pin->chunk->is_block)
                 walk_.cache().count_solid(pin);
             reach =
-                visit(NearEntry{part, pin->piece->shape, pin->world_from_mesh, pin->piece.get()});
+                visit(NearEntry{part, pin->chunk->shape, pin->world_from_mesh, pin->chunk.get()});
             return reach;
         });
     }
@@ -95,9 +95,9 @@ WalkGap gap_to(const NearEntry& entry, const PlacedProbe& probe, Depths depths) 
     result.normal = gap.normal;
     result.triangle_part = gap.triangle_a, result.triangle_probe = gap.triangle_b;
     result.status = gap.status;
-    if (entry.piece != nullptr && !entry.piece->triangle_ids.empty() &&
-        gap.triangle_a < entry.piece->triangle_ids.size())
-        result.triangle_part = entry.piece->triangle_ids[gap.triangle_a];
+    if (entry.chunk != nullptr && !entry.chunk->triangle_ids.empty() &&
+        gap.triangle_a < entry.chunk->triangle_ids.size())
+        result.triangle_part = entry.chunk->triangle_ids[gap.triangle_a];
     return result;
 }
 
@@ -211,7 +211,7 @@ NearParts Walk::contacts(const Probe& probe, const Transform& world_from_probe,
     Reach(*data_, placed, query, Depths::yes, answer).visit(0, [&](const NearEntry& entry) {
         if (!touches(entry, placed))
             return 0.0;
-        const bool is_open = entry.piece != nullptr && entry.piece->is_block;
+        const bool is_open = entry.chunk != nullptr && entry.chunk->is_block;
         answer.parts.push_back(gap_to(entry, placed, is_open ? Depths::no : Depths::yes));
         if (is_open)
             answer.parts.back().status = Status::bound_only;

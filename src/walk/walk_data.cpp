@@ -24,7 +24,7 @@ WalkData::WalkData(const Store& store, const WalkOptions& options)
     require(options.look_ahead >= 0 && std::isfinite(options.look_ahead),
             "seconds to look ahead must not be negative, and finite");
     if (!has_room_for(0)) {
-        const std::uint64_t least = table_bytes() + PartCache::least_memory(table_.largest_piece());
+        const std::uint64_t least = table_bytes() + PartCache::least_memory(table_.largest_chunk());
         throw Error(ErrorCode::bad_argument, store.file().path(),
                     "a walk through it needs at least " + std::to_string((least >> 20) + 1) +
                         " MiB of memory: for the table of parts and the largest mesh");
@@ -42,7 +42,7 @@ std::uint64_t WalkData::table_bytes() const {
 }
 
 bool WalkData::has_room_for(std::uint64_t more) const {
-    return table_bytes() + more + PartCache::least_memory(table_.largest_piece()) <=
+    return table_bytes() + more + PartCache::least_memory(table_.largest_chunk()) <=
            options_.memory;
 }
 
@@ -156,10 +156,10 @@ std::vector<Box3> WalkData::own_boxes(WalkPart part, std::span<const std::uint32
         blocks = store.blocks(mesh);
     std::vector<Box3> boxes;
     for (const std::uint32_t entry : entries) {
-        const StoredPiece& piece = table_.piece(table_.piece_of(entry));
+        const StoredChunk& chunk = table_.chunk(table_.chunk_of(entry));
         boxes.push_back(mesh.box);
         for (const BlockRow& block : blocks)
-            if (block.block == piece.number)
+            if (block.block == chunk.number)
                 boxes.back() = block.box;
     }
     return boxes;

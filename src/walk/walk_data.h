@@ -83,7 +83,7 @@ private:
     /// memory.
     std::pair<std::vector<std::uint32_t>, bool> moved_near(const PredictedPath& path);
     [[nodiscard]] std::uint64_t table_bytes() const;
-    /// Whether the memory can hold the tables, `more` bytes and the largest stored piece.
+    /// Whether the memory can hold the tables, `more` bytes and the largest stored chunk.
     [[nodiscard]] bool has_room_for(std::uint64_t more) const;
     void require_room_for_a_part(std::size_t entries) const;
 

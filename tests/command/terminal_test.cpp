@@ -11,7 +11,7 @@
 namespace abut::test {
 namespace {
 
-// Escape, the control sequence introducer of C1, a right-to-left override, a byte that is no UTF-8, a
+// SeparatingMotion, the control sequence introducer of C1, a right-to-left override, a byte that is no UTF-8, a
 // line end, DEL.
 const std::string kHostile = "a\x1b[2Jb\u009b31mc\u202ed\xff"
                              "e\nf\x7fg";

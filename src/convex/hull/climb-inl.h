@@ -24,10 +24,10 @@ namespace abut::HWY_NAMESPACE::rings {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, RingBlock::kEdges>;
+using D = hn::CappedTag<double, RingBatch::kEdges>;
 using V = hn::VFromD<D>;
 constexpr std::size_t kLanes = hn::MaxLanes(D());
-constexpr std::size_t kVectors = std::size_t{2} * RingBlock::kEdges / kLanes; ///< of two blocks
+constexpr std::size_t kVectors = std::size_t{2} * RingBatch::kEdges / kLanes; ///< of two batches
 
 /// In the order of `dot`, without fused operations: the same on all targets.
 HWY_INLINE V dot(const V* direction, V x, V y, V z) {
@@ -60,29 +60,29 @@ public:
     HWY_INLINE bool step() {
         const D d;
         const HullVertex& vertex = polytope_.vertices[vertex_];
-        const RingBlock* const ring =
-            polytope_.rings.data() + vertex.first_edge / RingBlock::kEdges;
-        // Two blocks always: most vertices have no more neighbours, and to look at some of the next
+        const RingBatch* const ring =
+            polytope_.rings.data() + vertex.first_edge / RingBatch::kEdges;
+        // Two batches always: most vertices have no more neighbours, and to look at some of the next
         // vertex costs less than a branch on their number.
         V heights[kVectors];
         for (std::size_t i = 0; i < kVectors; ++i) {
-            const RingBlock& block = ring[i * kLanes / RingBlock::kEdges];
-            const std::size_t lane = i * kLanes % RingBlock::kEdges;
+            const RingBatch& batch = ring[i * kLanes / RingBatch::kEdges];
+            const std::size_t lane = i * kLanes % RingBatch::kEdges;
             heights[i] =
-                dot(lanes_, hn::Load(d, block.x.data() + lane), hn::Load(d, block.y.data() + lane),
-                    hn::Load(d, block.z.data() + lane));
+                dot(lanes_, hn::Load(d, batch.x.data() + lane), hn::Load(d, batch.y.data() + lane),
+                    hn::Load(d, batch.z.data() + lane));
         }
         V most = heights[0];
         for (std::size_t i = 1; i < kVectors; ++i)
             most = hn::Max(most, heights[i]);
         most = hn::MaxOfLanes(d, most);
-        const std::uint32_t k = first_of(heights, kVectors, most) % (2 * RingBlock::kEdges);
+        const std::uint32_t k = first_of(heights, kVectors, most) % (2 * RingBatch::kEdges);
         const double height = hn::GetLane(most);
-        const std::uint32_t target = ring[k / RingBlock::kEdges].target[k % RingBlock::kEdges];
+        const std::uint32_t target = ring[k / RingBatch::kEdges].target[k % RingBatch::kEdges];
         bool higher = height > height_;
         vertex_ = higher ? target : vertex_;
         height_ = higher ? height : height_;
-        if (HWY_UNLIKELY(vertex.degree > 2 * RingBlock::kEdges))
+        if (HWY_UNLIKELY(vertex.degree > 2 * RingBatch::kEdges))
             higher |= step_beyond(vertex);
         return higher;
     }
@@ -91,7 +91,7 @@ public:
 private:
     HWY_INLINE bool step_beyond(const HullVertex& vertex) {
         bool higher = false;
-        for (std::uint32_t k = 2 * RingBlock::kEdges; k < vertex.degree; ++k) {
+        for (std::uint32_t k = 2 * RingBatch::kEdges; k < vertex.degree; ++k) {
             const std::uint32_t e = vertex.first_edge + k;
             if (const double h = abut::dot(direction_, polytope_.to(e)); h > height_)
                 height_ = h, vertex_ = polytope_.target(e), higher = true;
@@ -157,20 +157,20 @@ HWY_INLINE HighestNeighbour highest_neighbour(const Polytope& polytope, const Hu
     const D d;
     const V along[3] = {hn::Set(d, direction.x), hn::Set(d, direction.y), hn::Set(d, direction.z)};
     const V x = hn::Set(d, vertex.at.x), y = hn::Set(d, vertex.at.y), z = hn::Set(d, vertex.at.z);
-    const RingBlock* const ring = polytope.rings.data() + vertex.first_edge / RingBlock::kEdges;
-    constexpr std::uint32_t kTwo = 2 * RingBlock::kEdges;
+    const RingBatch* const ring = polytope.rings.data() + vertex.first_edge / RingBatch::kEdges;
+    constexpr std::uint32_t kTwo = 2 * RingBatch::kEdges;
     for (std::uint32_t first = 0; first < vertex.degree; first += kTwo) {
-        // Two blocks at a time: the first again where there is no second.
-        const RingBlock* const one = ring + first / RingBlock::kEdges;
-        const RingBlock* const blocks[2] = {one, vertex.degree - first > RingBlock::kEdges ? one + 1
-                                                                                           : one};
+        // Two batches at a time: the first again where there is no second.
+        const RingBatch* const one = ring + first / RingBatch::kEdges;
+        const RingBatch* const batches[2] = {
+            one, vertex.degree - first > RingBatch::kEdges ? one + 1 : one};
         V heights[kVectors];
         for (std::size_t i = 0; i < kVectors; ++i) {
-            const RingBlock& block = *blocks[i * kLanes / RingBlock::kEdges];
-            const std::size_t lane = i * kLanes % RingBlock::kEdges;
-            heights[i] = dot(along, hn::Sub(hn::Load(d, block.x.data() + lane), x),
-                             hn::Sub(hn::Load(d, block.y.data() + lane), y),
-                             hn::Sub(hn::Load(d, block.z.data() + lane), z));
+            const RingBatch& batch = *batches[i * kLanes / RingBatch::kEdges];
+            const std::size_t lane = i * kLanes % RingBatch::kEdges;
+            heights[i] = dot(along, hn::Sub(hn::Load(d, batch.x.data() + lane), x),
+                             hn::Sub(hn::Load(d, batch.y.data() + lane), y),
+                             hn::Sub(hn::Load(d, batch.z.data() + lane), z));
         }
         V most = heights[0];
         for (std::size_t i = 1; i < kVectors; ++i)

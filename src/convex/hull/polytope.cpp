@@ -35,30 +35,30 @@ void order_ring(std::span<Corner> ring) {
 }
 
 void add_ring(std::span<const Vec3> points, std::span<const Corner> ring,
-              std::vector<RingBlock>& rings) {
-    for (std::size_t first = 0; first < ring.size(); first += RingBlock::kEdges) {
-        RingBlock& block = rings.emplace_back();
-        for (std::size_t k = 0; k < RingBlock::kEdges; ++k) {
+              std::vector<RingBatch>& rings) {
+    for (std::size_t first = 0; first < ring.size(); first += RingBatch::kEdges) {
+        RingBatch& batch = rings.emplace_back();
+        for (std::size_t k = 0; k < RingBatch::kEdges; ++k) {
             const std::uint32_t to = ring[first + k < ring.size() ? first + k : 0].to;
-            block.target[k] = to;
-            block.x[k] = points[to].x, block.y[k] = points[to].y, block.z[k] = points[to].z;
+            batch.target[k] = to;
+            batch.x[k] = points[to].x, batch.y[k] = points[to].y, batch.z[k] = points[to].z;
         }
     }
 }
 
-/// So that two blocks can be read where the last ring begins. What is there is a vertex too.
+/// So that two batches can be read where the last ring begins. What is there is a vertex too.
 void add_room(Polytope& polytope) {
-    RingBlock last;
+    RingBatch last;
     const Vec3& at = polytope.vertices[0].at;
     last.x.fill(at.x), last.y.fill(at.y), last.z.fill(at.z);
-    while (polytope.edge_end() < polytope.vertices.back().first_edge + 2 * RingBlock::kEdges)
+    while (polytope.edge_end() < polytope.vertices.back().first_edge + 2 * RingBatch::kEdges)
         polytope.rings.push_back(last);
 }
 
 void add_columns(std::span<const Vec3> points, std::vector<double>& columns) {
-    const std::size_t blocks = (points.size() + RingBlock::kEdges - 1) / RingBlock::kEdges;
+    const std::size_t batches = (points.size() + RingBatch::kEdges - 1) / RingBatch::kEdges;
     for (int axis = 0; axis < 3; ++axis)
-        for (std::size_t i = 0; i < blocks * RingBlock::kEdges; ++i)
+        for (std::size_t i = 0; i < batches * RingBatch::kEdges; ++i)
             columns.push_back(component(points[std::min(i, points.size() - 1)], axis));
 }
 
@@ -78,7 +78,7 @@ void set_twins(Polytope& polytope) {
         return a.low != b.low ? a.low < b.low : a.high < b.high;
     });
     const auto twin = [&](std::uint32_t edge) -> std::uint32_t& {
-        return polytope.rings[edge / RingBlock::kEdges].twin[edge % RingBlock::kEdges];
+        return polytope.rings[edge / RingBatch::kEdges].twin[edge % RingBatch::kEdges];
     };
     for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
         twin(ends[i].edge) = ends[i + 1].edge;
@@ -112,7 +112,7 @@ Polytope make_polytope(std::span<const Vec3> points, std::span<const IndexTriang
 }
 
 std::size_t Polytope::bytes() const {
-    return vertices.capacity() * sizeof(HullVertex) + rings.capacity() * sizeof(RingBlock) +
+    return vertices.capacity() * sizeof(HullVertex) + rings.capacity() * sizeof(RingBatch) +
            starts.vertices().capacity() * sizeof(std::uint32_t) +
            columns.capacity() * sizeof(double);
 }

@@ -14,7 +14,7 @@ namespace abut {
 
 /// Four neighbours of a vertex, coordinate by coordinate: two cache lines that are compared with a
 /// direction at once.
-struct alignas(64) RingBlock {
+struct alignas(64) RingBatch {
     static constexpr std::uint32_t kEdges = 4;
     std::array<double, kEdges> x{}, y{}, z{};
     std::array<std::uint32_t, kEdges> target{};
@@ -31,32 +31,32 @@ struct HullVertex {
 /// other in a ring span a triangle; some triangles may be coplanar.
 ///
 /// An edge is numbered by its place in the rings, which holds where the other end is, so that a look
-/// at all neighbours of a vertex touches one run of memory. A ring begins with a block; what is left
-/// of its last block repeats its first edge, and has numbers that no edge has.
+/// at all neighbours of a vertex touches one run of memory. A ring begins with a batch; what is left
+/// of its last batch repeats its first edge, and has numbers that no edge has.
 ///
 /// A point is a vertex without edges, a segment two with one edge each, a polygon has triangles on
 /// both sides: nothing that walks needs to know.
 struct Polytope {
     std::vector<HullVertex> vertices;
-    std::vector<RingBlock> rings; ///< by vertex, then around it; one more at the end
+    std::vector<RingBatch> rings; ///< by vertex, then around it; one more at the end
     NormalTable starts;
-    /// Of a small hull: all x, then all y, all z, padded to whole blocks by the last vertex.
+    /// Of a small hull: all x, then all y, all z, padded to whole batches by the last vertex.
     std::vector<double> columns;
 
     /// One more than the largest number of an edge.
     [[nodiscard]] std::uint32_t edge_end() const {
-        return static_cast<std::uint32_t>(rings.size()) * RingBlock::kEdges;
+        return static_cast<std::uint32_t>(rings.size()) * RingBatch::kEdges;
     }
     [[nodiscard]] Vec3 to(std::uint32_t edge) const {
-        const RingBlock& block = rings[edge / RingBlock::kEdges];
-        const std::uint32_t k = edge % RingBlock::kEdges;
-        return {block.x[k], block.y[k], block.z[k]};
+        const RingBatch& batch = rings[edge / RingBatch::kEdges];
+        const std::uint32_t k = edge % RingBatch::kEdges;
+        return {batch.x[k], batch.y[k], batch.z[k]};
     }
     [[nodiscard]] std::uint32_t target(std::uint32_t edge) const {
-        return rings[edge / RingBlock::kEdges].target[edge % RingBlock::kEdges];
+        return rings[edge / RingBatch::kEdges].target[edge % RingBatch::kEdges];
     }
     [[nodiscard]] std::uint32_t twin(std::uint32_t edge) const {
-        return rings[edge / RingBlock::kEdges].twin[edge % RingBlock::kEdges];
+        return rings[edge / RingBatch::kEdges].twin[edge % RingBatch::kEdges];
     }
     [[nodiscard]] std::uint32_t origin(std::uint32_t edge) const { return target(twin(edge)); }
 

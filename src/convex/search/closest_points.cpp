@@ -56,7 +56,7 @@ void leap(const PolytopePair& pair, WalkState& at) {
 
 void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
                                       ClosestPointSearch& search) {
-    const SimplexState found = search_simplex(pair, *search.simplex, rounding);
+    const GjkState found = gjk(pair, *search.simplex, rounding);
     search.simplices += found.steps;
     search.simplex = found.simplex;
     WalkState& at = search.at;

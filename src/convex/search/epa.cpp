@@ -21,9 +21,9 @@ constexpr std::uint32_t kMostSteps = 2000;
 constexpr std::uint32_t kMostKept = 160;
 constexpr std::uint32_t kNoNumber = 0xffffffffU;
 
-class ExpandingPolytope {
+class EpaPolytope {
 public:
-    ExpandingPolytope(const PolytopePair& pair, double rounding)
+    EpaPolytope(const PolytopePair& pair, double rounding)
         : a_(pair.a), b_(pair.b), rounding_(rounding),
           all_rounding_(rounding + world_rounding(pair)), boundary_(rounding) {
         open_.resize(64);
@@ -377,7 +377,7 @@ private:
 
 void expand_from(const PolytopePair& pair, double rounding, const DifferenceSimplex& start,
                  DifferencePolytope* grown, NearestBoundary& nearest) {
-    ExpandingPolytope polytope(pair, rounding);
+    EpaPolytope polytope(pair, rounding);
     if (polytope.begin(start, nearest))
         polytope.expand(nearest);
     if (grown != nullptr)
@@ -386,7 +386,7 @@ void expand_from(const PolytopePair& pair, double rounding, const DifferenceSimp
 
 bool expand_last(const PolytopePair& pair, double rounding, DifferencePolytope& last,
                  NearestBoundary& nearest) {
-    ExpandingPolytope polytope(pair, rounding);
+    EpaPolytope polytope(pair, rounding);
     if (!polytope.recall(last) || !polytope.expand(nearest))
         return false;
     polytope.remember(last);

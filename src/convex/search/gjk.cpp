@@ -168,10 +168,9 @@ void add_if_new(const VertexPair& corner, DifferenceSimplex& simplex) {
         simplex.corners[simplex.count++] = corner;
 }
 
-SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& start,
-                            double rounding) {
+GjkState gjk(const PolytopePair& pair, const DifferenceSimplex& start, double rounding) {
     PlacedSimplex simplex(pair, start, rounding);
-    SimplexState state;
+    GjkState state;
     state.steps = 1;
     VertexPair last{};
     const double rounding_sq = rounding * rounding;

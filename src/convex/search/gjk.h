@@ -20,7 +20,7 @@ struct DifferenceSimplex {
 /// In          fewer than four corners.
 void add_if_new(const VertexPair& corner, DifferenceSimplex& simplex);
 
-struct SimplexState {
+struct GjkState {
     DifferenceSimplex simplex;
     bool meeting = false; ///< the origin lies in the simplex: so the polytopes share a point
     bool proven = false;  ///< meeting: without a doubt, as placed by abut/types.h
@@ -38,7 +38,6 @@ struct SimplexState {
 /// In          `start`: at least one corner; weights are not looked at. `rounding` as for `walk`.
 /// Accuracy    as for `walk`. Meeting: the common point lies in both to a few times `rounding`.
 /// Source      [Gilbert, Johnson, Keerthi 1988], support by hill climbing [Cameron 1997].
-SimplexState search_simplex(const PolytopePair& pair, const DifferenceSimplex& start,
-                            double rounding);
+GjkState gjk(const PolytopePair& pair, const DifferenceSimplex& start, double rounding);
 
 } // namespace abut

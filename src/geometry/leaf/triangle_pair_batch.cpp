@@ -84,7 +84,7 @@ HWY_INLINE hn::Vec<D> vertex_face_sq(D d, const Lanes3<D>& p, const Face<D>& f, 
 }
 
 template <class D>
-HWY_INLINE void distance_sq_lanes(D d, const TrianglePairBlock& pairs, std::size_t lane,
+HWY_INLINE void distance_sq_lanes(D d, const TrianglePairBatch& pairs, std::size_t lane,
                                   double* result) {
     const Lanes3<D> a_v[3] = {load3(d, pairs.a[0], lane), load3(d, pairs.a[1], lane),
                               load3(d, pairs.a[2], lane)};
@@ -113,18 +113,18 @@ HWY_INLINE void distance_sq_lanes(D d, const TrianglePairBlock& pairs, std::size
 }
 
 template <class D>
-HWY_INLINE void distance_sq_with(D d, const TrianglePairBlock& pairs, double* result) {
-    for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; lane += hn::Lanes(d))
+HWY_INLINE void distance_sq_with(D d, const TrianglePairBatch& pairs, double* result) {
+    for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; lane += hn::Lanes(d))
         distance_sq_lanes(d, pairs, lane, result);
 }
 
-using PairLanes = hn::CappedTag<double, TrianglePairBlock::kLanes>;
+using PairLanes = hn::CappedTag<double, TrianglePairBatch::kLanes>;
 using OneLane = hn::CappedTag<double, 1>;
 
-void distance_sq_simd(const TrianglePairBlock& pairs, double* result) {
+void distance_sq_simd(const TrianglePairBatch& pairs, double* result) {
     distance_sq_with(PairLanes(), pairs, result);
 }
-void distance_sq_one(const TrianglePairBlock& pairs, double* result) {
+void distance_sq_one(const TrianglePairBatch& pairs, double* result) {
     distance_sq_with(OneLane(), pairs, result);
 }
 
@@ -136,11 +136,11 @@ namespace abut {
 
 HWY_EXPORT(distance_sq_simd);
 
-void distance_sq(const TrianglePairBlock& pairs, double (&result)[TrianglePairBlock::kLanes]) {
+void distance_sq(const TrianglePairBatch& pairs, double (&result)[TrianglePairBatch::kLanes]) {
     HWY_DYNAMIC_DISPATCH(distance_sq_simd)(pairs, result);
 }
-void distance_sq_reference(const TrianglePairBlock& pairs,
-                           double (&result)[TrianglePairBlock::kLanes]) {
+void distance_sq_reference(const TrianglePairBatch& pairs,
+                           double (&result)[TrianglePairBatch::kLanes]) {
     HWY_STATIC_DISPATCH(distance_sq_one)(pairs, result);
 }
 

@@ -7,7 +7,7 @@
 namespace abut {
 
 /// A batch of eight pairs of triangles, one per lane: the input of one pass of the distance kernel.
-struct alignas(64) TrianglePairBlock {
+struct alignas(64) TrianglePairBatch {
     static constexpr std::size_t kLanes = 8;
     double a[3][3][kLanes], b[3][3][kLanes]; ///< [vertex][axis][lane]
 
@@ -53,10 +53,10 @@ constexpr double kTrianglePairError = 32 * 0x1p-53, kTrianglePairUnderflow = 0x1
 /// Source      minimum over 9 edge pairs and 6 vertex-face pairs, as [Larsen et al. 1999]. Differs:
 ///             closest points of lines by cross products, so that almost parallel edges lose no
 ///             precision.
-void distance_sq(const TrianglePairBlock& pairs, double (&result)[TrianglePairBlock::kLanes]);
+void distance_sq(const TrianglePairBatch& pairs, double (&result)[TrianglePairBatch::kLanes]);
 
 /// distance_sq with one lane: the reference for every SIMD target.
-void distance_sq_reference(const TrianglePairBlock& pairs,
-                           double (&result)[TrianglePairBlock::kLanes]);
+void distance_sq_reference(const TrianglePairBatch& pairs,
+                           double (&result)[TrianglePairBatch::kLanes]);
 
 } // namespace abut

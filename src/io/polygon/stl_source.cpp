@@ -13,7 +13,7 @@ namespace abut {
 namespace {
 
 constexpr std::uint64_t kMostTriangles = (std::numeric_limits<std::uint32_t>::max() - 1) / 3;
-constexpr std::size_t kPieceTriangles = 4096;
+constexpr std::size_t kBlockTriangles = 4096;
 
 /// Every triangle has three vertices of its own, in the order of the file.
 class StlSource : public OnePartSource {
@@ -47,8 +47,8 @@ private:
         const std::uint64_t triangles = size(0).triangles;
         std::vector<std::byte> bytes;
         std::vector<Vec3> piece;
-        for (std::uint64_t i = 0; i < triangles; i += kPieceTriangles) {
-            const std::uint64_t count = std::min<std::uint64_t>(kPieceTriangles, triangles - i);
+        for (std::uint64_t i = 0; i < triangles; i += kBlockTriangles) {
+            const std::uint64_t count = std::min<std::uint64_t>(kBlockTriangles, triangles - i);
             bytes.resize(count * kStlTriangleBytes);
             file_.read(kStlHeaderBytes + i * kStlTriangleBytes, bytes);
             piece.clear();
@@ -83,7 +83,7 @@ private:
                 if (sink == nullptr)
                     return;
                 piece.push_back({to_float(p.x), to_float(p.y), to_float(p.z)});
-                if (piece.size() >= 3 * kPieceTriangles) {
+                if (piece.size() >= 3 * kBlockTriangles) {
                     sink->vertices(piece);
                     piece.clear();
                 }

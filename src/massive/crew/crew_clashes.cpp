@@ -6,8 +6,8 @@
 #include "core/progress.h"
 #include "massive/crew/crew_lead.h"
 #include "massive/crew/crew_messages.h"
-#include "massive/work/piece_worker.h"
 #include "massive/work/stored_parts.h"
+#include "massive/work/task_worker.h"
 #include "store/database/store_file.h"
 
 #include <atomic>
@@ -30,13 +30,13 @@ public:
 
     Briefing briefing() { return std::get<Briefing>(wait()); }
 
-    std::optional<WorkPiece> next() override {
+    std::optional<Task> next() override {
         CrewMessage message = wait();
         if (std::holds_alternative<NoMoreWork>(message))
             return std::nullopt;
-        return std::get<WorkPiece>(std::move(message));
+        return std::get<Task>(std::move(message));
     }
-    void done(PieceResult result) override { crew_.send(0, encode(std::move(result))); }
+    void done(TaskResult result) override { crew_.send(0, encode(std::move(result))); }
     void on_pair() override {
         throw_if_over();
         const std::unique_lock lock(mutex_, std::try_to_lock);
@@ -100,7 +100,7 @@ void lead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions
     StoreFile file(store, OpenMode::immutable);
     CrewLead leading(crew, plan, result, options);
     try {
-        PieceTester tester(file, options, plan.stored.models, plan.budget, plan.blocks_budget);
+        TaskTester tester(file, options, plan.stored.models, plan.budget, plan.blocks_budget);
         work(tester, leading);
     } catch (...) {
         leading.fail();
@@ -116,7 +116,7 @@ void help_find_clashes(const std::string& store, Crew& crew, const Progress& pro
         const std::vector<ModelRow> models = file.models();
         if (parts_key(models) != briefing.models)
             throw Error(ErrorCode::bad_argument, store, "is another store than the leader's");
-        PieceTester tester(file, briefing.options, models, briefing.budget, briefing.blocks_budget);
+        TaskTester tester(file, briefing.options, models, briefing.budget, briefing.blocks_budget);
         work(tester, source);
         source.wait_until_dismissed();
     } catch (const Dismissed&) {

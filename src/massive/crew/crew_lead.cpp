@@ -41,9 +41,9 @@ CrewLead::~CrewLead() {
             thread->join();
 }
 
-std::optional<WorkPiece> CrewLead::next() {
+std::optional<Task> CrewLead::next() {
     helpers_have_work_.wait();
-    return piece_for(0);
+    return task_for(0);
 }
 
 void CrewLead::brief_helpers() {
@@ -79,7 +79,7 @@ void CrewLead::handle(const Crew::Message& message) {
     CrewMessage content = decode(message.bytes);
     if (const auto* const failure = std::get_if<Failure>(&content))
         failure->rethrow();
-    auto& result = std::get<PieceResult>(content);
+    auto& result = std::get<TaskResult>(content);
     hand_out(message.from);
     progress_.advance(result.pairs);
     result.from = static_cast<std::uint32_t>(message.from);
@@ -87,18 +87,18 @@ void CrewLead::handle(const Crew::Message& message) {
 }
 
 void CrewLead::hand_out(std::size_t worker) {
-    if (auto piece = piece_for(worker))
-        crew_.send(worker, encode(std::move(*piece)));
+    if (auto task = task_for(worker))
+        crew_.send(worker, encode(std::move(*task)));
     else
         crew_.send(worker, encode(NoMoreWork()));
 }
 
-std::optional<WorkPiece> CrewLead::piece_for(std::size_t worker) {
+std::optional<Task> CrewLead::task_for(std::size_t worker) {
     const std::scoped_lock lock(mutex_);
     return schedule_.next(worker);
 }
 
-void CrewLead::done(PieceResult result) {
+void CrewLead::done(TaskResult result) {
     const std::scoped_lock lock(mutex_);
     done_.push_back(std::move(result));
     to_record_.notify_one();
@@ -107,7 +107,7 @@ void CrewLead::done(PieceResult result) {
 void CrewLead::record() {
     try {
         for (std::size_t left = plan_.units.size(); left > 0 && !ended_;) {
-            std::vector<PieceResult> results;
+            std::vector<TaskResult> results;
             {
                 std::unique_lock lock(mutex_);
                 to_record_.wait_for(lock, kPatience, [this] { return !done_.empty(); });

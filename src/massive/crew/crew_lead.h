@@ -6,7 +6,7 @@
 #include "core/progress.h"
 #include "massive/job/job_plan.h"
 #include "massive/job/job_result.h"
-#include "massive/work/piece_worker.h"
+#include "massive/work/task_worker.h"
 #include "massive/work/work_schedule.h"
 
 #include <atomic>
@@ -31,8 +31,8 @@ public:
 
     /// Returns the leader's own next task. Waits until every helper has its first tasks, so that
     /// the leader does not take all of a small job.
-    std::optional<WorkPiece> next() override;
-    void done(PieceResult result) override;
+    std::optional<Task> next() override;
+    void done(TaskResult result) override;
     void on_pair() override;
 
     /// Ends the work. Keeps the exception that is being handled, unless an earlier failure is
@@ -49,7 +49,7 @@ private:
     void record();
     void handle(const Crew::Message& message);
     void hand_out(std::size_t worker);
-    std::optional<WorkPiece> piece_for(std::size_t worker);
+    std::optional<Task> task_for(std::size_t worker);
     Crew& crew_;
     const JobPlan& plan_;
     const ClashOptions& options_;
@@ -57,7 +57,7 @@ private:
     JobResult& result_; ///< used by the recorder only
     std::mutex mutex_;  ///< guards the next four members
     std::condition_variable to_record_;
-    std::vector<PieceResult> done_; ///< results to record
+    std::vector<TaskResult> done_; ///< results to record
     WorkSchedule schedule_;
     std::exception_ptr failure_;
     std::latch helpers_have_work_{1};

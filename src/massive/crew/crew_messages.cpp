@@ -30,28 +30,28 @@ void fields(Stream& stream, Either<Briefing> auto& briefing) {
 }
 
 template <typename Stream>
-void fields(Stream& stream, Either<WorkPiece> auto& piece) {
-    stream(piece.unit, piece.alone, piece.meshes, piece.large, piece.parts, piece.pairs,
-           piece.large_pairs);
+void fields(Stream& stream, Either<Task> auto& task) {
+    stream(task.unit, task.alone, task.meshes, task.large, task.parts, task.pairs,
+           task.large_pairs);
 }
 
 template <typename Stream>
 void fields(Stream& /*stream*/, Either<NoMoreWork> auto& /*nothing*/) {}
 
 template <typename Stream>
-void fields(Stream& stream, Either<PieceResult::Found> auto& found) {
+void fields(Stream& stream, Either<TaskResult::Found> auto& found) {
     auto& clash = found.clash;
     stream(found.pair, clash.id, clash.kind, clash.distance, clash.point_a, clash.point_b,
            clash.direction, clash.triangle_pairs, clash.rule);
 }
 
 template <typename Stream>
-void fields(Stream& stream, Either<PieceResult::Named> auto& named) {
+void fields(Stream& stream, Either<TaskResult::Named> auto& named) {
     stream(named.row, named.part.id, named.part.name, named.part.type);
 }
 
 template <typename Stream>
-void fields(Stream& stream, Either<PieceResult> auto& result) {
+void fields(Stream& stream, Either<TaskResult> auto& result) {
     stream(result.unit, result.pairs, result.clashes, result.named, result.worker);
 }
 

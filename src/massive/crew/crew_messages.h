@@ -4,7 +4,7 @@
 #include <abut/error.h>
 
 #include "core/hash.h"
-#include "massive/work/work_piece.h"
+#include "massive/work/task.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@
 namespace abut {
 
 /// Messages of a crew in the clash job of a store. The leader sends a Briefing, then tasks
-/// (WorkPiece). A helper sends results, or a Failure as its last message.
+/// (Task). A helper sends results, or a Failure as its last message.
 
 /// The data that a helper needs before its first task.
 struct Briefing {
@@ -39,7 +39,7 @@ struct Failure {
 /// Sent instead of a task when all have been handed out.
 struct NoMoreWork {};
 
-using CrewMessage = std::variant<Briefing, WorkPiece, NoMoreWork, PieceResult, Failure>;
+using CrewMessage = std::variant<Briefing, Task, NoMoreWork, TaskResult, Failure>;
 
 std::vector<std::byte> encode(const CrewMessage& message);
 /// Errors      std::length_error for bytes that are too short or of an unknown kind. Only encode()

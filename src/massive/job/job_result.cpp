@@ -84,9 +84,9 @@ void JobResult::recall() {
     }
 }
 
-void JobResult::take(std::vector<PieceResult> results) {
+void JobResult::take(std::vector<TaskResult> results) {
     const auto add_all = [&] {
-        for (PieceResult& result : results)
+        for (TaskResult& result : results)
             add(std::move(result));
     };
     if (plan_.record == nullptr)
@@ -96,13 +96,13 @@ void JobResult::take(std::vector<PieceResult> results) {
     together.commit();
 }
 
-void JobResult::add(PieceResult result) {
+void JobResult::add(TaskResult result) {
     std::unordered_map<std::int64_t, Part*> names;
-    for (PieceResult::Named& named : result.named)
+    for (TaskResult::Named& named : result.named)
         names.emplace(named.row, &named.part);
     std::vector<Clash>& clashes = result_.report.clashes;
     const std::size_t before = clashes.size();
-    for (PieceResult::Found& found : result.clashes) {
+    for (TaskResult::Found& found : result.clashes) {
         const IndexPair pair = plan_.units[result.unit].pairs[found.pair];
         found.clash.part = {pair.a(), pair.b()};
         set_models(found.clash);

@@ -4,7 +4,7 @@
 #include <abut/store_clash.h>
 
 #include "massive/job/job_plan.h"
-#include "massive/work/work_piece.h"
+#include "massive/work/task.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
 
     /// Adds the results of some tasks. When it returns they are recorded, at the cost of one
     /// commit.
-    void take(std::vector<PieceResult> results);
+    void take(std::vector<TaskResult> results);
 
     /// Ends the job and returns the report. Clashes are sorted by part; their parts are indices in
     /// the report's lists of clashing parts.
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const OutOfCoreCounters& counters() const { return result_.counters; }
 
 private:
-    void add(PieceResult result);
+    void add(TaskResult result);
     void sum_up_workers();
     void add_model(const ModelRow& row);
     void set_models(Clash& clash) const;

@@ -146,7 +146,7 @@ void for_each_pair_left(Database& database, std::int64_t job,
             unit_checksum(job, static_cast<std::uint64_t>(units.integer(0)), bytes);
         const auto pairs = blob_elements<std::array<std::int64_t, 2>>(bytes);
         if (sum != static_cast<std::uint64_t>(units.integer(1)) || pairs.empty())
-            damaged_job(database, "a piece of work of a job is not what its checksum says");
+            damaged_job(database, "a work unit of a job does not match its checksum");
         tally.add(sum);
         for (const auto& [a, b] : pairs)
             take({a, b});

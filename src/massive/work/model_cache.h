@@ -2,7 +2,7 @@
 
 #include <abut/model.h>
 
-#include "massive/work/work_piece.h"
+#include "massive/work/task.h"
 #include "store/model_reader.h"
 
 #include <cstdint>
@@ -28,7 +28,7 @@ public:
     /// one are read. If either task is `alone`, they stay valid only until the next call.
     ///
     /// Errors      those of the store.
-    std::vector<const Model*> load(const WorkPiece& piece);
+    std::vector<const Model*> load(const Task& task);
 
     [[nodiscard]] std::uint64_t loads() const { return loads_; }
     [[nodiscard]] std::uint64_t peak_bytes() const { return peak_bytes_; }
@@ -36,7 +36,7 @@ public:
 private:
     struct Entry {
         std::unique_ptr<const Model> model;
-        std::uint32_t next_use = WorkPiece::kNoUse;
+        std::uint32_t next_use = Task::kNoUse;
         std::uint64_t call = 0; ///< the last load() that needed it
     };
 

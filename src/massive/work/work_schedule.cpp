@@ -59,20 +59,20 @@ void WorkSchedule::take_over_half(Run& run) {
 std::uint32_t WorkSchedule::next_use(std::uint32_t mesh, const Run& run) const {
     const auto begin = uses_.begin() + first_use_[mesh], end = uses_.begin() + first_use_[mesh + 1];
     const auto use = std::lower_bound(begin, end, static_cast<std::uint32_t>(run.begin));
-    return use == end || *use >= run.end ? WorkPiece::kNoUse : *use;
+    return use == end || *use >= run.end ? Task::kNoUse : *use;
 }
 
-std::optional<WorkPiece> WorkSchedule::next(std::size_t worker) {
+std::optional<Task> WorkSchedule::next(std::size_t worker) {
     Run& run = runs_[worker];
     if (run.begin == run.end)
         take_over_half(run);
     if (run.begin == run.end)
         return std::nullopt;
     const std::size_t unit = run.begin++;
-    WorkPiece piece = make_piece(stored_, units_, unit);
-    for (std::size_t i = 0; i < piece.meshes.size(); ++i)
-        piece.meshes[i].next_use = next_use(units_[unit].meshes[i], run);
-    return piece;
+    Task task = make_task(stored_, units_, unit);
+    for (std::size_t i = 0; i < task.meshes.size(); ++i)
+        task.meshes[i].next_use = next_use(units_[unit].meshes[i], run);
+    return task;
 }
 
 } // namespace abut

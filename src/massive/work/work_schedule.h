@@ -1,6 +1,6 @@
 #pragma once
 
-#include "massive/work/work_piece.h"
+#include "massive/work/task.h"
 #include "massive/work/work_units.h"
 
 #include <cstddef>
@@ -22,7 +22,7 @@ public:
 
     /// Returns the next task of a worker, with the next uses of its meshes within the worker's run.
     /// Returns none if all units have been handed out.
-    std::optional<WorkPiece> next(std::size_t worker);
+    std::optional<Task> next(std::size_t worker);
 
 private:
     struct Run {

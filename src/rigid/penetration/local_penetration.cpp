@@ -138,7 +138,7 @@ LocalPenetration local_penetration(const WorldSolid& a, const WorldSolid& b,
 
 LocalPenetration locked_depth(const WorldSolid& a, const WorldSolid& b,
                               std::span<const Contact> contacts) {
-    const Escape escape = find_escape(a, b, contacts);
+    const SeparatingMotion escape = find_separating_motion(a, b, contacts);
     const TrianglePair& first = contacts[0].pair;
     const ClosestPoints common =
         triangle_triangle_distance(a.world_triangle(first.a), b.world_triangle(first.b));

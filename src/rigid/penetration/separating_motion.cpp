@@ -73,9 +73,10 @@ Vec3 nudge_that_parts(const WorldSolid& a, const WorldSolid& b, std::span<const 
     return {};
 }
 
-Escape find_escape(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts) {
+SeparatingMotion find_separating_motion(const WorldSolid& a, const WorldSolid& b,
+                                        std::span<const Contact> contacts) {
     const double size = a.world_size() + b.world_size();
-    Escape best;
+    SeparatingMotion best;
     for (const Vec3& d : directions(a, b, contacts)) {
         if (best.length > 0 && !parted(a, b, best.length * d))
             continue;

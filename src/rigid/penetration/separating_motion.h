@@ -8,7 +8,7 @@
 namespace abut {
 
 /// A translation of b after which the surfaces share no point.
-struct Escape {
+struct SeparatingMotion {
     double length = 0; ///< 0: none was found
     Vec3 direction;    ///< unit vector
 };
@@ -21,6 +21,7 @@ struct Escape {
 Vec3 nudge_that_parts(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
 
 /// The shortest translation along the same directions that parts the surfaces, to 2^-24 of it.
-Escape find_escape(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
+SeparatingMotion find_separating_motion(const WorldSolid& a, const WorldSolid& b,
+                                        std::span<const Contact> contacts);
 
 } // namespace abut

@@ -109,13 +109,13 @@ void take_corners(std::span<const std::byte>& in, Mesh& mesh) {
 EncodedBlock encode_block(const MeshBlock& block) {
     const Mesh& mesh = block.mesh;
     const bool floats = all_floats(mesh.positions);
-    const bool is_piece = !block.vertex_ids.empty() || !block.triangle_ids.empty();
+    const bool is_block = !block.vertex_ids.empty() || !block.triangle_ids.empty();
     const std::array<std::uint32_t, 4> header{static_cast<std::uint32_t>(mesh.positions.size()),
                                               static_cast<std::uint32_t>(mesh.triangles.size()),
-                                              floats ? 4U : 8U, is_piece ? 1U : 0U};
+                                              floats ? 4U : 8U, is_block ? 1U : 0U};
     std::vector<std::byte> raw(sizeof header);
     std::memcpy(raw.data(), header.data(), sizeof header);
-    if (is_piece) {
+    if (is_block) {
         append_ids(raw, block.vertex_ids);
         append_ids(raw, block.triangle_ids);
     }
@@ -142,15 +142,15 @@ MeshBlock decode_block(std::span<const std::byte> data, std::uint64_t raw_bytes)
 
     std::array<std::uint32_t, 4> header{};
     std::memcpy(header.data(), raw.data(), sizeof header);
-    const auto [vertices, triangles, real_bytes, is_piece] = header;
+    const auto [vertices, triangles, real_bytes, is_block] = header;
     const std::uint64_t words =
-        std::uint64_t{3} * triangles + (is_piece != 0 ? std::uint64_t{vertices} + triangles : 0);
-    if ((real_bytes != 4 && real_bytes != 8) || is_piece > 1 ||
+        std::uint64_t{3} * triangles + (is_block != 0 ? std::uint64_t{vertices} + triangles : 0);
+    if ((real_bytes != 4 && real_bytes != 8) || is_block > 1 ||
         kHeaderBytes + std::uint64_t{3} * vertices * real_bytes + 4 * words != raw_bytes)
         malformed("a block's header is wrong");
     std::span<const std::byte> rest = std::span<const std::byte>(raw).subspan(kHeaderBytes);
     MeshBlock block;
-    if (is_piece != 0) {
+    if (is_block != 0) {
         block.vertex_ids = take_ids(rest, vertices);
         block.triangle_ids = take_ids(rest, triangles);
     }

@@ -9,7 +9,7 @@
 
 namespace abut {
 
-/// A mesh block: a whole mesh, or a piece of a large one with the numbers that its vertices and
+/// A mesh block: a whole mesh, or a spatial part of a large one with the numbers that its vertices and
 /// triangles have in the whole mesh.
 struct MeshBlock {
     Mesh mesh;
@@ -23,15 +23,15 @@ struct EncodedBlock {
     std::uint64_t raw_bytes = 0; ///< size before compression
 };
 
-/// Upper bound on a block's size before compression: pieces of cut_mesh.h take less than 4 MB. It
+/// Upper bound on a block's size before compression: blocks of cut_mesh.h take less than 4 MB. It
 /// limits the memory that a damaged length can request.
 inline constexpr std::uint64_t kLargestBlockBytes = std::uint64_t{1} << 24;
 
 /// Packs a mesh block without loss. Positions are stored as floats if all of them are floats, else
 /// as doubles.
 ///
-///     u32 vertices | u32 triangles | u32 bytes of a coordinate | u32 1 for a piece, else 0
-///     vertex ids, triangle ids (of a piece) | x | y | z | corners
+///     u32 vertices | u32 triangles | u32 bytes of a coordinate | u32 1 if ids follow, else 0
+///     vertex ids, triangle ids (if they follow) | x | y | z | corners
 ///
 /// Every list is a list of integers (for coordinates, their bits), stored as differences to the
 /// previous entry, in byte planes: the lowest byte of each, then the second byte of each, and so

@@ -215,7 +215,7 @@ std::optional<HierarchyRow> StoreFile::find_hierarchy(const BlockRow& block) {
 
 namespace {
 
-/// Assembles a mesh from its pieces.
+/// Assembles a mesh from its blocks.
 class MeshAssembly {
 public:
     explicit MeshAssembly(const MeshRow& row)
@@ -224,22 +224,22 @@ public:
         mesh_.triangles.resize(row.triangles);
     }
 
-    /// Returns false if the piece does not belong to the mesh.
-    bool add(const MeshBlock& piece) {
-        const std::vector<std::uint32_t>& ids = piece.vertex_ids;
+    /// Returns false if the block does not belong to the mesh.
+    bool add(const MeshBlock& block) {
+        const std::vector<std::uint32_t>& ids = block.vertex_ids;
         if ((!ids.empty() && ids.back() >= mesh_.positions.size()) ||
-            (!piece.triangle_ids.empty() && piece.triangle_ids.back() >= mesh_.triangles.size()) ||
-            ids.size() != piece.mesh.positions.size() ||
-            piece.triangle_ids.size() != piece.mesh.triangles.size())
+            (!block.triangle_ids.empty() && block.triangle_ids.back() >= mesh_.triangles.size()) ||
+            ids.size() != block.mesh.positions.size() ||
+            block.triangle_ids.size() != block.mesh.triangles.size())
             return false;
         for (std::size_t i = 0; i < ids.size(); ++i) {
-            mesh_.positions[ids[i]] = piece.mesh.positions[i];
+            mesh_.positions[ids[i]] = block.mesh.positions[i];
             vertices_ += has_vertex_[ids[i]] ? 0 : 1;
             has_vertex_[ids[i]] = true;
         }
-        for (std::size_t i = 0; i < piece.triangle_ids.size(); ++i) {
-            const std::uint32_t id = piece.triangle_ids[i];
-            const auto& [a, b, c] = piece.mesh.triangles[i];
+        for (std::size_t i = 0; i < block.triangle_ids.size(); ++i) {
+            const std::uint32_t id = block.triangle_ids[i];
+            const auto& [a, b, c] = block.mesh.triangles[i];
             mesh_.triangles[id] = {ids[a], ids[b], ids[c]};
             triangles_ += has_triangle_[id] ? 0 : 1;
             has_triangle_[id] = true;
@@ -290,7 +290,7 @@ Mesh StoreFile::read_mesh(std::int64_t mesh) {
     MeshAssembly assembly(row);
     for (std::uint64_t i = 0; i < row.blocks; ++i)
         if (!assembly.add(read_block(row.first_block + static_cast<std::int64_t>(i))))
-            damaged_mesh(path_, mesh, " has a piece that does not belong to it");
+            damaged_mesh(path_, mesh, " has a block that does not belong to it");
     if (!assembly.is_whole())
         damaged_mesh(path_, mesh, " is not whole");
     return assembly.take();

@@ -63,7 +63,7 @@ public:
 
     /// The rows of a mesh's blocks, without their data. Mainly used for the boxes.
     std::vector<BlockRow> blocks(const MeshRow& mesh);
-    /// One mesh block. Of a mesh that was cut, this is a piece, with the numbers that its vertices
+    /// One mesh block. If the mesh was cut, with the numbers that its vertices
     /// and triangles have in the whole mesh.
     MeshBlock read_block(std::int64_t block) { return read_block_and_row(block).block; }
     StoredBlockData read_block_and_row(std::int64_t block);

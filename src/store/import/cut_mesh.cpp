@@ -31,38 +31,38 @@ std::uint64_t step(double lower, double extent, double sum) {
 
 std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3& l = bounds.lower;
-    // One scale for all axes, so that pieces of a long mesh are short rather than thin.
+    // One scale for all axes, so that blocks of a long mesh are short rather than thin.
     const double extent = max_abs(bounds.upper - l);
     return spread(step(l.x, extent, a.x + b.x + c.x)) |
            spread(step(l.y, extent, a.y + b.y + c.y)) << 1 |
            spread(step(l.z, extent, a.z + b.z + c.z)) << 2;
 }
 
-void PieceCutter::add(const PieceTriangle& triangle) {
+void BlockCutter::add(const BlockTriangle& triangle) {
     triangles_.push_back(triangle);
     if (triangles_.size() == most_)
         emit_triangles();
 }
 
-void PieceCutter::add_unused(std::uint32_t vertex) {
+void BlockCutter::add_unused(std::uint32_t vertex) {
     unused_.push_back(vertex);
     if (unused_.size() == kLargestWhole)
         emit_unused();
 }
 
-void PieceCutter::finish() {
+void BlockCutter::finish() {
     if (!triangles_.empty())
         emit_triangles();
     if (!unused_.empty())
         emit_unused();
 }
 
-void PieceCutter::emit_triangles() {
+void BlockCutter::emit_triangles() {
     // Sorted by number, because numbers are stored as differences.
     std::sort(triangles_.begin(), triangles_.end(),
-              [](const PieceTriangle& a, const PieceTriangle& b) { return a.id < b.id; });
+              [](const BlockTriangle& a, const BlockTriangle& b) { return a.id < b.id; });
     MeshBlock block;
-    for (const PieceTriangle& triangle : triangles_) {
+    for (const BlockTriangle& triangle : triangles_) {
         block.triangle_ids.push_back(triangle.id);
         block.vertex_ids.insert(block.vertex_ids.end(), triangle.corners.begin(),
                                 triangle.corners.end());
@@ -72,7 +72,7 @@ void PieceCutter::emit_triangles() {
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     for (const std::uint32_t id : ids)
         block.mesh.positions.push_back(position_(id));
-    for (const PieceTriangle& triangle : triangles_) {
+    for (const BlockTriangle& triangle : triangles_) {
         auto& local = block.mesh.triangles.emplace_back();
         for (std::size_t k = 0; k < 3; ++k)
             local.at(k) = static_cast<std::uint32_t>(
@@ -82,7 +82,7 @@ void PieceCutter::emit_triangles() {
     emit_(block);
 }
 
-void PieceCutter::emit_unused() {
+void BlockCutter::emit_unused() {
     MeshBlock block;
     block.vertex_ids = std::move(unused_);
     unused_ = {};
@@ -95,15 +95,15 @@ void cut_mesh(const Mesh& mesh, const std::function<void(const MeshBlock&)>& emi
     if (is_whole(mesh.positions.size(), mesh.triangles.size()))
         emit({mesh, {}, {}});
     else
-        cut_into_pieces(mesh, kPieceTriangles, emit);
+        cut_into_blocks(mesh, kBlockTriangles, emit);
 }
 
-void cut_into_pieces(const Mesh& mesh, std::uint64_t most,
+void cut_into_blocks(const Mesh& mesh, std::uint64_t most,
                      const std::function<void(const MeshBlock&)>& emit) {
     Box3 bounds;
     for (const Vec3& p : mesh.positions)
         extend(bounds, p);
-    std::vector<PieceTriangle> triangles;
+    std::vector<BlockTriangle> triangles;
     triangles.reserve(mesh.triangles.size());
     std::vector<bool> used(mesh.positions.size());
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -115,8 +115,8 @@ void cut_into_pieces(const Mesh& mesh, std::uint64_t most,
             used[v] = true;
     }
     std::sort(triangles.begin(), triangles.end());
-    PieceCutter cutter([&](std::uint32_t v) { return mesh.positions[v]; }, emit, most);
-    for (const PieceTriangle& triangle : triangles)
+    BlockCutter cutter([&](std::uint32_t v) { return mesh.positions[v]; }, emit, most);
+    for (const BlockTriangle& triangle : triangles)
         cutter.add(triangle);
     for (std::uint32_t v = 0; v < used.size(); ++v)
         if (!used[v])

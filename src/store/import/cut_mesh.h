@@ -13,17 +13,17 @@
 namespace abut {
 
 /// Meshes up to this number of vertices and triangles lie in one mesh block. Larger ones are cut
-/// into pieces of half the size.
+/// into blocks of half the size.
 inline constexpr std::uint64_t kLargestWhole = 65536;
-inline constexpr std::uint64_t kPieceTriangles = 32768;
+inline constexpr std::uint64_t kBlockTriangles = 32768;
 
-/// A triangle to be put into a piece. In sorted order, triangles that are close to each other
+/// A triangle to be put into a block. In sorted order, triangles that are close to each other
 /// follow each other.
-struct PieceTriangle {
+struct BlockTriangle {
     std::uint64_t key = 0;
     std::uint32_t id = 0;
     std::array<std::uint32_t, 3> corners{};
-    friend bool operator<(const PieceTriangle& a, const PieceTriangle& b) {
+    friend bool operator<(const BlockTriangle& a, const BlockTriangle& b) {
         return a.key != b.key ? a.key < b.key : a.id < b.id;
     }
 };
@@ -34,17 +34,17 @@ struct PieceTriangle {
 /// Source      [Morton 1966], 21 bits an axis.
 std::uint64_t spatial_key(const Box3& bounds, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Makes pieces of triangles, which must be added in the order of their keys. A mesh in memory and
-/// the same mesh on disk give the same pieces.
-class PieceCutter {
+/// Makes blocks of triangles, which must be added in the order of their keys. A mesh in memory and
+/// the same mesh on disk give the same blocks.
+class BlockCutter {
 public:
-    /// In          position: returns a vertex by its number; emit: receives each piece; most:
-    ///             triangles per piece.
-    PieceCutter(std::function<Vec3(std::uint32_t)> position,
-                std::function<void(const MeshBlock&)> emit, std::uint64_t most = kPieceTriangles)
+    /// In          position: returns a vertex by its number; emit: receives each block; most:
+    ///             triangles per block.
+    BlockCutter(std::function<Vec3(std::uint32_t)> position,
+                std::function<void(const MeshBlock&)> emit, std::uint64_t most = kBlockTriangles)
         : position_(std::move(position)), emit_(std::move(emit)), most_(most) {}
 
-    void add(const PieceTriangle& triangle);
+    void add(const BlockTriangle& triangle);
     /// Adds a vertex that no triangle uses. Call it after all triangles, with ascending numbers.
     void add_unused(std::uint32_t vertex);
     void finish();
@@ -56,7 +56,7 @@ private:
     std::function<Vec3(std::uint32_t)> position_;
     std::function<void(const MeshBlock&)> emit_;
     std::uint64_t most_;
-    std::vector<PieceTriangle> triangles_;
+    std::vector<BlockTriangle> triangles_;
     std::vector<std::uint32_t> unused_;
 };
 
@@ -67,8 +67,8 @@ inline bool is_whole(std::uint64_t vertices, std::uint64_t triangles) {
 
 /// Cuts a mesh in memory, or passes it on whole if it is small.
 void cut_mesh(const Mesh& mesh, const std::function<void(const MeshBlock&)>& emit);
-/// Cuts a mesh whatever its size. In: most, the triangles per piece.
-void cut_into_pieces(const Mesh& mesh, std::uint64_t most,
+/// Cuts a mesh whatever its size. In: most, the triangles per block.
+void cut_into_blocks(const Mesh& mesh, std::uint64_t most,
                      const std::function<void(const MeshBlock&)>& emit);
 
 } // namespace abut

@@ -110,18 +110,18 @@ private:
         });
         number_.emplace(folder_, vertices_, memory_ / 6);
         positions_.emplace(folder_, vertices_, memory_ / 6);
-        std::vector<FloatPosition> piece;
+        std::vector<FloatPosition> buffer;
         std::size_t at = 0;
         std::uint64_t next = 0;
         by_number.drain([&](const VertexAndFirst& vertex) {
-            if (at == piece.size()) {
-                piece.resize(std::min<std::uint64_t>(16384, vertices_ - next));
-                raw_->read(next * sizeof(FloatPosition), std::as_writable_bytes(std::span(piece)));
-                next += piece.size();
+            if (at == buffer.size()) {
+                buffer.resize(std::min<std::uint64_t>(16384, vertices_ - next));
+                raw_->read(next * sizeof(FloatPosition), std::as_writable_bytes(std::span(buffer)));
+                next += buffer.size();
                 at = 0;
                 check_stop(progress_);
             }
-            const FloatPosition position = piece[at++];
+            const FloatPosition position = buffer[at++];
             if (vertex.first < vertex.number) {
                 number_->set(vertex.number, number_->get(vertex.first));
                 return;
@@ -164,12 +164,12 @@ private:
     }
 
     void cut() {
-        PieceCutter cutter([&](std::uint32_t v) { return positions_->get(v).exact(); },
+        BlockCutter cutter([&](std::uint32_t v) { return positions_->get(v).exact(); },
                            [&](const MeshBlock& block) { emit(block); });
         if (is_whole(joined_, triangles_)) {
             emit_whole();
         } else {
-            by_key_.drain([&](const PieceTriangle& triangle) { cutter.add(triangle); });
+            by_key_.drain([&](const BlockTriangle& triangle) { cutter.add(triangle); });
             for (std::uint32_t v = 0; v < joined_; ++v)
                 if (!used_[v])
                     cutter.add_unused(v);
@@ -182,7 +182,7 @@ private:
     void emit_whole() {
         MeshBlock block;
         block.mesh.triangles.resize(triangles_);
-        by_key_.drain([&](const PieceTriangle& triangle) {
+        by_key_.drain([&](const BlockTriangle& triangle) {
             block.mesh.triangles[triangle.id] = triangle.corners;
         });
         for (std::uint32_t v = 0; v < joined_; ++v)
@@ -196,7 +196,7 @@ private:
             flush();
     }
 
-    /// Packs pieces in parallel and writes them in order.
+    /// Packs blocks in parallel and writes them in order.
     void flush() {
         check_stop(progress_);
         std::vector<BlockDraft> drafts(pieces_.size());
@@ -207,11 +207,11 @@ private:
             if (!is_known_)
                 writer_.add_block(draft);
         parallel_for(placements_.size(), 1, [&](std::size_t part) {
-            for (const MeshBlock& piece : pieces_)
-                for (const auto& triangle : piece.mesh.triangles)
+            for (const MeshBlock& block : pieces_)
+                for (const auto& triangle : block.mesh.triangles)
                     for (const std::uint32_t v : triangle)
                         extend(result_.boxes[part],
-                               apply(placements_[part], piece.mesh.positions[v]));
+                               apply(placements_[part], block.mesh.positions[v]));
         });
         for (const BlockDraft& draft : drafts)
             if (!is_empty(draft.row.box)) {
@@ -235,7 +235,7 @@ private:
     ExternalSort<VertexByPosition> by_position_;
     std::optional<PagedArray<std::uint32_t>> number_; ///< of a vertex after joining
     std::optional<PagedArray<FloatPosition>> positions_;
-    ExternalSort<PieceTriangle> by_key_;
+    ExternalSort<BlockTriangle> by_key_;
     std::vector<bool> used_;
     std::uint64_t vertices_ = 0, joined_ = 0, triangles_ = 0;
     Box3 all_; ///< of all vertices

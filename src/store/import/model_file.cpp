@@ -40,12 +40,12 @@ Hash128 content_hash(const std::string& file, const Progress& progress) {
     try {
         const RandomAccessFile content(file);
         Hasher hasher;
-        std::vector<std::byte> piece;
-        for (std::uint64_t at = 0; at < content.size(); at += piece.size()) {
+        std::vector<std::byte> buffer;
+        for (std::uint64_t at = 0; at < content.size(); at += buffer.size()) {
             check_stop(progress);
-            piece.resize(std::min<std::uint64_t>(std::uint64_t{1} << 20, content.size() - at));
-            content.read(at, piece);
-            hasher.add(piece);
+            buffer.resize(std::min<std::uint64_t>(std::uint64_t{1} << 20, content.size() - at));
+            content.read(at, buffer);
+            hasher.add(buffer);
         }
         return hasher.value();
     } catch (const Fault& fault) {

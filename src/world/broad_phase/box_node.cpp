@@ -16,17 +16,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-using D = hn::CappedTag<float, BoxBlock::kWidth>;
+using D = hn::CappedTag<float, BoxNode::kWidth>;
 using V = hn::Vec<D>;
 
-/// How deep a box overlaps the boxes in some lanes of a block, on the axis of least overlap.
+/// How deep a box overlaps the boxes in some lanes of a node, on the axis of least overlap.
 /// Negative if they are apart.
-HWY_INLINE V least_overlap(const BoxBlock& block, std::size_t lane, const V (&lower)[3],
+HWY_INLINE V least_overlap(const BoxNode& node, std::size_t lane, const V (&lower)[3],
                            const V (&upper)[3]) {
     const D d;
     const auto along = [&](std::size_t axis) HWY_ATTR {
-        return hn::Min(hn::Sub(hn::Load(d, block.upper[axis] + lane), lower[axis]),
-                       hn::Sub(upper[axis], hn::Load(d, block.lower[axis] + lane)));
+        return hn::Min(hn::Sub(hn::Load(d, node.upper[axis] + lane), lower[axis]),
+                       hn::Sub(upper[axis], hn::Load(d, node.lower[axis] + lane)));
     };
     return min3(along(0), along(1), along(2));
 }
@@ -35,21 +35,21 @@ struct RowBits {
     std::uint32_t meet = 0, touch = 0;
 };
 
-/// Tests one box against all boxes of a block.
-HWY_INLINE RowBits meet_row(const BoxBlock& block, const V (&lower)[3], const V (&upper)[3]) {
+/// Tests one box against all boxes of a node.
+HWY_INLINE RowBits meet_row(const BoxNode& node, const V (&lower)[3], const V (&upper)[3]) {
     const D d;
     const auto zero = hn::Zero(d);
     RowBits bits;
-    for (std::size_t lane = 0; lane < BoxBlock::kWidth; lane += hn::Lanes(d)) {
-        const V overlap = least_overlap(block, lane, lower, upper);
+    for (std::size_t lane = 0; lane < BoxNode::kWidth; lane += hn::Lanes(d)) {
+        const V overlap = least_overlap(node, lane, lower, upper);
         bits.meet |= bits_of(d, hn::Ge(overlap, zero)) << lane;
         bits.touch |= bits_of(d, hn::Eq(overlap, zero)) << lane;
     }
     return bits;
 }
 
-void find_meetings_simd(const BoxBlock& a, std::uint32_t rows, const BoxBlock& b,
-                        const Aabb& bounds_b, BlockMeetings& meetings) {
+void find_meetings_simd(const BoxNode& a, std::uint32_t rows, const BoxNode& b,
+                        const Aabb& bounds_b, BoxNodeMeetings& meetings) {
     const D d;
     const V lower_b[3]{hn::Set(d, bounds_b.lower[0]), hn::Set(d, bounds_b.lower[1]),
                        hn::Set(d, bounds_b.lower[2])};
@@ -101,8 +101,8 @@ NarrowFrame NarrowFrame::about(std::span<const Box3> boxes) {
     return NarrowFrame({middle_of(boxes, 0), middle_of(boxes, 1), middle_of(boxes, 2)});
 }
 
-void find_meetings(const BoxBlock& a, std::uint32_t rows, const BoxBlock& b, const Aabb& bounds_b,
-                   BlockMeetings& meetings) {
+void find_meetings(const BoxNode& a, std::uint32_t rows, const BoxNode& b, const Aabb& bounds_b,
+                   BoxNodeMeetings& meetings) {
     HWY_DYNAMIC_DISPATCH(find_meetings_simd)(a, rows, b, bounds_b, meetings);
 }
 

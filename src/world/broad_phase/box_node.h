@@ -69,7 +69,7 @@ private:
 
 /// Sixteen boxes in SIMD order: lane i of every row belongs to box i. Unused lanes hold an empty
 /// box.
-struct alignas(64) BoxBlock {
+struct alignas(64) BoxNode {
     static constexpr std::size_t kWidth = 16;
     static constexpr std::uint32_t kAllLanes = (1U << kWidth) - 1;
     float lower[3][kWidth]; ///< [axis][lane]
@@ -100,20 +100,20 @@ struct alignas(64) BoxBlock {
     }
 };
 
-/// Which boxes of two blocks meet. Bit k of row i stands for box i of the first block and box k of
+/// Which boxes of two nodes meet. Bit k of row i stands for box i of the first node and box k of
 /// the second.
-struct BlockMeetings {
+struct BoxNodeMeetings {
     std::uint32_t rows = 0; ///< bit i: row i of `meet` and `touch` is set; other rows are
                             ///< unspecified
-    std::uint32_t meet[BoxBlock::kWidth];
-    std::uint32_t touch[BoxBlock::kWidth]; ///< those bits of `meet` for which two bounds are equal
+    std::uint32_t meet[BoxNode::kWidth];
+    std::uint32_t touch[BoxNode::kWidth]; ///< those bits of `meet` for which two bounds are equal
 };
 
-/// Finds the pairs of boxes of two blocks that meet.
+/// Finds the pairs of boxes of two nodes that meet.
 /// In          bounds_b: the bounds of b; rows: the boxes of a to test. Boxes that miss the bounds
 ///             are left out.
 /// Accuracy    exact for the bounds in single precision.
-void find_meetings(const BoxBlock& a, std::uint32_t rows, const BoxBlock& b, const Aabb& bounds_b,
-                   BlockMeetings& meetings);
+void find_meetings(const BoxNode& a, std::uint32_t rows, const BoxNode& b, const Aabb& bounds_b,
+                   BoxNodeMeetings& meetings);
 
 } // namespace abut

@@ -26,9 +26,9 @@ constexpr Bits first_lanes(std::size_t count) {
 
 } // namespace
 
-/// The boxes of one block, in ascending order of their indices.
+/// The boxes of one node, in ascending order of their indices.
 struct HubRows::Side {
-    const BoxBlock& block;
+    const BoxNode& node;
     Aabb bounds;
     std::array<std::uint32_t, kWidth> boxes{};
     std::size_t count;
@@ -36,8 +36,8 @@ struct HubRows::Side {
 
     /// In          box_at(lane) returns the index of a lane's box.
     template <typename BoxAt>
-    Side(const BoxBlock& fitted, std::size_t boxes_in_block, const BoxAt& box_at)
-        : block(fitted), bounds(fitted.bounds()), count(boxes_in_block) {
+    Side(const BoxNode& fitted, std::size_t boxes_in_node, const BoxAt& box_at)
+        : node(fitted), bounds(fitted.bounds()), count(boxes_in_node) {
         for (std::size_t lane = 0; lane < count; ++lane)
             boxes[lane] = static_cast<std::uint32_t>(box_at(lane));
     }
@@ -64,8 +64,8 @@ public:
     void compare(const Side& a, std::size_t row, const Side& b, std::size_t column) const {
         if (a.lowest() >= b.highest())
             return;
-        BlockMeetings meetings;
-        find_meetings(a.block, a.rows, b.block, b.bounds, meetings);
+        BoxNodeMeetings meetings;
+        find_meetings(a.node, a.rows, b.node, b.bounds, meetings);
         for_each_lane(a.rows, [&](std::uint32_t lane) {
             const bool any = (meetings.rows >> lane & 1) != 0;
             const Bits meet = any ? meetings.meet[lane] & b.above(a.boxes[lane]) : 0;
@@ -109,63 +109,62 @@ void HubRows::assign(HubSet hubs, std::span<const IndexPair> pairs) {
     is_new_ = true;
 }
 
-/// Stores the changed boxes in their blocks, and marks these blocks.
+/// Stores the changed boxes in their nodes, and marks these nodes.
 void HubRows::fit(const BoxStep& step) {
     const std::vector<std::uint32_t>& hubs = hubs_.hubs();
     const auto blocks_of = [](std::size_t boxes) { return (boxes + kWidth - 1) / kWidth; };
     const bool all = is_new_ || step.all_changed();
     boxes_.resize(blocks_of(hubs_.boxes())), hub_boxes_.resize(blocks_of(hubs.size()));
     is_changed_.assign(boxes_.size(), all ? 1 : 0);
-    is_hub_block_changed_.assign(hub_boxes_.size(), all ? 1 : 0);
+    is_hub_node_changed_.assign(hub_boxes_.size(), all ? 1 : 0);
     if (all)
         frame_ = NarrowFrame::about(step.boxes);
     else
         for (const std::uint32_t box : step.changed) {
             is_changed_[box / kWidth] = 1;
             if (hubs_.contains(box))
-                is_hub_block_changed_[hubs_.rank_of(box) / kWidth] = 1;
+                is_hub_node_changed_[hubs_.rank_of(box) / kWidth] = 1;
         }
     is_new_ = false;
-    const auto fit_blocks = [&](std::vector<BoxBlock>& blocks, const BoxMarks& changed,
-                                std::size_t count, const auto& box_at) {
-        parallel_for(blocks.size(), 64, [&](std::size_t block) {
-            if (changed[block] == 0)
+    const auto fit_nodes = [&](std::vector<BoxNode>& nodes, const BoxMarks& changed,
+                               std::size_t count, const auto& box_at) {
+        parallel_for(nodes.size(), 64, [&](std::size_t node) {
+            if (changed[node] == 0)
                 return;
             for (std::size_t lane = 0; lane < kWidth; ++lane) {
-                const std::size_t at = block * kWidth + lane;
-                blocks[block].set(lane,
-                                  at < count ? frame_.narrow(step.boxes[box_at(at)]) : Aabb());
+                const std::size_t at = node * kWidth + lane;
+                nodes[node].set(lane, at < count ? frame_.narrow(step.boxes[box_at(at)]) : Aabb());
             }
         });
     };
-    fit_blocks(boxes_, is_changed_, hubs_.boxes(), [](std::size_t at) { return at; });
-    fit_blocks(hub_boxes_, is_hub_block_changed_, hubs.size(),
-               [&](std::size_t at) { return hubs[at]; });
+    fit_nodes(boxes_, is_changed_, hubs_.boxes(), [](std::size_t at) { return at; });
+    fit_nodes(hub_boxes_, is_hub_node_changed_, hubs.size(),
+              [&](std::size_t at) { return hubs[at]; });
 }
 
 void HubRows::update(const BoxStep& step, const PairFilter& wanted) {
     fit(step);
     bits_.begun.assign(hubs_), bits_.ended.assign(hubs_);
     std::vector<Side> hub_sides;
-    for (std::size_t block = 0; block < hub_boxes_.size(); ++block) {
-        const std::span rest = std::span(hubs_.hubs()).subspan(block * kWidth);
-        hub_sides.emplace_back(hub_boxes_[block], std::min(kWidth, rest.size()),
+    for (std::size_t node = 0; node < hub_boxes_.size(); ++node) {
+        const std::span rest = std::span(hubs_.hubs()).subspan(node * kWidth);
+        hub_sides.emplace_back(hub_boxes_[node], std::min(kWidth, rest.size()),
                                [&](std::size_t lane) { return rest[lane]; });
         hub_sides.back().rows = first_lanes(hub_sides.back().count);
     }
     const Comparison with_hubs(step.boxes, wanted, bits_.now.of_boxes, bits_.begun.of_boxes,
                                bits_.ended.of_boxes),
         of_hubs(step.boxes, wanted, bits_.now.of_hubs, bits_.begun.of_hubs, bits_.ended.of_hubs);
-    parallel_for(boxes_.size(), 16, [&](std::size_t block) {
-        const std::size_t first = block * kWidth;
-        Side boxes(boxes_[block], std::min(kWidth, hubs_.boxes() - first),
+    parallel_for(boxes_.size(), 16, [&](std::size_t node) {
+        const std::size_t first = node * kWidth;
+        Side boxes(boxes_[node], std::min(kWidth, hubs_.boxes() - first),
                    [&](std::size_t lane) { return first + lane; });
         for (std::size_t lane = 0; lane < boxes.count; ++lane)
             boxes.rows |= hubs_.contains(first + lane) ? 0 : Bits{1} << lane;
         for (std::size_t k = 0; k < hub_sides.size(); ++k)
-            if ((is_changed_[block] | is_hub_block_changed_[k]) != 0) {
+            if ((is_changed_[node] | is_hub_node_changed_[k]) != 0) {
                 with_hubs.compare(boxes, first, hub_sides[k], k);
-                of_hubs.compare(hub_sides[k], k * kWidth, boxes, block);
+                of_hubs.compare(hub_sides[k], k * kWidth, boxes, node);
             }
     });
     bits_.begun.count(hubs_), bits_.ended.count(hubs_);

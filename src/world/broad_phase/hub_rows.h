@@ -34,7 +34,7 @@ public:
     [[nodiscard]] const PairBits& ended() const { return bits_.ended; }
 
 private:
-    static constexpr std::size_t kWidth = BoxBlock::kWidth;
+    static constexpr std::size_t kWidth = BoxNode::kWidth;
     struct Side;
     class Comparison;
 
@@ -45,9 +45,9 @@ private:
         PairBits now, begun, ended;
     } bits_;
     NarrowFrame frame_;
-    std::vector<BoxBlock> boxes_, hub_boxes_;    ///< in the order of their indices
-    BoxMarks is_changed_, is_hub_block_changed_; ///< by block
-    bool is_new_ = true;                         ///< the boxes have not been fitted yet
+    std::vector<BoxNode> boxes_, hub_boxes_;    ///< in the order of their indices
+    BoxMarks is_changed_, is_hub_node_changed_; ///< by node
+    bool is_new_ = true;                        ///< the boxes have not been fitted yet
 };
 
 } // namespace abut

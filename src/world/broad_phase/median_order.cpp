@@ -82,7 +82,7 @@ void select(Run run, std::size_t axis, std::size_t rank) {
 
 /// Cuts a run of more than 16 elements near its middle. Returns the place of the cut.
 std::size_t cut(Run run) {
-    constexpr std::size_t kWidth = BoxBlock::kWidth;
+    constexpr std::size_t kWidth = BoxNode::kWidth;
     std::size_t unit = kWidth;
     while (unit * kWidth < run.size())
         unit *= kWidth;
@@ -92,7 +92,7 @@ std::size_t cut(Run run) {
 }
 
 void order_run(Run run) {
-    while (run.size() > BoxBlock::kWidth) {
+    while (run.size() > BoxNode::kWidth) {
         const std::size_t rank = cut(run);
         order_run(run.first(rank));
         run = run.subspan(rank);

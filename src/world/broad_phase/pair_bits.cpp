@@ -17,10 +17,10 @@ IndexPair* write_bits(std::uint32_t box, std::uint32_t bits, const Partner& part
     const auto pair = [&](std::uint32_t lane) {
         return IndexPair::of_key(std::uint64_t{box} << 32 | partner(lane));
     };
-    if (bits == BoxBlock::kAllLanes) {
-        for (std::uint32_t lane = 0; lane < BoxBlock::kWidth; ++lane)
+    if (bits == BoxNode::kAllLanes) {
+        for (std::uint32_t lane = 0; lane < BoxNode::kWidth; ++lane)
             to[lane] = pair(lane);
-        return to + BoxBlock::kWidth;
+        return to + BoxNode::kWidth;
     }
     // Has no branch on the data: an entry that is no pair is overwritten. The last entry is a pair.
     for (std::uint32_t lane = 0; bits != 0; ++lane, bits >>= 1) {

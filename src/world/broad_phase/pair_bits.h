@@ -35,9 +35,9 @@ private:
     BoxMarks is_hub_;
 };
 
-/// Rows of bits. A column holds sixteen bits, as many as a block has boxes.
+/// Rows of bits. A column holds sixteen bits, as many as a node has boxes.
 struct BitTable {
-    static constexpr std::size_t kWidth = BoxBlock::kWidth;
+    static constexpr std::size_t kWidth = BoxNode::kWidth;
     std::size_t columns = 0;
     std::vector<std::uint16_t> bits{};
 

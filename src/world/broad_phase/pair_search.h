@@ -37,7 +37,7 @@ public:
     virtual void restart(std::span<const Box3> boxes, PairList& list) = 0;
 };
 
-/// Searches with a 16-ary tree over blocks of 16 boxes.
+/// Searches with a 16-ary tree over nodes of 16 boxes.
 std::unique_ptr<PairSearch> make_tree_search(PairFilter wanted);
 
 /// Searches boxes sorted along one axis.

@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kWidth = BoxBlock::kWidth;
+    static constexpr std::size_t kWidth = BoxNode::kWidth;
 
     /// The box's lower bound on the axis; empty boxes come last.
     [[nodiscard]] double begin_of(const Box3& box) const {
@@ -90,44 +90,43 @@ private:
 
     void find(std::span<const Box3> boxes, PairList& list) {
         const NarrowFrame frame;
-        blocks_.resize((order_.size() + kWidth - 1) / kWidth);
-        parallel_for(blocks_.size(), 256, [&](std::size_t block) {
+        nodes_.resize((order_.size() + kWidth - 1) / kWidth);
+        parallel_for(nodes_.size(), 256, [&](std::size_t node) {
             for (std::size_t lane = 0; lane < kWidth; ++lane) {
-                const std::size_t at = block * kWidth + lane;
-                blocks_[block].set(lane,
-                                   at < order_.size() ? frame.narrow(boxes[order_[at]]) : Aabb());
+                const std::size_t at = node * kWidth + lane;
+                nodes_[node].set(lane,
+                                 at < order_.size() ? frame.narrow(boxes[order_[at]]) : Aabb());
             }
         });
-        constexpr std::size_t kBlocksOfTask = 4;
-        const std::size_t tasks = (blocks_.size() + kBlocksOfTask - 1) / kBlocksOfTask;
+        constexpr std::size_t kNodesOfTask = 4;
+        const std::size_t tasks = (nodes_.size() + kNodesOfTask - 1) / kNodesOfTask;
         found_.resize(tasks);
         parallel_for(tasks, 1, [&](std::size_t task) {
             found_[task].clear();
-            const std::size_t end = std::min(blocks_.size(), (task + 1) * kBlocksOfTask);
-            for (std::size_t block = task * kBlocksOfTask; block < end; ++block)
-                sweep(boxes, block, found_[task]);
+            const std::size_t end = std::min(nodes_.size(), (task + 1) * kNodesOfTask);
+            for (std::size_t node = task * kNodesOfTask; node < end; ++node)
+                sweep(boxes, node, found_[task]);
         });
         list.replace_all(found_, boxes.size());
     }
 
-    /// Compares a block with itself and with all blocks that begin before it ends.
-    void sweep(std::span<const Box3> boxes, std::size_t block,
-               std::vector<IndexPair>& found) const {
+    /// Compares a node with itself and with all nodes that begin before it ends.
+    void sweep(std::span<const Box3> boxes, std::size_t node, std::vector<IndexPair>& found) const {
         const auto axis = static_cast<std::size_t>(axis_);
-        const Aabb bounds = blocks_[block].bounds();
-        for (std::size_t other = block; other < blocks_.size(); ++other) {
-            if (blocks_[other].lower[axis][0] > bounds.upper[axis])
+        const Aabb bounds = nodes_[node].bounds();
+        for (std::size_t other = node; other < nodes_.size(); ++other) {
+            if (nodes_[other].lower[axis][0] > bounds.upper[axis])
                 return;
-            BlockMeetings meetings;
-            find_meetings(blocks_[other], BoxBlock::kAllLanes, blocks_[block], bounds, meetings);
+            BoxNodeMeetings meetings;
+            find_meetings(nodes_[other], BoxNode::kAllLanes, nodes_[node], bounds, meetings);
             for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
                 const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
                 std::uint32_t meet = meetings.meet[row];
-                if (other == block)
+                if (other == node)
                     meet &= (1U << row) - 1;
                 for (; meet != 0; meet &= meet - 1) {
                     const auto lane = static_cast<std::uint32_t>(std::countr_zero(meet));
-                    add(boxes, order_[other * kWidth + row], order_[block * kWidth + lane], found);
+                    add(boxes, order_[other * kWidth + row], order_[node * kWidth + lane], found);
                 }
             }
         }
@@ -143,7 +142,7 @@ private:
     int axis_ = 0;
     std::vector<std::uint32_t> order_;
     std::vector<double> begins_;
-    std::vector<BoxBlock> blocks_;
+    std::vector<BoxNode> nodes_;
     std::vector<std::vector<IndexPair>> found_;
 };
 

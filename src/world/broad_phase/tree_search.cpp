@@ -1,5 +1,5 @@
 #include "core/parallel.h"
-#include "world/broad_phase/block_tree.h"
+#include "world/broad_phase/moving_box_tree.h"
 #include "world/broad_phase/pair_search.h"
 
 #include <algorithm>
@@ -11,74 +11,75 @@ namespace abut {
 
 namespace {
 
-/// Two blocks of one level. The first does not come after the second.
-struct BlockPair {
+/// Two nodes of one level. The first does not come after the second.
+struct BoxNodePair {
     std::uint32_t a, b;
 };
 
 /// Collects the pairs of one task that have a marked box.
 class MarkedPairs {
 public:
-    MarkedPairs(const BlockTree& tree, std::span<const Box3> boxes, const PairFilter& wanted,
+    MarkedPairs(const MovingBoxTree& tree, std::span<const Box3> boxes, const PairFilter& wanted,
                 std::vector<IndexPair>& found)
         : tree_(tree), boxes_(boxes), wanted_(wanted), found_(found) {}
 
-    void visit(std::size_t level, BlockPair pair) {
+    void visit(std::size_t level, BoxNodePair pair) {
         if (level == 0) {
             visit_boxes(pair);
             return;
         }
-        for_each_child_pair(tree_, level, pair, [&](BlockPair child) { visit(level - 1, child); });
+        for_each_child_pair(tree_, level, pair,
+                            [&](BoxNodePair child) { visit(level - 1, child); });
     }
 
-    /// Calls visit(children) for each pair of blocks of the level below that meet and have a mark.
+    /// Calls visit(children) for each pair of nodes of the level below that meet and have a mark.
     template <typename Visit>
-    static void for_each_child_pair(const BlockTree& tree, std::size_t level, BlockPair pair,
+    static void for_each_child_pair(const MovingBoxTree& tree, std::size_t level, BoxNodePair pair,
                                     const Visit& visit) {
-        BlockMeetings meetings;
+        BoxNodeMeetings meetings;
         find(tree, level, pair, meetings);
         for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
             const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
             std::uint32_t meet = meetings.meet[row] & marked_partners(tree, level, pair, row);
             if (pair.a == pair.b)
-                meet &= BoxBlock::kAllLanes << row;
+                meet &= BoxNode::kAllLanes << row;
             for (; meet != 0; meet &= meet - 1)
-                visit(BlockPair{pair.a * kWidth + row,
-                                pair.b * kWidth +
-                                    static_cast<std::uint32_t>(std::countr_zero(meet))});
+                visit(BoxNodePair{pair.a * kWidth + row,
+                                  pair.b * kWidth +
+                                      static_cast<std::uint32_t>(std::countr_zero(meet))});
         }
     }
 
 private:
-    static constexpr auto kWidth = static_cast<std::uint32_t>(BlockTree::kWidth);
+    static constexpr auto kWidth = static_cast<std::uint32_t>(MovingBoxTree::kWidth);
 
-    static void find(const BlockTree& tree, std::size_t level, BlockPair pair,
-                     BlockMeetings& meetings) {
-        const BlockTree::Level& here = tree.levels()[level];
+    static void find(const MovingBoxTree& tree, std::size_t level, BoxNodePair pair,
+                     BoxNodeMeetings& meetings) {
+        const MovingBoxTree::Level& here = tree.levels()[level];
         // If no box of b has changed, only the changed boxes of a need testing.
         const std::uint32_t rows =
-            here.marks[pair.b] != 0 ? BoxBlock::kAllLanes : here.marks[pair.a];
+            here.marks[pair.b] != 0 ? BoxNode::kAllLanes : here.marks[pair.a];
         const Aabb bounds =
             level + 1 < tree.levels().size()
-                ? tree.levels()[level + 1].blocks[pair.b / kWidth].box(pair.b % kWidth)
-                : here.blocks[pair.b].bounds();
-        find_meetings(here.blocks[pair.a], rows, here.blocks[pair.b], bounds, meetings);
+                ? tree.levels()[level + 1].nodes[pair.b / kWidth].box(pair.b % kWidth)
+                : here.nodes[pair.b].bounds();
+        find_meetings(here.nodes[pair.a], rows, here.nodes[pair.b], bounds, meetings);
     }
-    static std::uint32_t marked_partners(const BlockTree& tree, std::size_t level, BlockPair pair,
-                                         std::uint32_t row) {
+    static std::uint32_t marked_partners(const MovingBoxTree& tree, std::size_t level,
+                                         BoxNodePair pair, std::uint32_t row) {
         const std::vector<std::uint32_t>& marks = tree.levels()[level].marks;
-        return (marks[pair.a] >> row & 1) != 0 ? BoxBlock::kAllLanes : marks[pair.b];
+        return (marks[pair.a] >> row & 1) != 0 ? BoxNode::kAllLanes : marks[pair.b];
     }
 
-    void visit_boxes(BlockPair pair) {
-        BlockMeetings meetings;
+    void visit_boxes(BoxNodePair pair) {
+        BoxNodeMeetings meetings;
         find(tree_, 0, pair, meetings);
         std::size_t count = 0;
         for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
             const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
             std::uint32_t meet = meetings.meet[row] & marked_partners(tree_, 0, pair, row);
             if (pair.a == pair.b)
-                meet &= BoxBlock::kAllLanes << row << 1;
+                meet &= BoxNode::kAllLanes << row << 1;
             for (; meet != 0; meet &= meet - 1) {
                 const auto lane = static_cast<std::uint32_t>(std::countr_zero(meet));
                 const std::uint32_t i = tree_.box_at(pair.a, row), k = tree_.box_at(pair.b, lane);
@@ -100,12 +101,12 @@ private:
                          [&](IndexPair pair) { return wanted_(pair.a(), pair.b()); });
     }
 
-    const BlockTree& tree_;
+    const MovingBoxTree& tree_;
     std::span<const Box3> boxes_;
     const PairFilter& wanted_;
     std::vector<IndexPair>& found_;
     std::array<IndexPair, std::size_t{kWidth} * kWidth>
-        pairs_; ///< pairs of two blocks, before the filter
+        pairs_; ///< pairs of two nodes, before the filter
 };
 
 class TreeSearch final : public PairSearch {
@@ -142,7 +143,7 @@ private:
     void find(std::span<const Box3> boxes) {
         constexpr std::size_t kPairsOfTask = 16;
         const std::size_t level = tree_.levels().size() > 1 ? 1 : 0;
-        const std::vector<BlockPair> pairs = block_pairs(level);
+        const std::vector<BoxNodePair> pairs = node_pairs(level);
         const std::size_t tasks = (pairs.size() + kPairsOfTask - 1) / kPairsOfTask;
         found_.resize(std::max<std::size_t>(tasks, 1));
         for (auto& list : found_)
@@ -155,21 +156,21 @@ private:
         });
     }
 
-    /// Pairs of blocks of a level that meet and have a mark.
-    [[nodiscard]] std::vector<BlockPair> block_pairs(std::size_t level) const {
-        std::vector<BlockPair> pairs{{0, 0}}, children;
+    /// Pairs of nodes of a level that meet and have a mark.
+    [[nodiscard]] std::vector<BoxNodePair> node_pairs(std::size_t level) const {
+        std::vector<BoxNodePair> pairs{{0, 0}}, children;
         for (std::size_t above = tree_.levels().size() - 1; above > level; --above) {
             children.clear();
-            for (const BlockPair pair : pairs)
+            for (const BoxNodePair pair : pairs)
                 MarkedPairs::for_each_child_pair(
-                    tree_, above, pair, [&](BlockPair child) { children.push_back(child); });
+                    tree_, above, pair, [&](BoxNodePair child) { children.push_back(child); });
             std::swap(pairs, children);
         }
         return pairs;
     }
 
     PairFilter wanted_;
-    BlockTree tree_;
+    MovingBoxTree tree_;
     std::vector<std::vector<IndexPair>> found_;
     BoxMarks marks_;
 };

@@ -164,15 +164,15 @@ TEST(ElementaryImpact, TheFilterOnEverySimdTarget) {
         int cases = 0, culled = 0, different = 0;
         for (int i = 0; i < many(4000) && !HasFatalFailure(); ++i) {
             const ElementaryKind kind = any_kind(random);
-            ElementaryBlock block;
-            std::array<ElementaryPair, ElementaryBlock::kLanes> pairs;
+            ElementaryBatch batch;
+            std::array<ElementaryPair, ElementaryBatch::kLanes> pairs;
             for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
                 pairs.at(lane) = any_pair(random);
                 pairs.at(lane).kind = kind;
-                block.set(lane, pairs.at(lane));
+                batch.set(lane, pairs.at(lane));
             }
-            const std::uint32_t possible = possible_impacts(block, kind),
-                                reference = possible_impacts_reference(block, kind);
+            const std::uint32_t possible = possible_impacts(batch, kind),
+                                reference = possible_impacts_reference(batch, kind);
             for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
                 const ElementaryPair& pair = pairs.at(lane);
                 const bool is_possible = (possible >> lane & 1) != 0;
@@ -198,16 +198,16 @@ TEST(ElementaryImpact, CrossingsOnEverySimdTarget) {
         int cases = 0, decided = 0, meet = 0, different = 0;
         for (int i = 0; i < many(3000) && !HasFatalFailure(); ++i) {
             const ElementaryKind kind = any_kind(random);
-            ElementaryBlock block;
-            std::array<ElementaryPair, ElementaryBlock::kLanes> pairs;
+            ElementaryBatch batch;
+            std::array<ElementaryPair, ElementaryBatch::kLanes> pairs;
             for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
                 pairs.at(lane) = any_pair(random);
                 pairs.at(lane).kind = kind;
-                block.set(lane, pairs.at(lane));
+                batch.set(lane, pairs.at(lane));
             }
-            CrossingBlock crossings, reference, single;
-            decide_crossings(block, kind, crossings);
-            decide_crossings_reference(block, kind, reference);
+            CrossingBatch crossings, reference, single;
+            decide_crossings(batch, kind, crossings);
+            decide_crossings_reference(batch, kind, reference);
             for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
                 const ElementaryPair& pair = pairs.at(lane);
                 const bool meets = (crossings.meet >> lane & 1) != 0,

@@ -314,17 +314,17 @@ TEST(ElementaryThickness, TheFilterOnEverySimdTarget) {
         for (int i = 0; i < many(1000) && !HasFatalFailure(); ++i) {
             const ElementaryKind kind = any_kind(random);
             const double d = std::pow(10, random.uniform(-6, 0));
-            ElementaryBlock block;
-            std::array<ElementaryPair, ElementaryBlock::kLanes> pairs;
+            ElementaryBatch batch;
+            std::array<ElementaryPair, ElementaryBatch::kLanes> pairs;
             for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
                 ElementaryPair& pair = pairs.at(lane);
                 pair = moved_off(random, any_pair(random), 2 * d);
                 pair.kind = kind;
-                block.set(lane, pair);
+                batch.set(lane, pair);
             }
-            const std::uint32_t possible = possible_impacts(block, kind, d),
-                                reference = possible_impacts_reference(block, kind, d),
-                                touching = possible_impacts(block, kind);
+            const std::uint32_t possible = possible_impacts(batch, kind, d),
+                                reference = possible_impacts_reference(batch, kind, d),
+                                touching = possible_impacts(batch, kind);
             ASSERT_EQ(touching & ~possible, 0U);
             for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
                 const ElementaryPair& pair = pairs.at(lane);

@@ -350,7 +350,7 @@ TEST(SimplexSearch, AgreesWithTheWalk) {
                                 static_cast<std::uint32_t>(a.vertices().size()),
                             static_cast<std::uint32_t>(random.integer(0, 1'000'000)) %
                                 static_cast<std::uint32_t>(b.vertices().size())};
-        const SimplexState found = search_simplex(pair, start, rounding);
+        const GjkState found = gjk(pair, start, rounding);
         const ConvexGap walked = distance(a, world_a, b, world_b);
         ASSERT_NEAR(found.meeting ? 0 : std::sqrt(found.distance_sq), walked.distance,
                     1e-7 * walked.distance + 64 * rounding)

@@ -45,7 +45,7 @@ double sizes(const Triangle& a, const Triangle& b) {
     return r + u + v;
 }
 
-TEST(TrianglePairBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
+TEST(TrianglePairBatch, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(503);
@@ -53,14 +53,14 @@ TEST(TrianglePairBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
         int apart = 0;
         for (int i = 0; i < 20000; ++i) {
             const Triangle a = any_triangle(random, i);
-            TrianglePairBlock block{};
-            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane)
-                block.set(lane, a, any_triangle(random, i));
-            double simd[TrianglePairBlock::kLanes], one[TrianglePairBlock::kLanes];
-            distance_sq(block, simd);
-            distance_sq_reference(block, one);
-            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
-                const Triangle b = block.get_b(lane);
+            TrianglePairBatch batch{};
+            for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane)
+                batch.set(lane, a, any_triangle(random, i));
+            double simd[TrianglePairBatch::kLanes], one[TrianglePairBatch::kLanes];
+            distance_sq(batch, simd);
+            distance_sq_reference(batch, one);
+            for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane) {
+                const Triangle b = batch.get_b(lane);
                 const double unit = 0x1p-53 * size_of(a, b);
                 const double d = std::sqrt(simd[lane]);
                 ASSERT_NEAR(d, std::sqrt(one[lane]), 64 * unit) << "case " << i;
@@ -78,15 +78,15 @@ TEST(TrianglePairBlock, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
     });
 }
 
-TEST(TrianglePairBlock, DistanceAgainstAHundredDigits) {
+TEST(TrianglePairBatch, DistanceAgainstAHundredDigits) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(504);
         double worst = 0, most = 0;
         for (int i = 0; i < many(200); ++i) {
             const Triangle a = any_triangle(random, i);
-            TrianglePairBlock block{};
-            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
+            TrianglePairBatch batch{};
+            for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane) {
                 Triangle b = any_triangle(random, i);
                 if (i % 2 == 1) { // a vertex just off the face, which may be a needle
                     const double s = random.uniform(0, 1), t = random.uniform(0, 1 - s);
@@ -100,12 +100,12 @@ TEST(TrianglePairBlock, DistanceAgainstAHundredDigits) {
                              random.in_cube(std::pow(10, random.uniform(-17, 0))),
                          a[0] + off * random.direction()};
                 }
-                block.set(lane, a, b);
+                batch.set(lane, a, b);
             }
-            double simd[TrianglePairBlock::kLanes];
-            distance_sq(block, simd);
-            for (std::size_t lane = 0; lane < TrianglePairBlock::kLanes; ++lane) {
-                const Triangle b = block.get_b(lane);
+            double simd[TrianglePairBatch::kLanes];
+            distance_sq(batch, simd);
+            for (std::size_t lane = 0; lane < TrianglePairBatch::kLanes; ++lane) {
+                const Triangle b = batch.get_b(lane);
                 const double unit = 0x1p-53 * size_of(a, b);
                 const double truth = double(precise_boundary_distance(a, b));
                 ASSERT_NEAR(std::sqrt(simd[lane]), truth, 64 * unit) << "case " << i;

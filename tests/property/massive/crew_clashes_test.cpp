@@ -137,7 +137,7 @@ TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
     write_glb(some_scene(random, 20, 4), job.folder / "other.glb");
     (void)import_models({job.folder / "other.glb"}, other);
     for (const std::string& store : {other, missing}) {
-        // The job does not end before the first helper has done its piece, which it begins when the second
+        // The job does not end before the first helper has done its task, which it begins when the second
         // has told what is wrong.
         std::promise<void> told;
         const auto help = [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {

@@ -1,4 +1,4 @@
-// The clash job out of core finds what the one in core finds, in whatever memory; its pieces of work
+// The clash job out of core finds what the one in core finds, in whatever memory; its tasks of work
 // hold every pair once and fit.
 
 #include <abut/clash.h>
@@ -186,7 +186,7 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
     EXPECT_GT(recalled, 0U);
 }
 
-/// Two processes at one job: the later goes on with what is left, and the other's next piece is refused,
+/// Two processes at one job: the later goes on with what is left, and the other's next task is refused,
 /// so nothing is lost or doubled.
 TEST(OutOfCore, ASecondJobTakesOver) {
     Random random(6105);
@@ -250,8 +250,8 @@ TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
         ASSERT_EQ(blocks.size(), large.blocks);
         for (const StoredBlock& block : blocks) {
             ASSERT_LE(block.bytes, large.largest_block);
-            const ModelBlock piece = make_model_block(store.file().read_block(block.row));
-            const std::uint64_t bytes = piece.model.bytes() + 4 * piece.numbers.size();
+            const ModelBlock task = make_model_block(store.file().read_block(block.row));
+            const std::uint64_t bytes = task.model.bytes() + 4 * task.numbers.size();
             ASSERT_LE(bytes, block.bytes);
             ASSERT_GE(2 * bytes, block.bytes);
         }

@@ -102,35 +102,35 @@ TEST(WorkSchedule, HandsOutEveryUnitOnceInRuns) {
             const auto worker = static_cast<std::size_t>(
                 std::min(random.integer(0, static_cast<int>(workers) - 1),
                          random.integer(0, static_cast<int>(workers) - 1)));
-            const auto piece = schedule.next(worker);
-            ASSERT_TRUE(piece);
-            ASSERT_FALSE(done[piece->unit]);
-            done[piece->unit] = true;
-            following += last[worker] + 1 == piece->unit ? 1 : 0;
+            const auto task = schedule.next(worker);
+            ASSERT_TRUE(task);
+            ASSERT_FALSE(done[task->unit]);
+            done[task->unit] = true;
+            following += last[worker] + 1 == task->unit ? 1 : 0;
             ++handed_out;
-            last[worker] = piece->unit;
-            const WorkUnit& unit = units[piece->unit];
-            ASSERT_EQ(piece->pairs.size(), unit.pairs.size());
+            last[worker] = task->unit;
+            const WorkUnit& unit = units[task->unit];
+            ASSERT_EQ(task->pairs.size(), unit.pairs.size());
             for (std::size_t k = 0; k < unit.pairs.size(); ++k) {
-                const WorkPiece::PartUse &a = piece->parts.at(piece->pairs[k].a),
-                                         &b = piece->parts.at(piece->pairs[k].b);
+                const Task::PartUse &a = task->parts.at(task->pairs[k].a),
+                                    &b = task->parts.at(task->pairs[k].b);
                 ASSERT_EQ(a.row, work.stored.parts[unit.pairs[k].a()].row);
                 ASSERT_EQ(b.row, work.stored.parts[unit.pairs[k].b()].row);
                 ASSERT_EQ(unit.meshes.at(a.mesh), work.stored.parts[unit.pairs[k].a()].mesh);
             }
-            for (std::size_t i = 0; i < piece->meshes.size(); ++i) {
-                const WorkPiece::MeshUse& use = piece->meshes[i];
+            for (std::size_t i = 0; i < task->meshes.size(); ++i) {
+                const Task::MeshUse& use = task->meshes[i];
                 ASSERT_EQ(use.mesh, work.stored.meshes[unit.meshes[i]].mesh);
-                if (use.next_use != WorkPiece::kNoUse) {
+                if (use.next_use != Task::kNoUse) {
                     // The first unit from here on that has it.
-                    for (std::size_t u = piece->unit + 1; u <= use.next_use; ++u)
+                    for (std::size_t u = task->unit + 1; u <= use.next_use; ++u)
                         ASSERT_EQ(std::ranges::binary_search(units[u].meshes, unit.meshes[i]),
                                   u == use.next_use);
                 }
                 const auto before = told[worker].find(use.mesh);
                 if (before != told[worker].end()) {
                     ++uses;
-                    foretold += before->second == piece->unit ? 1 : 0;
+                    foretold += before->second == task->unit ? 1 : 0;
                 }
                 told[worker][use.mesh] = use.next_use;
             }
@@ -148,8 +148,8 @@ std::string some_text(Random& random) {
     return std::string(static_cast<std::size_t>(random.integer(0, 5)), 'x');
 }
 
-PieceResult some_result(Random& random) {
-    PieceResult result;
+TaskResult some_result(Random& random) {
+    TaskResult result;
     result.unit = static_cast<std::uint32_t>(random.bits());
     result.pairs = random.bits();
     for (int i = random.integer(0, 3); i > 0; --i) {
@@ -171,9 +171,9 @@ TEST(CrewMessages, ComeOutAsTheyWentIn) {
     Random random(6303);
     std::size_t cut_short = 0;
     for (int round = 0; round < many(100); ++round) {
-        const PieceResult result = some_result(random);
+        const TaskResult result = some_result(random);
         const std::vector<std::byte> bytes = encode(result);
-        const auto back = std::get<PieceResult>(decode(bytes));
+        const auto back = std::get<TaskResult>(decode(bytes));
         ASSERT_EQ(encode(back), bytes);
         ASSERT_EQ(back.clashes.size(), result.clashes.size());
         for (std::size_t i = 0; i < back.clashes.size(); ++i) {

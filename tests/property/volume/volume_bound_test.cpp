@@ -132,22 +132,22 @@ TYPED_TEST(VolumeBound, EightAtATimeAsOneByOne) {
             const bool affine = i % 4 == 0;
             const Pair first(random, i, 1, affine);
             const auto one = TypeParam::fit(first.b);
-            VolumeBlock<TypeParam> block;
+            VolumeBatch<TypeParam> batch;
             std::array<std::vector<Triangle>, 8> contents;
             double reach = 0;
             for (std::size_t lane = 0; lane < 8; ++lane) {
                 contents[lane] = part(random, random.integer(0, 4), 1);
                 const auto volume = TypeParam::fit(contents[lane]);
                 reach = std::max(reach, volume.reach());
-                block.set(lane, volume);
-                ASSERT_EQ(block.get(lane).reach(), volume.reach());
+                batch.set(lane, volume);
+                ASSERT_EQ(batch.get(lane).reach(), volume.reach());
             }
             const RelativePose pose = make_relative_pose(first.a_from_b, reach, one.reach());
             const typename TypeParam::Map map(pose);
             const auto image = image_of(one, map);
             VolumeBounds lanes{}, reference{};
-            bound_distances(block, image, lanes);
-            bound_distances_reference(block, image, reference);
+            bound_distances(batch, image, lanes);
+            bound_distances_reference(batch, image, reference);
             const auto placed = moved(first.b, first.a_from_b);
             for (std::size_t lane = 0; lane < 8; ++lane) {
                 const double truth = distance_of(contents[lane], placed);

@@ -96,11 +96,11 @@ TEST(Volumes, GapsAlongAnAxisAndAcrossACorner) {
 
 TEST(Volumes, UpperBoundsReachTheFarEnds) {
     const Rss plate = Rss::fit(corners({-3, -4, 0}, {3, 4, 0}));
-    VolumeBlock<Rss> block;
+    VolumeBatch<Rss> batch;
     for (std::size_t lane = 0; lane < 8; ++lane)
-        block.set(lane, plate);
+        batch.set(lane, plate);
     VolumeBounds bounds{};
-    bound_distances(block, image_of(plate, make_relative_pose(shift(0, 0, 10), 5, 5)), bounds);
+    bound_distances(batch, image_of(plate, make_relative_pose(shift(0, 0, 10), 5, 5)), bounds);
     for (const float upper_sq : bounds.upper_sq)
         EXPECT_NEAR(upper_sq, 400, 0.1); // two half diagonals of 5 and the shift
 }

@@ -1,4 +1,4 @@
-#include "massive/work/piece_worker.h"
+#include "massive/work/task_worker.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace abut {
 
-void work(PieceTester& tester, WorkSource& source) {
+void work(TaskTester& tester, WorkSource& source) {
     // With one thread only, the next task is loaded after the test instead of beside it.
     const auto policy =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism) > 1
@@ -18,25 +18,25 @@ void work(PieceTester& tester, WorkSource& source) {
     Clock::time_point given; // when the source gave the last task
     // The next task: already loaded, or still to be loaded because it needs the memory for itself.
     struct Coming {
-        std::optional<WorkPiece> piece;
-        std::optional<PieceTester::Loaded> loaded;
+        std::optional<Task> task;
+        std::optional<TaskTester::Loaded> loaded;
     };
     const auto fetch = [&](bool beside) {
         Coming coming{source.next(), {}};
         given = Clock::now();
-        if (coming.piece && beside && !coming.piece->alone)
-            coming.loaded = tester.load(*std::exchange(coming.piece, {}));
+        if (coming.task && beside && !coming.task->alone)
+            coming.loaded = tester.load(*std::exchange(coming.task, {}));
         return coming;
     };
     const auto load = [&](Coming coming) {
-        if (coming.piece)
-            coming.loaded = tester.load(*std::move(coming.piece));
+        if (coming.task)
+            coming.loaded = tester.load(*std::move(coming.task));
         return std::move(coming.loaded);
     };
     double waiting = 0;
     for (auto loaded = load(fetch(false)); loaded;) {
-        std::future<Coming> next = std::async(policy, fetch, !loaded->piece.alone);
-        PieceResult result;
+        std::future<Coming> next = std::async(policy, fetch, !loaded->task.alone);
+        TaskResult result;
         try {
             result = tester.test(*loaded, [&] { source.on_pair(); });
         } catch (...) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "massive/work/piece_tester.h"
-#include "massive/work/work_piece.h"
+#include "massive/work/task.h"
+#include "massive/work/task_tester.h"
 
 #include <optional>
 
@@ -12,8 +12,8 @@ class WorkSource {
 public:
     virtual ~WorkSource() = default;
     /// Returns the next task; none if there is no more work. Waits until that is known.
-    virtual std::optional<WorkPiece> next() = 0;
-    virtual void done(PieceResult result) = 0;
+    virtual std::optional<Task> next() = 0;
+    virtual void done(TaskResult result) = 0;
     /// Called after each pair, from any thread. An exception that it throws ends the work.
     virtual void on_pair() = 0;
     /// Called when the work has failed: a call of next() that waits in another thread must return
@@ -25,6 +25,6 @@ public:
 /// is called while nothing is being read, and never at the same time as `next`.
 ///
 /// Errors      those of the tester and the source.
-void work(PieceTester& tester, WorkSource& source);
+void work(TaskTester& tester, WorkSource& source);
 
 } // namespace abut

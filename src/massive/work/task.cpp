@@ -1,4 +1,4 @@
-#include "massive/work/work_piece.h"
+#include "massive/work/task.h"
 
 #include <algorithm>
 #include <tuple>
@@ -43,15 +43,13 @@ std::vector<std::uint32_t> large_pairs(const StoredParts& stored,
 
 } // namespace
 
-WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& units,
-                     std::size_t unit) {
+Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, std::size_t unit) {
     const WorkUnit& work = units[unit];
-    WorkPiece piece;
-    piece.unit = static_cast<std::uint32_t>(unit);
-    piece.alone = work.alone;
+    Task task;
+    task.unit = static_cast<std::uint32_t>(unit);
+    task.alone = work.alone;
     for (const std::uint32_t mesh : work.meshes)
-        piece.meshes.push_back(
-            {stored.meshes[mesh].mesh, stored.meshes[mesh].bytes, WorkPiece::kNoUse});
+        task.meshes.push_back({stored.meshes[mesh].mesh, stored.meshes[mesh].bytes, Task::kNoUse});
     std::vector<std::uint32_t> parts;
     parts.reserve(2 * work.pairs.size());
     for (const IndexPair& pair : work.pairs)
@@ -66,18 +64,18 @@ WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& uni
             mesh = place_of(work.meshes, p.mesh);
         } else {
             const std::int64_t row = stored.meshes[p.mesh].mesh;
-            const auto at = std::ranges::find(piece.large, row);
-            mesh = whole + static_cast<std::uint32_t>(at - piece.large.begin());
-            if (at == piece.large.end())
-                piece.large.push_back(row);
+            const auto at = std::ranges::find(task.large, row);
+            mesh = whole + static_cast<std::uint32_t>(at - task.large.begin());
+            if (at == task.large.end())
+                task.large.push_back(row);
         }
-        piece.parts.push_back({p.row, mesh, p.model});
+        task.parts.push_back({p.row, mesh, p.model});
     }
     for (const IndexPair& pair : work.pairs)
-        piece.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b())});
-    if (!piece.large.empty())
-        piece.large_pairs = large_pairs(stored, work.pairs);
-    return piece;
+        task.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b())});
+    if (!task.large.empty())
+        task.large_pairs = large_pairs(stored, work.pairs);
+    return task;
 }
 
 } // namespace abut

@@ -1,4 +1,4 @@
-#include "massive/work/piece_tester.h"
+#include "massive/work/task_tester.h"
 
 #include "clash/clash_identity.h"
 #include "clash/classify_by_id.h"
@@ -10,65 +10,64 @@
 
 namespace abut {
 
-PieceTester::PieceTester(StoreFile& store, const ClashOptions& options,
-                         const std::vector<ModelRow>& models, std::uint64_t budget,
-                         std::uint64_t blocks_budget, std::uint64_t hierarchies_room)
+TaskTester::TaskTester(StoreFile& store, const ClashOptions& options,
+                       const std::vector<ModelRow>& models, std::uint64_t budget,
+                       std::uint64_t blocks_budget, std::uint64_t hierarchies_room)
     : store_(store), options_(options), reader_(store, hierarchies_room), cache_(reader_, budget),
       large_(reader_, blocks_budget), read_before_(store.bytes_read()) {
     for (const ModelRow& model : models)
         files_.push_back(model.file);
 }
 
-PieceTester::Loaded PieceTester::load(WorkPiece piece) {
+TaskTester::Loaded TaskTester::load(Task task) {
     Loaded loaded;
-    loaded.piece = std::move(piece);
-    loaded.models = cache_.load(loaded.piece);
-    for (const std::int64_t mesh : loaded.piece.large)
+    loaded.task = std::move(task);
+    loaded.models = cache_.load(loaded.task);
+    for (const std::int64_t mesh : loaded.task.large)
         loaded.large.push_back(&large_.open(mesh));
     loaded.threads = large_.threads();
-    loaded.parts.resize(loaded.piece.parts.size());
+    loaded.parts.resize(loaded.task.parts.size());
     parallel_for(loaded.parts.size(), 64,
-                 [&](std::size_t i) { loaded.parts[i] = store_.part(loaded.piece.parts[i].row); });
+                 [&](std::size_t i) { loaded.parts[i] = store_.part(loaded.task.parts[i].row); });
     auto rules = std::make_unique<RuleTable>(options_);
     for (std::size_t i = 0; i < loaded.parts.size(); ++i) {
         const PartRow& part = loaded.parts[i];
-        const std::uint32_t model = loaded.piece.parts[i].model;
+        const std::uint32_t model = loaded.task.parts[i].model;
         rules->add({model, files_[model], part.id, part.name, part.type});
     }
     loaded.rules = std::move(rules);
     return loaded;
 }
 
-PieceResult PieceTester::test(const Loaded& loaded, const std::function<void()>& on_pair) const {
-    const WorkPiece& piece = loaded.piece;
-    std::vector<std::optional<Clash>> found(piece.pairs.size());
+TaskResult TaskTester::test(const Loaded& loaded, const std::function<void()>& on_pair) const {
+    const Task& task = loaded.task;
+    std::vector<std::optional<Clash>> found(task.pairs.size());
     const auto test = [&](std::size_t k) {
-        found[k] = test_pair(loaded, piece.pairs[k]);
+        found[k] = test_pair(loaded, task.pairs[k]);
         on_pair();
     };
     // Pairs of whole meshes have all their data in memory. Pairs with a large mesh read blocks
     // while they are tested; they come in an order in which neighbouring pairs share blocks.
-    std::vector<bool> is_large(piece.pairs.size());
-    for (const std::uint32_t k : piece.large_pairs)
+    std::vector<bool> is_large(task.pairs.size());
+    for (const std::uint32_t k : task.large_pairs)
         is_large[k] = true;
-    parallel_for(piece.pairs.size(), 1, [&](std::size_t k) {
+    parallel_for(task.pairs.size(), 1, [&](std::size_t k) {
         if (!is_large[k])
             test(k);
     });
     tbb::task_arena arena(loaded.threads);
     arena.execute([&] {
-        parallel_for(piece.large_pairs.size(), 1,
-                     [&](std::size_t i) { test(piece.large_pairs[i]); });
+        parallel_for(task.large_pairs.size(), 1, [&](std::size_t i) { test(task.large_pairs[i]); });
     });
-    PieceResult result;
-    result.unit = piece.unit;
-    result.pairs = piece.pairs.size();
-    std::vector<bool> is_named(piece.parts.size());
+    TaskResult result;
+    result.unit = task.unit;
+    result.pairs = task.pairs.size();
+    std::vector<bool> is_named(task.parts.size());
     for (std::uint32_t k = 0; k < found.size(); ++k) {
         if (!found[k])
             continue;
         result.clashes.push_back({k, std::move(*found[k])});
-        for (const std::uint32_t part : {piece.pairs[k].a, piece.pairs[k].b}) {
+        for (const std::uint32_t part : {task.pairs[k].a, task.pairs[k].b}) {
             const PartRow& row = loaded.parts[part];
             if (!is_named[part])
                 result.named.push_back({row.part, {row.id, row.name, row.type, 0, {}}});
@@ -78,10 +77,9 @@ PieceResult PieceTester::test(const Loaded& loaded, const std::function<void()>&
     return result;
 }
 
-std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
-                                            const WorkPiece::Pair& pair) const {
+std::optional<Clash> TaskTester::test_pair(const Loaded& loaded, const Task::Pair& pair) const {
     const PartRow &a = loaded.parts[pair.a], &b = loaded.parts[pair.b];
-    const auto use = [&](std::uint32_t part) { return loaded.piece.parts[part]; };
+    const auto use = [&](std::uint32_t part) { return loaded.task.parts[part]; };
     const std::string &file_a = files_[use(pair.a).model], &file_b = files_[use(pair.b).model];
     const PairTerms terms = *loaded.rules->terms(pair.a, pair.b); // every candidate pair has terms
     const auto placed = [&](const PartRow& row, std::uint32_t part) {
@@ -101,7 +99,7 @@ std::optional<Clash> PieceTester::test_pair(const Loaded& loaded,
     return clash;
 }
 
-OutOfCoreCounters::Worker PieceTester::figures() const {
+OutOfCoreCounters::Worker TaskTester::figures() const {
     return {.mesh_loads = cache_.loads(),
             .blocks = large_.cache().distinct().size(),
             .block_loads = large_.cache().loads(),

@@ -6,7 +6,7 @@
 #include "clash/rule_table.h"
 #include "massive/work/large_meshes.h"
 #include "massive/work/model_cache.h"
-#include "massive/work/work_piece.h"
+#include "massive/work/task.h"
 #include "store/model_reader.h"
 
 #include <cstdint>
@@ -19,19 +19,19 @@
 namespace abut {
 
 /// Does tasks: reads the meshes and parts that a task needs, and tests its pairs.
-class PieceTester {
+class TaskTester {
 public:
     /// In          store, options: must outlive this object; models: of the store; budget: bytes of
     ///             models in memory; blocks_budget: bytes of mesh blocks in memory;
     ///             hierarchies_room: bytes of built hierarchies that wait to be stored, 0 if none
     ///             is stored.
-    PieceTester(StoreFile& store, const ClashOptions& options, const std::vector<ModelRow>& models,
-                std::uint64_t budget, std::uint64_t blocks_budget,
-                std::uint64_t hierarchies_room = 0);
+    TaskTester(StoreFile& store, const ClashOptions& options, const std::vector<ModelRow>& models,
+               std::uint64_t budget, std::uint64_t blocks_budget,
+               std::uint64_t hierarchies_room = 0);
 
     /// A task with the data that it needs, valid until the load after the next.
     struct Loaded {
-        WorkPiece piece;
+        Task task;
         std::vector<const Model*> models;       ///< of the task's meshes
         std::vector<const ModelBlocks*> large;  ///< of the task's large meshes
         int threads = 1;                        ///< at most, for the pairs with a large mesh
@@ -39,13 +39,13 @@ public:
         std::unique_ptr<const RuleTable> rules; ///< for the same parts
     };
     /// Errors      those of the store.
-    Loaded load(WorkPiece piece);
+    Loaded load(Task task);
 
     /// Tests all pairs of a task.
     ///
     /// In          on_pair: called after each pair, from any thread; an exception that it throws
     ///             ends the test.
-    PieceResult test(const Loaded& loaded, const std::function<void()>& on_pair) const;
+    TaskResult test(const Loaded& loaded, const std::function<void()>& on_pair) const;
 
     /// Returns the hierarchies that were built since the last call and are to be stored.
     std::vector<HierarchyRow> take_built() { return reader_.take_built(); }
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] OutOfCoreCounters::Worker figures() const;
 
 private:
-    std::optional<Clash> test_pair(const Loaded& loaded, const WorkPiece::Pair& pair) const;
+    std::optional<Clash> test_pair(const Loaded& loaded, const Task::Pair& pair) const;
 
     StoreFile& store_;
     const ClashOptions& options_;

@@ -1,4 +1,4 @@
-#include "world/broad_phase/block_tree.h"
+#include "world/broad_phase/moving_box_tree.h"
 
 #include "core/parallel.h"
 #include "simd/simd.h"
@@ -12,7 +12,7 @@ namespace abut {
 
 namespace {
 
-constexpr std::size_t kBlocksOfTask = 256;
+constexpr std::size_t kNodesOfTask = 256;
 
 Middle middle_of(const Aabb& box, std::uint32_t index) {
     Middle middle{{}, index};
@@ -37,7 +37,7 @@ float size_of(const Aabb& box) {
 
 } // namespace
 
-void BlockTree::build(std::span<const Box3> boxes) {
+void MovingBoxTree::build(std::span<const Box3> boxes) {
     frame_ = NarrowFrame::about(boxes);
     order_.resize(boxes.size()), lane_.resize(boxes.size());
     std::vector<Middle> middles;
@@ -56,20 +56,20 @@ void BlockTree::build(std::span<const Box3> boxes) {
     resize_levels();
     refit_all(boxes);
     mark(order_);
-    built_size_.resize(levels_[0].blocks.size());
+    built_size_.resize(levels_[0].nodes.size());
     for (std::size_t i = 0; i < built_size_.size(); ++i)
-        built_size_[i] = size_of(levels_[0].blocks[i].bounds());
+        built_size_[i] = size_of(levels_[0].nodes[i].bounds());
     wear_ = 0;
 }
 
-void BlockTree::refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
+void MovingBoxTree::refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
     if (boxes.size() > order_.size())
         append(boxes.size());
     if (changed.size() == order_.size() && sampled_wear(boxes) > most_wear()) {
         wear_ = 2 * most_wear();
         return;
     }
-    // If many boxes have changed, it is cheaper to go through all blocks in order.
+    // If many boxes have changed, it is cheaper to go through all nodes in order.
     constexpr std::size_t kFew = 16;
     if (changed.size() * kFew > order_.size()) {
         refit_all(boxes);
@@ -80,23 +80,23 @@ void BlockTree::refit(std::span<const Box3> boxes, std::span<const std::uint32_t
     add_wear();
 }
 
-void BlockTree::resize_levels() {
-    std::size_t blocks = std::max<std::size_t>((order_.size() + kWidth - 1) / kWidth, 1);
+void MovingBoxTree::resize_levels() {
+    std::size_t nodes = std::max<std::size_t>((order_.size() + kWidth - 1) / kWidth, 1);
     std::size_t count = 1;
-    for (std::size_t n = blocks; n > 1; n = (n + kWidth - 1) / kWidth)
+    for (std::size_t n = nodes; n > 1; n = (n + kWidth - 1) / kWidth)
         ++count;
-    BoxBlock empty{};
+    BoxNode empty{};
     for (std::size_t lane = 0; lane < kWidth; ++lane)
         empty.set(lane, Aabb());
     levels_.resize(count);
     for (Level& level : levels_) {
-        level.blocks.resize(blocks, empty);
-        level.marks.resize(blocks, 0);
-        blocks = (blocks + kWidth - 1) / kWidth;
+        level.nodes.resize(nodes, empty);
+        level.marks.resize(nodes, 0);
+        nodes = (nodes + kWidth - 1) / kWidth;
     }
 }
 
-void BlockTree::append(std::size_t count) {
+void MovingBoxTree::append(std::size_t count) {
     const std::size_t old = order_.size();
     order_.resize(count), lane_.resize(count);
     std::iota(order_.begin() + static_cast<std::ptrdiff_t>(old), order_.end(),
@@ -108,12 +108,12 @@ void BlockTree::append(std::size_t count) {
     if (levels_.size() != parents) // a new root must take over the bounds of the old one
         for (std::size_t level = 1; level < levels_.size(); ++level)
             fit_parents(level);
-    built_size_.resize(levels_[0].blocks.size(), 0);
+    built_size_.resize(levels_[0].nodes.size(), 0);
 }
 
-void BlockTree::fit_block(std::span<const Box3> boxes, std::size_t block) {
-    BoxBlock& to = levels_[0].blocks[block];
-    const std::size_t first = block * kWidth, ahead = first + 2 * kWidth;
+void MovingBoxTree::fit_node(std::span<const Box3> boxes, std::size_t node) {
+    BoxNode& to = levels_[0].nodes[node];
+    const std::size_t first = node * kWidth, ahead = first + 2 * kWidth;
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
         // Neighbours in space are not neighbours in memory.
         if (ahead + lane < order_.size())
@@ -123,31 +123,32 @@ void BlockTree::fit_block(std::span<const Box3> boxes, std::size_t block) {
     }
 }
 
-void BlockTree::refit_all(std::span<const Box3> boxes) {
-    parallel_for(levels_[0].blocks.size(), kBlocksOfTask,
-                 [&](std::size_t block) { fit_block(boxes, block); });
+void MovingBoxTree::refit_all(std::span<const Box3> boxes) {
+    parallel_for(levels_[0].nodes.size(), kNodesOfTask,
+                 [&](std::size_t node) { fit_node(boxes, node); });
     for (std::size_t level = 1; level < levels_.size(); ++level)
         fit_parents(level);
 }
 
-void BlockTree::fit_parents(std::size_t level) {
-    const std::vector<BoxBlock>& children = levels_[level - 1].blocks;
-    parallel_for(levels_[level].blocks.size(), kBlocksOfTask, [&](std::size_t block) {
+void MovingBoxTree::fit_parents(std::size_t level) {
+    const std::vector<BoxNode>& children = levels_[level - 1].nodes;
+    parallel_for(levels_[level].nodes.size(), kNodesOfTask, [&](std::size_t node) {
         for (std::size_t lane = 0; lane < kWidth; ++lane) {
-            const std::size_t child = block * kWidth + lane;
-            levels_[level].blocks[block].set(
-                lane, child < children.size() ? children[child].bounds() : Aabb());
+            const std::size_t child = node * kWidth + lane;
+            levels_[level].nodes[node].set(lane, child < children.size() ? children[child].bounds()
+                                                                         : Aabb());
         }
     });
 }
 
-void BlockTree::refit_some(std::span<const Box3> boxes, std::span<const std::uint32_t> changed) {
+void MovingBoxTree::refit_some(std::span<const Box3> boxes,
+                               std::span<const std::uint32_t> changed) {
     forget_marks();
     std::vector<std::size_t> lanes, parents;
     lanes.reserve(changed.size());
     for (const std::uint32_t box : changed) {
         lanes.push_back(lane_[box]);
-        levels_[0].blocks[lane_[box] / kWidth].set(lane_[box] % kWidth, frame_.narrow(boxes[box]));
+        levels_[0].nodes[lane_[box] / kWidth].set(lane_[box] % kWidth, frame_.narrow(boxes[box]));
     }
     for (std::size_t level = 0; level < levels_.size(); ++level) {
         parents.clear();
@@ -158,22 +159,22 @@ void BlockTree::refit_some(std::span<const Box3> boxes, std::span<const std::uin
             marks |= 1U << lane % kWidth;
         }
         if (level + 1 < levels_.size())
-            for (const std::size_t block : parents)
-                levels_[level + 1].blocks[block / kWidth].set(
-                    block % kWidth, levels_[level].blocks[block].bounds());
+            for (const std::size_t node : parents)
+                levels_[level + 1].nodes[node / kWidth].set(node % kWidth,
+                                                            levels_[level].nodes[node].bounds());
         std::swap(lanes, parents);
     }
 }
 
-void BlockTree::forget_marks() {
+void MovingBoxTree::forget_marks() {
     for (Level& level : levels_)
         std::fill(level.marks.begin(), level.marks.end(), 0);
 }
 
-void BlockTree::mark(std::span<const std::uint32_t> changed) {
+void MovingBoxTree::mark(std::span<const std::uint32_t> changed) {
     if (changed.size() == order_.size()) {
         for (Level& level : levels_)
-            std::fill(level.marks.begin(), level.marks.end(), BoxBlock::kAllLanes);
+            std::fill(level.marks.begin(), level.marks.end(), BoxNode::kAllLanes);
         return;
     }
     forget_marks();
@@ -185,43 +186,43 @@ void BlockTree::mark(std::span<const std::uint32_t> changed) {
                 levels_[level].marks[child / kWidth] |= 1U << child % kWidth;
 }
 
-double BlockTree::excess(std::size_t block, const Aabb& bounds) const {
+double MovingBoxTree::excess(std::size_t node, const Aabb& bounds) const {
     const float size = size_of(bounds);
-    if (!(size > built_size_[block]))
+    if (!(size > built_size_[node]))
         return 0;
-    // The number of additional block pairs is about proportional to the additional volume.
+    // The number of additional node pairs is about proportional to the additional volume.
     const auto most = static_cast<float>(built_size_.size());
-    const float growth = built_size_[block] > 0 ? size / built_size_[block] : most;
+    const float growth = built_size_[node] > 0 ? size / built_size_[node] : most;
     return double{std::min(growth * growth * growth, most)} - 1;
 }
 
-void BlockTree::add_wear() {
+void MovingBoxTree::add_wear() {
     if (levels_.size() < 2)
         return;
-    for (std::size_t block = 0; block < built_size_.size(); ++block)
-        if (levels_[0].marks[block] != 0)
-            wear_ += excess(block, levels_[1].blocks[block / kWidth].box(block % kWidth));
+    for (std::size_t node = 0; node < built_size_.size(); ++node)
+        if (levels_[0].marks[node] != 0)
+            wear_ += excess(node, levels_[1].nodes[node / kWidth].box(node % kWidth));
 }
 
-double BlockTree::sampled_wear(std::span<const Box3> boxes) {
+double MovingBoxTree::sampled_wear(std::span<const Box3> boxes) {
     constexpr std::size_t kStride = 16;
     if (levels_.size() < 2)
         return 0;
     double sum = 0;
-    for (std::size_t block = 0; block < built_size_.size(); block += kStride) {
-        fit_block(boxes, block);
-        sum += excess(block, levels_[0].blocks[block].bounds());
+    for (std::size_t node = 0; node < built_size_.size(); node += kStride) {
+        fit_node(boxes, node);
+        sum += excess(node, levels_[0].nodes[node].bounds());
     }
     return sum * kStride;
 }
 
-double BlockTree::most_wear() const {
-    // Ordering the boxes of a block takes about as long as testing it against this many others.
-    constexpr double kBlockPairsOfBuild = 12;
-    return kBlockPairsOfBuild * static_cast<double>(built_size_.size());
+double MovingBoxTree::most_wear() const {
+    // Ordering the boxes of a node takes about as long as testing it against this many others.
+    constexpr double kBoxNodePairsOfBuild = 12;
+    return kBoxNodePairsOfBuild * static_cast<double>(built_size_.size());
 }
 
-bool BlockTree::is_worn() const {
+bool MovingBoxTree::is_worn() const {
     return wear_ > most_wear();
 }
 

@@ -15,7 +15,7 @@ namespace abut {
 
 /// A task: a work unit as it is sent to a worker. The worker needs the store but no tables of
 /// parts.
-struct WorkPiece {
+struct Task {
     struct MeshUse {
         std::int64_t mesh = 0;      ///< row in the store
         std::uint64_t bytes = 0;    ///< estimated size of its Model
@@ -44,11 +44,10 @@ struct WorkPiece {
 };
 
 /// Makes the task of a work unit. All next uses are kNoUse; the caller fills them in.
-WorkPiece make_piece(const StoredParts& stored, const std::vector<WorkUnit>& units,
-                     std::size_t unit);
+Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, std::size_t unit);
 
 /// The result of one task.
-struct PieceResult {
+struct TaskResult {
     struct Found {
         std::uint32_t pair = 0; ///< index in the task's pairs
         Clash clash;            ///< without model and part

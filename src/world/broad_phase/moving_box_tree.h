@@ -11,36 +11,36 @@
 
 namespace abut {
 
-/// A tree over moving boxes. Level 0 consists of blocks of 16 boxes, in an order that keeps
-/// neighbours together. Lane i of block b at level k + 1 bounds block 16 b + i of level k. The last
-/// level is a single block. No links are stored.
+/// A tree over moving boxes. Level 0 consists of nodes of 16 boxes, in an order that keeps
+/// neighbours together. Lane i of node b at level k + 1 bounds node 16 b + i of level k. The last
+/// level is a single node. No links are stored.
 ///
 /// Every lane has a mark, which says that its box, or a box below it, has changed since the last
 /// step.
-class BlockTree {
+class MovingBoxTree {
 public:
-    static constexpr std::size_t kWidth = BoxBlock::kWidth;
+    static constexpr std::size_t kWidth = BoxNode::kWidth;
 
     struct Level {
-        std::vector<BoxBlock> blocks;
+        std::vector<BoxNode> nodes;
         std::vector<std::uint32_t> marks; ///< bit i belongs to lane i
     };
 
-    /// Orders the boxes and fits all blocks. All lanes are marked.
+    /// Orders the boxes and fits all nodes. All lanes are marked.
     void build(std::span<const Box3> boxes);
-    /// Refits the blocks of boxes that have changed or are new, and marks them. If all boxes have
+    /// Refits the nodes of boxes that have changed or are new, and marks them. If all boxes have
     /// changed so much that this step alone makes the tree worn, the tree only becomes worn.
     void refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
 
-    /// Whether a rebuild pays before pairs are searched again. Blocks grow after a build and meet
-    /// more blocks. The tree is worn when the tests of these additional pairs, summed over the
+    /// Whether a rebuild pays before pairs are searched again. Nodes grow after a build and meet
+    /// more nodes. The tree is worn when the tests of these additional pairs, summed over the
     /// steps, cost more than a build.
     [[nodiscard]] bool is_worn() const;
 
     [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
     /// The box in a lane of level 0.
-    [[nodiscard]] std::uint32_t box_at(std::size_t block, std::size_t lane) const {
-        return order_[block * kWidth + lane];
+    [[nodiscard]] std::uint32_t box_at(std::size_t node, std::size_t lane) const {
+        return order_[node * kWidth + lane];
     }
     [[nodiscard]] std::size_t size() const { return order_.size(); }
 
@@ -49,14 +49,14 @@ private:
     void append(std::size_t count);
     void refit_all(std::span<const Box3> boxes);
     void refit_some(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
-    void fit_block(std::span<const Box3> boxes, std::size_t block);
+    void fit_node(std::span<const Box3> boxes, std::size_t node);
     void fit_parents(std::size_t level);
     void forget_marks();
     void mark(std::span<const std::uint32_t> changed);
-    /// Number of additional pairs that a block with these bounds meets.
-    [[nodiscard]] double excess(std::size_t block, const Aabb& bounds) const;
+    /// Number of additional pairs that a node with these bounds meets.
+    [[nodiscard]] double excess(std::size_t node, const Aabb& bounds) const;
     void add_wear();
-    /// An estimate of what `add_wear` will add if all boxes have changed. Refits some blocks.
+    /// An estimate of what `add_wear` will add if all boxes have changed. Refits some nodes.
     double sampled_wear(std::span<const Box3> boxes);
     [[nodiscard]] double most_wear() const;
 
@@ -64,8 +64,8 @@ private:
     std::vector<std::uint32_t> order_; ///< lane of level 0 -> box
     std::vector<std::uint32_t> lane_;  ///< box -> lane of level 0
     std::vector<Level> levels_;
-    std::vector<float> built_size_; ///< size of each block of level 0 at the last build
-    double wear_ = 0;               ///< additional block pairs, summed over the steps since the
+    std::vector<float> built_size_; ///< size of each node of level 0 at the last build
+    double wear_ = 0;               ///< additional node pairs, summed over the steps since the
                                     ///< build
 };
 
