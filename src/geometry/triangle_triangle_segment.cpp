@@ -102,18 +102,18 @@ void add(Intersection& result, const Vec3& p) {
 }
 
 /// The distinct corners of a triangle: two or one if it has no area.
-using Corners = boost::container::static_vector<Vec3, 3>;
+using DistinctCorners = boost::container::static_vector<Vec3, 3>;
 
-Corners corners_of(const Triangle& t) {
+DistinctCorners corners_of(const Triangle& t) {
     if (!collinear(t[0], t[1], t[2]))
         return {t[0], t[1], t[2]};
     const auto [p, q] = end_points(t);
-    return p == q ? Corners{p} : Corners{p, q};
+    return p == q ? DistinctCorners{p} : DistinctCorners{p, q};
 }
 
 /// Whether the corners' convex hull holds p. In: all points lie in one plane, whose projection
 /// along the axis keeps its area.
-bool holds(const Corners& c, const Vec3& p, int axis) {
+bool holds(const DistinctCorners& c, const Vec3& p, int axis) {
     if (c.size() == 1)
         return p == c[0];
     if (c.size() == 2) {
@@ -127,7 +127,7 @@ bool holds(const Corners& c, const Vec3& p, int axis) {
 }
 
 /// An axis along which the plane of all points keeps its area; any axis if they lie on one line.
-int common_axis(const Corners& a, const Corners& b) {
+int common_axis(const DistinctCorners& a, const DistinctCorners& b) {
     boost::container::static_vector<Vec3, 6> p(a.begin(), a.end());
     p.insert(p.end(), b.begin(), b.end());
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -158,7 +158,7 @@ void sort_around(Intersection& result, int axis, int turn) {
 /// The common polygon of coplanar triangles. Each of its corners is a corner of one triangle within
 /// the other, or a proper crossing of two edges.
 Intersection coplanar_polygon(const Triangle& ta, const Triangle& tb) {
-    const Corners a = corners_of(ta), b = corners_of(tb);
+    const DistinctCorners a = corners_of(ta), b = corners_of(tb);
     Intersection result;
     if (a.size() == 2 && b.size() == 2 && orient3d(a[0], a[1], b[0], b[1]) != 0)
         return result; // two segments, skew
@@ -169,7 +169,7 @@ Intersection coplanar_polygon(const Triangle& ta, const Triangle& tb) {
     for (const Vec3& p : b)
         if (holds(a, p, axis))
             add(result, p);
-    const auto edges = [](const Corners& c) -> std::size_t {
+    const auto edges = [](const DistinctCorners& c) -> std::size_t {
         return c.size() == 2 ? 1 : c.size() == 3 ? 3 : 0;
     };
     for (std::size_t i = 0; i < edges(a); ++i)

@@ -15,10 +15,6 @@ bool is_beyond_bound(const Gap& gap) {
     return gap.status == Status::bound_only && gap.distance >= 0 && !gap.out_of_steps;
 }
 
-nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
-    return {{"kind", to_string(kind)}, {"index", index}};
-}
-
 struct DistanceQuery : PairQuery {
     PosesOption poses;
     bool convex = false; ///< measures the models' convex hulls

@@ -15,11 +15,7 @@ struct TwoSolids {
     ConvexPieces a, b;
 };
 
-nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
-    return {{"kind", to_string(kind)}, {"index", index}};
-}
-
-nlohmann::ordered_json describe(const PiecesCounters& counters) {
+nlohmann::ordered_json describe_counters(const PiecesCounters& counters) {
     return {{"hull_pairs", counters.hull_pairs},
             {"directions", counters.directions},
             {"sphere_pairs", counters.sphere_pairs},
@@ -92,7 +88,7 @@ void PiecesDistanceQuery::add_answer(const PiecesGap& gap, nlohmann::ordered_jso
         json["feature_b"] = describe_feature(gap.feature_b, gap.index_b);
     }
     json["status"] = to_string(gap.status);
-    json["counters"] = describe(gap.counters);
+    json["counters"] = describe_counters(gap.counters);
 }
 
 std::string PiecesDistanceQuery::in_words(const PiecesGap& gap) {
@@ -178,7 +174,7 @@ void PiecesCollideQuery::add_answer(const PiecesContacts& contacts,
         json["piece_pairs"].push_back({pair.a, pair.b});
     if (all)
         json["triangle_pairs"] = to_json(contacts.triangles);
-    json["counters"] = describe(contacts.counters);
+    json["counters"] = describe_counters(contacts.counters);
 }
 
 std::string PiecesCollideQuery::in_words(const PiecesContacts& contacts) const {
@@ -212,7 +208,7 @@ void PiecesPenetrationQuery::add_answer(const PiecesDepth& depth,
     if (options.separation)
         json["separation"] = to_json(depth.separation);
     json["status"] = to_string(depth.status);
-    json["counters"] = describe(depth.counters);
+    json["counters"] = describe_counters(depth.counters);
 }
 
 std::string PiecesPenetrationQuery::in_words(const PiecesDepth& depth) const {

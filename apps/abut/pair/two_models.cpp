@@ -139,6 +139,10 @@ nlohmann::ordered_json describe_frame(const TwoModelsOptions& options, const Two
     return describe_frame(models.up, parse_model_path(options.files[0]).path);
 }
 
+nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index) {
+    return {{"kind", to_string(kind)}, {"index", index}};
+}
+
 nlohmann::ordered_json describe(const Counters& counters) {
     return {{"volume_tests", counters.volume_tests},
             {"primitive_tests", counters.primitive_tests},

@@ -65,6 +65,8 @@ nlohmann::ordered_json describe(const TwoModelsOptions& options);
 /// Returns {up, unit, of}, which follows a and b.
 nlohmann::ordered_json describe_frame(const TwoModelsOptions& options, const TwoModels& models);
 nlohmann::ordered_json describe(const Counters& counters);
+/// Returns {kind, index}: the part of a triangle that a point lies on.
+nlohmann::ordered_json describe_feature(Feature kind, std::uint8_t index);
 /// Returns [[a, b], ...].
 nlohmann::ordered_json to_json(const std::vector<TrianglePair>& pairs);
 /// Returns {import, build, query}, in seconds.

@@ -10,7 +10,7 @@ namespace abut::command {
 
 namespace {
 
-constexpr std::size_t kWidth = 40;
+constexpr std::size_t kBarWidth = 40;
 constexpr std::chrono::milliseconds kRedraw{50};
 
 } // namespace
@@ -41,9 +41,9 @@ void ProgressBar::show(std::string_view stage, double fraction) {
         return;
     last_shown_ = now;
     const double share = std::clamp(fraction, 0.0, 1.0);
-    const auto filled = static_cast<std::size_t>(share * kWidth);
+    const auto filled = static_cast<std::size_t>(share * kBarWidth);
     fmt::print(stderr, "\r\x1b[K{:<12} [{:#<{}}{:.<{}}] {:3.0f} %", stage_, "", filled, "",
-               kWidth - filled, 100 * share);
+               kBarWidth - filled, 100 * share);
     std::fflush(stderr);
 }
 

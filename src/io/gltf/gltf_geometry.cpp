@@ -13,11 +13,9 @@ namespace abut {
 
 namespace {
 
-constexpr std::uint16_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
-                        kUnsignedInt = 5125, kFloat = 5126;
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 40;
 constexpr std::uint32_t kNone = GlbDocument::kNone;
-constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
+constexpr std::size_t kChunkBytes = std::size_t{1} << 18;
 
 std::uint64_t component_bytes(std::uint16_t component) {
     switch (component) {
@@ -105,7 +103,7 @@ template <typename Value, typename Take>
 void in_pieces(const GltfGeometry::Elements& elements, std::uint64_t first, std::span<Value> to,
                const Take& take) {
     const std::uint64_t count = to.size() / elements.components;
-    const std::uint64_t most = std::max<std::uint64_t>(kPieceBytes / elements.stride, 1);
+    const std::uint64_t most = std::max<std::uint64_t>(kChunkBytes / elements.stride, 1);
     for (std::uint64_t i = 0; i < count; i += most) {
         const std::uint64_t piece = std::min(most, count - i);
         take(first + i, to.subspan(i * elements.components, piece * elements.components));

@@ -20,6 +20,10 @@ inline constexpr std::uint32_t kBinaryChunk = 0x004e4942; // "BIN"
 inline constexpr std::uint64_t kGlbHeaderBytes = 12;
 inline constexpr std::uint64_t kChunkHeaderBytes = 8;
 
+/// Types of an accessor's components.
+inline constexpr std::uint16_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122,
+                               kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
+
 /// A member of an object; an empty array where there is none.
 const nlohmann::json& member_or_empty(const nlohmann::json& object, const char* key);
 

@@ -2,6 +2,7 @@
 #include <abut/scene.h>
 
 #include "core/atomic_file.h"
+#include "io/gltf/gltf_json.h"
 #include "io/scene/model_frame.h"
 #include "math/rounding.h"
 
@@ -18,11 +19,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint32_t kGlbMagic = 0x46546c67;    // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a;   // "JSON"
-constexpr std::uint32_t kBinaryChunk = 0x004e4942; // "BIN"
-constexpr int kFloat = 5126;
-constexpr int kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 constexpr std::size_t kVertexBytes = 12;

@@ -10,7 +10,7 @@ namespace abut {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::uint32_t kNoCorner = 0xffffffff;
 
 struct Point {
     double x = 0, y = 0;
@@ -56,15 +56,15 @@ public:
         std::iota(order_.begin(), order_.end(), 0U);
         nodes_.reserve(2 * points.size() / kLeafCorners + 2);
         leaf_of_.resize(points.size());
-        build(0, static_cast<std::uint32_t>(points.size()), kNone);
+        build(0, static_cast<std::uint32_t>(points.size()), kNoCorner);
     }
 
     void remove(std::uint32_t corner) {
-        for (std::uint32_t node = leaf_of_[corner]; node != kNone; node = nodes_[node].parent)
+        for (std::uint32_t node = leaf_of_[corner]; node != kNoCorner; node = nodes_[node].parent)
             --nodes_[node].left;
     }
 
-    /// The first corner in or on the ear for which `blocks` says yes; kNone if there is none.
+    /// The first corner in or on the ear for which `blocks` says yes; kNoCorner if there is none.
     template <typename Blocks>
     std::uint32_t find(const Ear& ear, std::uint64_t& visits, const Blocks& blocks) const {
         std::array<std::uint32_t, 64> open{};
@@ -75,7 +75,7 @@ public:
             ++visits;
             if (node.left == 0 || ear.misses(node.low, node.high))
                 continue;
-            if (node.second != kNone) {
+            if (node.second != kNoCorner) {
                 open.at(count++) = node.second;
                 open.at(count++) = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
                 continue;
@@ -86,7 +86,7 @@ public:
                     return order_[i];
             }
         }
-        return kNone;
+        return kNoCorner;
     }
 
 private:
@@ -96,8 +96,9 @@ private:
         Point low, high;
         std::uint32_t begin = 0, end = 0; ///< in order_
         std::uint32_t left = 0;           ///< corners that have not been removed
-        std::uint32_t parent = kNone;
-        std::uint32_t second = kNone; ///< child; the first one is the next node. kNone: a leaf
+        std::uint32_t parent = kNoCorner;
+        std::uint32_t second =
+            kNoCorner; ///< child; the first one is the next node. kNoCorner: a leaf
     };
 
     void build(std::uint32_t begin, std::uint32_t end, std::uint32_t parent) {
@@ -163,7 +164,7 @@ public:
             if (best.rank == Rank::untested) {
                 bool touches = false;
                 const std::uint32_t blocker = blocker_of(best.corner, touches);
-                if (blocker != kNone) {
+                if (blocker != kNoCorner) {
                     std::uint32_t& first =
                         touches ? links_[blocker].first_touched : links_[blocker].first_waiting;
                     waiting_.push_back({best.corner, best.version, first});
@@ -190,11 +191,11 @@ private:
         std::uint32_t version = 0; ///< candidates of another one are out of date
         bool is_cut = false;
         /// Lists in waiting_: candidates that this corner blocks, from inside and by touching.
-        std::uint32_t first_waiting = kNone, first_touched = kNone;
+        std::uint32_t first_waiting = kNoCorner, first_touched = kNoCorner;
     };
 
     struct Waiting {
-        std::uint32_t corner = 0, version = 0, next = kNone;
+        std::uint32_t corner = 0, version = 0, next = kNoCorner;
     };
 
     struct Candidate {
@@ -234,7 +235,7 @@ private:
         candidates_.push({rank, turns_back ? 0 : dx * dx + dy * dy, tip, links_[tip].version});
     }
 
-    /// A corner that keeps an ear from being cut; kNone if it is free.
+    /// A corner that keeps an ear from being cut; kNoCorner if it is free.
     ///
     /// A corner inside does. One on the ear's boundary, be it at a corner of the ear, does if an
     /// edge leads from it into the ear's interior: else the polygon only touches the ear there.
@@ -243,7 +244,7 @@ private:
         ++work_.tests;
         const Ear ear = ear_of(tip);
         if (!(turn(ear.corner[0], ear.corner[1], ear.corner[2]) > 0))
-            return kNone;
+            return kNoCorner;
         const Link& own = links_[tip];
         return tree_.find(ear, work_.visits, [&](std::uint32_t other) {
             const Link& link = links_[other];
@@ -290,7 +291,7 @@ private:
 
     /// The candidates of a list may be free now.
     void release(std::uint32_t& first) {
-        for (std::uint32_t entry = std::exchange(first, kNone); entry != kNone;) {
+        for (std::uint32_t entry = std::exchange(first, kNoCorner); entry != kNoCorner;) {
             const Waiting waiting = waiting_[entry];
             Link& link = links_[waiting.corner];
             if (!link.is_cut && link.version == waiting.version) {

@@ -111,10 +111,6 @@ HistoryRow row_of(const Clash& clash, const std::vector<Scene>& models) {
     return row;
 }
 
-std::int64_t now() {
-    return static_cast<std::int64_t>(std::time(nullptr));
-}
-
 } // namespace
 
 std::uint64_t HistoryRow::checksum() const {

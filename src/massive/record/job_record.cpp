@@ -27,10 +27,6 @@ Hash128 job_key(const Hash128& parts, std::int64_t question) {
     return RowHash().add(parts).add(question).value_128();
 }
 
-std::int64_t now() {
-    return static_cast<std::int64_t>(std::time(nullptr));
-}
-
 } // namespace
 
 std::unique_ptr<JobRecord> JobRecord::open(const std::string& store, const StoredParts& stored,

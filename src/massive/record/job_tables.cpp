@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <span>
 #include <string_view>
 
@@ -173,6 +174,10 @@ void write_tally(Database& database, const std::string& list, const RowTally& ta
 void require_tally(Database& database, const std::string& list, const RowTally& found) {
     if (found != read_tally(database, list))
         damaged_job(database, "rows of " + list + " are missing");
+}
+
+std::int64_t now() {
+    return static_cast<std::int64_t>(std::time(nullptr));
 }
 
 void damaged_job(const Database& database, const std::string& what) {

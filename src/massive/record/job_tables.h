@@ -45,6 +45,9 @@ std::vector<Element> blob_elements(std::span<const std::byte> bytes) {
     return result;
 }
 
+/// The time in seconds since 1970, as tables hold it.
+std::int64_t now();
+
 /// Throws Error{malformed}, naming the store.
 [[noreturn]] void damaged_job(const Database& database, const std::string& what);
 

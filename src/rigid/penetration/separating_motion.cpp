@@ -9,7 +9,6 @@ namespace abut {
 
 namespace {
 
-constexpr double kNudge = 0x1p-30; // far above the rounding of positions, far below anything built
 constexpr double kTight = 0x1p-24; // a sixteenth of a millionth
 
 std::vector<Vec3> directions(const WorldSolid& a, const WorldSolid& b,

@@ -7,6 +7,10 @@
 
 namespace abut {
 
+/// Share of the larger model by which positions are moved apart: far above their rounding, far
+/// below anything built.
+inline constexpr double kNudge = 0x1p-30;
+
 /// A translation of b after which the surfaces share no point.
 struct SeparatingMotion {
     double length = 0; ///< 0: none was found

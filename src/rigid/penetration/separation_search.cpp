@@ -1,6 +1,7 @@
 #include "rigid/penetration/separation_search.h"
 
 #include "geometry/triangle_triangle_penetration.h"
+#include "rigid/penetration/separating_motion.h"
 #include "rigid/solid/containment.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace abut {
 namespace {
 
 constexpr double kAccuracy = 1.0 / 256;
-constexpr double kNudge = 0x1p-30; // far above the rounding of positions, far below anything built
 
 class SeparationSearch {
 public:

@@ -13,7 +13,6 @@ namespace abut {
 namespace {
 
 /// Points are cheap: this many are worth a task.
-constexpr std::size_t kGrain = 64;
 
 Nearest on_triangle(const Vec3& point, const PlacedModel& model, std::uint32_t triangle) {
     const NearestOnTriangle n = nearest_on_triangle(point, model.world_triangle(triangle));
@@ -106,7 +105,8 @@ std::vector<Nearest> nearest(const Model& model, const Transform& world_from_mod
     const StopScope stopping(options.progress);
     const NearestQuery query(model, world_from_model, options);
     std::vector<Nearest> results(points.size());
-    parallel_for(points.size(), kGrain, [&](std::size_t i) { results[i] = query(points[i]); });
+    parallel_for(points.size(), kShapesPerTask,
+                 [&](std::size_t i) { results[i] = query(points[i]); });
     return results;
 }
 

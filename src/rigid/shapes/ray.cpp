@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Rays are cheap: this many are worth a task.
-constexpr std::size_t kGrain = 64;
 
 /// The part of a ray that may meet a model, by the lengths at which it begins and ends.
 class RaySpan {
@@ -132,7 +131,7 @@ std::vector<RayHit> first_hit(const Model& model, const Transform& world_from_mo
     const StopScope stopping(progress);
     const PlacedModel placed(model, world_from_model);
     std::vector<RayHit> results(rays.size());
-    parallel_for(rays.size(), kGrain,
+    parallel_for(rays.size(), kShapesPerTask,
                  [&](std::size_t i) { results[i] = find_first(placed, rays[i]); });
     return results;
 }

@@ -7,10 +7,14 @@
 #include "mesh/topology.h"
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 
 /// Checks of what queries with shapes are given. Errors: Error{bad_argument}.
 namespace abut {
+
+/// Of a list of points or rays, how many one thread takes at a time.
+inline constexpr std::size_t kShapesPerTask = 64;
 
 inline void require(bool condition, const std::string& message) {
     if (!condition)
