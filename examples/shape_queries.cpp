@@ -23,7 +23,7 @@ int run(int argc, char** argv) {
     std::printf("nearest %g m, on triangle %u\n", nearest.distance, nearest.triangle);
 
     const abut::Ray down{.origin = point, .direction = {0, 0, -1}};
-    if (const abut::RayHit hit = abut::first_hit(model, world_from_model, down); hit.hit)
+    if (const abut::RayHit hit = abut::first_hit(model, world_from_model, down); hit.meet)
         std::printf("below at z = %g m\n", hit.point.z);
 
     const abut::Sphere ball{.centre = point, .radius = 2.5};

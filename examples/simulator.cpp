@@ -70,7 +70,7 @@ void Simulator::find_contacts() {
     keep_contacts();
     std::vector<Contact> found;
     auto kept = contacts_.begin(); // both lists are sorted
-    for (const abut::BodyGap& gap : world_.contacts()) {
+    for (const abut::BodyGap& gap : world_.penetration()) {
         const abut::BodyPair pair{gap.a, gap.b};
         kept = std::find_if(kept, contacts_.end(),
                             [&](const Contact& contact) { return !(contact.pair < pair); });
@@ -223,7 +223,7 @@ std::vector<double> Simulator::free_shares(double dt) {
         }
     if (!any_fast)
         return free;
-    for (const abut::BodyImpact& each : world_.impacts(motions))
+    for (const abut::BodyImpact& each : world_.time_of_impact(motions))
         for (const abut::BodyId id : {each.a, each.b}) {
             const std::size_t i = number_.at(id);
             // Bodies in contact already are the impulses' business; a little beyond the impact, the

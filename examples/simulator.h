@@ -10,8 +10,8 @@
 
 /// A small impulse-based simulator of rigid bodies: the loop of a simulation closed with Abut.
 ///
-/// Each step: forces, contacts (`World::contacts`), impulses that end approach and hold friction, motion,
-/// and for what moves fast, the first impact on its way (`World::impacts`).
+/// Each step: forces, contacts (`World::penetration`), impulses that end approach and hold friction, motion,
+/// and for what moves fast, the first impact on its way (`World::time_of_impact`).
 namespace drop {
 
 /// Mass and principal moments of inertia about the body's origin, which is its centre of mass; a

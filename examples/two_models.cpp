@@ -21,7 +21,7 @@ int run(int argc, char** argv) {
     const abut::Pose world_from_a;
     const abut::Pose world_from_b{.translation = {0.9, 0.2, 0.3}};
 
-    if (abut::collide(a, world_from_a, b, world_from_b).any())
+    if (abut::collide(a, world_from_a, b, world_from_b).meet())
         std::puts("contact");
     if (abut::within(a, world_from_a, b, world_from_b, 0.005))
         std::puts("at most 5 mm apart");

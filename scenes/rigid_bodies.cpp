@@ -61,7 +61,7 @@ void RigidBodies::step() {
 void RigidBodies::hold_apart_near() {
     std::vector<Touch> touches;
     surface_.set_motion(start_, start_);
-    for (const FeaturePair& pair : self_pairs_within(surface_, settings_.thickness)) {
+    for (const FeaturePair& pair : self_within(surface_, settings_.thickness)) {
         const auto contact = contact_of(surface_, pair, start_);
         auto touch = contact ? touch_of(*contact, start_) : std::nullopt;
         if (!touch)

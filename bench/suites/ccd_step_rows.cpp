@@ -87,7 +87,7 @@ Row earliest_row(const CcdStep& step, int rounds) {
         rounds,
         [&] {
             surface.set_motion(step.start.positions, step.end);
-            first = first_self_impact(surface);
+            first = self_time_of_impact(surface);
         },
         [&] { do_step(surface, step); });
     Row row{step.name + ", earliest impact",

@@ -175,8 +175,8 @@ Row measure_single(const Case& c, const CcdSuiteOptions& options) {
         ours.push_back(nanoseconds_of(
             options.rounds, [&] { impact = elementary_impact(pair, {.thickness = c.thickness}); }));
         decided.at(static_cast<std::size_t>(impact.decided_by)) += 1;
-        missed += c.truth[i] && !impact.hit ? 1 : 0;
-        false_hits += impact.hit && !c.truth[i] ? 1 : 0;
+        missed += c.truth[i] && !impact.meet ? 1 : 0;
+        false_hits += impact.meet && !c.truth[i] ? 1 : 0;
         if (!has_fcl_elementary() || c.thickness > 0)
             continue;
         std::optional<double> time;
@@ -221,7 +221,7 @@ Row measure_many(ElementaryKind kind, double thickness, const CcdSuiteOptions& o
     double hits = 0;
     for (const ElementaryImpact& impact : elementary_impacts(pairs, test)) {
         decided.at(static_cast<std::size_t>(impact.decided_by)) += 1;
-        hits += impact.hit ? 1 : 0;
+        hits += impact.meet ? 1 : 0;
     }
     set_threads(1);
     const Turns turns = take_turns(

@@ -76,7 +76,7 @@ private:
             const auto& [a, b] = scene_.candidates[i];
             const Contacts contacts = collide(model_, scene_.placements[a], model_,
                                               scene_.placements[b], {.mode = ContactMode::first});
-            ours_[i] = contacts.any() ? 0 : 1;
+            ours_[i] = contacts.meet() ? 0 : 1;
             counters_[i] = contacts.counters;
         }
     }

@@ -176,11 +176,11 @@ private:
         const auto cold = [&](const PosedPair& p, std::size_t /*index*/) {
             return abut::distance(a, p.a, b, p.b).distance;
         };
-        ConvexWorkspace workspace;
+        ConvexWarmStart warm_start;
         const auto warm = [&](const PosedPair& p, std::size_t index) {
             if (index % kSteps == 0)
-                workspace = {};
-            return abut::distance(a, p.a, b, p.b, {.workspace = &workspace}).distance;
+                warm_start = {};
+            return abut::distance(a, p.a, b, p.b, {.warm_start = &warm_start}).distance;
         };
         const auto measure = [&](const std::string& what, const std::vector<PosedPair>& poses,
                                  const Query& ours) {
@@ -190,7 +190,7 @@ private:
         measure("distance, coherent", path_poses(2.1), warm);
         const std::vector<PosedPair> apart = random_poses(a, b, true);
         measure("distance, random", apart, cold);
-        measure("distance, random, old workspace", apart, warm);
+        measure("distance, random, old warm_start", apart, warm);
         const std::vector<PosedPair> meeting = random_poses(a, b, false);
         measure("distance, random, meeting", meeting, cold);
         compare(name + ", penetration, random", a, b, meeting,
@@ -201,8 +201,8 @@ private:
         compare(name + ", penetration, coherent", a, b, path_poses(0.5),
                 [&](const PosedPair& p, std::size_t index) {
                     if (index % kSteps == 0)
-                        workspace = {};
-                    return abut::penetration(a, p.a, b, p.b, &workspace).depth;
+                        warm_start = {};
+                    return abut::penetration(a, p.a, b, p.b, {.warm_start = &warm_start}).depth;
                 },
                 &ConvexPeer::penetration, {});
     }

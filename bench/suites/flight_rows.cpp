@@ -94,7 +94,7 @@ void add_flight_rows(Report& report, int bodies, std::uint64_t seed) {
         const double start = process_seconds();
         const auto found = flights.world.advance(kStep);
         const double between = process_seconds();
-        if (flights.world.touching() != found)
+        if (flights.world.collide() != found)
             throw std::logic_error("the schedule has missed a pair");
         all.push_back(process_seconds() - between);
         advance.push_back(between - start);

@@ -106,7 +106,7 @@ Row measure(const Pair& pair, const std::string& kind, double turn,
             rounds.push_back(thread_seconds() - start);
         }
         ours.push_back(median(rounds));
-        hits += impact.hit ? 1 : 0;
+        hits += impact.meet ? 1 : 0;
         undecided += impact.status == Status::exact ? 0 : 1;
         sum.volume_tests += impact.counters.volume_tests;
         sum.primitive_tests += impact.counters.primitive_tests;
@@ -117,7 +117,7 @@ Row measure(const Pair& pair, const std::string& kind, double turn,
         theirs.push_back(thread_seconds() - start);
         their_time += theirs.back();
         // What is proven is a contact no later than contact_time.
-        if (impact.hit && impact.status == Status::exact) {
+        if (impact.meet && impact.status == Status::exact) {
             common += 1;
             missed += time ? 0 : 1;
             late += time && *time > impact.contact_time ? 1 : 0;

@@ -79,12 +79,12 @@ Row measure(const Case& c, int rounds) {
     Impact impact;
     for (int round = 0; round < rounds; ++round) {
         const double start = thread_seconds();
-        impact = time_of_impact(a, c.motion_a, b, c.motion_b, {.tolerance = c.tolerance});
+        impact = time_of_impact(a, c.motion_a, b, c.motion_b, {.absolute_error = c.tolerance});
         seconds.push_back(thread_seconds() - start);
     }
     Row row{c.name, 1e3 * median(seconds), {}, {}, "ms", 1, {}};
     row.counters["steps"] = static_cast<double>(impact.steps);
-    row.counters["hit"] = impact.hit ? 1 : 0;
+    row.counters["hit"] = impact.meet ? 1 : 0;
     row.counters["undecided"] = impact.status == Status::bound_only ? 1 : 0;
     return row;
 }

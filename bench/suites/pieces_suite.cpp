@@ -147,20 +147,20 @@ private:
     using Query = std::function<double(const PosedPair&)>;
 
     void run(const Case& c) {
-        PiecesWorkspace workspace;
-        Workspace tree_workspace;
-        const auto start_path = [&] { workspace = {}, tree_workspace = {}; };
-        PiecesWorkspace* const w = c.coherent() ? &workspace : nullptr;
-        Workspace* const tw = c.coherent() ? &tree_workspace : nullptr;
+        PiecesWarmStart warm_start;
+        WarmStart tree_warm_start;
+        const auto start_path = [&] { warm_start = {}, tree_warm_start = {}; };
+        PiecesWarmStart* const w = c.coherent() ? &warm_start : nullptr;
+        WarmStart* const tw = c.coherent() ? &tree_warm_start : nullptr;
         double hull_pairs = 0;
         const Query ours = [&](const PosedPair& p) {
             if (c.ask == Ask::within)
-                return within(a_, p.a, b_, p.b, kTolerance, w) ? 1.0 : 0.0;
+                return within(a_, p.a, b_, p.b, kTolerance, {.warm_start = w}) ? 1.0 : 0.0;
             if (c.ask == Ask::first_contact)
-                return collide(a_, p.a, b_, p.b, {.workspace = w}).meet ? 1.0 : 0.0;
+                return collide(a_, p.a, b_, p.b, {.warm_start = w}).meet ? 1.0 : 0.0;
             if (c.ask == Ask::penetration)
                 return penetration(a_, p.a, b_, p.b, {.separation = false}).depth;
-            const PiecesGap gap = distance(a_, p.a, b_, p.b, {.workspace = w});
+            const PiecesGap gap = distance(a_, p.a, b_, p.b, {.warm_start = w});
             hull_pairs += static_cast<double>(gap.counters.hull_pairs);
             return gap.distance;
         };
@@ -168,10 +168,10 @@ private:
             if (c.ask == Ask::within)
                 return within(model_a_, p.a, model_b_, p.b, kTolerance, tw) ? 1.0 : 0.0;
             if (c.ask == Ask::first_contact)
-                return collide(model_a_, p.a, model_b_, p.b, {.workspace = tw}).any() ? 1.0 : 0.0;
+                return collide(model_a_, p.a, model_b_, p.b, {.warm_start = tw}).meet() ? 1.0 : 0.0;
             if (c.ask == Ask::penetration)
                 return penetration(model_a_, p.a, model_b_, p.b, {.separation = false}).depth;
-            return distance(model_a_, p.a, model_b_, p.b, {.workspace = tw}).distance;
+            return distance(model_a_, p.a, model_b_, p.b, {.warm_start = tw}).distance;
         };
         compare(c, "triangle tree", start_path, ours, trees, hull_pairs);
         if (RigidPeer* const fcl = c.ask == Ask::penetration ? nullptr : best_fcl(c))

@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    Answer ours(const Case& c, const PosedPair& poses, Workspace* workspace) {
+    Answer ours(const Case& c, const PosedPair& poses, WarmStart* warm_start) {
         switch (c.query) {
         case RigidQuery::first_contact:
         case RigidQuery::all_contacts: {
@@ -103,7 +103,7 @@ private:
             return {static_cast<double>(contacts.pairs.size()), contacts.counters};
         }
         case RigidQuery::distance: {
-            const Gap gap = distance(a_, poses.a, b_, poses.b, {.workspace = workspace});
+            const Gap gap = distance(a_, poses.a, b_, poses.b, {.warm_start = warm_start});
             return {gap.distance, gap.counters};
         }
         default:
@@ -164,11 +164,11 @@ private:
         for (int round = 0; round < options_.rounds; ++round)
             for (std::size_t first = 0; first < poses.size(); first += kBlock) {
                 const std::size_t end = std::min(first + kBlock, poses.size());
-                Workspace workspace;
+                WarmStart warm_start;
                 for (std::size_t i = first; i < end; ++i) {
                     const double start = wall_seconds();
                     our_answers[i] =
-                        ours(c, poses[i], c.regime == Regime::path ? &workspace : nullptr);
+                        ours(c, poses[i], c.regime == Regime::path ? &warm_start : nullptr);
                     our_times.add(i, wall_seconds() - start - clock_);
                 }
                 for (std::size_t i = first; i < end && peer != nullptr; ++i) {

@@ -12,7 +12,7 @@
 
 /// Many queries of one pair of models, or solids of convex pieces, at once: the verbs of rigid.h,
 /// motion.h and convex_pieces.h for a list of placements, in parallel (`set_threads`). Each answer equals that of the single query, counters
-/// included, and stands at its placement's index. A workspace in the options is left alone: it is one
+/// included, and stands at its placement's index. A warm start in the options is left alone: it is one
 /// thread's. A limit of steps holds for each query. The stop flag ends all with Error{interrupted}, and
 /// reports tell the share of the queries that are done.
 ///
@@ -37,7 +37,7 @@ std::vector<Gap> distance(const Model& a, const Model& b, std::span<const Placem
                           const DistanceOptions& options = {});
 
 std::vector<bool> within(const Model& a, const Model& b, std::span<const Placement> placements,
-                         double tolerance, const Progress& progress = {});
+                         double tolerance, const WithinOptions& options = {});
 
 std::vector<Impact> time_of_impact(const Model& a, const Model& b,
                                    std::span<const MotionPair> motions,
@@ -53,7 +53,7 @@ std::vector<PiecesGap> distance(const ConvexPieces& a, const ConvexPieces& b,
 
 std::vector<bool> within(const ConvexPieces& a, const ConvexPieces& b,
                          std::span<const Placement> placements, double tolerance,
-                         const Progress& progress = {});
+                         const PiecesWithinOptions& options = {});
 
 std::vector<PiecesDepth> penetration(const ConvexPieces& a, const ConvexPieces& b,
                                      std::span<const Placement> placements,

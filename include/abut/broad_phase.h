@@ -55,7 +55,7 @@ struct BroadPhaseOptions {
     BroadPhaseMethod method = BroadPhaseMethod::automatic;
     /// Pairs (i, k), i < k, that are of interest; all if empty. Called from any thread. What it says
     /// of a pair may change only with `BroadPhase::forget`.
-    std::function<bool(std::uint32_t, std::uint32_t)> wanted{};
+    std::function<bool(std::uint32_t, std::uint32_t)> filter{};
 };
 
 class PairList;
@@ -85,7 +85,7 @@ public:
     ///
     /// Cost        that of what changed, and of copying the list of pairs.
     void update(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
-    /// Finds everything anew in the next update: what is `wanted` has changed.
+    /// Finds everything anew in the next update: what is `filter` has changed.
     void forget();
 
     /// Sorted, and the same for every method and number of threads; valid until the next update.
@@ -102,16 +102,16 @@ private:
     bool forgotten_ = true;
 };
 
-/// The pairs (i, k), i < k, of boxes at most `gap` apart on every axis, sorted, that `wanted(i, k)`
+/// The pairs (i, k), i < k, of boxes at most `gap` apart on every axis, sorted, that `filter(i, k)`
 /// admits: one question, nothing remembered.
 ///
-/// In          boxes; empty ones (lower > upper) meet nothing. `wanted` is called from any thread.
+/// In          boxes; empty ones (lower > upper) meet nothing. `filter` is called from any thread.
 /// Accuracy    exact for the given doubles.
 /// Errors      Error{bad_argument} if a bound is not a number, or the gap negative or not finite.
 /// Cost        O(n log n + pairs), in parallel; memory of 4 bytes a box, 16 a pair and some 10 MB, more
 ///             where many boxes are long.
 std::vector<IndexPair>
 overlapping_boxes(std::span<const Box3> boxes, double gap = 0,
-                  const std::function<bool(std::uint32_t, std::uint32_t)>& wanted = {});
+                  const std::function<bool(std::uint32_t, std::uint32_t)>& filter = {});
 
 } // namespace abut

@@ -52,7 +52,7 @@ struct IgnoreRule {
 struct ClashRule {
     std::string name;
     PartSelector a, b;
-    std::optional<double> clearance, touch; ///< metres; else those of ClashOptions
+    std::optional<double> clearance, touch_tolerance; ///< metres; else those of ClashOptions
     IgnoreRule ignore;
 };
 
@@ -62,9 +62,10 @@ struct ClashRule {
 std::vector<ClashRule> read_rules(const std::string& path);
 
 struct ClashOptions {
-    double clearance = 0;           ///< metres; pairs without contact that are nearer are reported
-    double touch = 0;               ///< metres; surfaces that meet no deeper than this `touch`
-    bool self = false;              ///< with several models: also the pairs within each
+    double clearance = 0; ///< metres; pairs without contact that are nearer are reported
+    double touch_tolerance =
+        0;             ///< metres; surfaces that meet no deeper than this are of kind `touch`
+    bool self = false; ///< with several models: also the pairs within each
     std::vector<ClashRule> rules{}; ///< none: all pairs
     Progress progress{};
 };
@@ -121,7 +122,7 @@ struct ClashReport {
     std::vector<ModelSummary> models;
     /// What makes the result doubtful, a line each: models that share no space.
     std::vector<std::string> warnings;
-    double clearance = 0, touch = 0;
+    double clearance = 0, touch_tolerance = 0;
     std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
     std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
     std::vector<Clash> clashes;            ///< sorted by model, part of a, then of b
@@ -130,7 +131,7 @@ struct ClashReport {
     std::optional<std::array<std::uint64_t, 5>> statuses;
     std::vector<ListedClash> resolved;
     Seconds seconds;
-    double peak_rss_mb = 0; ///< of this process or its largest reader, whichever is larger; MiB
+    double peak_rss_mib = 0; ///< of this process or its largest reader, whichever is larger; MiB
 };
 
 /// Finds all clashes between the parts of different models (of one model: between its parts).

@@ -85,7 +85,7 @@ struct DifferencePolytope {
 /// which of several closest pairs is found.
 ///
 /// One a pair of bodies and a thread. Starts empty; what belongs to other bodies does no harm.
-struct ConvexWorkspace {
+struct ConvexWarmStart {
     enum class Kind : std::uint8_t { empty, features, simplex };
     Kind kind = Kind::empty;
     /// simplex: pairs whose differences hold the origin. features: their vertices, edges, kinds.
@@ -118,8 +118,8 @@ struct ConvexGap {
 struct ConvexDistanceOptions {
     /// What the distance may exceed the true one by: a length. Simplified hulls inside of the
     /// bodies, whose deviation is known, may then answer.
-    double max_error = 0;
-    ConvexWorkspace* workspace = nullptr;
+    double absolute_error = 0;
+    ConvexWarmStart* warm_start = nullptr;
 };
 
 /// How deep two convex bodies go into each other.
@@ -144,10 +144,14 @@ struct ConvexDepth {
 ///             and the origin of `a`.
 /// Errors      Error{bad_argument} if a transform is not finite or places a vertex beyond the range
 ///             of numbers, or the error allowed is negative or NaN.
-/// Cost        with a workspace and small steps, constant; else a few steps a level of detail.
+/// Cost        with a warm start and small steps, constant; else a few steps a level of detail.
 /// Source      [Lin, Canny 1991], [Mirtich 1998], [Ehmann, Lin 2000]; docs/convex.md.
 ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex& b,
                    const Transform& world_from_b, const ConvexDistanceOptions& options = {});
+
+struct ConvexPenetrationOptions {
+    ConvexWarmStart* warm_start = nullptr;
+};
 
 /// The shortest translation that ends the overlap of two convex bodies.
 ///
@@ -158,6 +162,7 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
 ///             of numbers.
 /// Source      [van den Bergen 2001], ended by certified bounds; docs/convex.md.
 ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
-                        const Transform& world_from_b, ConvexWorkspace* workspace = nullptr);
+                        const Transform& world_from_b,
+                        const ConvexPenetrationOptions& options = {});
 
 } // namespace abut

@@ -64,12 +64,12 @@ private:
 /// answer is the same, but for which of several closest pairs is found.
 ///
 /// One a pair of solids and a thread. Starts empty; what belongs to other solids does no harm.
-class PiecesWorkspace {
+class PiecesWarmStart {
 public:
-    PiecesWorkspace();
-    ~PiecesWorkspace();
-    PiecesWorkspace(PiecesWorkspace&&) noexcept;
-    PiecesWorkspace& operator=(PiecesWorkspace&&) noexcept;
+    PiecesWarmStart();
+    ~PiecesWarmStart();
+    PiecesWarmStart(PiecesWarmStart&&) noexcept;
+    PiecesWarmStart& operator=(PiecesWarmStart&&) noexcept;
 
     class Data;
     [[nodiscard]] Data& data();
@@ -109,8 +109,8 @@ struct PiecesDistanceOptions {
     /// Stop caring beyond this: if no two points are closer, the result is `bound_only`.
     double upper_bound = std::numeric_limits<double>::infinity();
     /// What the distance may exceed the true one by: a length.
-    double max_error = 0;
-    PiecesWorkspace* workspace = nullptr;
+    double absolute_error = 0;
+    PiecesWarmStart* warm_start = nullptr;
     Progress progress{};
 };
 
@@ -120,7 +120,7 @@ struct PiecesDistanceOptions {
 ///             solids share a point, which is decided exactly.
 /// Errors      Error{bad_argument} if a transform is not finite, or the bound or the error is
 ///             negative or NaN.
-/// Cost        with a workspace and small steps, a few pairs of pieces; else a few pairs of hulls
+/// Cost        with a warm start and small steps, a few pairs of pieces; else a few pairs of hulls
 ///             for each level of the hierarchies, and more where the solids are close to each other
 ///             in many places. Where they are nearer than rounding can tell, or faces are parallel
 ///             but for rounding, also that of `distance` of two models.
@@ -129,15 +129,20 @@ struct PiecesDistanceOptions {
 PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
                    const Transform& world_from_b, const PiecesDistanceOptions& options = {});
 
+struct PiecesWithinOptions {
+    PiecesWarmStart* warm_start = nullptr;
+    Progress progress{};
+};
+
 /// Whether some two points of the solids are at most `tolerance` apart.
 ///
-/// Accuracy    as `distance` without a workspace, whose result it is compared with where it is near
+/// Accuracy    as `distance` without a warm start, whose result it is compared with where it is near
 ///             the tolerance.
 /// Errors      Error{bad_argument} if a transform is not finite or the tolerance is negative or
 ///             NaN.
 bool within(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
-            const Transform& world_from_b, double tolerance, PiecesWorkspace* workspace = nullptr,
-            const Progress& progress = {});
+            const Transform& world_from_b, double tolerance,
+            const PiecesWithinOptions& options = {});
 
 /// A piece of each of two solids.
 struct PiecePair {
@@ -153,7 +158,7 @@ struct PiecesCollideOptions {
     /// Also the triangles that share a point; of a first contact those of the pieces found, which
     /// may be none.
     bool triangles = false;
-    PiecesWorkspace* workspace = nullptr; ///< for a first contact
+    PiecesWarmStart* warm_start = nullptr; ///< for a first contact
     Progress progress{};
 };
 

@@ -179,18 +179,18 @@ Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOption
 
 /// The earliest of them; of several at the same time, the first of the list. Nothing if there is none.
 ///
-/// Accuracy    `time` is never later than the first contact. With a delta or a thickness, some other
+/// Accuracy    `time` is never later than the first contact. With an error allowed or a thickness, some other
 ///             of the list may have an earlier `time`, at which it is only near within the tolerances
 ///             that ElementaryOptions tells.
 /// Errors      Error{bad_argument} for the options.
 /// Cost        less than all impacts: times are searched in growing windows, and only what moves into
 ///             each other within a window is looked at.
-std::optional<FeatureImpact> first_self_impact(const Deformable& surface,
-                                               const ElementaryOptions& options = {},
-                                               const Progress& progress = {});
-std::optional<FeatureImpact> first_impact(const Deformable& a, const Deformable& b,
-                                          const ElementaryOptions& options = {},
-                                          const Progress& progress = {});
+std::optional<FeatureImpact> self_time_of_impact(const Deformable& surface,
+                                                 const ElementaryOptions& options = {},
+                                                 const Progress& progress = {});
+std::optional<FeatureImpact> time_of_impact(const Deformable& a, const Deformable& b,
+                                            const ElementaryOptions& options = {},
+                                            const Progress& progress = {});
 
 /// Whether there is none: stops at the first that is found. Errors as those of `self_impacts` and
 /// `impacts`.
@@ -206,9 +206,9 @@ bool is_free_of_impacts(const Deformable& a, const Deformable& b,
 /// Accuracy    which pairs are listed is exact for the given doubles. Their distances are rounded,
 ///             by less than 1e-12 of the features' size, and not above `distance`.
 /// Errors      Error{bad_argument} if the distance is negative or not finite.
-std::vector<FeaturePair> self_pairs_within(const Deformable& surface, double distance,
-                                           const Progress& progress = {});
-std::vector<FeaturePair> pairs_within(const Deformable& a, const Deformable& b, double distance,
-                                      const Progress& progress = {});
+std::vector<FeaturePair> self_within(const Deformable& surface, double distance,
+                                     const Progress& progress = {});
+std::vector<FeaturePair> within(const Deformable& a, const Deformable& b, double distance,
+                                const Progress& progress = {});
 
 } // namespace abut

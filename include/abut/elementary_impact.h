@@ -32,10 +32,10 @@ struct ElementaryOptions {
     /// Length. 0: exact. Else conservative: a pair that shares a point at some time is reported,
     /// always; one that does not may be reported too if it comes as near as this (with status
     /// `bound_only`). It spares exact arithmetic; it is no thickness.
-    double delta = 0;
+    double absolute_error = 0;
     /// Length. Above 0: a pair is an impact when the features are at most this far apart. None that
     /// comes so near is missed. One that is reported is so near at `time` too, but for
-    /// max(1e-6 thickness, delta, 6e-12 size), where the size is the largest coordinate of a vector
+    /// max(1e-6 thickness, absolute_error, 6e-12 size), where the size is the largest coordinate of a vector
     /// between two of the vertices, at t = 0 or 1.
     double thickness = 0;
 };
@@ -50,9 +50,9 @@ enum class ElementaryStage : std::uint8_t {
 struct ElementaryImpact {
     /// Whether the closed features share a point at some time in [0, 1], or are at most the
     /// thickness apart. Touching counts.
-    bool hit = false;
+    bool meet = false;
     ElementaryStage decided_by = ElementaryStage::filter;
-    /// exact: `hit` is right. bound_only: at `time` the features are at most delta apart, and whether
+    /// exact: `meet` is right. bound_only: at `time` the features are at most the error allowed apart, and whether
     /// they touch was not decided. With a thickness, of a hit: converged, the features are at most
     /// (1 + 1e-6) thickness apart at `time`; bound_only, they may be farther apart, see
     /// ElementaryOptions.
@@ -76,12 +76,12 @@ struct ElementaryImpact {
 ///             motion within one plane, no motion at all. Where the features span no plane at
 ///             the time of impact, the normal is the relative velocity's part across their line,
 ///             reversed; zero where there is none.
-/// Accuracy    `hit`: exact for the coordinates given, whatever their size, unless a delta allows
+/// Accuracy    `meet`: exact for the coordinates given, whatever their size, unless an error allowed says
 ///             otherwise. `time`: as said above. `barycentric` and `normal`: to rounding for
 ///             features in general position; not bounded near degenerate ones. The normal's side is
 ///             that from which the first feature comes if they approach; if they meet without
 ///             approaching (they slide, or do not move), either.
-/// Errors      Error{bad_argument} if a coordinate is not finite, or delta or the thickness is
+/// Errors      Error{bad_argument} if a coordinate is not finite, or the error allowed or the thickness is
 ///             negative or not finite.
 /// Cost        some 30 ns where the filter decides, 250 ns for an impact in general position, 5 to
 ///             25 us where exact arithmetic decides. With a thickness: 300 to 700 ns where the

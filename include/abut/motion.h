@@ -57,7 +57,7 @@ struct ImpactOptions {
     /// millionth of the diagonal of the larger model's bounding box. It decides how close below the
     /// first contact the time is, not whether there is one. Where rounding of the coordinates
     /// leaves more, the status is `converged`.
-    std::optional<double> tolerance{};
+    std::optional<double> absolute_error{};
     /// At most so many steps: in each, a pair of boxes is opened or a pair of triangles is
     /// measured. A search that needs more answers what it has proven, see Impact::out_of_steps.
     /// None given: no limit.
@@ -67,7 +67,7 @@ struct ImpactOptions {
 };
 
 struct Impact {
-    bool hit = false;
+    bool meet = false;
     /// In [0, 1]. Never later than the first contact: up to here the way is free. 0: the models are
     /// in contact at the start. 1 where there is no hit.
     double time = 1;

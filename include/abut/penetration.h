@@ -35,6 +35,8 @@ struct ContactRegion {
 };
 
 struct Depth {
+    /// They share a point, or one lies inside the other. False: all else is zero.
+    bool meet = false;
     /// The models go into each other: surfaces cross, interiors overlap, or one lies inside the
     /// other. False if they only touch.
     bool interpenetrate = false;
@@ -53,7 +55,7 @@ struct Depth {
                                    ///< depth_at_most
     /// The search ended because of PenetrationOptions::max_steps. The depth lies between `depth` and
     /// `depth_at_most`, and `separation`, if it was asked for, separates. If the steps did not suffice
-    /// to find where the models meet, there are no regions and `interpenetrate` is true, to be safe:
+    /// to find where the models meet, there are no regions, and `meet` and `interpenetrate` are true, to be safe:
     /// they may be apart.
     bool out_of_steps = false;
     std::uint64_t steps = 0; ///< see PenetrationOptions::max_steps
@@ -62,7 +64,7 @@ struct Depth {
 
 struct PenetrationOptions {
     /// Relative width that [depth, depth_at_most] should have. Work is limited: look at both.
-    double relative_accuracy = 0.01;
+    double relative_error = 0.01;
     bool separation = true; ///< false: leave `separation` zero, and save its time
     /// At most so many steps: in each, a pair of boxes is opened or a point is measured. A search that
     /// needs more answers what it has proven, see Depth::out_of_steps. None given: no limit.
@@ -78,7 +80,7 @@ struct PenetrationOptions {
 ///             contain nothing.
 /// Accuracy    whether surfaces meet and cross, and what is connected: exact. Depths are reached at
 ///             the witness points, to rounding.
-/// Errors      Error{bad_argument} if a transform is not finite or the accuracy is negative or NaN.
+/// Errors      Error{bad_argument} if a transform is not finite or the error allowed is negative or NaN.
 ///             Error{interrupted} if the stop flag is set.
 /// Cost        what a model is as a solid is examined once, whatever the steps allowed.
 /// Source      depth by branch and bound over the tree; the way out as [Je, Tang, Lee, Lee, Kim

@@ -34,7 +34,7 @@ struct TrianglePair {
 /// of several first contacts or closest pairs is found.
 ///
 /// One a pair of models and a thread. Starts empty; what belongs to other models does no harm.
-struct Workspace {
+struct WarmStart {
     bool used = false;
     TrianglePair last;
 };
@@ -46,8 +46,8 @@ enum class ContactMode : std::uint8_t {
 
 struct CollideOptions {
     ContactMode mode = ContactMode::first;
-    Workspace* workspace = nullptr; ///< for a first contact
-    bool segments = false;          ///< also where each pair meets
+    WarmStart* warm_start = nullptr; ///< for a first contact
+    bool segments = false;           ///< also where each pair meets
     Progress progress{};
 };
 
@@ -60,7 +60,7 @@ struct Contacts {
     Status status = Status::exact;
     Counters counters;
     /// True if the surfaces share at least one point. Touching counts.
-    [[nodiscard]] bool any() const noexcept { return !pairs.empty(); }
+    [[nodiscard]] bool meet() const noexcept { return !pairs.empty(); }
 };
 
 /// The triangle pairs that share a point: surfaces only, a part inside a closed one does not
@@ -107,7 +107,7 @@ struct DistanceOptions {
     /// abut/penetration.h defines it, reached at the points (bound_only: it may be larger). The
     /// errors allowed and the bound are for models apart.
     bool signed_distance = false;
-    Workspace* workspace = nullptr;
+    WarmStart* warm_start = nullptr;
     /// At most so many steps: in each, a pair of boxes is opened, or (for a depth) a point is
     /// measured. A search that needs more answers what it has proven, see Gap::out_of_steps. None
     /// given: no limit.
@@ -126,6 +126,11 @@ struct DistanceOptions {
 Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
              const Transform& world_from_b, const DistanceOptions& options = {});
 
+struct WithinOptions {
+    WarmStart* warm_start = nullptr;
+    Progress progress{};
+};
+
 /// Whether some two points of the surfaces are at most `tolerance` apart. Stops at the first proof:
 /// a pair of triangles or of boxes that lies within it, or the last box that lies beyond.
 ///
@@ -134,7 +139,6 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
 /// Cost        no limit of steps: `distance` with one and the tolerance as its bound has an answer
 ///             for "not decided".
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
-            const Transform& world_from_b, double tolerance, Workspace* workspace = nullptr,
-            const Progress& progress = {});
+            const Transform& world_from_b, double tolerance, const WithinOptions& options = {});
 
 } // namespace abut

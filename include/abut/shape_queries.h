@@ -72,7 +72,7 @@ enum class HitSide : std::uint8_t {
 
 /// Where a ray meets a triangle.
 struct RayHit {
-    bool hit = false;                                   ///< else nothing below is set
+    bool meet = false;                                  ///< else nothing below is set
     double t = std::numeric_limits<double>::infinity(); ///< the ray's parameter
     Vec3 point;                                         ///< on the triangle
     std::uint32_t triangle = 0;

@@ -61,7 +61,7 @@ struct OutOfCoreCounters {
         std::uint64_t bytes_read = 0, peak_bytes = 0;
         double processor_seconds = 0; ///< since it began, of all its threads
         double waiting_seconds = 0;   ///< for pieces of work, with nothing to do
-        double peak_rss_mb = 0;       ///< as peak_resident_mib
+        double peak_rss_mib = 0;      ///< as peak_resident_mib
     };
     std::vector<Worker> workers; ///< by rank
 };

@@ -170,10 +170,10 @@ public:
                          const WalkQuery& query = {});
     /// The same, with how deep they go into each other, and where.
     ///
-    /// Accuracy    as `World::contacts`. Of a part whose mesh is cut into blocks, the block's surface
+    /// Accuracy    as `World::penetration`. Of a part whose mesh is cut into blocks, the block's surface
     ///             counts (bound_only): a depth of 0 for models, boxes and convex bodies.
-    NearParts contacts(const Probe& probe, const Transform& world_from_probe,
-                       const WalkQuery& query = {});
+    NearParts penetration(const Probe& probe, const Transform& world_from_probe,
+                          const WalkQuery& query = {});
 
     /// Brings in a part that is not in the store. The model is the caller's: its memory does not count.
     ///

@@ -156,33 +156,33 @@ public:
     ///
     /// Accuracy    of two models, of two convex bodies, and of a model and a box or a convex body,
     ///             exact; of all others, to rounding.
-    std::vector<BodyPair> touching(const Progress& progress = {});
+    std::vector<BodyPair> collide(const Progress& progress = {});
     /// The same, with how deep they go into each other, and where.
     ///
-    /// Accuracy    whether they meet: as `touching`. How deep: of convex bodies, spheres, capsules and
+    /// Accuracy    whether they meet: as `collide`. How deep: of convex bodies, spheres, capsules and
     ///             boxes, and a model with a sphere: to rounding. Of two models, and a model and a
     ///             box or a convex body: as `penetration` (bound_only). Of a model and a capsule whose axis crosses its surface: at least the
     ///             radius (bound_only).
-    std::vector<BodyGap> contacts(const Progress& progress = {});
+    std::vector<BodyGap> penetration(const Progress& progress = {});
     /// All pairs of bodies that are at most `distance` apart, and how far: exact as `distance`; 0 for
     /// models that meet, negative for other bodies.
     ///
     /// Errors      Error{bad_argument} if the distance is negative or not finite.
-    std::vector<BodyGap> closer_than(double distance, const Progress& progress = {});
+    std::vector<BodyGap> within(double distance, const Progress& progress = {});
 
     /// When bodies that move in this step first meet, each pair once, sorted. Deformables move as their
     /// steps say, while t goes from 0 to 1 as in the motions; other bodies that are not named stay
     /// where they are, and two such bodies are no pair. What meets at t = 0 has that time and no normal.
     ///
     /// Accuracy    no time is later than the first contact, and no contact is missed: as
-    ///             `time_of_impact`. Two deformables: exact, as `first_impact`; `contact_time` is less
+    ///             `time_of_impact`. Two deformables: exact, as `time_of_impact`; `contact_time` is less
     ///             than 1e-9 behind the first contact.
     /// Errors      Error{bad_argument} as `time_of_impact`, naming the body; if an id is not valid, comes
     ///             twice, or is that of a deformable.
     /// Cost        of a deformable and another body, that of its triangles near the other's way; of two
-    ///             deformables, that of `first_impact`, and of making one anew if their schemes differ.
-    std::vector<BodyImpact> impacts(const std::vector<BodyMotion>& motions,
-                                    const ImpactOptions& options = {});
+    ///             deformables, that of `time_of_impact`, and of making one anew if their schemes differ.
+    std::vector<BodyImpact> time_of_impact(const std::vector<BodyMotion>& motions,
+                                           const ImpactOptions& options = {});
 
     /// How a body may move from now on: from where it is, and the time that `advance` has come to; so to
     /// be told before it is moved. At rest if never told. A body that moves otherwise is looked at
@@ -195,7 +195,7 @@ public:
     /// Lets time pass, to the places that the bodies have now, and returns all pairs that share a
     /// point there, sorted. Only pairs that may have met by then are looked at.
     ///
-    /// Accuracy    as `touching`; deformables are left out.
+    /// Accuracy    as `collide`; deformables are left out.
     /// Errors      Error{bad_argument} if the time is negative or not finite. Error{interrupted} if the
     ///             stop flag is set: the time has passed, and `advance(0)` answers what was asked.
     /// Cost        constant for each body, a distance for each pair that is due; from time to time, a

@@ -112,7 +112,7 @@ void Cloth::step(std::span<const Vec3> driven_to) {
 void Cloth::find_near() {
     near_.clear();
     surface_.set_motion(start_, start_);
-    for (const FeaturePair& pair : self_pairs_within(surface_, settings_.thickness)) {
+    for (const FeaturePair& pair : self_within(surface_, settings_.thickness)) {
         const auto contact = contact_of(surface_, pair, start_);
         if (contact)
             near_.push_back(

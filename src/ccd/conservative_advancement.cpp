@@ -34,13 +34,14 @@ struct Moment {
 /// in units of the scaled patch.
 class Advancement {
 public:
-    Advancement(const ElementaryPair& pair, double thickness, double delta)
+    Advancement(const ElementaryPair& pair, double thickness, double absolute_error)
         : pair_(pair), moving_(pair), end_corners_(moving_.end.corners()),
           thickness_(moving_.scaled(thickness)) {
         const double tolerance = kTolerance * thickness_;
         converged_ = (1 - 4 * kUnitRoundoff) * (thickness_ + tolerance);
-        near_ = (1 - 4 * kUnitRoundoff) *
-                (thickness_ + std::max({tolerance, moving_.scaled(delta), kLeastTolerance}));
+        near_ =
+            (1 - 4 * kUnitRoundoff) *
+            (thickness_ + std::max({tolerance, moving_.scaled(absolute_error), kLeastTolerance}));
         // A direction's length exceeds 1 by at most 6 eps. The thickness may have lost digits to
         // underflow.
         clear_ = (1 + 10 * kUnitRoundoff) * thickness_ + 1.25 * kAlongOff;
@@ -139,7 +140,7 @@ private:
     [[nodiscard]] ElementaryImpact hit(const Moment& now) const {
         const NearestOnPatch& p = now.nearest;
         ElementaryImpact impact;
-        impact.hit = true;
+        impact.meet = true;
         impact.decided_by = ElementaryStage::interval;
         impact.status = p.upper <= converged_ ? Status::converged : Status::bound_only;
         impact.time = now.t;
@@ -165,8 +166,8 @@ private:
 } // namespace
 
 ElementaryImpact elementary_impact_advancement(const ElementaryPair& pair, double thickness,
-                                               double delta) {
-    return Advancement(pair, thickness, delta).run();
+                                               double absolute_error) {
+    return Advancement(pair, thickness, absolute_error).run();
 }
 
 } // namespace abut

@@ -7,7 +7,7 @@ namespace abut {
 /// `elementary_impact` of features with a thickness: the first time at which their distance is the
 /// thickness. Time advances in steps; during each, the features are proven to be farther apart.
 ///
-/// In          finite coordinates of any size; thickness above 0; delta as in ElementaryOptions.
+/// In          finite coordinates of any size; thickness above 0; absolute_error as in ElementaryOptions.
 /// Accuracy    certified, as ElementaryOptions::thickness says.
 /// Cost        some 100 ns a step; one or two steps if the pair stays apart, three to six
 ///             otherwise.
@@ -15,6 +15,6 @@ namespace abut {
 ///             that separate the features throughout it, so it may be longer than a bound on speed
 ///             allows. See docs/elementary-tests.md.
 ElementaryImpact elementary_impact_advancement(const ElementaryPair& pair, double thickness,
-                                               double delta);
+                                               double absolute_error);
 
 } // namespace abut

@@ -195,7 +195,7 @@ private:
 ElementaryImpact impact_at(const ElementaryPair& pair, const UnitRoot& time,
                            const PatchPoint& point) {
     ElementaryImpact impact;
-    impact.hit = true;
+    impact.meet = true;
     impact.time = time.lower_bound();
     impact.barycentric = patch_barycentric(pair.kind, point.x, point.y);
     impact.normal = impact_normal(pair, impact.barycentric, point.normal, point.line);

@@ -269,8 +269,8 @@ private:
 
 class Search {
 public:
-    Search(const ElementaryPair& pair, double delta)
-        : pair_(pair), delta_(delta), patch_(pair), coplanarity_(patch_) {}
+    Search(const ElementaryPair& pair, double absolute_error)
+        : pair_(pair), absolute_error_(absolute_error), patch_(pair), coplanarity_(patch_) {}
 
     /// Examines cells from the earliest time on. The first that may hold an impact ends the search.
     std::optional<ElementaryImpact> run() {
@@ -295,7 +295,7 @@ public:
                                   : RootInterval{cell.start, cell.start + cell.length, std::nullopt,
                                                  std::nullopt, false}))
                 return std::nullopt;
-            if (impact_.hit)
+            if (impact_.meet)
                 break;
         }
         impact_.decided_by = ElementaryStage::interval;
@@ -317,7 +317,7 @@ private:
                              interval.end - interval.start < kLongestImpact;
         if (!certain && !is_near(test, barycentric))
             return false;
-        impact_.hit = true;
+        impact_.meet = true;
         impact_.status = certain ? Status::exact : Status::bound_only;
         impact_.time = interval.start;
         impact_.barycentric = barycentric;
@@ -339,12 +339,12 @@ private:
 
     [[nodiscard]] bool is_near(const OriginTest& test, const std::array<double, 3>& b) const {
         const bool face = pair_.kind == ElementaryKind::vertex_face;
-        return delta_ > 0 &&
-               test.distance_at_most(face ? b[1] : b[0], face ? b[2] : b[1]) <= delta_;
+        return absolute_error_ > 0 &&
+               test.distance_at_most(face ? b[1] : b[0], face ? b[2] : b[1]) <= absolute_error_;
     }
 
     const ElementaryPair& pair_;
-    double delta_;
+    double absolute_error_;
     RoundedPatch patch_;
     Coplanarity coplanarity_;
     ElementaryImpact impact_;
@@ -353,8 +353,8 @@ private:
 } // namespace
 
 std::optional<ElementaryImpact> elementary_impact_interval(const ElementaryPair& pair,
-                                                           double delta) {
-    return Search(pair, delta).run();
+                                                           double absolute_error) {
+    return Search(pair, absolute_error).run();
 }
 
 } // namespace abut

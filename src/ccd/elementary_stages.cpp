@@ -12,8 +12,9 @@
 namespace abut {
 
 void require_valid(const ElementaryOptions& options) {
-    if (!(options.delta >= 0 && std::isfinite(options.delta)))
-        throw Error(ErrorCode::bad_argument, "delta must be a finite number of at least 0");
+    if (!(options.absolute_error >= 0 && std::isfinite(options.absolute_error)))
+        throw Error(ErrorCode::bad_argument,
+                    "the error allowed must be a finite number of at least 0");
     if (!(options.thickness >= 0 && std::isfinite(options.thickness)))
         throw Error(ErrorCode::bad_argument, "thickness must be a finite number of at least 0");
 }
@@ -24,7 +25,7 @@ ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBa
     impact.decided_by = ElementaryStage::interval;
     if ((crossings.meet >> lane & 1) == 0)
         return impact;
-    impact.hit = true;
+    impact.meet = true;
     impact.time = crossings.time[lane];
     impact.barycentric = patch_barycentric(pair.kind, crossings.x[lane], crossings.y[lane]);
     impact.normal = impact_normal(
@@ -35,8 +36,8 @@ ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBa
 
 ElementaryImpact decide_singly(const ElementaryPair& pair, const ElementaryOptions& options) {
     if (options.thickness > 0)
-        return elementary_impact_advancement(pair, options.thickness, options.delta);
-    if (const auto impact = elementary_impact_interval(pair, options.delta))
+        return elementary_impact_advancement(pair, options.thickness, options.absolute_error);
+    if (const auto impact = elementary_impact_interval(pair, options.absolute_error))
         return *impact;
     return elementary_impact_exact(pair);
 }

@@ -42,14 +42,14 @@ public:
         classify();
         report_.seconds.narrow = watch.lap();
         report_.seconds.total = total.lap();
-        report_.peak_rss_mb = peak_resident_mib();
+        report_.peak_rss_mib = peak_resident_mib();
         return std::move(report_);
     }
 
 private:
     void summarise() {
         report_.clearance = options_.clearance;
-        report_.touch = options_.touch;
+        report_.touch_tolerance = options_.touch_tolerance;
         if (!models_.empty())
             report_.frame = {models_.front().up, models_.front().file};
         for (const Scene& model : models_) {
@@ -80,10 +80,10 @@ private:
             rules.add({p.model, models_[p.model].file, part(i).id, part(i).name, part(i).type});
         }
         const bool across = models_.size() > 1 && !options_.self;
-        const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
+        const auto filter = [&](std::uint32_t i, std::uint32_t j) {
             return !across || parts_.parts[i].model != parts_.parts[j].model;
         };
-        for (const IndexPair pair : overlapping_boxes(boxes, largest_clearance(options_), wanted)) {
+        for (const IndexPair pair : overlapping_boxes(boxes, largest_clearance(options_), filter)) {
             const std::uint32_t i = pair.a(), j = pair.b();
             const auto terms = rules.terms(i, j);
             if (terms && overlap(boxes[i], boxes[j], terms->clearance))

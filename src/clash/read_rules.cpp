@@ -69,7 +69,7 @@ private:
         rule.a = read_selector(value, "a", where);
         rule.b = read_selector(value, "b", where);
         rule.clearance = read_length(value, "clearance", where);
-        rule.touch = read_length(value, "touch", where);
+        rule.touch_tolerance = read_length(value, "touch", where);
         if (value.contains("ignore"))
             rule.ignore = read_ignore(value["ignore"], where + ".ignore");
         return rule;

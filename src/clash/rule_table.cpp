@@ -76,7 +76,7 @@ bool RuleTable::ignores(const IgnoreRule& rule, std::size_t i, std::size_t k) co
 
 std::optional<PairTerms> RuleTable::terms(std::size_t i, std::size_t k) const {
     if (options_.rules.empty())
-        return PairTerms{options_.clearance, options_.touch, nullptr};
+        return PairTerms{options_.clearance, options_.touch_tolerance, nullptr};
     const Kind &a = *kinds_[parts_[i]], &b = *kinds_[parts_[k]];
     for (std::size_t r = 0; r < options_.rules.size(); ++r) {
         if (!(a.is_a[r] && b.is_b[r]) && !(b.is_a[r] && a.is_b[r]))
@@ -85,7 +85,7 @@ std::optional<PairTerms> RuleTable::terms(std::size_t i, std::size_t k) const {
         if (ignores(rule.ignore, i, k))
             return std::nullopt;
         return PairTerms{rule.clearance.value_or(options_.clearance),
-                         rule.touch.value_or(options_.touch), &rule};
+                         rule.touch_tolerance.value_or(options_.touch_tolerance), &rule};
     }
     return std::nullopt;
 }

@@ -3,6 +3,7 @@
 
 #include "convex/body/convex_data.h"
 #include "convex/mesh_convexity.h"
+#include "core/arguments.h"
 #include "mesh/topology.h"
 
 namespace abut {
@@ -35,8 +36,7 @@ std::vector<Vec3> used_positions(const Mesh& mesh, std::vector<std::uint32_t>& s
 Convex::Convex(std::span<const Vec3> points) : data_(make_data(points)) {}
 
 Convex::Convex(const Mesh& mesh, const ConvexOptions& options) {
-    if (!(options.relative_dent >= 0))
-        throw Error(ErrorCode::bad_argument, "the relative dent must not be negative");
+    require_not_negative(options.relative_dent, "relative dent");
     require_valid(mesh);
     std::vector<std::uint32_t> source;
     const std::vector<Vec3> positions = used_positions(mesh, source);

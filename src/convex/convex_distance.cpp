@@ -5,6 +5,7 @@
 #include "convex/convex_query.h"
 #include "convex/proof/certain_gap.h"
 #include "convex/search/closest_points.h"
+#include "core/arguments.h"
 #include "math/transform.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ bool balls_meet(const PlacedBodies& bodies, const PolytopePair& pair, const Vec3
     return true;
 }
 
-/// Without a workspace: first the hulls that are small enough to walk on from anywhere. Where these
+/// Without a warm start: first the hulls that are small enough to walk on from anywhere. Where these
 /// are closest, the tables of normals of the others begin. Whether `search.at` holds features of the
 /// others, or its simplex is one of theirs.
 bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& search) {
@@ -110,13 +111,13 @@ void name(const ConvexData& body, const HullFeature& f, Feature& kind, std::uint
     }
 }
 
-void remember(const ClosestPointSearch& search, ConvexWorkspace& workspace) {
+void remember(const ClosestPointSearch& search, ConvexWarmStart& warm_start) {
     if (search.at.end == WalkEnd::meeting && search.simplex) {
-        remember(*search.simplex, workspace);
+        remember(*search.simplex, warm_start);
         return;
     }
-    auto& pairs = workspace.pairs;
-    workspace.kind = ConvexWorkspace::Kind::features;
+    auto& pairs = warm_start.pairs;
+    warm_start.kind = ConvexWarmStart::Kind::features;
     const HullFeature &a = search.at.a, &b = search.at.b;
     pairs[0] = {a.vertex, b.vertex};
     pairs[1] = {a.edge, b.edge};
@@ -139,7 +140,7 @@ constexpr std::uint32_t kSmallStep = 4;
 
 /// Goes on from where the last query ended, or begins anew where that leads nowhere soon. Returns as
 /// `descend`.
-bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWorkspace& last,
+bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& last,
            ClosestPointSearch& search) {
     const PolytopePair pair = bodies.at(bodies.level_a, bodies.level_b);
     if (has_simplex(last)) {
@@ -195,17 +196,16 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
     PlacedBodies bodies{a.data(), b.data(), world_from_a, world_from_b,
                         roundings_of(a.data(), world_from_a, b.data(), world_from_b)};
     const auto [rounding, all_rounding] = bodies.roundings;
-    if (!(options.max_error >= 0))
-        throw Error(ErrorCode::bad_argument, "the error allowed must not be negative");
-    if (options.max_error > 0) {
-        bodies.level_a = coarsest_within(bodies.a, world_from_a, options.max_error / 2);
-        bodies.level_b = coarsest_within(bodies.b, world_from_b, options.max_error / 2);
+    require_not_negative(options.absolute_error, "absolute error");
+    if (options.absolute_error > 0) {
+        bodies.level_a = coarsest_within(bodies.a, world_from_a, options.absolute_error / 2);
+        bodies.level_b = coarsest_within(bodies.b, world_from_b, options.absolute_error / 2);
     }
-    ConvexWorkspace* const workspace = options.workspace;
+    ConvexWarmStart* const warm_start = options.warm_start;
     ClosestPointSearch search;
     bool worth_keeping = true;
-    if (workspace != nullptr && workspace->kind != ConvexWorkspace::Kind::empty)
-        worth_keeping = go_on(bodies, rounding, *workspace, search);
+    if (warm_start != nullptr && warm_start->kind != ConvexWarmStart::Kind::empty)
+        worth_keeping = go_on(bodies, rounding, *warm_start, search);
     else
         worth_keeping = descend(bodies, rounding, search);
     // What rounding of the search and of coordinates, and points that the polytopes do without, may
@@ -222,10 +222,10 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
         if (is_decided)
             bodies.level_a = bodies.level_b = 0, worth_keeping = true;
     }
-    if (workspace != nullptr && worth_keeping)
-        remember(search, *workspace);
-    else if (workspace != nullptr)
-        workspace->kind = ConvexWorkspace::Kind::empty;
+    if (warm_start != nullptr && worth_keeping)
+        remember(search, *warm_start);
+    else if (warm_start != nullptr)
+        warm_start->kind = ConvexWarmStart::Kind::empty;
 
     ConvexGap gap;
     const WalkState& at = search.at;

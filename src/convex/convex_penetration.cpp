@@ -43,12 +43,12 @@ bool surely_apart(const Bodies& bodies, const ClosestPointSearch& search) {
 }
 
 /// From a simplex that holds the origin; none if there surely is none.
-std::optional<NearestBoundary> begin(const Bodies& bodies, ConvexWorkspace* workspace,
+std::optional<NearestBoundary> begin(const Bodies& bodies, ConvexWarmStart* warm_start,
                                      ConvexCounters& counters) {
     const PolytopePair& pair = bodies.pair;
     ClosestPointSearch search;
-    search.simplex = workspace != nullptr && has_simplex(*workspace)
-                         ? recalled_simplex(pair, *workspace)
+    search.simplex = warm_start != nullptr && has_simplex(*warm_start)
+                         ? recalled_simplex(pair, *warm_start)
                          : simplex_around(pair, between_middles(bodies.a, bodies.b, pair));
     find_closest_points_from_simplex(pair, bodies.rounding, search);
     if (search.at.end != WalkEnd::meeting || !search.simplex) {
@@ -61,10 +61,10 @@ std::optional<NearestBoundary> begin(const Bodies& bodies, ConvexWorkspace* work
     counters.simplices = search.simplices;
     if (!search.simplex)
         return NearestBoundary{};
-    if (workspace != nullptr)
-        remember(*search.simplex, *workspace);
+    if (warm_start != nullptr)
+        remember(*search.simplex, *warm_start);
     return expand_simplex(pair, bodies.rounding, *search.simplex,
-                          workspace != nullptr ? &workspace->deepest : nullptr);
+                          warm_start != nullptr ? &warm_start->deepest : nullptr);
 }
 
 /// Whether both bounds of a search are proven, if need be the upper one by a look at all vertices,
@@ -82,10 +82,10 @@ bool is_proven(const Bodies& bodies, const NearestBoundary& nearest) {
 
 /// By integers.
 std::optional<NearestBoundary> decide_depth(const Bodies& bodies, const NearestBoundary& nearest,
-                                            ConvexWorkspace* workspace, Vec3& point_a,
+                                            ConvexWarmStart* warm_start, Vec3& point_a,
                                             Vec3& point_b) {
-    if (workspace != nullptr)
-        workspace->deepest.corners.clear(), workspace->deepest.faces.clear();
+    if (warm_start != nullptr)
+        warm_start->deepest.corners.clear(), warm_start->deepest.faces.clear();
     const PlacedPoints points = bodies.placed.points();
     require_finite(points);
     const IntegerGrid grid(points);
@@ -106,12 +106,12 @@ std::optional<NearestBoundary> decide_depth(const Bodies& bodies, const NearestB
 
 /// What is not proven yet.
 [[gnu::noinline, gnu::cold]] void settle_depth(const Bodies& bodies, NearestBoundary nearest,
-                                               ConvexWorkspace* workspace, ConvexDepth& result) {
+                                               ConvexWarmStart* warm_start, ConvexDepth& result) {
     const ConvexCounters counters = result.counters;
     result = {};
     result.counters = counters;
     const std::optional<NearestBoundary> decided =
-        decide_depth(bodies, nearest, workspace, result.point_a, result.point_b);
+        decide_depth(bodies, nearest, warm_start, result.point_a, result.point_b);
     if (!decided) {
         result.point_a = result.point_b = {};
         return;
@@ -125,7 +125,8 @@ std::optional<NearestBoundary> decide_depth(const Bodies& bodies, const NearestB
 } // namespace
 
 ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Convex& b,
-                        const Transform& world_from_b, ConvexWorkspace* workspace) {
+                        const Transform& world_from_b, const ConvexPenetrationOptions& options) {
+    ConvexWarmStart* const warm_start = options.warm_start;
     const double rounding = rounding_of(a.data(), world_from_a, b.data(), world_from_b);
     const PlacedConvexPair placed{a.data(), b.data(), world_from_a, world_from_b};
     const Bodies bodies{a.data(), b.data(), placed, placed.pair(), rounding};
@@ -133,10 +134,10 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     ConvexDepth result;
     // From what proved the last depth, if it still holds the origin.
     std::optional<NearestBoundary> nearest;
-    if (workspace != nullptr && !workspace->deepest.faces.empty())
-        nearest = expand_again(pair, rounding, workspace->deepest);
+    if (warm_start != nullptr && !warm_start->deepest.faces.empty())
+        nearest = expand_again(pair, rounding, warm_start->deepest);
     if (!nearest)
-        nearest = begin(bodies, workspace, result.counters);
+        nearest = begin(bodies, warm_start, result.counters);
     if (!nearest)
         return result;
     result.meet = true;
@@ -153,7 +154,7 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     result.point_a = origin + result.point_a;
     result.point_b = origin + result.point_b;
     if (!is_proven(bodies, *nearest))
-        settle_depth(bodies, *nearest, workspace, result);
+        settle_depth(bodies, *nearest, warm_start, result);
     return result;
 }
 

@@ -11,17 +11,17 @@ VertexPair facing_vertices(const PolytopePair& pair, const Vec3& direction) {
             pair.b.polytope->starts.vertex(pair.b.pulled_back(-direction))};
 }
 
-DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWorkspace& workspace) {
+DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWarmStart& warm_start) {
     DifferenceSimplex simplex;
-    for (const VertexPair& last : workspace.pairs)
+    for (const VertexPair& last : warm_start.pairs)
         add_if_new(recalled(pair, last), simplex);
     return simplex;
 }
 
-void remember(const DifferenceSimplex& simplex, ConvexWorkspace& workspace) {
-    workspace.kind = ConvexWorkspace::Kind::simplex;
+void remember(const DifferenceSimplex& simplex, ConvexWarmStart& warm_start) {
+    warm_start.kind = ConvexWarmStart::Kind::simplex;
     for (std::size_t i = 0; i < 4; ++i)
-        workspace.pairs[i] = simplex.corners[i < simplex.count ? i : 0];
+        warm_start.pairs[i] = simplex.corners[i < simplex.count ? i : 0];
 }
 
 } // namespace abut

@@ -57,14 +57,14 @@ inline VertexPair recalled(const PolytopePair& pair, const VertexPair& last) {
             last.b < pair.b.polytope->vertices.size() ? last.b : 0};
 }
 
-inline bool has_simplex(const ConvexWorkspace& workspace) {
-    return workspace.kind == ConvexWorkspace::Kind::simplex;
+inline bool has_simplex(const ConvexWarmStart& warm_start) {
+    return warm_start.kind == ConvexWarmStart::Kind::simplex;
 }
 
 /// The simplex that is remembered, as far as the polytopes have it.
-DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWorkspace& workspace);
+DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWarmStart& warm_start);
 
 /// A simplex that holds the origin.
-void remember(const DifferenceSimplex& simplex, ConvexWorkspace& workspace);
+void remember(const DifferenceSimplex& simplex, ConvexWarmStart& warm_start);
 
 } // namespace abut

@@ -97,14 +97,14 @@ bool is_free(const DeformableData& a, const DeformableData& b, const ElementaryO
 
 } // namespace
 
-std::optional<FeatureImpact> first_self_impact(const Deformable& surface,
-                                               const ElementaryOptions& options,
-                                               const Progress& progress) {
+std::optional<FeatureImpact> self_time_of_impact(const Deformable& surface,
+                                                 const ElementaryOptions& options,
+                                                 const Progress& progress) {
     return find_first(surface.data(), surface.data(), options, progress);
 }
-std::optional<FeatureImpact> first_impact(const Deformable& a, const Deformable& b,
-                                          const ElementaryOptions& options,
-                                          const Progress& progress) {
+std::optional<FeatureImpact> time_of_impact(const Deformable& a, const Deformable& b,
+                                            const ElementaryOptions& options,
+                                            const Progress& progress) {
     return find_first(a.data(), b.data(), options, progress);
 }
 

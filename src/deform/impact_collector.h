@@ -35,7 +35,7 @@ public:
     void take(FeatureIds ids, const ElementaryImpact& impact) {
         ++tests_;
         exact_fallbacks_ += impact.decided_by == ElementaryStage::exact ? 1 : 0;
-        if (impact.hit)
+        if (impact.meet)
             keeper_.keep({kind, impact.status, face_first_, ids.a, ids.b, impact.time,
                           impact.barycentric, impact.normal});
     }

@@ -76,12 +76,12 @@ std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData
 
 } // namespace
 
-std::vector<FeaturePair> self_pairs_within(const Deformable& surface, double distance,
-                                           const Progress& progress) {
+std::vector<FeaturePair> self_within(const Deformable& surface, double distance,
+                                     const Progress& progress) {
     return find_near(surface.data(), surface.data(), distance, progress);
 }
-std::vector<FeaturePair> pairs_within(const Deformable& a, const Deformable& b, double distance,
-                                      const Progress& progress) {
+std::vector<FeaturePair> within(const Deformable& a, const Deformable& b, double distance,
+                                const Progress& progress) {
     return find_near(a.data(), b.data(), distance, progress);
 }
 

@@ -78,7 +78,7 @@ StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
     report.report.seconds.broad = broad;
     report.report.seconds.narrow = narrow;
     report.report.seconds.total = total.lap();
-    report.report.peak_rss_mb = std::max(report.report.peak_rss_mb, peak_resident_mib());
+    report.report.peak_rss_mib = std::max(report.report.peak_rss_mib, peak_resident_mib());
     return report;
 }
 

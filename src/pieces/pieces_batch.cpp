@@ -28,9 +28,9 @@ std::vector<PiecesGap> distance(const ConvexPieces& a, const ConvexPieces& b,
 
 std::vector<bool> within(const ConvexPieces& a, const ConvexPieces& b,
                          std::span<const Placement> placements, double tolerance,
-                         const Progress& progress) {
-    const auto answers =
-        in_parallel<std::uint8_t>(progress, "placements", placements.size(), [&](std::size_t i) {
+                         const PiecesWithinOptions& options) {
+    const auto answers = in_parallel<std::uint8_t>(
+        options.progress, "placements", placements.size(), [&](std::size_t i) {
             const auto& [world_from_a, world_from_b] = placements[i];
             return static_cast<std::uint8_t>(within(a, world_from_a, b, world_from_b, tolerance));
         });

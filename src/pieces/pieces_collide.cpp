@@ -80,7 +80,7 @@ void find_all(const PlacedPieces& placed, bool triangles, PiecesContacts& contac
         Contacts surfaces =
             collide(placed.a.model, placed.world_from_a, placed.b.model, placed.world_from_b,
                     {.mode = triangles ? ContactMode::all : ContactMode::first});
-        surfaces_meet = surfaces.any();
+        surfaces_meet = surfaces.meet();
         for (const TrianglePair& t : surfaces.pairs)
             contacts.pairs.push_back({placed.a.piece_of[t.a], placed.b.piece_of[t.b]});
         if (triangles)
@@ -93,8 +93,8 @@ void find_all(const PlacedPieces& placed, bool triangles, PiecesContacts& contac
     contacts.contained = contacts.pairs.empty() && contained_point(placed).has_value();
 }
 
-void find_first(const PlacedPieces& placed, PiecesWorkspace* workspace, PiecesContacts& contacts) {
-    PiecesQuery query(placed, workspace, contacts.counters);
+void find_first(const PlacedPieces& placed, PiecesWarmStart* warm_start, PiecesContacts& contacts) {
+    PiecesQuery query(placed, warm_start, contacts.counters);
     query.search().set_bound(0);
     query.search().stop_at_first();
     const bool found = query.run();
@@ -122,7 +122,7 @@ PiecesContacts collide(const ConvexPieces& a, const Transform& world_from_a, con
     if (options.mode == ContactMode::all) {
         find_all(placed, options.triangles, contacts);
     } else {
-        find_first(placed, options.workspace, contacts);
+        find_first(placed, options.warm_start, contacts);
         if (options.triangles)
             add_triangles(placed, contacts);
     }

@@ -2,6 +2,7 @@
 #include <abut/error.h>
 #include <abut/shape_queries.h>
 
+#include "core/arguments.h"
 #include "core/stop.h"
 #include "geometry/point_triangle_distance.h"
 #include "pieces/pieces_query.h"
@@ -15,11 +16,6 @@
 namespace abut {
 
 namespace {
-
-void require_not_negative(double value, const char* what) {
-    if (!(value >= 0))
-        throw Error(ErrorCode::bad_argument, std::string(what) + " must not be negative");
-}
 
 /// A triangle of the surface and what of it holds a closest point.
 struct SurfaceFeature {
@@ -222,13 +218,13 @@ void report_surfaces(const PlacedPieces& placed, PiecesQuery& query, double uppe
 PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
                    const Transform& world_from_b, const PiecesDistanceOptions& options) {
     require_not_negative(options.upper_bound, "distance bound");
-    require_not_negative(options.max_error, "distance error");
+    require_not_negative(options.absolute_error, "absolute error");
     const StopScope stopping(options.progress);
     PiecesGap gap;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
-    PiecesQuery query(placed, options.workspace, gap.counters);
+    PiecesQuery query(placed, options.warm_start, gap.counters);
     query.search().set_bound(options.upper_bound);
-    query.search().set_slack(options.max_error);
+    query.search().set_slack(options.absolute_error);
     const bool found = query.run();
     const ClosestPieces& best = query.search().best();
     if (!query.search().is_decided()) {
@@ -250,21 +246,20 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
     }
     report(placed, query, gap);
     gap.at_least = std::min(query.search().at_least(), gap.distance);
-    if (options.max_error > 0 && gap.at_least < gap.distance)
+    if (options.absolute_error > 0 && gap.at_least < gap.distance)
         gap.status = Status::converged;
     return gap;
 }
 
 bool within(const ConvexPieces& a, const Transform& world_from_a, const ConvexPieces& b,
-            const Transform& world_from_b, double tolerance, PiecesWorkspace* workspace,
-            const Progress& progress) {
+            const Transform& world_from_b, double tolerance, const PiecesWithinOptions& options) {
     require_not_negative(tolerance, "tolerance");
-    const StopScope stopping(progress);
+    const StopScope stopping(options.progress);
     PiecesCounters counters;
     const PlacedPieces placed(a.data(), world_from_a, b.data(), world_from_b);
     if (std::isinf(tolerance))
         return true;
-    PiecesQuery query(placed, workspace, counters);
+    PiecesQuery query(placed, options.warm_start, counters);
     query.search().set_bound(tolerance);
     query.search().stop_at_first();
     const bool found = query.run();

@@ -154,7 +154,7 @@ PiecesDepth penetration(const ConvexPieces& a, const Transform& world_from_a, co
     deepest.find();
     if (!deepest.proven()) {
         const bool touch =
-            deepest.near() && collide(a.model(), world_from_a, b.model(), world_from_b).any();
+            deepest.near() && collide(a.model(), world_from_a, b.model(), world_from_b).meet();
         if (!touch) {
             PiecesDepth apart;
             apart.counters = result.counters;

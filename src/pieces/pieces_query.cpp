@@ -15,11 +15,11 @@ BodyBall ball_of(const ConvexPiecesData& data) {
 
 } // namespace
 
-PiecesQuery::PiecesQuery(const PlacedPieces& placed, PiecesWorkspace* workspace,
+PiecesQuery::PiecesQuery(const PlacedPieces& placed, PiecesWarmStart* warm_start,
                          PiecesCounters& counters)
     : placed_(placed), search_(placed, counters) {
-    if (workspace != nullptr) {
-        last_ = &workspace->data();
+    if (warm_start != nullptr) {
+        last_ = &warm_start->data();
         recall();
     }
 }
@@ -73,7 +73,7 @@ std::optional<Vec3> PiecesQuery::contained_point(double apart) {
 
 Gap PiecesQuery::surface_gap(double bound) const {
     DistanceOptions options;
-    options.workspace = last_ != nullptr ? &last_->surfaces : nullptr;
+    options.warm_start = last_ != nullptr ? &last_->surfaces : nullptr;
     options.upper_bound = bound;
     return distance(placed_.a.model, placed_.world_from_a, placed_.b.model, placed_.world_from_b,
                     options);
@@ -82,16 +82,16 @@ Gap PiecesQuery::surface_gap(double bound) const {
 std::optional<TrianglePair> PiecesQuery::touching_triangles() const {
     const Contacts contacts =
         collide(placed_.a.model, placed_.world_from_a, placed_.b.model, placed_.world_from_b,
-                {.workspace = last_ != nullptr ? &last_->surfaces : nullptr});
-    return contacts.any() ? std::optional(contacts.pairs[0]) : std::nullopt;
+                {.warm_start = last_ != nullptr ? &last_->surfaces : nullptr});
+    return contacts.meet() ? std::optional(contacts.pairs[0]) : std::nullopt;
 }
 
-PiecesWorkspace::PiecesWorkspace() = default;
-PiecesWorkspace::~PiecesWorkspace() = default;
-PiecesWorkspace::PiecesWorkspace(PiecesWorkspace&&) noexcept = default;
-PiecesWorkspace& PiecesWorkspace::operator=(PiecesWorkspace&&) noexcept = default;
+PiecesWarmStart::PiecesWarmStart() = default;
+PiecesWarmStart::~PiecesWarmStart() = default;
+PiecesWarmStart::PiecesWarmStart(PiecesWarmStart&&) noexcept = default;
+PiecesWarmStart& PiecesWarmStart::operator=(PiecesWarmStart&&) noexcept = default;
 
-PiecesWorkspace::Data& PiecesWorkspace::data() {
+PiecesWarmStart::Data& PiecesWarmStart::data() {
     if (!data_)
         data_ = std::make_unique<Data>();
     return *data_;

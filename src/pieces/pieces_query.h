@@ -9,7 +9,7 @@
 namespace abut {
 
 /// What is remembered of two solids from one pose to the next.
-class PiecesWorkspace::Data {
+class PiecesWarmStart::Data {
 public:
     std::uint64_t id_a = 0, id_b = 0;
     PosePair poses; ///< of the last query
@@ -24,14 +24,14 @@ public:
     /// other, less the approach since: while it is positive, that has not changed.
     double undisturbed = 0;
     std::optional<bool> contained;
-    Workspace surfaces; ///< where the triangles were asked
+    WarmStart surfaces; ///< where the triangles were asked
 };
 
 /// One query of two solids: what is remembered, the search, whether one is inside of the other, and
 /// the triangles, which decide where rounding hides what the hulls do.
 class PiecesQuery {
 public:
-    PiecesQuery(const PlacedPieces& placed, PiecesWorkspace* workspace, PiecesCounters& counters);
+    PiecesQuery(const PlacedPieces& placed, PiecesWarmStart* warm_start, PiecesCounters& counters);
 
     [[nodiscard]] PiecePairSearch& search() { return search_; }
     /// Finds the closest pieces, or what else `search` was told to. Returns whether it found any.
@@ -61,7 +61,7 @@ private:
     void recall();
 
     const PlacedPieces& placed_;
-    PiecesWorkspace::Data* last_ = nullptr;
+    PiecesWarmStart::Data* last_ = nullptr;
     PiecePairSearch search_;
 };
 

@@ -24,10 +24,10 @@ std::vector<Gap> distance(const Model& a, const Model& b, std::span<const Placem
 }
 
 std::vector<bool> within(const Model& a, const Model& b, std::span<const Placement> placements,
-                         double tolerance, const Progress& progress) {
+                         double tolerance, const WithinOptions& options) {
     // Bits of a vector<bool> share bytes: threads write to bytes of their own first.
-    const auto answers =
-        in_parallel<std::uint8_t>(progress, "placements", placements.size(), [&](std::size_t i) {
+    const auto answers = in_parallel<std::uint8_t>(
+        options.progress, "placements", placements.size(), [&](std::size_t i) {
             const auto& [world_from_a, world_from_b] = placements[i];
             return static_cast<std::uint8_t>(within(a, world_from_a, b, world_from_b, tolerance));
         });

@@ -71,15 +71,15 @@ Contacts collide(const Model& a, const Transform& world_from_a, const Model& b,
     if (far_apart(a.data(), world_from_a, b.data(), world_from_b, 0))
         return result;
     const PlacedPair pair(a, world_from_a, b, world_from_b);
-    Workspace* const workspace = options.mode == ContactMode::first ? options.workspace : nullptr;
-    if (workspace != nullptr && workspace->used && still_meet(pair, workspace->last)) {
-        result.pairs.push_back(workspace->last);
+    WarmStart* const warm_start = options.mode == ContactMode::first ? options.warm_start : nullptr;
+    if (warm_start != nullptr && warm_start->used && still_meet(pair, warm_start->last)) {
+        result.pairs.push_back(warm_start->last);
     } else {
         for (const Contact& c : find_contacts(pair, options.mode, result.counters))
             result.pairs.push_back(c.pair);
         std::sort(result.pairs.begin(), result.pairs.end());
-        if (workspace != nullptr && result.any())
-            *workspace = {true, result.pairs[0]};
+        if (warm_start != nullptr && result.meet())
+            *warm_start = {true, result.pairs[0]};
     }
     SearchSteps steps;
     if (options.segments)

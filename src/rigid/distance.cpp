@@ -1,6 +1,7 @@
 #include <abut/error.h>
 #include <abut/rigid.h>
 
+#include "core/arguments.h"
 #include "geometry/leaf/triangle_pair_batch.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
@@ -165,11 +166,6 @@ private:
     std::size_t collected_ = 0;
 };
 
-void require_not_negative(double bound, const char* what) {
-    if (!(bound >= 0))
-        throw Error(ErrorCode::bad_argument, std::string(what) + " must not be negative");
-}
-
 Gap gap_beyond(double bound, double at_least) {
     Gap gap;
     gap.distance = bound;
@@ -184,11 +180,11 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     const std::uint64_t exact_before = exact_signs();
     const Slack slack{options.absolute_error, options.relative_error};
     NearestPairFinder finder(pair, options.upper_bound * options.upper_bound, false, slack);
-    Workspace* const workspace = options.workspace;
+    WarmStart* const warm_start = options.warm_start;
     Counters counters;
     SearchSteps steps;
     double left_sq = std::numeric_limits<double>::infinity();
-    if (workspace == nullptr || !workspace->used || !finder.begin_with(workspace->last)) {
+    if (warm_start == nullptr || !warm_start->used || !finder.begin_with(warm_start->last)) {
         PairTraversal traversal = pair.traversal(finder.bound_sq());
         if (options.max_steps)
             traversal.steps = SearchSteps(*options.max_steps);
@@ -210,8 +206,8 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
         gap.at_least = rounded_down(slack.least_of_interest(least), reach);
         if (slack.any() && gap.distance > 0)
             gap.status = Status::converged;
-        if (workspace != nullptr)
-            *workspace = {true, {gap.triangle_a, gap.triangle_b}};
+        if (warm_start != nullptr)
+            *warm_start = {true, {gap.triangle_a, gap.triangle_b}};
     }
     gap.steps = steps.count();
     if (steps.ran_out()) {
@@ -252,24 +248,24 @@ Gap distance(const Model& a, const Transform& world_from_a, const Model& b,
 }
 
 bool within(const Model& a, const Transform& world_from_a, const Model& b,
-            const Transform& world_from_b, double tolerance, Workspace* workspace,
-            const Progress& progress) {
+            const Transform& world_from_b, double tolerance, const WithinOptions& options) {
+    WarmStart* const warm_start = options.warm_start;
     require_not_negative(tolerance, "tolerance");
-    const StopScope stopping(progress);
+    const StopScope stopping(options.progress);
     if (tolerance == 0) // whether they meet is exact, a distance is not
-        return collide(a, world_from_a, b, world_from_b, {.workspace = workspace}).any();
+        return collide(a, world_from_a, b, world_from_b, {.warm_start = warm_start}).meet();
     if (far_apart(a.data(), world_from_a, b.data(), world_from_b, tolerance))
         return false;
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     NearestPairFinder finder(pair, tolerance * tolerance, true);
-    if (workspace != nullptr && workspace->used && finder.begin_with(workspace->last))
+    if (warm_start != nullptr && warm_start->used && finder.begin_with(warm_start->last))
         return true;
     PairTraversal traversal = pair.traversal(tolerance * tolerance);
     if (pair.visit_within(traversal, finder) == Verdict::accepted)
         return true;
     finder.finish();
-    if (workspace != nullptr && finder.found())
-        *workspace = {true, finder.indices()};
+    if (warm_start != nullptr && finder.found())
+        *warm_start = {true, finder.indices()};
     return finder.found();
 }
 

@@ -68,11 +68,11 @@ std::vector<Result> in_parallel(const Progress& progress, std::string_view stage
     return results;
 }
 
-/// Options of one query of many. A workspace is one thread's; what is reported is the share of all.
+/// Options of one query of many. A warm start is one thread's; what is reported is the share of all.
 template <typename Options>
 Options of_each(Options options) {
-    if constexpr (requires { options.workspace; })
-        options.workspace = nullptr;
+    if constexpr (requires { options.warm_start; })
+        options.warm_start = nullptr;
     options.progress = {};
     return options;
 }

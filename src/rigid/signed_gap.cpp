@@ -65,14 +65,13 @@ Gap undecided(const PlacedSolid& a, const PlacedSolid& b, const std::vector<Cont
 } // namespace
 
 Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
-               const Transform& world_from_b, const DistanceOptions& apart,
-               double relative_accuracy) {
+               const Transform& world_from_b, const DistanceOptions& apart, double relative_error) {
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
         // Flattened: the pair made copies in world coordinates. What is flat contains nothing, but
         // the other may be a solid.
         return signed_gap(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, apart,
-                          relative_accuracy);
+                          relative_error);
 
     Counters counters;
     SearchSteps steps(apart.max_steps.value_or(std::numeric_limits<std::uint64_t>::max()));
@@ -98,7 +97,7 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
     LocalPenetration p;
     if (contained || examine_meeting(placed_a, placed_b, contacts).interpenetrate) {
         DepthSearch search;
-        search.relative_accuracy = relative_accuracy;
+        search.relative_error = relative_error;
         search.steps = &steps;
         p = contained ? local_penetration(placed_a, placed_b, contacts, search)
                       : penetration_depth(placed_a, placed_b, contacts, search);

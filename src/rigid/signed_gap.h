@@ -22,6 +22,6 @@ namespace abut {
 ///             else that of local_penetration.
 Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
                const Transform& world_from_b, const DistanceOptions& apart = {},
-               double relative_accuracy = 0.01);
+               double relative_error = 0.01);
 
 } // namespace abut

@@ -82,8 +82,8 @@ private:
 
 BodyGap measure(const NearEntry& entry, const PlacedProbe& probe, double upper_bound,
                 Depths depths) {
-    PairWorkspace workspace;
-    return gap_between(entry.body(), probe.body(), upper_bound, depths, workspace);
+    PairWarmStart warm_start;
+    return gap_between(entry.body(), probe.body(), upper_bound, depths, warm_start);
 }
 
 WalkGap gap_to(const NearEntry& entry, const PlacedProbe& probe, Depths depths) {
@@ -115,8 +115,8 @@ std::optional<WalkGap> gap_up_to(const NearEntry& entry, const PlacedProbe& prob
 }
 
 bool touches(const NearEntry& entry, const PlacedProbe& probe) {
-    PairWorkspace workspace;
-    return touch(entry.body(), probe.body(), workspace);
+    PairWarmStart warm_start;
+    return touch(entry.body(), probe.body(), warm_start);
 }
 
 /// Keeps only the nearest entry of each part. Sorts by part.
@@ -204,8 +204,8 @@ TouchedParts Walk::collide(const Probe& probe, const Transform& world_from_probe
     return answer;
 }
 
-NearParts Walk::contacts(const Probe& probe, const Transform& world_from_probe,
-                         const WalkQuery& query) {
+NearParts Walk::penetration(const Probe& probe, const Transform& world_from_probe,
+                            const WalkQuery& query) {
     const PlacedProbe placed(probe, world_from_probe);
     NearParts answer;
     Reach(*data_, placed, query, Depths::yes, answer).visit(0, [&](const NearEntry& entry) {

@@ -158,29 +158,29 @@ std::vector<BodyPair> World::ended() const {
     return with_ids(*data_, data_->broad_phase().ended());
 }
 
-std::vector<BodyPair> World::touching(const Progress& progress) {
+std::vector<BodyPair> World::collide(const Progress& progress) {
     data_->update_if_changed();
     return results_of<BodyPair>(
         progress, "touching", data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k) -> std::optional<BodyPair> {
-            if (!touch(data_->placed(pair.a()), data_->placed(pair.b()), data_->workspaces()[k]))
+            if (!touch(data_->placed(pair.a()), data_->placed(pair.b()), data_->warm_starts()[k]))
                 return std::nullopt;
             return data_->ids_of(pair);
         });
 }
 
-std::vector<BodyGap> World::contacts(const Progress& progress) {
+std::vector<BodyGap> World::penetration(const Progress& progress) {
     data_->update_if_changed();
     return results_of<BodyGap>(
         progress, "contacts", data_->broad_phase().pairs(),
         [&](IndexPair pair, std::size_t k) -> std::optional<BodyGap> {
             const PlacedBody a = data_->placed(pair.a()), b = data_->placed(pair.b());
-            PairWorkspace& workspace = data_->workspaces()[k];
+            PairWarmStart& warm_start = data_->warm_starts()[k];
             // For two convex bodies, the gap alone tells whether they touch.
             const bool both_convex = is_convex(a.shape) && is_convex(b.shape);
-            if (!both_convex && !touch(a, b, workspace))
+            if (!both_convex && !touch(a, b, warm_start))
                 return std::nullopt;
-            BodyGap gap = gap_between(a, b, both_convex ? 0 : HUGE_VAL, Depths::yes, workspace);
+            BodyGap gap = gap_between(a, b, both_convex ? 0 : HUGE_VAL, Depths::yes, warm_start);
             if (both_convex && gap.distance > 0)
                 return std::nullopt;
             std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
@@ -188,7 +188,7 @@ std::vector<BodyGap> World::contacts(const Progress& progress) {
         });
 }
 
-std::vector<BodyGap> World::closer_than(double distance, const Progress& progress) {
+std::vector<BodyGap> World::within(double distance, const Progress& progress) {
     require(distance >= 0 && distance < HUGE_VAL, "distance must be a length, not negative");
     const std::vector<IndexPair> near =
         overlapping_boxes(data_->boxes(), distance,
@@ -196,11 +196,11 @@ std::vector<BodyGap> World::closer_than(double distance, const Progress& progres
     return results_of<BodyGap>(
         progress, "distances", near,
         [&](IndexPair pair, std::size_t /*k*/) -> std::optional<BodyGap> {
-            PairWorkspace workspace;
+            PairWarmStart warm_start;
             // If the true distance exceeds the bound, the result may be the bound itself. The bound
             // is therefore just above `distance`.
             BodyGap gap = gap_between(data_->placed(pair.a()), data_->placed(pair.b()),
-                                      std::nextafter(distance, HUGE_VAL), Depths::no, workspace);
+                                      std::nextafter(distance, HUGE_VAL), Depths::no, warm_start);
             if (gap.distance > distance)
                 return std::nullopt;
             std::tie(gap.a, gap.b) = std::pair(data_->id_of(pair.a()), data_->id_of(pair.b()));
@@ -208,9 +208,9 @@ std::vector<BodyGap> World::closer_than(double distance, const Progress& progres
         });
 }
 
-std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
-                                       const ImpactOptions& options) {
-    require(!options.tolerance || *options.tolerance >= 0, "tolerance must not be negative");
+std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& motions,
+                                              const ImpactOptions& options) {
+    require_not_negative(options.absolute_error.value_or(0), "absolute error");
     const std::vector<Body>& bodies = data_->bodies();
     std::vector<Motion> motion_of(bodies.size());
     std::vector<std::uint8_t> moves(bodies.size(), 0);
@@ -247,7 +247,7 @@ std::vector<BodyImpact> World::impacts(const std::vector<BodyMotion>& motions,
             const Body &a = bodies[pair.a()], &b = bodies[pair.b()];
             const Impact impact = body_impact({a.shape, a.own_bounds, motion_of[pair.a()]},
                                               {b.shape, b.own_bounds, motion_of[pair.b()]}, each);
-            if (!impact.hit)
+            if (!impact.meet)
                 return std::nullopt;
             return BodyImpact{data_->id_of(pair.a()), data_->id_of(pair.b()), impact};
         });

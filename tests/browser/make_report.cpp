@@ -123,7 +123,7 @@ ClashReport make_report(const std::vector<Scene>& models, std::size_t count, std
         report.clashes.push_back(clash);
     }
     report.seconds = {0.912, 0.281, 0.043, 0.418, 1.671};
-    report.peak_rss_mb = 412.3;
+    report.peak_rss_mib = 412.3;
     return report;
 }
 

@@ -283,7 +283,7 @@ TEST_F(CcdCommand, HasTheKeysThatTheGuidePromises) {
     for (const char* const key :
          {"from", "to", "topology_changed", "vertices", "edges", "triangles", "first_time"})
         EXPECT_TRUE(step.contains(key)) << key;
-    for (const char* const key : {"steps", "topology_changes", "peak_rss_mb", "bytes"})
+    for (const char* const key : {"steps", "topology_changes", "peak_rss_mib", "bytes"})
         EXPECT_TRUE(total.contains(key)) << key;
     for (const auto* const each : {&step, &total}) {
         for (const char* const key : {"vertex_face", "edge_edge", "triangle_pairs", "candidates",
@@ -299,7 +299,7 @@ TEST_F(CcdCommand, HasTheKeysThatTheGuidePromises) {
     EXPECT_EQ(step["triangle_pairs"], 1);
     EXPECT_GE(step["candidates"]["vertex_face"], 3);
     EXPECT_GE(step["seconds"]["total"], step["seconds"]["detect"]);
-    EXPECT_GT(total["peak_rss_mb"], 0);
+    EXPECT_GT(total["peak_rss_mib"], 0);
     EXPECT_GT(total["bytes"], 0);
 }
 

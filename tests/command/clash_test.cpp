@@ -73,7 +73,7 @@ TEST_F(ClashTest, HasTheKeysThatTheGuidePromises) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const json report = outcome.json();
     for (const char* key : {"models", "clearance", "touch", "candidates", "counts", "clashes",
-                            "seconds", "peak_rss_mb"})
+                            "seconds", "peak_rss_mib"})
         EXPECT_TRUE(report.contains(key)) << key;
     EXPECT_EQ(report["models"].size(), 1U);
     EXPECT_EQ(report["models"][0]["file"], file_);
@@ -83,7 +83,7 @@ TEST_F(ClashTest, HasTheKeysThatTheGuidePromises) {
         EXPECT_TRUE(report["seconds"].contains(key)) << key;
     EXPECT_GT(report["seconds"]["import"], 0.0);
     EXPECT_GE(report["seconds"]["total"], report["seconds"]["import"]);
-    EXPECT_GT(report["peak_rss_mb"], 0.0);
+    EXPECT_GT(report["peak_rss_mib"], 0.0);
     ASSERT_FALSE(report["clashes"].empty());
     for (const char* key :
          {"id", "kind", "a", "b", "a_name", "b_name", "a_type", "b_type", "a_file", "b_file",

@@ -292,7 +292,7 @@ TEST(Import, KeepsToItsMemory) {
     const auto report = nlohmann::json::parse(read_file(folder / "out"));
     EXPECT_EQ(report["models"][0]["streamed"], true);
     EXPECT_EQ(report["models"][0]["triangles"], kTriangles);
-    EXPECT_LT(report["peak_rss_mb"], 32 + 64);
+    EXPECT_LT(report["peak_rss_mib"], 32 + 64);
     EXPECT_EQ(run_abut({"info", folder / "s.abut", "--verify"}).status, 0);
 }
 

@@ -39,14 +39,14 @@ TEST_F(Queries, ExactFindsEveryImpactAndNoOther) {
     EXPECT_EQ(pairs_.size(), 3324U);
     const auto impacts = elementary_impacts(pairs_);
     for (std::size_t i = 0; i < pairs_.size(); ++i)
-        EXPECT_EQ(impacts[i].hit, truth_[i]) << pairs_[i];
+        EXPECT_EQ(impacts[i].meet, truth_[i]) << pairs_[i];
 }
 
 TEST_F(Queries, ConservativeMissesNone) {
     for (const double delta : {1e-9, 1e-6, 1e-3}) {
-        const auto impacts = elementary_impacts(pairs_, {.delta = delta});
+        const auto impacts = elementary_impacts(pairs_, {.absolute_error = delta});
         for (std::size_t i = 0; i < pairs_.size(); ++i)
-            EXPECT_TRUE(impacts[i].hit || !truth_[i]) << pairs_[i];
+            EXPECT_TRUE(impacts[i].meet || !truth_[i]) << pairs_[i];
     }
 }
 
@@ -57,8 +57,8 @@ TEST_F(Queries, MutatedOnesAgainstTheOracle) {
         const ElementaryPair pair = mutated(random, original);
         const auto truth = CcdOracle<AnyInt>(pair).first();
         const ElementaryImpact impact = elementary_impact(pair);
-        ASSERT_EQ(impact.hit, truth.has_value()) << pair;
-        hits += impact.hit ? 1 : 0;
+        ASSERT_EQ(impact.meet, truth.has_value()) << pair;
+        hits += impact.meet ? 1 : 0;
         exact += impact.decided_by == ElementaryStage::exact ? 1 : 0;
         if (!truth)
             continue;
@@ -89,8 +89,8 @@ TEST_P(Frames, EveryTrueImpactAndNoNearMiss) {
         const auto impacts = elementary_impacts(truth.pairs);
         std::size_t hits = 0, by_integers = 0;
         for (std::size_t i = 0; i < impacts.size(); ++i) {
-            ASSERT_EQ(impacts[i].hit, truth.collides[i]) << truth.pairs[i];
-            hits += impacts[i].hit ? 1 : 0;
+            ASSERT_EQ(impacts[i].meet, truth.collides[i]) << truth.pairs[i];
+            hits += impacts[i].meet ? 1 : 0;
             by_integers += impacts[i].decided_by == ElementaryStage::exact ? 1 : 0;
         }
         EXPECT_EQ(hits, edges ? edge_edge : vertex_face);

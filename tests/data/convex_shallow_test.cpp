@@ -37,7 +37,7 @@ TEST_P(ShallowOverlaps, OfHullsOfMeshesAreFound) {
     const Convex body = hull_of(file);
     const Model surface(body.mesh());
     Random random(7400);
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     int shallow = 0, apart = 0;
     const int cases = many(150);
     for (int i = 0; i < cases; ++i) {
@@ -50,9 +50,9 @@ TEST_P(ShallowOverlaps, OfHullsOfMeshesAreFound) {
         world_b.m[9] += by * deep.direction.x, world_b.m[10] += by * deep.direction.y;
         world_b.m[11] += by * deep.direction.z;
         const bool meets = left > 0;
-        ASSERT_EQ(collide(surface, world_a, surface, world_b).any(), meets) << i;
-        for (ConvexWorkspace* w : {static_cast<ConvexWorkspace*>(nullptr), &workspace}) {
-            const ConvexGap gap = distance(body, world_a, body, world_b, {.workspace = w});
+        ASSERT_EQ(collide(surface, world_a, surface, world_b).meet(), meets) << i;
+        for (ConvexWarmStart* w : {static_cast<ConvexWarmStart*>(nullptr), &warm_start}) {
+            const ConvexGap gap = distance(body, world_a, body, world_b, {.warm_start = w});
             const ConvexDepth depth = penetration(body, world_a, body, world_b, w);
             ASSERT_EQ(gap.distance == 0, meets) << i << ' ' << left;
             ASSERT_EQ(depth.meet, meets) << i << ' ' << left;

@@ -86,7 +86,7 @@ TEST(CgalShapes, AgreesOnALattice) {
                 hits.push_back(hit.triangle);
             std::sort(hits.begin(), hits.end());
             ASSERT_EQ(hits, both.met(Kernel::Ray_3(cgal(o), cgal(to)))) << k << ' ' << i;
-            ASSERT_EQ(first_hit(both.model, Pose{}, {o, to - o}).hit, !hits.empty());
+            ASSERT_EQ(first_hit(both.model, Pose{}, {o, to - o}).meet, !hits.empty());
             const auto on_segment = overlapping_triangles(both.model, Pose{}, Segment{o, to});
             ASSERT_EQ(on_segment, both.met(Kernel::Segment_3(cgal(o), cgal(to)))) << k << ' ' << i;
             Box3 box;

@@ -49,7 +49,7 @@ TEST(Fcl, AgreesOnContactAndDistance) {
                 fcl::CollisionResultd collision;
                 fcl::collide(fcl_a.get(), fcl_transform(world_a), fcl_b.get(),
                              fcl_transform(world_b), collision_request, collision);
-                const bool ours = collide(a, world_a, b, world_b).any();
+                const bool ours = collide(a, world_a, b, world_b).meet();
                 ASSERT_EQ(ours, gap.distance == 0);
                 ++cases, meet += ours ? 1 : 0;
                 if (ours != collision.isCollision()) {

@@ -74,14 +74,14 @@ private:
 
     /// Pairs whose boxes do not overlap do not touch; the rest is asked in two ways.
     void check_contacts() {
-        const BodyPairs touching = world_.touching();
+        const BodyPairs touching = world_.collide();
         require(without(touching, world_.pairs()).empty(), "touching without a pair of boxes");
         // The depth of surfaces in the same place takes long, and has tests of its own.
         if (std::any_of(touching.begin(), touching.end(),
                         [&](const BodyPair& pair) { return is_model(pair.a) && is_model(pair.b); }))
             return;
         BodyPairs in_contact;
-        for (const BodyGap& contact : world_.contacts()) {
+        for (const BodyGap& contact : world_.penetration()) {
             require(std::isfinite(contact.distance) && contact.distance <= error_, "depth");
             in_contact.push_back({contact.a, contact.b});
         }
@@ -90,9 +90,9 @@ private:
 
     void check_gaps() {
         const double limit = choices_.uniform(0, 0.5);
-        const BodyPairs touching = world_.touching();
+        const BodyPairs touching = world_.collide();
         BodyPairs near;
-        for (const BodyGap& gap : world_.closer_than(limit)) {
+        for (const BodyGap& gap : world_.within(limit)) {
             require(gap.distance <= limit, "gap beyond the limit");
             require(gap.distance >= -error_ || holds(touching, {gap.a, gap.b}),
                     "bodies within each other that do not touch");
@@ -106,7 +106,7 @@ private:
     void check_impacts() {
         const std::vector<BodyMotion> motions = script_.motions(0.5);
         const std::vector<Surface> surfaces = all_surfaces();
-        const std::vector<BodyImpact> impacts = world_.impacts(motions);
+        const std::vector<BodyImpact> impacts = world_.time_of_impact(motions);
         const auto moves = [&](BodyId id) {
             return std::any_of(motions.begin(), motions.end(),
                                [&](const BodyMotion& m) { return m.body == id; }) ||
@@ -115,7 +115,7 @@ private:
         };
         for (const double time : {0.0, 0.3, 0.6, 1.0}) {
             move_to(world_, motions, surfaces, time);
-            for (const BodyPair& pair : world_.touching()) {
+            for (const BodyPair& pair : world_.collide()) {
                 if (!moves(pair.a) && !moves(pair.b))
                     continue;
                 const auto impact =
@@ -127,7 +127,7 @@ private:
             }
         }
         move_back(world_, motions, surfaces);
-        last_ = world_.touching(), last_ = world_.pairs();
+        last_ = world_.collide(), last_ = world_.pairs();
     }
     std::vector<Surface> all_surfaces() const {
         std::vector<Surface> surfaces;
@@ -145,7 +145,7 @@ private:
                                       choices_.uniform(0, 1), choices_.uniform(0, 3)});
         const BodyPairs found = world_.advance(choices_.uniform(0, 0.1));
         BodyPairs touching;
-        for (const BodyPair& pair : world_.touching())
+        for (const BodyPair& pair : world_.collide())
             if (!is_surface(pair.a) && !is_surface(pair.b))
                 touching.push_back(pair);
         require(found == touching, "schedule");

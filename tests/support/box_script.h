@@ -31,7 +31,7 @@ inline Pairs all_pairs(const std::vector<Box3>& boxes, const BroadPhaseOptions& 
     Pairs pairs;
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
         for (std::uint32_t k = i + 1; k < boxes.size(); ++k)
-            if (share_a_point(boxes[i], boxes[k]) && (!options.wanted || options.wanted(i, k)))
+            if (share_a_point(boxes[i], boxes[k]) && (!options.filter || options.filter(i, k)))
                 pairs.emplace_back(i, k);
     return pairs;
 }

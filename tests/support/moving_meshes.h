@@ -168,7 +168,7 @@ struct BruteForceImpacts {
         for_each_feature_pair(first, second, [&](FeatureImpact found, const ElementaryPair& pair) {
             ++pairs;
             const ElementaryImpact impact = elementary_impact(pair, options);
-            if (!impact.hit)
+            if (!impact.meet)
                 return;
             found.status = impact.status;
             found.time = impact.time;

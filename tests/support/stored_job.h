@@ -51,7 +51,7 @@ private:
     static ClashOptions some_question(Random& random, bool self) {
         ClashOptions options;
         options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.1);
-        options.touch = random.chance(0.5) ? 0 : 1e-3;
+        options.touch_tolerance = random.chance(0.5) ? 0 : 1e-3;
         options.self = self || random.chance(0.5);
         options.rules = some_rules(random);
         return options;

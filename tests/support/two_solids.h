@@ -18,7 +18,7 @@ struct TwoSolids {
 };
 
 inline bool share_a_point(const TwoSolids& s) {
-    if (collide(s.a, s.world_a, s.b, s.world_b).any())
+    if (collide(s.a, s.world_a, s.b, s.world_b).meet())
         return true;
     // Where a surface intersects itself, it may wind around a point twice, so parity is not
     // sufficient.

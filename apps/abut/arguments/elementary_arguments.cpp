@@ -15,7 +15,7 @@ constexpr double kDefaultDelta = 1e-6;
 
 ElementaryOptions ElementaryArguments::options() const {
     if (mode == "conservative")
-        return {.delta = delta.value_or(kDefaultDelta), .thickness = thickness};
+        return {.absolute_error = delta.value_or(kDefaultDelta), .thickness = thickness};
     if (delta)
         throw Error(ErrorCode::bad_argument, "--delta goes with --mode conservative");
     return {.thickness = thickness};

@@ -44,7 +44,7 @@ struct CollideQuery : PairQuery {
         return collide(m.a, m.b, placements, options());
     }
     void add_answer(const Contacts& contacts, nlohmann::ordered_json& json) const {
-        json["contact"] = contacts.any();
+        json["contact"] = contacts.meet();
         json["all"] = all;
         json["triangle_pairs"] = to_json(contacts.pairs);
         if (segments) {
@@ -56,7 +56,7 @@ struct CollideQuery : PairQuery {
         json["counters"] = describe(contacts.counters);
     }
     [[nodiscard]] std::string in_words(const Contacts& contacts) const {
-        if (contacts.any() && !all)
+        if (contacts.meet() && !all)
             return fmt::format("contact: triangle {} of A, triangle {} of B{}\n",
                                contacts.pairs.front().a, contacts.pairs.front().b,
                                segments ? ", " + describe_points(contacts.segments.front()) : "");
@@ -67,11 +67,11 @@ struct CollideQuery : PairQuery {
         return text;
     }
     [[nodiscard]] std::string in_a_line(const Contacts& contacts) const {
-        return !contacts.any() ? "no contact\n"
+        return !contacts.meet() ? "no contact\n"
                : all ? fmt::format("contact: {} triangle pairs\n", grouped(contacts.pairs.size()))
                      : "contact\n";
     }
-    static bool is_problem(const Contacts& contacts) { return contacts.any(); }
+    static bool is_problem(const Contacts& contacts) { return contacts.meet(); }
 };
 
 } // namespace

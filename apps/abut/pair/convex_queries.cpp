@@ -22,18 +22,18 @@ nlohmann::ordered_json describe_work(const ConvexCounters& counters) {
 
 ConvexGap ConvexDistanceQuery::ask(const TwoModels& m) const {
     return distance(hull_of(m.a), m.world_from_a, hull_of(m.b), m.world_from_b,
-                    {.max_error = max_error});
+                    {.absolute_error = absolute_error});
 }
 
 std::vector<ConvexGap> ConvexDistanceQuery::ask(const TwoModels& m,
                                                 const std::vector<Placement>& placements) const {
     const Convex a = hull_of(m.a), b = hull_of(m.b);
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     std::vector<ConvexGap> gaps;
     gaps.reserve(placements.size());
     for (const Placement& p : placements)
         gaps.push_back(distance(a, p.world_from_a, b, p.world_from_b,
-                                {.max_error = max_error, .workspace = &workspace}));
+                                {.absolute_error = absolute_error, .warm_start = &warm_start}));
     return gaps;
 }
 

@@ -11,7 +11,7 @@ namespace abut::command {
 
 struct ConvexDistanceQuery : PairQuery {
     PosesOption poses;
-    double max_error = 0;
+    double absolute_error = 0;
 
     [[nodiscard]] ConvexGap ask(const TwoModels& m) const;
     [[nodiscard]] std::vector<ConvexGap> ask(const TwoModels& m,

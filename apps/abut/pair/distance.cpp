@@ -115,7 +115,7 @@ Subcommand add_distance(CLI::App& root, CommonOptions& common) {
                         PiecesDistanceQuery{*query,
                                             query->poses,
                                             {.upper_bound = query->options.upper_bound,
-                                             .max_error = query->options.absolute_error}},
+                                             .absolute_error = query->options.absolute_error}},
                         common);
                 if (query->convex)
                     return run_one_or_many(

@@ -92,7 +92,7 @@ Subcommand add_penetration(CLI::App& root, CommonOptions& common) {
                           "the depth to a thousandth; exit status 1 if there is one"}},
                         "one model goes into the other (with --fail-on penetration)"});
     add_two_models(*app, query->models);
-    app->add_option("--accuracy", query->options.relative_accuracy,
+    app->add_option("--relative-error,--accuracy", query->options.relative_error,
                     "Relative accuracy of the depth (default: 0.01)")
         ->check(not_negative());
     app->add_flag_callback(
@@ -105,11 +105,11 @@ Subcommand add_penetration(CLI::App& root, CommonOptions& common) {
         ->check(not_negative());
     add_fail_on(*app, query->fail_on, "penetration");
     CLI::Option* convex = app->add_flag("--convex", query->convex, "Of the convex hulls");
-    for (const char* other : {"--accuracy", "--no-separation", "--max-steps"})
+    for (const char* other : {"--relative-error", "--no-separation", "--max-steps"})
         convex->excludes(app->get_option(other));
     CLI::Option* pieces =
         app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
-    for (const char* other : {"--accuracy", "--convex", "--max-steps"})
+    for (const char* other : {"--relative-error", "--convex", "--max-steps"})
         pieces->excludes(app->get_option(other));
     return {app, [query, &common] {
                 if (query->pieces)

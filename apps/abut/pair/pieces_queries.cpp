@@ -62,9 +62,9 @@ PiecesGap PiecesDistanceQuery::ask(const TwoModels& m) const {
 std::vector<PiecesGap> PiecesDistanceQuery::ask(const TwoModels& m,
                                                 const std::vector<Placement>& placements) const {
     const TwoSolids solids(*this, m);
-    PiecesWorkspace workspace;
+    PiecesWarmStart warm_start;
     PiecesDistanceOptions coherent = options;
-    coherent.workspace = &workspace;
+    coherent.warm_start = &warm_start;
     std::vector<PiecesGap> gaps;
     gaps.reserve(placements.size());
     for (const Placement& p : placements)
@@ -117,12 +117,12 @@ bool PiecesWithinQuery::ask(const TwoModels& m) const {
 std::vector<bool> PiecesWithinQuery::ask(const TwoModels& m,
                                          const std::vector<Placement>& placements) const {
     const TwoSolids solids(*this, m);
-    PiecesWorkspace workspace;
+    PiecesWarmStart warm_start;
     std::vector<bool> answers;
     answers.reserve(placements.size());
     for (const Placement& p : placements)
-        answers.push_back(
-            within(solids.a, p.world_from_a, solids.b, p.world_from_b, tolerance, &workspace));
+        answers.push_back(within(solids.a, p.world_from_a, solids.b, p.world_from_b, tolerance,
+                                 {.warm_start = &warm_start}));
     return answers;
 }
 
@@ -153,14 +153,14 @@ PiecesContacts PiecesCollideQuery::ask(const TwoModels& m) const {
 std::vector<PiecesContacts>
 PiecesCollideQuery::ask(const TwoModels& m, const std::vector<Placement>& placements) const {
     const TwoSolids solids(*this, m);
-    PiecesWorkspace workspace;
+    PiecesWarmStart warm_start;
     std::vector<PiecesContacts> answers;
     answers.reserve(placements.size());
     for (const Placement& p : placements)
         answers.push_back(collide(solids.a, p.world_from_a, solids.b, p.world_from_b,
                                   {.mode = all ? ContactMode::all : ContactMode::first,
                                    .triangles = all,
-                                   .workspace = &workspace}));
+                                   .warm_start = &warm_start}));
     return answers;
 }
 

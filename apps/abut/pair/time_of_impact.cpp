@@ -39,15 +39,15 @@ struct ImpactQuery : PairQuery {
         ProgressBar bar(progress_style);
         return time_of_impact(
             m.a, motion_a, m.b, motion_b,
-            {.tolerance = tolerance, .max_steps = max_steps, .progress = bar.progress()});
+            {.absolute_error = tolerance, .max_steps = max_steps, .progress = bar.progress()});
     }
     static void add_answer(const Impact& impact, nlohmann::ordered_json& json) {
-        json["hit"] = impact.hit;
+        json["hit"] = impact.meet;
         json["time"] = impact.time;
         json["status"] = to_string(impact.status);
         json["out_of_steps"] = impact.out_of_steps;
         json["steps"] = impact.steps;
-        if (impact.hit && !impact.out_of_steps) {
+        if (impact.meet && !impact.out_of_steps) {
             json["contact_time"] = impact.status == Status::bound_only
                                        ? nlohmann::ordered_json()
                                        : nlohmann::ordered_json(impact.contact_time);
@@ -61,7 +61,7 @@ struct ImpactQuery : PairQuery {
         json["counters"] = describe(impact.counters);
     }
     static std::string in_words(const Impact& impact) {
-        if (!impact.hit)
+        if (!impact.meet)
             return "no impact\n";
         if (impact.out_of_steps)
             return fmt::format("free up to {}; not decided after that: {} steps were not enough\n",
@@ -75,7 +75,7 @@ struct ImpactQuery : PairQuery {
                            metres(impact.gap), point(impact.point_a), impact.triangle_a,
                            point(impact.point_b), impact.triangle_b);
     }
-    static bool is_problem(const Impact& impact) { return impact.hit; }
+    static bool is_problem(const Impact& impact) { return impact.meet; }
 };
 
 /// Checks the poses and returns the query.
@@ -106,7 +106,7 @@ Subcommand add_time_of_impact(CLI::App& root, CommonOptions& common) {
         ->check(not_empty("POSE"));
     app->add_flag("--screw", arguments->screw,
                   "Move along screws, not the models' origins along straight lines");
-    add_length(*app, "--tolerance", arguments->tolerance,
+    add_length(*app, "--absolute-error,--tolerance", arguments->tolerance,
                "Distance that may be left at the time returned (default: a millionth of the larger "
                "model's diagonal)");
     app->add_option("--max-steps", arguments->max_steps,

@@ -87,7 +87,8 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
     text += fmt::format("\nframe       metres, {} up, as {}\nclearance {}, touch tolerance {}, "
                         "{} candidate pairs\n",
                         abut::to_string(report.frame.up), shown(report.frame.of),
-                        metres(report.clearance), metres(report.touch), grouped(report.candidates));
+                        metres(report.clearance), metres(report.touch_tolerance),
+                        grouped(report.candidates));
     for (const ClashKind kind : kClashKinds) {
         const std::uint64_t count = report.counts.at(static_cast<std::size_t>(kind));
         const std::string column = count > 0 ? kind_column(kind) : kind_text(kind);
@@ -113,7 +114,7 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
     const auto& s = report.seconds;
     text += fmt::format("\nseconds     import {:.2f}, build {:.2f}, broad {:.2f}, narrow {:.2f}, "
                         "total {:.2f}\npeak memory {:.0f} MiB\n",
-                        s.import, s.build, s.broad, s.narrow, s.total, report.peak_rss_mb);
+                        s.import, s.build, s.broad, s.narrow, s.total, report.peak_rss_mib);
     return text;
 }
 

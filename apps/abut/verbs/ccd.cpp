@@ -185,7 +185,7 @@ int run(const CcdArguments& arguments, const CommonOptions& common) {
                          {"assignment", name_of(arguments.surface.assignment, kAssignments)},
                          {"culling", name_of(arguments.surface.culling, kCullings)},
                          {"mode", arguments.elementary.mode},
-                         {"delta", arguments.elementary.options().delta},
+                         {"delta", arguments.elementary.options().absolute_error},
                          {"thickness", arguments.elementary.thickness},
                          {"steps", std::move(list)},
                          {"total", describe(total, watch.seconds(), sequence.surface().bytes())}}));

@@ -104,13 +104,13 @@ void replace_truth(const std::string& file, std::vector<ElementaryQueries>& quer
 double nanoseconds_of(const ElementaryPair& pair, const ElementaryOptions& options) {
     constexpr int kMostRepeats = 16;
     constexpr double kLongEnough = 4e-6;
-    bool hit = elementary_impact(pair, options).hit; // warms the caches
+    bool hit = elementary_impact(pair, options).meet; // warms the caches
     const Stopwatch watch;
     double seconds = 0;
     int repeats = 0;
     for (; repeats < kMostRepeats && seconds < kLongEnough; repeats += 4) {
         for (int i = 0; i < 4; ++i)
-            hit = elementary_impact(pair, options).hit || hit;
+            hit = elementary_impact(pair, options).meet || hit;
         seconds = watch.seconds();
     }
     return 1e9 * seconds / repeats;
@@ -122,7 +122,7 @@ Tally answer(const ElementaryQueries& queries, const ElementaryOptions& options)
     tally.queries = queries.pairs.size();
     tally.has_truth = !queries.truth.empty();
     for (std::size_t i = 0; i < impacts.size(); ++i) {
-        const bool hit = impacts[i].hit;
+        const bool hit = impacts[i].meet;
         tally.hits += hit ? 1 : 0;
         ++tally.decided_by.at(static_cast<std::size_t>(impacts[i].decided_by));
         if (tally.has_truth) {
@@ -198,7 +198,7 @@ int run(const QueryArguments& arguments, const CommonOptions& common) {
     }
     if (common.json)
         print_json(dump({{"mode", arguments.elementary.mode},
-                         {"delta", options.delta},
+                         {"delta", options.absolute_error},
                          {"thickness", options.thickness},
                          {"files", std::move(files)},
                          {"total", describe_tally(total)}}));

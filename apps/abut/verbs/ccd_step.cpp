@@ -86,7 +86,7 @@ nlohmann::ordered_json describe(const CcdTotal& total, double seconds, std::size
     json.update(json_of_counts(total.impacts));
     add_counters(json, total.counters);
     json["seconds"] = json_of_seconds(total.seconds_refit, total.seconds_detect, seconds);
-    json["peak_rss_mb"] = peak_resident_mib();
+    json["peak_rss_mib"] = peak_resident_mib();
     json["bytes"] = bytes;
     return json;
 }

@@ -65,9 +65,9 @@ std::string out_of_core_member(const OutOfCoreCounters& c) {
         workers +=
             fmt::format("{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
                         "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"waiting_seconds\": "
-                        "{}, \"peak_rss_mb\": {}}}",
+                        "{}, \"peak_rss_mib\": {}}}",
                         workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
-                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mb);
+                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mib);
     return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
                        "\"blocks\": {}, \"block_loads\": {}, \"hierarchies_found\": {}, "
                        "\"hierarchies_kept\": {}, \"bytes_needed\": {}, \"bytes_read\": "
@@ -215,7 +215,7 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
                   "A store: do not keep there the hierarchies that are built");
     add_length(*app, "--clearance", arguments->options.clearance,
                "Report parts that are nearer than this (default 0: off)");
-    add_length(*app, "--touch", arguments->options.touch,
+    add_length(*app, "--touch", arguments->options.touch_tolerance,
                "Surfaces that meet no deeper than this only touch (default 0)");
     app->add_flag("--self", arguments->options.self,
                   "With several models: also the pairs within each");

@@ -41,7 +41,7 @@ nlohmann::ordered_json describe(const ImportReport& report, const std::string& s
             {"new_meshes", report.new_meshes},
             {"removed_meshes", report.removed_meshes},
             {"seconds", report.seconds},
-            {"peak_rss_mb", peak_resident_mib()}};
+            {"peak_rss_mib", peak_resident_mib()}};
 }
 
 std::string table(const ImportReport& report, const std::string& store) {

@@ -37,7 +37,7 @@ int run(const RayArguments& arguments, const CommonOptions& common) {
     std::vector<RayHit> hits;
     if (arguments.all)
         hits = all_hits(model.model, model.world_from_model, ray);
-    else if (const RayHit hit = first_hit(model.model, model.world_from_model, ray); hit.hit)
+    else if (const RayHit hit = first_hit(model.model, model.world_from_model, ray); hit.meet)
         hits.push_back(hit);
     const double seconds = watch.seconds();
 

@@ -67,7 +67,7 @@ std::string row(const ListedClash& clash) {
 std::string table(const ClashReview& review) {
     std::string text =
         fmt::format("clearance {}, touch tolerance {}{}{}\n ", metres(review.clearance),
-                    metres(review.touch), review.self ? ", self" : "",
+                    metres(review.touch_tolerance), review.self ? ", self" : "",
                     review.rules == 0 ? "" : fmt::format(", {} rules", review.rules));
     for (const ClashStatus status : kClashStatuses)
         text += fmt::format(" {} {}{}", abut::to_string(status),

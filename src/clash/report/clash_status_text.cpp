@@ -89,7 +89,7 @@ std::string to_json(const ClashReview& review) {
     append(out, "{\"clearance\": ");
     append_json_number(out, review.clearance);
     append(out, ", \"touch\": ");
-    append_json_number(out, review.touch);
+    append_json_number(out, review.touch_tolerance);
     fmt::format_to(fmt::appender(out), ", \"self\": {}, \"rules\": {}, \"finished\": ", review.self,
                    review.rules);
     append_json_string(out, review.finished == 0 ? "" : time_text(review.finished));

@@ -200,7 +200,7 @@ void append_json_head(TextBuffer& out, const ClashReport& report) {
     append(out, "],\n\"clearance\": ");
     append_json_number(out, report.clearance);
     append(out, ",\n\"touch\": ");
-    append_json_number(out, report.touch);
+    append_json_number(out, report.touch_tolerance);
     fmt::format_to(fmt::appender(out), ",\n\"candidates\": {},\n\"counts\": {{", report.candidates);
     separator = "";
     for (const ClashKind kind : kClashKinds) {
@@ -228,8 +228,8 @@ void append_json_tail(TextBuffer& out, const ClashReport& report) {
     append_json_number(out, seconds.narrow);
     append(out, ", \"total\": ");
     append_json_number(out, seconds.total);
-    append(out, "},\n\"peak_rss_mb\": ");
-    append_json_number(out, report.peak_rss_mb);
+    append(out, "},\n\"peak_rss_mib\": ");
+    append_json_number(out, report.peak_rss_mib);
     append(out, "\n");
 }
 

@@ -43,7 +43,7 @@ const Part& part_of(const Clash& clash, int side, const std::vector<Scene>& mode
 /// Appends the first members of a JSON report:
 /// `"models": [...], "clearance": .., ... "counts": {...},`.
 void append_json_head(TextBuffer& out, const ClashReport& report);
-/// Appends the last members of a JSON report: `"seconds": {...}, "peak_rss_mb": ..`.
+/// Appends the last members of a JSON report: `"seconds": {...}, "peak_rss_mib": ..`.
 void append_json_tail(TextBuffer& out, const ClashReport& report);
 
 } // namespace abut

@@ -156,7 +156,7 @@ CertainDistance decide(const PlacedConvexPair& bodies, const PolytopePair& pair,
     at.end = found.meeting ? WalkEnd::meeting : WalkEnd::closest;
     search.simplex.reset();
     if (found.meeting) {
-        // The next query with this workspace begins with the same part of the difference.
+        // The next query with this warm start begins with the same part of the difference.
         const DifferenceSimplex known = known_part(pair, found.simplex);
         if (known.count > 0)
             search.simplex = known;

@@ -19,13 +19,13 @@ void fields(Stream& stream, Either<PartSelector> auto& side) {
 
 template <typename Stream>
 void fields(Stream& stream, Either<ClashRule> auto& rule) {
-    stream(rule.name, rule.a, rule.b, rule.clearance, rule.touch, rule.ignore.same_file,
+    stream(rule.name, rule.a, rule.b, rule.clearance, rule.touch_tolerance, rule.ignore.same_file,
            rule.ignore.same_type, rule.ignore.same_name_prefix);
 }
 
 template <typename Stream>
 void fields(Stream& stream, Either<Briefing> auto& briefing) {
-    stream(briefing.options.clearance, briefing.options.touch, briefing.options.self,
+    stream(briefing.options.clearance, briefing.options.touch_tolerance, briefing.options.self,
            briefing.options.rules, briefing.budget, briefing.blocks_budget, briefing.models);
 }
 

@@ -37,7 +37,7 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
     : plan_(plan), options_(options), store_(store) {
     ClashReport& report = result_.report;
     report.clearance = options.clearance;
-    report.touch = options.touch;
+    report.touch_tolerance = options.touch_tolerance;
     report.candidates = plan_.candidates;
     for (const ModelRow& model : plan_.stored.models)
         report.models.push_back({model.file, model.parts, model.triangles, model.unit, model.up,
@@ -130,7 +130,7 @@ void JobResult::sum_up_workers() {
         counters.bytes_needed += worker.block_bytes_needed;
         counters.bytes_read += worker.bytes_read;
         counters.peak_bytes = std::max(counters.peak_bytes, worker.peak_bytes);
-        result_.report.peak_rss_mb = std::max(result_.report.peak_rss_mb, worker.peak_rss_mb);
+        result_.report.peak_rss_mib = std::max(result_.report.peak_rss_mib, worker.peak_rss_mib);
     }
 }
 

@@ -23,7 +23,7 @@ Hash128 question_hash(const ClashOptions& options) {
         for (const std::string& text : texts)
             hash.add(text);
     };
-    hash.add(options.clearance).add(options.touch).add(options.self);
+    hash.add(options.clearance).add(options.touch_tolerance).add(options.self);
     for (const ClashRule& rule : options.rules) {
         hash.add(rule.name);
         for (const PartSelector* side : {&rule.a, &rule.b}) {
@@ -31,7 +31,7 @@ Hash128 question_hash(const ClashOptions& options) {
             add_texts(side->name);
             add_texts(side->type);
         }
-        for (const std::optional<double>& length : {rule.clearance, rule.touch})
+        for (const std::optional<double>& length : {rule.clearance, rule.touch_tolerance})
             hash.add(length.has_value()).add(length.value_or(0));
         hash.add(rule.ignore.same_file)
             .add(rule.ignore.same_type)
@@ -86,11 +86,12 @@ std::int64_t add_question(Database& database, const ClashOptions& options) {
     const Hash128 hash = question_hash(options);
     const std::int64_t question =
         database.number("SELECT seq FROM sqlite_sequence WHERE name = 'question'") + 1;
-    QuestionRow row{question,      hash,         options.clearance,
-                    options.touch, options.self, options.rules.size()};
+    QuestionRow row{question,          hash,
+                    options.clearance, options.touch_tolerance,
+                    options.self,      options.rules.size()};
     Statement(database, "INSERT INTO question VALUES (?,?,?,?,?,?,?)")
-        .bind(row.question, bytes_of(row.hash), row.clearance, row.touch, row.self ? 1 : 0,
-              row.rules, row.checksum())
+        .bind(row.question, bytes_of(row.hash), row.clearance, row.touch_tolerance,
+              row.self ? 1 : 0, row.rules, row.checksum())
         .run();
     return question;
 }
@@ -117,7 +118,7 @@ std::vector<QuestionRow> read_questions(Database& database) {
         if (hash.size() == 2)
             row.hash = {hash[0], hash[1]};
         row.clearance = rows.real(2);
-        row.touch = rows.real(3);
+        row.touch_tolerance = rows.real(3);
         row.self = rows.integer(4) != 0;
         row.rules = static_cast<std::uint64_t>(rows.integer(5));
         if (row.checksum() != static_cast<std::uint64_t>(rows.integer(6)))

@@ -21,7 +21,7 @@ namespace abut {
 struct QuestionRow {
     std::int64_t question = 0;
     Hash128 hash; ///< of the options
-    double clearance = 0, touch = 0;
+    double clearance = 0, touch_tolerance = 0;
     bool self = false;
     std::uint64_t rules = 0; ///< number of rules
 

@@ -131,11 +131,11 @@ PairCell StoredParts::cell_of(const IndexPair& pair) const {
 std::vector<IndexPair> find_candidates(const StoredParts& stored, const RuleTable& rules,
                                        const ClashOptions& options) {
     const bool across = stored.models.size() > 1 && !options.self;
-    const auto wanted = [&](std::uint32_t i, std::uint32_t j) {
+    const auto filter = [&](std::uint32_t i, std::uint32_t j) {
         return !across || stored.parts[i].model != stored.parts[j].model;
     };
     std::vector<IndexPair> pairs =
-        overlapping_boxes(stored.boxes, largest_clearance(options), wanted);
+        overlapping_boxes(stored.boxes, largest_clearance(options), filter);
     if (options.rules.empty())
         return pairs;
     const auto out_of_reach = [&](const IndexPair& pair) {

@@ -108,7 +108,7 @@ OutOfCoreCounters::Worker TaskTester::figures() const {
             .bytes_read = store_.bytes_read() - read_before_,
             .peak_bytes = cache_.peak_bytes() + large_.cache().peak_bytes(),
             .processor_seconds = processor_seconds(),
-            .peak_rss_mb = peak_resident_mib()};
+            .peak_rss_mib = peak_resident_mib()};
 }
 
 } // namespace abut

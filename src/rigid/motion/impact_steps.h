@@ -42,7 +42,7 @@ private:
 /// The answer of a search that has reached its limit: the motion is free up to `time`.
 inline Impact out_of_steps(double time) {
     Impact impact;
-    impact.hit = true;
+    impact.meet = true;
     impact.time = time;
     impact.status = Status::bound_only;
     impact.out_of_steps = true;

@@ -1,6 +1,7 @@
 #include <abut/error.h>
 #include <abut/motion.h>
 
+#include "core/arguments.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
@@ -106,7 +107,7 @@ public:
     ImpactSearch(const Model& a, const Model& b, const MovingPair& pair,
                  const ImpactOptions& options)
         : a_(a), b_(b), pair_(pair), tree_a_(pair.a.tree), tree_b_(pair.b.tree),
-          asked_tolerance_(options.tolerance.value_or(
+          asked_tolerance_(options.absolute_error.value_or(
               kImpactTolerance * std::max(a.data().diagonal(), b.data().diagonal()))),
           tolerance_(std::max(asked_tolerance_, kUndecided * pair.margin)), steps_(options),
           window_(std::max(kLeastWindow, kMostTurn / (pair.a.trajectory.speed_of_rotation() +
@@ -281,7 +282,7 @@ private:
         answered_ = contact_time <= kEnd || undecided;
         if (!answered_)
             return false;
-        impact_.hit = true;
+        impact_.meet = true;
         impact_.time = pair.time;
         impact_.contact_time = contact_time;
         impact_.gap = gap;
@@ -347,7 +348,7 @@ Impact impact_at_start(const PlacedPair& placed, const Contact& contact) {
     const ClosestPoints common = triangle_triangle_distance(placed.triangle_a(contact.pair.a),
                                                             placed.triangle_b(contact.pair.b));
     Impact impact;
-    impact.hit = true;
+    impact.meet = true;
     impact.time = impact.contact_time = impact.gap = 0;
     impact.point_a = common.a, impact.point_b = common.b;
     impact.triangle_a = contact.pair.a, impact.triangle_b = contact.pair.b;
@@ -358,8 +359,7 @@ Impact impact_at_start(const PlacedPair& placed, const Contact& contact) {
 
 Impact time_of_impact(const Model& a, const Motion& motion_a, const Model& b,
                       const Motion& motion_b, const ImpactOptions& options) {
-    if (options.tolerance && !(*options.tolerance >= 0))
-        throw Error(ErrorCode::bad_argument, "tolerance must not be negative");
+    require_not_negative(options.absolute_error.value_or(0), "absolute error");
     const StopScope stopping(options.progress);
     const ModelData &data_a = a.data(), &data_b = b.data();
     const MovingPair pair(data_a.tree(), data_a.model_from_tree(), motion_a, data_b.tree(),

@@ -101,7 +101,7 @@ private:
     using Polygon = boost::container::static_vector<Vec3, 9>;
 
     /// Not worth a closer look.
-    [[nodiscard]] double wanted() const { return best_.depth * (1 + options_.relative_accuracy); }
+    [[nodiscard]] double wanted() const { return best_.depth * (1 + options_.relative_error); }
 
     [[nodiscard]] bool finished(double at_most) const {
         if (at_most <= wanted())

@@ -15,7 +15,7 @@ struct DepthSearch {
     /// not.
     double threshold = 0;
     /// Relative width that [depth, at_most] should have.
-    double relative_accuracy = 0.01;
+    double relative_error = 0.01;
     /// Evaluated points, at most: for the accuracy; to reach a depth at all; for the comparison.
     int accuracy_budget = 1000, reach_budget = 1000, threshold_budget = 20000;
     SearchSteps* steps = nullptr; ///< if given: limits the points of all searches together

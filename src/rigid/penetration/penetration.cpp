@@ -1,6 +1,7 @@
 #include <abut/error.h>
 #include <abut/penetration.h>
 
+#include "core/arguments.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "rigid/penetration/contact_evidence.h"
 #include "rigid/penetration/contact_regions.h"
@@ -184,7 +185,7 @@ Depth undecided(const PlacedSolid& a, const PlacedSolid& b, const PenetrationOpt
                 const SearchSteps& steps, Counters& counters) {
     const Vec3 separation = separation_of_boxes(a, b, counters);
     Depth result;
-    result.interpenetrate = true;
+    result.meet = result.interpenetrate = true;
     result.depth_at_most = std::numeric_limits<double>::infinity();
     limit_depths(result, separation);
     if (options.separation)
@@ -200,8 +201,7 @@ Depth undecided(const PlacedSolid& a, const PlacedSolid& b, const PenetrationOpt
 
 Depth penetration(const Model& a, const Transform& world_from_a, const Model& b,
                   const Transform& world_from_b, const PenetrationOptions& options) {
-    if (!(options.relative_accuracy >= 0))
-        throw Error(ErrorCode::bad_argument, "relative accuracy must not be negative");
+    require_not_negative(options.relative_error, "relative error");
     const StopScope stopping(options.progress);
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
@@ -215,12 +215,12 @@ Depth penetration(const Model& a, const Transform& world_from_a, const Model& b,
     if (steps.ran_out())
         return undecided(placed_a, placed_b, options, steps, counters);
     DepthSearch search;
-    search.relative_accuracy = options.relative_accuracy;
+    search.relative_error = options.relative_error;
     search.steps = &steps;
-    const bool meet = !contacts.empty();
     Overlap overlap(placed_a, placed_b, std::move(contacts), search);
     Depth result = overlap.describe();
-    if (options.separation && (meet || result.interpenetrate))
+    result.meet = !result.regions.empty() || result.interpenetrate;
+    if (options.separation && result.meet)
         result.separation =
             find_separation(placed_a, placed_b, overlap.ways_out(result),
                             overlap.is_locked() ? 0 : result.depth, counters, &steps);

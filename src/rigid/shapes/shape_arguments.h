@@ -3,6 +3,7 @@
 #include <abut/error.h>
 #include <abut/shapes.h>
 
+#include "core/arguments.h"
 #include "math/vector.h"
 #include "mesh/topology.h"
 
@@ -16,11 +17,6 @@ namespace abut {
 /// Of a list of points or rays, how many one thread takes at a time.
 inline constexpr std::size_t kShapesPerTask = 64;
 
-inline void require(bool condition, const std::string& message) {
-    if (!condition)
-        throw Error(ErrorCode::bad_argument, message);
-}
-
 /// Coordinates in the range of a mesh's.
 inline void require_point(const Vec3& p, const char* what) {
     require(is_finite(p), std::string(what) + " has a coordinate that is not finite");
@@ -29,7 +25,7 @@ inline void require_point(const Vec3& p, const char* what) {
 }
 
 inline void require_bound(double bound) {
-    require(bound >= 0, "distance bound must not be negative");
+    require_not_negative(bound, "distance bound");
 }
 
 inline void require_ray(const Ray& ray) {

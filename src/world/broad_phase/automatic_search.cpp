@@ -14,8 +14,8 @@ namespace {
 /// at which it is given up. Each failed try doubles the number of steps before the next one.
 class AutomaticSearch final : public PairSearch {
 public:
-    explicit AutomaticSearch(const PairFilter& wanted)
-        : tree_(make_hub_search(make_tree_search(wanted), wanted)), axes_(wanted) {}
+    explicit AutomaticSearch(const PairFilter& filter)
+        : tree_(make_hub_search(make_tree_search(filter), filter)), axes_(filter) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
         stay_with_tree();
@@ -72,8 +72,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& wanted) {
-    return std::make_unique<AutomaticSearch>(wanted);
+std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& filter) {
+    return std::make_unique<AutomaticSearch>(filter);
 }
 
 } // namespace abut

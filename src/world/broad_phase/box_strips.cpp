@@ -54,8 +54,8 @@ bool are_near(const Box3& p, const Box3& q, double gap) {
 /// Searches one strip after the other.
 class Strips {
 public:
-    Strips(std::span<const Box3> boxes, double gap, const PairFilter& wanted)
-        : boxes_(boxes), gap_(gap), wanted_(wanted) {
+    Strips(std::span<const Box3> boxes, double gap, const PairFilter& filter)
+        : boxes_(boxes), gap_(gap), filter_(filter) {
         order_.reserve(boxes.size());
         for (std::uint32_t i = 0; i < boxes.size(); ++i)
             if (takes_part(boxes[i]))
@@ -132,7 +132,7 @@ private:
                 return false;
             const auto [a, b] = std::minmax(reaching_[i], reaching_[k]);
             return (gap_ == 0 || are_near(boxes_[a], boxes_[b], gap_)) &&
-                   (!wanted_ || wanted_(a, b));
+                   (!filter_ || filter_(a, b));
         })->restart(here, list);
         std::vector<IndexPair>& found = found_.emplace_back();
         found.reserve(list.pairs().size());
@@ -142,7 +142,7 @@ private:
 
     std::span<const Box3> boxes_;
     double gap_;
-    const PairFilter& wanted_;
+    const PairFilter& filter_;
     int axis_ = 0;
     std::vector<std::uint32_t> order_; ///< the boxes that take part, strip by strip
     std::vector<std::uint32_t>
@@ -153,8 +153,8 @@ private:
 } // namespace
 
 std::vector<IndexPair> overlaps_by_strips(std::span<const Box3> boxes, double gap,
-                                          const PairFilter& wanted, std::size_t strip) {
-    return Strips(boxes, gap, wanted).find(strip);
+                                          const PairFilter& filter, std::size_t strip) {
+    return Strips(boxes, gap, filter).find(strip);
 }
 
 } // namespace abut

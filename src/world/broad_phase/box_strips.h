@@ -21,7 +21,7 @@ inline constexpr std::size_t kBoxesOfStrip = std::size_t{1} << 16;
 /// In          strip: number of boxes in a strip, at least 1.
 /// Cost        O(n log n + pairs) if few boxes extend through many strips.
 std::vector<IndexPair> overlaps_by_strips(std::span<const Box3> boxes, double gap,
-                                          const PairFilter& wanted,
+                                          const PairFilter& filter,
                                           std::size_t strip = kBoxesOfStrip);
 
 } // namespace abut

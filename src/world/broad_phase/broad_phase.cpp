@@ -30,15 +30,15 @@ void require_numbers(const Box3& box, std::size_t index) {
 std::unique_ptr<PairSearch> make_search(BroadPhaseOptions options) {
     switch (options.method) {
     case BroadPhaseMethod::tree:
-        return make_tree_search(std::move(options.wanted));
+        return make_tree_search(std::move(options.filter));
     case BroadPhaseMethod::sweep:
-        return make_sweep_search(std::move(options.wanted));
+        return make_sweep_search(std::move(options.filter));
     case BroadPhaseMethod::sweep_and_prune:
-        return make_sweep_and_prune(std::move(options.wanted));
+        return make_sweep_and_prune(std::move(options.filter));
     case BroadPhaseMethod::automatic:
         break;
     }
-    return make_automatic_search(options.wanted);
+    return make_automatic_search(options.filter);
 }
 
 } // namespace
@@ -87,12 +87,12 @@ const std::vector<IndexPair>& BroadPhase::ended() const noexcept {
 
 std::vector<IndexPair>
 overlapping_boxes(std::span<const Box3> boxes, double gap,
-                  const std::function<bool(std::uint32_t, std::uint32_t)>& wanted) {
+                  const std::function<bool(std::uint32_t, std::uint32_t)>& filter) {
     if (!(gap >= 0) || std::isinf(gap))
         throw Error(ErrorCode::bad_argument, "gap of boxes must be a length, not negative");
     for (std::size_t i = 0; i < boxes.size(); ++i)
         require_numbers(boxes[i], i);
-    return overlaps_by_strips(boxes, gap, wanted);
+    return overlaps_by_strips(boxes, gap, filter);
 }
 
 } // namespace abut

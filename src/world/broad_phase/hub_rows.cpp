@@ -55,9 +55,9 @@ struct HubRows::Side {
 
 class HubRows::Comparison {
 public:
-    Comparison(std::span<const Box3> boxes, const PairFilter& wanted, BitTable& now,
+    Comparison(std::span<const Box3> boxes, const PairFilter& filter, BitTable& now,
                BitTable& begun, BitTable& ended)
-        : boxes_(boxes), wanted_(wanted), now_(now), begun_(begun), ended_(ended) {}
+        : boxes_(boxes), filter_(filter), now_(now), begun_(begun), ended_(ended) {}
 
     /// Compares the boxes of a with those boxes of b that have a higher index. In: the row of a's
     /// first box, and the column of b's boxes.
@@ -82,9 +82,9 @@ private:
                 meet &= ~(Bits{1} << lane);
         });
         const Bits last = now_.bits[at];
-        if (wanted_)
+        if (filter_)
             for_each_lane(meet & ~last, [&](std::uint32_t lane) {
-                if (!wanted_(box, partners[lane]))
+                if (!filter_(box, partners[lane]))
                     meet &= ~(Bits{1} << lane);
             });
         if (meet == last) // the bits in begun_ and ended_ are already zero
@@ -95,7 +95,7 @@ private:
     }
 
     std::span<const Box3> boxes_;
-    const PairFilter& wanted_;
+    const PairFilter& filter_;
     BitTable &now_, &begun_, &ended_;
 };
 
@@ -142,7 +142,7 @@ void HubRows::fit(const BoxStep& step) {
               [&](std::size_t at) { return hubs[at]; });
 }
 
-void HubRows::update(const BoxStep& step, const PairFilter& wanted) {
+void HubRows::update(const BoxStep& step, const PairFilter& filter) {
     fit(step);
     bits_.begun.assign(hubs_), bits_.ended.assign(hubs_);
     std::vector<Side> hub_sides;
@@ -152,9 +152,9 @@ void HubRows::update(const BoxStep& step, const PairFilter& wanted) {
                                [&](std::size_t lane) { return rest[lane]; });
         hub_sides.back().rows = first_lanes(hub_sides.back().count);
     }
-    const Comparison with_hubs(step.boxes, wanted, bits_.now.of_boxes, bits_.begun.of_boxes,
+    const Comparison with_hubs(step.boxes, filter, bits_.now.of_boxes, bits_.begun.of_boxes,
                                bits_.ended.of_boxes),
-        of_hubs(step.boxes, wanted, bits_.now.of_hubs, bits_.begun.of_hubs, bits_.ended.of_hubs);
+        of_hubs(step.boxes, filter, bits_.now.of_hubs, bits_.begun.of_hubs, bits_.ended.of_hubs);
     parallel_for(boxes_.size(), 16, [&](std::size_t node) {
         const std::size_t first = node * kWidth;
         Side boxes(boxes_[node], std::min(kWidth, hubs_.boxes() - first),

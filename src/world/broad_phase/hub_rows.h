@@ -26,7 +26,7 @@ public:
     /// Updates the pairs to this step.
     /// Cost        a SIMD test for each 16 pairs of a hub, if one of the boxes or the hub has
     ///             changed.
-    void update(const BoxStep& step, const PairFilter& wanted);
+    void update(const BoxStep& step, const PairFilter& filter);
 
     [[nodiscard]] const PairBits& pairs() const { return bits_.now; }
     /// Pairs that began or ended with the last update.

@@ -37,8 +37,8 @@ std::vector<std::uint32_t> choose_hubs(std::span<const IndexPair> pairs, std::si
 /// Removes hubs from the boxes that another search sees, and handles them with HubRows.
 class HubSearch final : public PairSearch {
 public:
-    HubSearch(std::unique_ptr<PairSearch> others, PairFilter wanted)
-        : search_(std::move(others)), wanted_(std::move(wanted)) {}
+    HubSearch(std::unique_ptr<PairSearch> others, PairFilter filter)
+        : search_(std::move(others)), filter_(std::move(filter)) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
         rows_.assign({}, {});
@@ -91,7 +91,7 @@ private:
     void update_both(const BoxStep& step, PairList& list) {
         hide_hubs(step);
         search({boxes_, step.changed}, others_);
-        rows_.update(step, wanted_);
+        rows_.update(step, filter_);
         std::vector<IndexPair> begun, ended;
         rows_.begun().write(rows_.hubs(), others_.begun(), begun);
         rows_.ended().write(rows_.hubs(), others_.ended(), ended);
@@ -116,7 +116,7 @@ private:
     }
 
     std::unique_ptr<PairSearch> search_; ///< for all boxes but hubs
-    PairFilter wanted_;
+    PairFilter filter_;
     bool is_current_ = false;           ///< whether `search_` is up to date with the last step
     std::vector<std::uint32_t> chosen_; ///< the hubs of the next step
     std::size_t left_ = kStepsOfChoice; ///< steps until the next choice
@@ -128,8 +128,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<PairSearch> make_hub_search(std::unique_ptr<PairSearch> others, PairFilter wanted) {
-    return std::make_unique<HubSearch>(std::move(others), std::move(wanted));
+std::unique_ptr<PairSearch> make_hub_search(std::unique_ptr<PairSearch> others, PairFilter filter) {
+    return std::make_unique<HubSearch>(std::move(others), std::move(filter));
 }
 
 } // namespace abut

@@ -38,19 +38,19 @@ public:
 };
 
 /// Searches with a 16-ary tree over nodes of 16 boxes.
-std::unique_ptr<PairSearch> make_tree_search(PairFilter wanted);
+std::unique_ptr<PairSearch> make_tree_search(PairFilter filter);
 
 /// Searches boxes sorted along one axis.
-std::unique_ptr<PairSearch> make_sweep_search(PairFilter wanted);
+std::unique_ptr<PairSearch> make_sweep_search(PairFilter filter);
 
 /// Searches boxes sorted along three axes.
-std::unique_ptr<PairSearch> make_sweep_and_prune(PairFilter wanted);
+std::unique_ptr<PairSearch> make_sweep_and_prune(PairFilter filter);
 
 /// Handles hubs, which are boxes that meet a large share of all others, with rows of bits
 /// (`hub_rows.h`). The other boxes are left to another search.
-std::unique_ptr<PairSearch> make_hub_search(std::unique_ptr<PairSearch> others, PairFilter wanted);
+std::unique_ptr<PairSearch> make_hub_search(std::unique_ptr<PairSearch> others, PairFilter filter);
 
 /// Chooses the method that suits each step.
-std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& wanted);
+std::unique_ptr<PairSearch> make_automatic_search(const PairFilter& filter);
 
 } // namespace abut

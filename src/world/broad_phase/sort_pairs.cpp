@@ -16,8 +16,8 @@ class Runs {
 public:
     Runs(std::size_t boxes, std::size_t pairs)
         : index_bits_(std::bit_width(std::max<std::size_t>(boxes, 1) - 1)) {
-        const int wanted = std::bit_width(pairs / kPairsOfRun);
-        shift_ = std::max(0, index_bits_ - std::min(wanted, kMostBits));
+        const int filter = std::bit_width(pairs / kPairsOfRun);
+        shift_ = std::max(0, index_bits_ - std::min(filter, kMostBits));
         count_ = ((std::max<std::size_t>(boxes, 1) - 1) >> shift_) + 1;
     }
     [[nodiscard]] std::size_t count() const { return count_; }

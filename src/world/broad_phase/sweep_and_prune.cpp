@@ -67,8 +67,8 @@ bool SweepAndPrune::try_update(const BoxStep& step, PairList& list, std::size_t 
         last_[box] = step.boxes[box];
     sort_and_unite(begun_);
     sort_and_unite(ended_);
-    if (wanted_) {
-        const auto unwanted = [&](IndexPair pair) { return !wanted_(pair.a(), pair.b()); };
+    if (filter_) {
+        const auto unwanted = [&](IndexPair pair) { return !filter_(pair.a(), pair.b()); };
         begun_.erase(std::remove_if(begun_.begin(), begun_.end(), unwanted), begun_.end());
         ended_.erase(std::remove_if(ended_.begin(), ended_.end(), unwanted), ended_.end());
     }
@@ -102,8 +102,8 @@ void SweepAndPrune::compare(std::span<const Box3> boxes, std::uint32_t i, std::u
         (now ? begun_ : ended_).emplace_back(i, k);
 }
 
-std::unique_ptr<PairSearch> make_sweep_and_prune(PairFilter wanted) {
-    return std::make_unique<SweepAndPrune>(std::move(wanted));
+std::unique_ptr<PairSearch> make_sweep_and_prune(PairFilter filter) {
+    return std::make_unique<SweepAndPrune>(std::move(filter));
 }
 
 } // namespace abut

@@ -17,8 +17,8 @@ namespace abut {
 ///             places, the insertion sort stops, and the axes are sorted anew.
 class SweepAndPrune final : public PairSearch {
 public:
-    explicit SweepAndPrune(PairFilter wanted)
-        : wanted_(wanted), bulk_(make_sweep_search(std::move(wanted))) {}
+    explicit SweepAndPrune(PairFilter filter)
+        : filter_(filter), bulk_(make_sweep_search(std::move(filter))) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override;
     void update(const BoxStep& step, PairList& list) override;
@@ -46,7 +46,7 @@ private:
     bool sort_axis(std::span<const Box3> boxes, int axis, std::size_t& moves_left);
     void compare(std::span<const Box3> boxes, std::uint32_t i, std::uint32_t k);
 
-    PairFilter wanted_;
+    PairFilter filter_;
     std::unique_ptr<PairSearch> bulk_;
     std::vector<End> ends_[3];
     std::vector<Box3> last_; ///< the boxes of the last step

@@ -41,7 +41,7 @@ int widest_axis(std::span<const Box3> boxes) {
 /// Source      [Baraff 1992], one axis.
 class SweepSearch final : public PairSearch {
 public:
-    explicit SweepSearch(PairFilter wanted) : wanted_(std::move(wanted)) {}
+    explicit SweepSearch(PairFilter filter) : filter_(std::move(filter)) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
         axis_ = widest_axis(boxes);
@@ -134,11 +134,11 @@ private:
     void add(std::span<const Box3> boxes, std::uint32_t i, std::uint32_t k,
              std::vector<IndexPair>& found) const {
         const IndexPair pair(i, k);
-        if (meet(boxes[i], boxes[k]) && (!wanted_ || wanted_(pair.a(), pair.b())))
+        if (meet(boxes[i], boxes[k]) && (!filter_ || filter_(pair.a(), pair.b())))
             found.push_back(pair);
     }
 
-    PairFilter wanted_;
+    PairFilter filter_;
     int axis_ = 0;
     std::vector<std::uint32_t> order_;
     std::vector<double> begins_;
@@ -148,8 +148,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<PairSearch> make_sweep_search(PairFilter wanted) {
-    return std::make_unique<SweepSearch>(std::move(wanted));
+std::unique_ptr<PairSearch> make_sweep_search(PairFilter filter) {
+    return std::make_unique<SweepSearch>(std::move(filter));
 }
 
 } // namespace abut

@@ -19,9 +19,9 @@ struct BoxNodePair {
 /// Collects the pairs of one task that have a marked box.
 class MarkedPairs {
 public:
-    MarkedPairs(const MovingBoxTree& tree, std::span<const Box3> boxes, const PairFilter& wanted,
+    MarkedPairs(const MovingBoxTree& tree, std::span<const Box3> boxes, const PairFilter& filter,
                 std::vector<IndexPair>& found)
-        : tree_(tree), boxes_(boxes), wanted_(wanted), found_(found) {}
+        : tree_(tree), boxes_(boxes), filter_(filter), found_(found) {}
 
     void visit(std::size_t level, BoxNodePair pair) {
         if (level == 0) {
@@ -94,16 +94,16 @@ private:
         return abut::meet(boxes_[i], boxes_[k]);
     }
     void keep_wanted(std::span<const IndexPair> pairs) {
-        if (!wanted_)
+        if (!filter_)
             found_.insert(found_.end(), pairs.begin(), pairs.end());
         else
             std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(found_),
-                         [&](IndexPair pair) { return wanted_(pair.a(), pair.b()); });
+                         [&](IndexPair pair) { return filter_(pair.a(), pair.b()); });
     }
 
     const MovingBoxTree& tree_;
     std::span<const Box3> boxes_;
-    const PairFilter& wanted_;
+    const PairFilter& filter_;
     std::vector<IndexPair>& found_;
     std::array<IndexPair, std::size_t{kWidth} * kWidth>
         pairs_; ///< pairs of two nodes, before the filter
@@ -111,7 +111,7 @@ private:
 
 class TreeSearch final : public PairSearch {
 public:
-    explicit TreeSearch(PairFilter wanted) : wanted_(std::move(wanted)) {}
+    explicit TreeSearch(PairFilter filter) : filter_(std::move(filter)) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
         tree_.build(boxes);
@@ -149,7 +149,7 @@ private:
         for (auto& list : found_)
             list.clear();
         parallel_for(tasks, 1, [&](std::size_t task) {
-            MarkedPairs marked(tree_, boxes, wanted_, found_[task]);
+            MarkedPairs marked(tree_, boxes, filter_, found_[task]);
             const std::size_t end = std::min(pairs.size(), (task + 1) * kPairsOfTask);
             for (std::size_t i = task * kPairsOfTask; i < end; ++i)
                 marked.visit(level, pairs[i]);
@@ -169,7 +169,7 @@ private:
         return pairs;
     }
 
-    PairFilter wanted_;
+    PairFilter filter_;
     MovingBoxTree tree_;
     std::vector<std::vector<IndexPair>> found_;
     BoxMarks marks_;
@@ -177,8 +177,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<PairSearch> make_tree_search(PairFilter wanted) {
-    return std::make_unique<TreeSearch>(std::move(wanted));
+std::unique_ptr<PairSearch> make_tree_search(PairFilter filter) {
+    return std::make_unique<TreeSearch>(std::move(filter));
 }
 
 } // namespace abut

@@ -75,9 +75,9 @@ BodyGap from_rigid(const Gap& gap) {
 
 /// The gap of two convex solids; minus the depth if they overlap.
 BodyGap measure_solids(const Convex& a, const Transform& world_from_a, const Convex& b,
-                       const Transform& world_from_b, ConvexWorkspace& workspace) {
+                       const Transform& world_from_b, ConvexWarmStart& warm_start) {
     ConvexDistanceOptions options;
-    options.workspace = &workspace;
+    options.warm_start = &warm_start;
     const ConvexGap gap = distance(a, world_from_a, b, world_from_b, options);
     BodyGap result;
     result.distance = gap.distance;
@@ -85,7 +85,8 @@ BodyGap measure_solids(const Convex& a, const Transform& world_from_a, const Con
     result.normal = normalized_or_zero(gap.point_b - gap.point_a);
     if (gap.distance > 0)
         return result;
-    const ConvexDepth depth = penetration(a, world_from_a, b, world_from_b, &workspace);
+    const ConvexDepth depth =
+        penetration(a, world_from_a, b, world_from_b, {.warm_start = &warm_start});
     if (depth.meet) {
         result.distance = -depth.depth;
         result.point_a = depth.point_a, result.point_b = depth.point_b;
@@ -96,11 +97,11 @@ BodyGap measure_solids(const Convex& a, const Transform& world_from_a, const Con
 
 BodyGap measure_models(const Model& a, const Transform& world_from_a, const Model& b,
                        const Transform& world_from_b, double upper_bound, Depths depths,
-                       PairWorkspace& workspace) {
+                       PairWarmStart& warm_start) {
     DistanceOptions options;
     options.upper_bound = std::max(upper_bound, 0.0);
     options.signed_distance = depths == Depths::yes;
-    options.workspace = &workspace.surfaces;
+    options.warm_start = &warm_start.surfaces;
     return from_rigid(distance(a, world_from_a, b, world_from_b, options));
 }
 
@@ -111,36 +112,36 @@ BodyGap with_radius(BodyGap core, double radius) {
     return core;
 }
 
-bool meet(const PlacedSurface& a, const PlacedSurface& b, PairWorkspace& workspace) {
+bool meet(const PlacedSurface& a, const PlacedSurface& b, PairWarmStart& warm_start) {
     CollideOptions options;
-    options.workspace = &workspace.surfaces;
-    return collide(a.shape, a.world, b.shape, b.world, options).any();
+    options.warm_start = &warm_start.surfaces;
+    return collide(a.shape, a.world, b.shape, b.world, options).meet();
 }
 
-bool meet(const PlacedSurface& a, const PlacedConvex& b, PairWorkspace& workspace) {
-    if (meet(a, PlacedSurface{b.shape.surface, b.world}, workspace))
+bool meet(const PlacedSurface& a, const PlacedConvex& b, PairWarmStart& warm_start) {
+    if (meet(a, PlacedSurface{b.shape.surface, b.world}, warm_start))
         return true;
     const Model& surface = b.shape.surface;
     return any_component_inside(PlacedSolid(a.shape, a.shape.data().solid(), a.world),
                                 PlacedSolid(surface, surface.data().solid(), b.world));
 }
 
-bool meet(const PlacedConvex& a, const PlacedConvex& b, PairWorkspace& workspace) {
+bool meet(const PlacedConvex& a, const PlacedConvex& b, PairWarmStart& warm_start) {
     ConvexDistanceOptions options;
-    options.workspace = &workspace.solids;
+    options.warm_start = &warm_start.solids;
     return distance(a.shape.solid, a.world, b.shape.solid, b.world, options).distance == 0;
 }
 
-bool meet(const PlacedConvex& a, const PlacedRounded& b, PairWorkspace& workspace) {
+bool meet(const PlacedConvex& a, const PlacedRounded& b, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
     ConvexDistanceOptions options;
-    options.workspace = &workspace.solids;
+    options.warm_start = &warm_start.solids;
     return distance(a.shape.solid, a.world, core.convex, core.world, options).distance <=
            solid.radius;
 }
 
-bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWorkspace& /*workspace*/) {
+bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWarmStart& /*warm_start*/) {
     const RoundedBox solid = placed(b.shape, b.world);
     switch (dimension(solid)) {
     case 0:
@@ -155,37 +156,37 @@ bool meet(const PlacedSurface& a, const PlacedRounded& b, PairWorkspace& /*works
     }
 }
 
-bool meet(const PlacedRounded& a, const PlacedRounded& b, PairWorkspace& /*workspace*/) {
+bool meet(const PlacedRounded& a, const PlacedRounded& b, PairWarmStart& /*warm_start*/) {
     return rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), 0).distance <=
            0;
 }
 
 BodyGap measure(const PlacedSurface& a, const PlacedSurface& b, double upper_bound, Depths depths,
-                PairWorkspace& workspace) {
-    return measure_models(a.shape, a.world, b.shape, b.world, upper_bound, depths, workspace);
+                PairWarmStart& warm_start) {
+    return measure_models(a.shape, a.world, b.shape, b.world, upper_bound, depths, warm_start);
 }
 
 BodyGap measure(const PlacedSurface& a, const PlacedConvex& b, double upper_bound, Depths depths,
-                PairWorkspace& workspace) {
+                PairWarmStart& warm_start) {
     BodyGap gap =
-        measure_models(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths, workspace);
+        measure_models(a.shape, a.world, b.shape.surface, b.world, upper_bound, depths, warm_start);
     // A surface wholly inside the solid may be far from its faces, but is in contact.
-    if (gap.distance > 0 && meet(a, b, workspace))
+    if (gap.distance > 0 && meet(a, b, warm_start))
         gap.distance = 0, gap.normal = {};
     return gap;
 }
 
 BodyGap measure(const PlacedConvex& a, const PlacedConvex& b, double /*upper_bound*/,
-                Depths /*depths*/, PairWorkspace& workspace) {
-    return measure_solids(a.shape.solid, a.world, b.shape.solid, b.world, workspace.solids);
+                Depths /*depths*/, PairWarmStart& warm_start) {
+    return measure_solids(a.shape.solid, a.world, b.shape.solid, b.world, warm_start.solids);
 }
 
 BodyGap measure(const PlacedConvex& a, const PlacedRounded& b, double /*upper_bound*/,
-                Depths /*depths*/, PairWorkspace& workspace) {
+                Depths /*depths*/, PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     const Core core = core_of(solid);
     return with_radius(
-        measure_solids(a.shape.solid, a.world, core.convex, core.world, workspace.solids),
+        measure_solids(a.shape.solid, a.world, core.convex, core.world, warm_start.solids),
         solid.radius);
 }
 
@@ -204,7 +205,7 @@ BodyGap measure_point(const PlacedSurface& a, const Vec3& centre, double upper_b
 }
 
 BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bound, Depths depths,
-                PairWorkspace& workspace) {
+                PairWarmStart& warm_start) {
     const RoundedBox solid = placed(b.shape, b.world);
     // Enlarged to cover the rounding when the radius is subtracted again.
     const double bound = (std::max(upper_bound, 0.0) + solid.radius) * (1 + 0x1p-50);
@@ -224,16 +225,16 @@ BodyGap measure(const PlacedSurface& a, const PlacedRounded& b, double upper_bou
         const OffsetSurface faces = offset_surface_of(b.shape);
         BodyGap gap = measure_models(a.shape, a.world, faces.surface,
                                      compose(b.world, faces.body_from_surface), upper_bound, depths,
-                                     workspace);
+                                     warm_start);
         // A surface wholly inside the box may be far from its faces, but is in contact.
-        if (gap.distance > 0 && meet(a, b, workspace))
+        if (gap.distance > 0 && meet(a, b, warm_start))
             gap.distance = 0, gap.normal = {};
         return gap;
     }
 }
 
 BodyGap measure(const PlacedRounded& a, const PlacedRounded& b, double upper_bound,
-                Depths /*depths*/, PairWorkspace& /*workspace*/) {
+                Depths /*depths*/, PairWarmStart& /*warm_start*/) {
     const SolidGap gap =
         rounded_box_distance(placed(a.shape, a.world), placed(b.shape, b.world), upper_bound);
     BodyGap result;
@@ -288,17 +289,19 @@ auto with_shapes(const PlacedBody& a, const PlacedBody& b, const Query& query, c
 
 } // namespace
 
-bool touch(const PlacedBody& a, const PlacedBody& b, PairWorkspace& workspace) {
+bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start) {
     return with_shapes(
-        a, b, [&](const auto& x, const auto& y) { return meet(x, y, workspace); },
+        a, b, [&](const auto& x, const auto& y) { return meet(x, y, warm_start); },
         [](bool met) { return met; });
 }
 
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
-                    PairWorkspace& workspace) {
+                    PairWarmStart& warm_start) {
     return with_shapes(
         a, b,
-        [&](const auto& x, const auto& y) { return measure(x, y, upper_bound, depths, workspace); },
+        [&](const auto& x, const auto& y) {
+            return measure(x, y, upper_bound, depths, warm_start);
+        },
         [](const BodyGap& gap) { return turned_round(gap); });
 }
 

@@ -13,13 +13,13 @@ struct PlacedBody {
 };
 
 /// Data kept from one query of two bodies to the next, for all kinds of shape.
-struct PairWorkspace {
-    Workspace surfaces;
-    ConvexWorkspace solids;
+struct PairWarmStart {
+    WarmStart surfaces;
+    ConvexWarmStart solids;
 };
 
 /// Whether two bodies share a point.
-bool touch(const PlacedBody& a, const PlacedBody& b, PairWorkspace& workspace);
+bool touch(const PlacedBody& a, const PlacedBody& b, PairWarmStart& warm_start);
 
 /// What gap_between returns for bodies that overlap.
 enum class Depths : std::uint8_t {
@@ -31,7 +31,7 @@ enum class Depths : std::uint8_t {
 ///
 /// In          upper_bound: if the gap is larger, any distance above the bound may be returned.
 BodyGap gap_between(const PlacedBody& a, const PlacedBody& b, double upper_bound, Depths depths,
-                    PairWorkspace& workspace);
+                    PairWarmStart& warm_start);
 
 /// Whether the kind of shape is convex. Models count as not convex.
 inline bool is_convex(const BodyShape& shape) {

@@ -112,7 +112,7 @@ void WorldData::fit_box(std::uint32_t index) {
 
 void WorldData::update() {
     broad_phase_.update(boxes_, changed_);
-    carry_over(workspaces_, broad_phase_, PairWorkspace());
+    carry_over(warm_starts_, broad_phase_, PairWarmStart());
     for (const std::uint32_t index : changed_)
         is_changed_[index] = 0;
     changed_.clear();

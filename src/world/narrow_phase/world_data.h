@@ -49,8 +49,8 @@ public:
     [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
     [[nodiscard]] const std::vector<Box3>& boxes() const { return boxes_; }
     [[nodiscard]] const BroadPhase& broad_phase() const { return broad_phase_; }
-    /// A workspace for each pair of `broad_phase().pairs()`.
-    [[nodiscard]] std::vector<PairWorkspace>& workspaces() { return workspaces_; }
+    /// A warm start for each pair of `broad_phase().pairs()`.
+    [[nodiscard]] std::vector<PairWarmStart>& warm_starts() { return warm_starts_; }
 
     [[nodiscard]] PlacedBody placed(std::uint32_t index) const {
         return {bodies_[index].shape, bodies_[index].world_from_body};
@@ -81,7 +81,7 @@ private:
     bool refiltered_ = false; ///< whether filters changed since the last update
     std::size_t alive_ = 0;
     BroadPhase broad_phase_;
-    std::vector<PairWorkspace> workspaces_;
+    std::vector<PairWarmStart> warm_starts_;
 };
 
 /// Carries a value for each pair over an update of the broad phase. Values of new pairs are

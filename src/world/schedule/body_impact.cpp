@@ -30,7 +30,7 @@ public:
         const double size = std::max(reach_a_, reach_b_);
         scale_ = size + max_abs(a.motion.centre) + max_abs(b.motion.centre) +
                  max_abs(a.motion.velocity) + max_abs(b.motion.velocity);
-        asked_tolerance_ = options.tolerance.value_or(kImpactTolerance * size);
+        asked_tolerance_ = options.absolute_error.value_or(kImpactTolerance * size);
         tolerance_ = std::max(asked_tolerance_, 4 * kRounding * scale_);
     }
 
@@ -66,9 +66,9 @@ private:
 
     [[nodiscard]] BodyGap gap_at(double time) const {
         const Transform world_a = at(a_.motion, time), world_b = at(b_.motion, time);
-        PairWorkspace workspace;
+        PairWarmStart warm_start;
         return gap_between({a_.shape, world_a}, {b_.shape, world_b}, HUGE_VAL, Depths::no,
-                           workspace);
+                           warm_start);
     }
 
     /// Upper bound of the speed at which points of the two bodies approach each other. For two
@@ -88,7 +88,7 @@ private:
 
     [[nodiscard]] Impact hit(double time, const BodyGap& gap) const {
         Impact impact;
-        impact.hit = true, impact.time = time, impact.gap = std::max(gap.distance, 0.0);
+        impact.meet = true, impact.time = time, impact.gap = std::max(gap.distance, 0.0);
         impact.point_a = gap.point_a, impact.point_b = gap.point_b, impact.normal = gap.normal;
         impact.triangle_a = gap.triangle_a, impact.triangle_b = gap.triangle_b;
         impact.status = Status::bound_only;

@@ -65,7 +65,7 @@ class DeformingSearch {
 public:
     DeformingSearch(const DeformingPair& pair, const ImpactOptions& options)
         : pair_(pair), tree_a_(pair.tree_a()), tree_b_(pair.tree_b()),
-          asked_tolerance_(options.tolerance.value_or(kImpactTolerance * pair.size())),
+          asked_tolerance_(options.absolute_error.value_or(kImpactTolerance * pair.size())),
           tolerance_(std::max(asked_tolerance_, 4 * pair.margin())), steps_(options) {}
 
     Impact run() {
@@ -209,7 +209,7 @@ private:
         if (found_.time == kNoContact)
             return impact;
         const Vec3 shift = pair_.shift(found_.time);
-        impact.hit = true, impact.time = found_.time;
+        impact.meet = true, impact.time = found_.time;
         impact.gap = std::max(gap_of(found_), 0.0);
         impact.normal = normalized_or_zero(found_.closest.b - found_.closest.a);
         impact.point_a = found_.closest.a + shift;
@@ -258,13 +258,13 @@ Impact turned_round(Impact impact) {
 /// The impact of bodies that already share a point at the start; none if they do not.
 std::optional<Impact> impact_at_start(const MovingBody& a, const MovingBody& b) {
     const Transform world_from_a = a.motion.start, world_from_b = b.motion.start;
-    PairWorkspace workspace;
-    if (!touch({a.shape, world_from_a}, {b.shape, world_from_b}, workspace))
+    PairWarmStart warm_start;
+    if (!touch({a.shape, world_from_a}, {b.shape, world_from_b}, warm_start))
         return std::nullopt;
     const BodyGap gap =
-        gap_between({a.shape, world_from_a}, {b.shape, world_from_b}, 0, Depths::no, workspace);
+        gap_between({a.shape, world_from_a}, {b.shape, world_from_b}, 0, Depths::no, warm_start);
     Impact impact;
-    impact.hit = true;
+    impact.meet = true;
     impact.time = impact.contact_time = impact.gap = 0;
     impact.point_a = gap.point_a, impact.point_b = gap.point_b;
     impact.triangle_a = gap.triangle_a, impact.triangle_b = gap.triangle_b;

@@ -8,7 +8,7 @@ namespace abut {
 /// step.
 ///
 /// Accuracy    never later than the first contact, and no contact is missed. Two deformables:
-///             exact, as `first_impact`.
+///             exact, as `time_of_impact`.
 /// Source      two deformables: docs/representative-triangles.md. Else moving boxes, subdivided in
 ///             space and time [Snyder et al. 1993], and conservative advancement of two triangles
 ///             [Mirtich 1996] along the direction in which they are apart.

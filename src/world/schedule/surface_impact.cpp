@@ -63,7 +63,7 @@ Impact impact_of_features(const DeformableData& a, const DeformableData& b,
             std::swap(on_a, on_b);
     }
     Impact impact;
-    impact.hit = true, impact.time = found.time;
+    impact.meet = true, impact.time = found.time;
     impact.point_a = on_a.point, impact.point_b = on_b.point;
     impact.triangle_a = on_a.triangle, impact.triangle_b = on_b.triangle;
     impact.gap = length(on_b.point - on_a.point);
@@ -79,7 +79,7 @@ Impact impact_of_features(const DeformableData& a, const DeformableData& b,
 Impact surface_impact(const Deformable& a, const Deformable& b) {
     if (a.data().options.scheme == b.data().options.scheme &&
         a.data().options.culling == b.data().options.culling) {
-        const auto found = first_impact(a, b);
+        const auto found = time_of_impact(a, b);
         return found ? impact_of_features(a.data(), b.data(), *found) : Impact();
     }
     // The two schemes cannot be mixed. Rebuilds b's surface with the scheme of a.

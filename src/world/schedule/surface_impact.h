@@ -8,7 +8,7 @@ namespace abut {
 /// The first impact of two deformable surfaces that do not touch at the start, in the form used for
 /// two bodies.
 ///
-/// Accuracy    as `first_impact`. `contact_time` is less than 1e-9 after the first contact.
+/// Accuracy    as `time_of_impact`. `contact_time` is less than 1e-9 after the first contact.
 Impact surface_impact(const Deformable& a, const Deformable& b);
 
 } // namespace abut

@@ -194,11 +194,11 @@ std::vector<double> CollisionSchedule::distances_of(const std::vector<std::size_
     parallel_for(pairs.size(), 8, [&](std::size_t i) {
         const IndexPair pair = broad_phase_.pairs()[pairs[i]];
         const PlacedBody a = world_.placed(pair.a()), b = world_.placed(pair.b());
-        PairWorkspace workspace;
+        PairWarmStart warm_start;
         distances[i] =
-            touch(a, b, workspace)
+            touch(a, b, warm_start)
                 ? 0
-                : std::max(gap_between(a, b, kNever, Depths::no, workspace).distance, 0.0);
+                : std::max(gap_between(a, b, kNever, Depths::no, warm_start).distance, 0.0);
         meter.advance();
     });
     return distances;

@@ -33,7 +33,7 @@ struct Tally {
     }
     void add(const ElementaryImpact& impact) {
         ++cases;
-        hits += impact.hit ? 1 : 0;
+        hits += impact.meet ? 1 : 0;
         culled += impact.decided_by == ElementaryStage::filter ? 1 : 0;
         intervals += impact.decided_by == ElementaryStage::interval ? 1 : 0;
     }
@@ -64,7 +64,7 @@ ElementaryPair any_pair(Random& random) {
 
 void expect_like_oracle(const ElementaryPair& pair, const ElementaryImpact& impact,
                         const std::optional<OracleTime>& truth) {
-    ASSERT_EQ(impact.hit, truth.has_value()) << pair;
+    ASSERT_EQ(impact.meet, truth.has_value()) << pair;
     EXPECT_EQ(impact.status, Status::exact);
     if (!truth) {
         EXPECT_EQ(impact.time, 1);
@@ -118,11 +118,11 @@ TEST(ElementaryImpact, WhatFilterAndIntervalsDecideIsExact) {
         const ElementaryImpact impact = elementary_impact(pair);
         tally.add(impact);
         if (impact.decided_by == ElementaryStage::exact) {
-            exact_hits += impact.hit ? 1 : 0;
+            exact_hits += impact.meet ? 1 : 0;
             continue;
         }
         const ElementaryImpact exact = elementary_impact_exact(pair);
-        ASSERT_EQ(impact.hit, exact.hit) << pair;
+        ASSERT_EQ(impact.meet, exact.meet) << pair;
         // Both are lower bounds of one time, and less than 1e-9 below it.
         ASSERT_NEAR(impact.time, exact.time, 1e-9) << pair;
         ASSERT_LE(impact.time, exact.time + 0x1p-44) << pair;
@@ -143,13 +143,13 @@ TEST(ElementaryImpact, TheSamePairWrittenDifferently) {
         const ElementaryImpact impact = elementary_impact(pair);
         tally.add(impact);
         const ElementaryImpact same = elementary_impact(rewritten(random, pair));
-        ASSERT_EQ(impact.hit, same.hit) << pair;
+        ASSERT_EQ(impact.meet, same.meet) << pair;
         ASSERT_NEAR(impact.time, same.time, 1e-9) << pair;
-        ASSERT_EQ(impact.hit, elementary_impact(reversed(pair)).hit) << pair;
+        ASSERT_EQ(impact.meet, elementary_impact(reversed(pair)).meet) << pair;
         if (i % 8 == 0) {
             const Vec3 way{double(random.integer(-9, 9)), double(random.integer(-9, 9)), 1e9};
-            ASSERT_EQ(impact.hit,
-                      elementary_impact(changed(pair, [&](const Vec3& p) { return p + way; })).hit)
+            ASSERT_EQ(impact.meet,
+                      elementary_impact(changed(pair, [&](const Vec3& p) { return p + way; })).meet)
                 << pair;
         }
     }
@@ -181,7 +181,7 @@ TEST(ElementaryImpact, TheFilterOnEverySimdTarget) {
                 // Fused operations may tell a little more, or less.
                 different += is_possible != ((reference >> lane & 1) != 0) ? 1 : 0;
                 ASSERT_EQ(is_possible, possible_impact(pair)) << pair;
-                ASSERT_TRUE(is_possible || !elementary_impact_exact(pair).hit) << pair;
+                ASSERT_TRUE(is_possible || !elementary_impact_exact(pair).meet) << pair;
             }
         }
         std::cout << target << ": " << cases << " cases, " << culled << " culled, " << different
@@ -223,7 +223,7 @@ TEST(ElementaryImpact, CrossingsOnEverySimdTarget) {
                     continue;
                 ASSERT_FALSE(meets && apart) << pair;
                 const ElementaryImpact exact = elementary_impact_exact(pair);
-                ASSERT_EQ(exact.hit, meets) << pair;
+                ASSERT_EQ(exact.meet, meets) << pair;
                 if (!meets)
                     continue;
                 ASSERT_EQ(crossings.time[lane], single.time[0]) << pair;
@@ -244,17 +244,17 @@ TEST(ElementaryImpact, ManyAtOnceAreAsOneByOne) {
     std::vector<ElementaryPair> pairs(5003);
     std::generate(pairs.begin(), pairs.end(), [&] { return any_pair(random); });
     for (const double delta : {0.0, 1e-3}) {
-        const auto impacts = elementary_impacts(pairs, {.delta = delta});
+        const auto impacts = elementary_impacts(pairs, {.absolute_error = delta});
         ASSERT_EQ(impacts.size(), pairs.size());
         int hits = 0;
         for (std::size_t i = 0; i < pairs.size(); ++i) {
-            const ElementaryImpact one = elementary_impact(pairs[i], {.delta = delta});
-            ASSERT_EQ(impacts[i].hit, one.hit) << pairs[i];
+            const ElementaryImpact one = elementary_impact(pairs[i], {.absolute_error = delta});
+            ASSERT_EQ(impacts[i].meet, one.meet) << pairs[i];
             ASSERT_EQ(impacts[i].time, one.time) << pairs[i];
             ASSERT_EQ(impacts[i].normal, one.normal) << pairs[i];
             ASSERT_EQ(impacts[i].barycentric, one.barycentric) << pairs[i];
             ASSERT_EQ(impacts[i].decided_by, one.decided_by) << pairs[i];
-            hits += one.hit ? 1 : 0;
+            hits += one.meet ? 1 : 0;
         }
         EXPECT_GT(hits, 1000);
     }
@@ -280,13 +280,13 @@ TEST(ElementaryImpact, ConservativeMissesNothingAndReportsOnlyNearPairs) {
         if (i % 4 == 1)
             pair.start[0] = pair.start[0] + random.in_cube(delta);
         const ElementaryImpact exact = elementary_impact(pair);
-        const ElementaryImpact impact = elementary_impact(pair, {.delta = delta});
+        const ElementaryImpact impact = elementary_impact(pair, {.absolute_error = delta});
         tally.add(impact);
-        if (exact.hit) {
-            ASSERT_TRUE(impact.hit) << pair;
+        if (exact.meet) {
+            ASSERT_TRUE(impact.meet) << pair;
             ASSERT_LE(impact.time, exact.time + 0x1p-44) << pair;
         }
-        if (!impact.hit || impact.status == Status::exact)
+        if (!impact.meet || impact.status == Status::exact)
             continue;
         ++near;
         ASSERT_LE(distance_at(pair, impact.time), delta + 1e-15 * size_of(pair)) << pair;
@@ -304,7 +304,7 @@ TEST(ElementaryImpact, PointsAndNormalsOfImpacts) {
         const ElementaryPair pair = i % 2 == 0 ? lattice_pair(random, 3) : meeting_pair(random);
         const ElementaryImpact impact = elementary_impact(pair);
         tally.add(impact);
-        if (!impact.hit)
+        if (!impact.meet)
             continue;
         const auto& b = impact.barycentric;
         const bool face = pair.kind == ElementaryKind::vertex_face;

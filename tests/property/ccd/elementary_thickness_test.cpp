@@ -27,8 +27,8 @@ struct Tally {
     }
     void add(const ElementaryImpact& impact) {
         ++cases;
-        hits += impact.hit ? 1 : 0;
-        late += impact.hit && impact.time > 0 ? 1 : 0;
+        hits += impact.meet ? 1 : 0;
+        late += impact.meet && impact.time > 0 ? 1 : 0;
         culled += impact.decided_by == ElementaryStage::filter ? 1 : 0;
         bound_only += impact.status == Status::bound_only ? 1 : 0;
     }
@@ -50,11 +50,11 @@ void expect_as_promised(Random& random, const ElementaryPair& pair, const Elemen
     const ThicknessOracle oracle(pair);
     ASSERT_GE(impact.time, 0);
     ASSERT_LE(impact.time, 1);
-    if (impact.hit) {
+    if (impact.meet) {
         const double tolerance =
             impact.status == Status::converged
                 ? 1e-6 * d
-                : std::max({1e-6 * d, options.delta, 6e-12 * size_between(pair)});
+                : std::max({1e-6 * d, options.absolute_error, 6e-12 * size_between(pair)});
         ASSERT_TRUE(oracle.within(d + tolerance, impact.time)) << d << ' ' << pair;
     } else {
         ASSERT_EQ(impact.status, Status::exact);
@@ -120,7 +120,8 @@ TEST(ElementaryThickness, AsPromised) {
     for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {
         ElementaryOptions options;
         options.thickness = std::pow(10, random.uniform(-9, 0));
-        options.delta = i % 4 == 0 ? options.thickness * std::pow(10, random.uniform(-7, 1)) : 0;
+        options.absolute_error =
+            i % 4 == 0 ? options.thickness * std::pow(10, random.uniform(-7, 1)) : 0;
         const ElementaryPair pair = moved_off(random, any_pair(random), options.thickness);
         const ElementaryImpact impact = elementary_impact(pair, options);
         tally.add(impact);
@@ -147,7 +148,7 @@ TEST(ElementaryThickness, NoneIsMissed) {
         if (!time)
             continue;
         ++tally.found;
-        ASSERT_TRUE(impact.hit) << d << ' ' << pair;
+        ASSERT_TRUE(impact.meet) << d << ' ' << pair;
         ASSERT_LE(impact.time, *time) << d << ' ' << pair;
     }
     EXPECT_GT(tally.share(tally.late), 0.1);
@@ -201,11 +202,11 @@ TEST(ElementaryThickness, GrazingAtExactlyTheThickness) {
                      d = scale * grazing.distance;
         const ElementaryImpact impact = elementary_impact(pair, {.thickness = d});
         tally.add(impact);
-        ASSERT_TRUE(impact.hit) << d << pair;
+        ASSERT_TRUE(impact.meet) << d << pair;
         ASSERT_LE(impact.time, 0.5) << pair;
         expect_as_promised(random, pair, impact, {.thickness = d});
         early += impact.time < 0.4 ? 1 : 0;
-        ASSERT_FALSE(elementary_impact(pair, {.thickness = (1 - 1.1e-6) * d}).hit) << pair;
+        ASSERT_FALSE(elementary_impact(pair, {.thickness = (1 - 1.1e-6) * d}).meet) << pair;
         for (const double almost : {std::nextafter(d, 0.0), (1 - 0.5e-6) * d}) {
             const ElementaryImpact near = elementary_impact(pair, {.thickness = almost});
             expect_as_promised(random, pair, near, {.thickness = almost});
@@ -228,11 +229,11 @@ TEST(ElementaryThickness, TheSamePairWrittenDifferently) {
         tally.add(one);
         // Either answer is right of a pair whose distance is between the thickness and what is
         // allowed.
-        different += one.hit != two.hit ? 1 : 0;
-        if (one.hit != two.hit) {
-            const auto& [hit, of] = one.hit ? std::pair(one, pair) : std::pair(two, same);
-            ASSERT_FALSE(ThicknessOracle(of).within(one.hit ? d : scale * d, hit.time)) << pair;
-        } else if (one.hit) {
+        different += one.meet != two.meet ? 1 : 0;
+        if (one.meet != two.meet) {
+            const auto& [hit, of] = one.meet ? std::pair(one, pair) : std::pair(two, same);
+            ASSERT_FALSE(ThicknessOracle(of).within(one.meet ? d : scale * d, hit.time)) << pair;
+        } else if (one.meet) {
             const double tolerance = 2e-6 * d + 2e-11 * size_between(pair);
             ASSERT_TRUE(ThicknessOracle(pair).within(d + tolerance, two.time)) << pair;
         }
@@ -256,7 +257,7 @@ TEST(ElementaryThickness, AnySizeOfCoordinates) {
                                two = elementary_impact(scaled,
                                                        {.thickness = std::ldexp(d, exponent)});
         tally.add(two);
-        ASSERT_EQ(one.hit, two.hit) << d << pair;
+        ASSERT_EQ(one.meet, two.meet) << d << pair;
         ASSERT_EQ(one.time, two.time) << d << pair;
         // Of touching features it depends on a velocity, which loses digits to underflow.
         if (exponent >= -1000) {
@@ -287,7 +288,7 @@ TEST(ElementaryThickness, PointsAndNormals) {
         const ElementaryPair pair = moved_off(random, any_pair(random), d);
         const ElementaryImpact impact = elementary_impact(pair, {.thickness = d});
         tally.add(impact);
-        if (!impact.hit)
+        if (!impact.meet)
             continue;
         const auto [p, q] = impact_points(pair, impact);
         const double gap = length(p - q), rounding = 1e-14 * (1 + size_of(pair));
@@ -357,13 +358,13 @@ TEST(ElementaryThickness, ManyAtOnceAreAsOneByOne) {
     int hits = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const ElementaryImpact one = elementary_impact(pairs[i], options);
-        ASSERT_EQ(impacts[i].hit, one.hit) << pairs[i];
+        ASSERT_EQ(impacts[i].meet, one.meet) << pairs[i];
         ASSERT_EQ(impacts[i].status, one.status) << pairs[i];
         ASSERT_EQ(impacts[i].time, one.time) << pairs[i];
         ASSERT_EQ(impacts[i].normal, one.normal) << pairs[i];
         ASSERT_EQ(impacts[i].barycentric, one.barycentric) << pairs[i];
         ASSERT_EQ(impacts[i].decided_by, one.decided_by) << pairs[i];
-        hits += one.hit ? 1 : 0;
+        hits += one.meet ? 1 : 0;
     }
     EXPECT_GT(hits, 1000);
 }

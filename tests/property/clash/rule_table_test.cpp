@@ -75,7 +75,7 @@ TEST(RuleTable, SaysOfPairsWhatTheRulesMean) {
                 rule.clearance = random.uniform(0, 1);
             options.rules.push_back(rule);
         }
-        options.clearance = 2, options.touch = 3;
+        options.clearance = 2, options.touch_tolerance = 3;
         RuleTable table(options);
         std::vector<NamedPart> parts;
         for (int i = 0; i < 12; ++i) {
@@ -106,7 +106,7 @@ TEST(RuleTable, SaysOfPairsWhatTheRulesMean) {
 
 TEST(RuleTable, WithoutRulesAllPairsHaveTheTermsOfTheOptions) {
     ClashOptions options;
-    options.clearance = 0.5, options.touch = 0.25;
+    options.clearance = 0.5, options.touch_tolerance = 0.25;
     RuleTable table(options);
     table.add({}), table.add({});
     const auto terms = table.terms(0, 1);

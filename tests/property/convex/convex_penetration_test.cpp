@@ -111,7 +111,7 @@ TEST(ConvexPenetration, IsTheLeastOverAllPlanes) {
     EXPECT_GT(apart, 20);
 }
 
-TEST(ConvexPenetration, AWorkspaceChangesNothing) {
+TEST(ConvexPenetration, AWarmStartChangesNothing) {
     Random random(7102);
     std::vector<Vec3> points;
     for (int i = 0; i < 300; ++i) {
@@ -119,7 +119,7 @@ TEST(ConvexPenetration, AWorkspaceChangesNothing) {
         points.push_back({d.x, 0.7 * d.y, 0.4 * d.z});
     }
     const Convex a(points), b(make_points(random, 0));
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     int meet = 0, apart = 0;
     for (int path = 0; path < many(20); ++path) {
         Vec3 at = random.uniform(0, 2) * random.direction();
@@ -130,12 +130,13 @@ TEST(ConvexPenetration, AWorkspaceChangesNothing) {
             at = at + 0.02 * random.direction();
             Transform world_b = turn;
             world_b.m[9] = at.x, world_b.m[10] = at.y, world_b.m[11] = at.z;
-            const ConvexDepth warm = penetration(a, Pose{}, b, world_b, &workspace);
+            const ConvexDepth warm =
+                penetration(a, Pose{}, b, world_b, {.warm_start = &warm_start});
             const ConvexDepth cold = penetration(a, Pose{}, b, world_b);
             ASSERT_EQ(warm.meet, cold.meet);
             ASSERT_NEAR(warm.depth, cold.depth, 1e-13);
             if (s % 5 == 0) { // between queries of another kind
-                const ConvexGap gap = distance(a, Pose{}, b, world_b, {.workspace = &workspace});
+                const ConvexGap gap = distance(a, Pose{}, b, world_b, {.warm_start = &warm_start});
                 ASSERT_EQ(gap.distance == 0, warm.meet);
             }
             (warm.meet ? meet : apart) += 1;
@@ -145,11 +146,11 @@ TEST(ConvexPenetration, AWorkspaceChangesNothing) {
     EXPECT_GT(apart, 30);
 }
 
-/// Bodies of all kinds in turn with one workspace, in steps of all sizes: a polytope that is recalled
+/// Bodies of all kinds in turn with one warm start, in steps of all sizes: a polytope that is recalled
 /// may be dented, turned inside out, or be no polytope of these bodies at all.
-TEST(ConvexPenetration, AWorkspaceOfOtherBodiesChangesNothing) {
+TEST(ConvexPenetration, AWarmStartOfOtherBodiesChangesNothing) {
     Random random(7103);
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     int meet = 0;
     std::uint64_t warm_simplices = 0, cold_simplices = 0;
     for (int i = 0; i < many(150); ++i) {
@@ -163,7 +164,7 @@ TEST(ConvexPenetration, AWorkspaceOfOtherBodiesChangesNothing) {
             at = at + size * random.direction();
             Transform world_b = turn;
             world_b.m[9] = at.x, world_b.m[10] = at.y, world_b.m[11] = at.z;
-            const ConvexDepth warm = penetration(a, {}, b, world_b, &workspace);
+            const ConvexDepth warm = penetration(a, {}, b, world_b, {.warm_start = &warm_start});
             const ConvexDepth cold = penetration(a, {}, b, world_b);
             const double rounding = 64 * 0x1p-52 * 3;
             ASSERT_NEAR(warm.depth, cold.depth, rounding) << i << ' ' << s;

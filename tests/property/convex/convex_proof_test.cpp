@@ -51,9 +51,9 @@ struct Counts {
     int meet = 0, apart = 0, touch = 0, measured = 0;
 };
 
-/// Every claim of both queries, with a workspace and without, against the oracle.
+/// Every claim of both queries, with a warm start and without, against the oracle.
 void check(const Convex& a, const Transform& world_a, const Convex& b, const Transform& world_b,
-           ConvexWorkspace* workspace, bool measure, Counts& counts) {
+           ConvexWarmStart* warm_start, bool measure, Counts& counts) {
     const std::vector<Vec3> pa = placed(a, world_a), pb = placed(b, world_b);
     const DifferenceOracle oracle(pa, pb);
     if (!oracle.is_solid())
@@ -61,7 +61,7 @@ void check(const Convex& a, const Transform& world_a, const Convex& b, const Tra
     ++(oracle.meet() ? counts.meet : counts.apart);
     counts.touch += oracle.touch() ? 1 : 0;
     const double rounding = 0x1p-44 * extent_of(pa, pb), doubt = 0x1p-41 * extent_of(pa, pb);
-    const ConvexGap gap = distance(a, world_a, b, world_b, {.workspace = workspace});
+    const ConvexGap gap = distance(a, world_a, b, world_b, {.warm_start = warm_start});
     ASSERT_EQ(gap.status, Status::exact);
     ASSERT_EQ(gap.distance == 0, oracle.meet()) << gap.distance;
     ASSERT_EQ(gap.at_least > 0, gap.distance > 0) << gap.distance;
@@ -73,7 +73,7 @@ void check(const Convex& a, const Transform& world_a, const Convex& b, const Tra
         ASSERT_LE(abs(truth - gap.distance), 1e-12 * gap.distance + rounding);
         ++counts.measured;
     }
-    const ConvexDepth depth = penetration(a, world_a, b, world_b, workspace);
+    const ConvexDepth depth = penetration(a, world_a, b, world_b, {.warm_start = warm_start});
     ASSERT_EQ(depth.meet, oracle.meet());
     ASSERT_EQ(depth.status, Status::exact);
     if (!depth.meet) {
@@ -88,10 +88,10 @@ void check(const Convex& a, const Transform& world_a, const Convex& b, const Tra
 }
 
 void check_both_ways(const Convex& a, const Transform& world_a, const Convex& b,
-                     const Transform& world_b, ConvexWorkspace& workspace, bool measure,
+                     const Transform& world_b, ConvexWarmStart& warm_start, bool measure,
                      Counts& counts) {
     check(a, world_a, b, world_b, nullptr, measure, counts);
-    check(a, world_a, b, world_b, &workspace, measure, counts);
+    check(a, world_a, b, world_b, &warm_start, measure, counts);
 }
 
 std::vector<Vec3> points_in(Random& random, const Vec3& half) {
@@ -117,7 +117,7 @@ TEST_P(ThinHulls, AreToldApart) {
     const double h = std::pow(10, GetParam());
     const int cases = many(200);
     Counts counts;
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     for (int i = 0; i < cases; ++i) {
         const Convex a(points_in(random, {1, 1, h})), b(points_in(random, {1, 1, h}));
         Transform world_a, world_b;
@@ -137,7 +137,7 @@ TEST_P(ThinHulls, AreToldApart) {
                 compose(translation(random.uniform(-1, 1), 2, 3), random.linear_map(i % 4 == 3));
             world_a = all, world_b = compose(all, world_b);
         }
-        check_both_ways(a, world_a, b, world_b, workspace, i % 20 == 0, counts);
+        check_both_ways(a, world_a, b, world_b, warm_start, i % 20 == 0, counts);
         ASSERT_FALSE(HasFatalFailure()) << "case " << i;
     }
     expect_both(counts, cases);
@@ -149,7 +149,7 @@ TEST(ConvexProof, NeedlesAreToldApart) {
     Random random(7320);
     const int cases = many(600);
     Counts counts;
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     for (int i = 0; i < cases; ++i) {
         const auto needle = [&] {
             const double extent = std::pow(10, random.uniform(0, 8));
@@ -172,7 +172,7 @@ TEST(ConvexProof, NeedlesAreToldApart) {
         const Vec3 off = inside(points_a, world_a) - inside(points_b, world_b) +
                          std::pow(10, random.uniform(-5, 0)) * random.direction();
         world_b.m[9] = off.x, world_b.m[10] = off.y, world_b.m[11] = off.z;
-        check_both_ways(a, world_a, b, world_b, workspace, i % 20 == 0, counts);
+        check_both_ways(a, world_a, b, world_b, warm_start, i % 20 == 0, counts);
         ASSERT_FALSE(HasFatalFailure()) << "case " << i;
     }
     expect_both(counts, cases);
@@ -184,7 +184,7 @@ TEST(ConvexProof, BodiesThatTouchAreToldApart) {
     Random random(7330);
     const int cases = many(1200);
     Counts counts;
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     for (int i = 0; i < cases; ++i) {
         const auto lattice = [&] {
             std::vector<Vec3> points;
@@ -211,7 +211,7 @@ TEST(ConvexProof, BodiesThatTouchAreToldApart) {
         if (i % 3 != 1) // a bit aside
             off = off + 0x1p-52 * (random.on_lattice(4) - Vec3{2, 2, 2});
         world_b.m[9] = off.x, world_b.m[10] = off.y, world_b.m[11] = off.z;
-        check_both_ways(a, {}, b, world_b, workspace, i % 9 == 0, counts);
+        check_both_ways(a, {}, b, world_b, warm_start, i % 9 == 0, counts);
         ASSERT_FALSE(HasFatalFailure()) << "case " << i;
     }
     expect_both(counts, cases);
@@ -224,7 +224,7 @@ TEST(ConvexProof, ShallowOverlapsAreFound) {
     Random random(7340);
     const int cases = many(300);
     int shallow = 0, apart = 0;
-    ConvexWorkspace workspace;
+    ConvexWarmStart warm_start;
     for (int i = 0; i < cases; ++i) {
         const auto curved = [&](int count) {
             std::vector<Vec3> points;
@@ -244,8 +244,8 @@ TEST(ConvexProof, ShallowOverlapsAreFound) {
         world_b.m[9] += by * deep.direction.x, world_b.m[10] += by * deep.direction.y;
         world_b.m[11] += by * deep.direction.z;
         const bool meets = left > 0;
-        for (ConvexWorkspace* w : {static_cast<ConvexWorkspace*>(nullptr), &workspace}) {
-            const ConvexGap gap = distance(a, world_a, b, world_b, {.workspace = w});
+        for (ConvexWarmStart* w : {static_cast<ConvexWarmStart*>(nullptr), &warm_start}) {
+            const ConvexGap gap = distance(a, world_a, b, world_b, {.warm_start = w});
             const ConvexDepth depth = penetration(a, world_a, b, world_b, w);
             ASSERT_EQ(gap.distance == 0, meets) << i << ' ' << left << ' ' << gap.distance;
             ASSERT_EQ(depth.meet, meets) << i << ' ' << left;
@@ -261,7 +261,7 @@ TEST(ConvexProof, ShallowOverlapsAreFound) {
             ASSERT_LE(depth.at_least, depth.depth);
             ASSERT_GE(depth.at_least, depth.depth - 1e-13);
         }
-        const bool surfaces = collide(Model(a.mesh()), world_a, Model(b.mesh()), world_b).any();
+        const bool surfaces = collide(Model(a.mesh()), world_a, Model(b.mesh()), world_b).meet();
         ASSERT_EQ(surfaces, meets);
         ++(meets ? shallow : apart);
     }

@@ -152,15 +152,15 @@ TEST(ConvexSearch, AnswersAreTheSameOnEverySimdTarget) {
     for (int i = 0; i < rounds; ++i) {
         const Convex a(points(i)), b(points(random.integer(0, 29)));
         const Transform world_a = random.pose(0.3), world_b = random.pose(1);
-        ConvexWorkspace last;
-        (void)distance(a, random.pose(0.3), b, world_b, {.workspace = &last});
+        ConvexWarmStart last;
+        (void)distance(a, random.pose(0.3), b, world_b, {.warm_start = &last});
         ConvexGap first_gap, first_step;
         ConvexDepth first_depth;
         targets = 0;
         for_each_simd_target([&](const std::string& target) {
-            ConvexWorkspace workspace = last;
+            ConvexWarmStart warm_start = last;
             const ConvexGap gap = distance(a, world_a, b, world_b);
-            const ConvexGap step = distance(a, world_a, b, world_b, {.workspace = &workspace});
+            const ConvexGap step = distance(a, world_a, b, world_b, {.warm_start = &warm_start});
             const ConvexDepth depth = penetration(a, world_a, b, world_b);
             if (targets++ == 0)
                 first_gap = gap, first_step = step, first_depth = depth;

@@ -262,12 +262,12 @@ INSTANTIATE_TEST_SUITE_P(Placements, ConvexDistance,
                          testing::Values(Placement::near, Placement::far, Placement::small,
                                          Placement::large, Placement::parallel));
 
-TEST(ConvexPath, AWorkspaceChangesNothing) {
+TEST(ConvexPath, AWarmStartChangesNothing) {
     Random random(7020);
     int meet = 0, apart = 0, far_jumps = 0;
     for (int i = 0; i < many(40); ++i) {
         const Convex a(make_points(random, i)), b(make_points(random, i / 7));
-        ConvexWorkspace workspace;
+        ConvexWarmStart warm_start;
         Vec3 at = random.uniform(0.2, 2) * random.direction();
         Transform turn = random.pose(0);
         const Transform step = Pose{{}, {1, 0.01 * random.uniform(-1, 1), 0.008, 0.004}};
@@ -281,7 +281,8 @@ TEST(ConvexPath, AWorkspaceChangesNothing) {
             Transform world_b = turn;
             world_b.m[9] = at.x, world_b.m[10] = at.y, world_b.m[11] = at.z;
             const Case c{a, b, Transform(), world_b};
-            const ConvexGap warm = distance(a, c.world_a, b, c.world_b, {.workspace = &workspace});
+            const ConvexGap warm =
+                distance(a, c.world_a, b, c.world_b, {.warm_start = &warm_start});
             const ConvexGap cold = distance(a, c.world_a, b, c.world_b);
             EXPECT_NEAR(warm.distance, cold.distance, 1e-12 * cold.distance + 1e-14);
             prove(c, warm, 1e-15);
@@ -305,7 +306,7 @@ TEST(ConvexLevels, ErrorsAllowedAreBounds) {
         world_b.m[9] = at.x, world_b.m[10] = at.y, world_b.m[11] = at.z;
         const double exact = distance(a, world_a, b, world_b).distance;
         const double error = std::pow(10, random.uniform(-4, -0.5));
-        const ConvexGap gap = distance(a, world_a, b, world_b, {.max_error = error});
+        const ConvexGap gap = distance(a, world_a, b, world_b, {.absolute_error = error});
         ASSERT_GE(gap.distance, exact - 1e-14);
         ASSERT_LE(gap.distance, exact + error);
         ASSERT_LE(gap.at_least, exact + 1e-14);

@@ -56,7 +56,7 @@ TEST(Deformable, EveryPairAgainstExactArithmetic) {
         for (const auto& [ids, pair] : pairs) {
             const bool found = next != impacts.list.end() && list_order(*next) == list_order(ids);
             const ElementaryImpact truth = elementary_impact_exact(pair);
-            ASSERT_EQ(found, truth.hit) << pair;
+            ASSERT_EQ(found, truth.meet) << pair;
             if (cases++ % 64 == 0) {
                 ++by_oracle;
                 ASSERT_EQ(found, CcdOracle<AnyInt>(pair).first().has_value()) << pair;
@@ -177,8 +177,9 @@ TEST(Deformable, FirstImpactIsTheEarliest) {
                 [](const FeatureImpact& i, const FeatureImpact& k) { return i.time < k.time; });
             EXPECT_EQ(*first, *earliest);
         };
-        check(self_impacts(surface), first_self_impact(surface), is_free_of_self_impacts(surface));
-        check(impacts(surface, other), first_impact(surface, other),
+        check(self_impacts(surface), self_time_of_impact(surface),
+              is_free_of_self_impacts(surface));
+        check(impacts(surface, other), time_of_impact(surface, other),
               is_free_of_impacts(surface, other));
     }
     std::cout << with << " with impacts, " << without << " without\n";
@@ -313,7 +314,8 @@ TEST(Deformable, ConservativeMissesNone) {
     for (int round = 0; round < many(60); ++round) {
         const MovingMesh moving = any_soup(random);
         const Deformable surface = moving.deformable();
-        const Impacts exact = self_impacts(surface), all = self_impacts(surface, {.delta = 0.1});
+        const Impacts exact = self_impacts(surface),
+                      all = self_impacts(surface, {.absolute_error = 0.1});
         ASSERT_TRUE(std::includes(all.list.begin(), all.list.end(), exact.list.begin(),
                                   exact.list.end(),
                                   [](const FeatureImpact& a, const FeatureImpact& b) {
@@ -340,7 +342,7 @@ TEST(Deformable, ThicknessEqualsSingleTests) {
             ASSERT_EQ(self_impacts(a, thick).list, truth.list);
             ASSERT_EQ(impacts(a, b, thick).list, between.list);
             ASSERT_EQ(is_free_of_self_impacts(a, thick), truth.list.empty());
-            const auto first = first_self_impact(a, thick);
+            const auto first = self_time_of_impact(a, thick);
             ASSERT_EQ(first.has_value(), !truth.list.empty());
         }
     }
@@ -386,14 +388,14 @@ TEST(Deformable, PairsWithinEqualAllDistances) {
         // The motion does not matter. Where a pair lies at a distance, it and what is as near are
         // within that and not within less.
         const Deformable first = a.deformable(), second = b.deformable();
-        check(a, a, self_pairs_within(first, distance));
-        check(a, b, pairs_within(first, second, distance));
-        if (auto near = pairs_within(first, second, distance); !near.empty()) {
+        check(a, a, self_within(first, distance));
+        check(a, b, within(first, second, distance));
+        if (auto near = within(first, second, distance); !near.empty()) {
             distance = near[std::size_t(random.integer(0, int(near.size()) - 1))].distance;
             for (int i = random.integer(-1, 1); i != 0; i += i < 0 ? 1 : -1)
                 distance = std::max(0.0, std::nextafter(distance, i < 0 ? -HUGE_VAL : HUGE_VAL));
-            check(a, b, pairs_within(first, second, distance));
-            check(a, a, self_pairs_within(first, distance));
+            check(a, b, within(first, second, distance));
+            check(a, a, self_within(first, distance));
         }
     }
     std::cout << pairs << " pairs, " << found << " near\n";

@@ -102,7 +102,7 @@ TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
                 scene.parts[scene.parts.size() - 2].world_from_mesh;
         ClashOptions options;
         options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.3);
-        options.touch = random.chance(0.5) ? 0 : 1e-2;
+        options.touch_tolerance = random.chance(0.5) ? 0 : 1e-2;
         const StoredJob job({scene}, options);
         const std::vector<Clash>& truth = job.truth.clashes;
         clashes += truth.size();

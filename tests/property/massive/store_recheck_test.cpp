@@ -105,7 +105,7 @@ private:
 ClashOptions some_question(Random& random) {
     ClashOptions options;
     options.clearance = random.chance(0.3) ? 0 : random.uniform(0, 0.1);
-    options.touch = random.chance(0.5) ? 0 : 1e-3;
+    options.touch_tolerance = random.chance(0.5) ? 0 : 1e-3;
     options.self = random.chance(0.3);
     options.rules = some_rules(random);
     if (!options.rules.empty() && random.chance(0.5))

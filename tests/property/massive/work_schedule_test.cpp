@@ -194,14 +194,14 @@ TEST(CrewMessages, ComeOutAsTheyWentIn) {
     briefing.options.rules.resize(2);
     briefing.options.rules[0].name = "near";
     briefing.options.rules[0].a.type = {"pipe", "duct"};
-    briefing.options.rules[0].touch = 0.5;
+    briefing.options.rules[0].touch_tolerance = 0.5;
     briefing.options.rules[1].ignore.same_name_prefix = 7;
     briefing.budget = 99;
     const auto told = std::get<Briefing>(decode(encode(briefing)));
     EXPECT_EQ(told.options.clearance, 0.25);
     EXPECT_TRUE(told.options.self);
     EXPECT_EQ(told.options.rules.at(0).a.type, (std::vector<std::string>{"pipe", "duct"}));
-    EXPECT_EQ(told.options.rules.at(0).touch, 0.5);
+    EXPECT_EQ(told.options.rules.at(0).touch_tolerance, 0.5);
     EXPECT_FALSE(told.options.rules.at(0).clearance.has_value());
     EXPECT_EQ(told.options.rules.at(1).ignore.same_name_prefix, 7U);
     EXPECT_EQ(told.budget, 99U);

@@ -77,7 +77,7 @@ TEST(ConvexPiecesDistance, IsThatOfTheTriangles) {
             }
             const double error = random.uniform(0, 1);
             const PiecesGap rough =
-                distance(pieces_a, s.world_a, pieces_b, s.world_b, {.max_error = error});
+                distance(pieces_a, s.world_a, pieces_b, s.world_b, {.absolute_error = error});
             EXPECT_LE(rough.at_least, gap.distance + 1e-12);
             EXPECT_GE(rough.distance, gap.distance - 1e-12);
             EXPECT_LE(rough.distance, gap.distance + error + 1e-12);
@@ -98,13 +98,13 @@ TEST(ConvexPiecesDistance, OfOneDeepInsideOfTheOther) {
     for (int i = 0; i < many(10); ++i) {
         const Model b(transformed(make_solid(random, i), scaling(0.04, 0.04, 0.04)));
         const ConvexPieces pieces_b(b);
-        PiecesWorkspace workspace;
+        PiecesWarmStart warm_start;
         for (int k = 0; k < 20; ++k) {
             const Transform turn = random.pose(0);
             const Vec3 at = Vec3{3.5, 3.5, 3.5} + random.in_cube(k % 2 == 0 ? 1.5 : 4.5);
             const TwoSolids s{a, b, {}, compose(translation(at.x, at.y, at.z), turn)};
             const PiecesGap gap =
-                distance(pieces_a, s.world_a, pieces_b, s.world_b, {.workspace = &workspace});
+                distance(pieces_a, s.world_a, pieces_b, s.world_b, {.warm_start = &warm_start});
             apart += check(s, gap) ? 1 : 0;
             contained += collide(pieces_b, s.world_b, pieces_a, s.world_a).contained ? 1 : 0;
             if (gap.distance == 0) {
@@ -153,7 +153,7 @@ TEST(ConvexPiecesDistance, OfSolidsThatAlmostTouch) {
 
 class ConvexPiecesPath : public testing::TestWithParam<bool> {};
 
-TEST_P(ConvexPiecesPath, AWorkspaceChangesNoAnswer) {
+TEST_P(ConvexPiecesPath, AWarmStartChangesNoAnswer) {
     const bool both_move = GetParam();
     Random random(8104 + (both_move ? 1 : 0));
     int apart = 0, meet = 0, few = 0;
@@ -162,7 +162,7 @@ TEST_P(ConvexPiecesPath, AWorkspaceChangesNoAnswer) {
             b(transformed(make_solid(random, random.integer(0, kSolidKinds - 1)),
                           i % 5 == 0 ? scaling(0.1, 0.1, 0.1) : Transform()));
         const ConvexPieces pieces_a(a), pieces_b(b);
-        PiecesWorkspace workspace;
+        PiecesWarmStart warm_start;
         const Vec3 axis = random.direction(), across = random.direction();
         const double from = random.uniform(-6, -2), step = random.uniform(0.01, 0.1);
         const bool affine = i % 7 == 0;
@@ -179,7 +179,7 @@ TEST_P(ConvexPiecesPath, AWorkspaceChangesNoAnswer) {
             if (k % 40 == 39)
                 s.world_b = random.pose(3);
             const PiecesGap warm =
-                distance(pieces_a, s.world_a, pieces_b, s.world_b, {.workspace = &workspace});
+                distance(pieces_a, s.world_a, pieces_b, s.world_b, {.warm_start = &warm_start});
             const PiecesGap cold = distance(pieces_a, s.world_a, pieces_b, s.world_b);
             (warm.distance > 0 ? apart : meet) += 1;
             few += warm.counters.hull_pairs <= 2 ? 1 : 0;
@@ -197,16 +197,16 @@ TEST_P(ConvexPiecesPath, AWorkspaceChangesNoAnswer) {
             if (k % 10 == 0) {
                 check(s, warm);
             }
-            // Questions of other kinds in between share the workspace.
+            // Questions of other kinds in between share the warm start.
             if (k % 7 == 3) {
                 const double tolerance = cold.distance + (k % 2 == 0 ? 0.01 : -0.01);
                 ASSERT_EQ(within(pieces_a, s.world_a, pieces_b, s.world_b, std::max(0.0, tolerance),
-                                 &workspace),
+                                 &warm_start),
                           tolerance >= cold.distance || cold.distance == 0);
             }
             if (k % 7 == 5) {
                 ASSERT_EQ(
-                    collide(pieces_a, s.world_a, pieces_b, s.world_b, {.workspace = &workspace})
+                    collide(pieces_a, s.world_a, pieces_b, s.world_b, {.warm_start = &warm_start})
                         .meet,
                     cold.distance == 0);
             }

@@ -74,14 +74,14 @@ double off(const Model& m, const Transform& world, std::uint32_t triangle, const
 
 /// All four queries say what the triangles say. Whether the solids meet.
 bool agree(const ConvexPieces& a, const Transform& world_a, const ConvexPieces& b,
-           const Transform& world_b, PiecesWorkspace* workspace, Random& random) {
+           const Transform& world_b, PiecesWarmStart* warm_start, Random& random) {
     const Truth truth = look(a.model(), world_a, b.model(), world_b, random);
     double size = 8;
     for (std::size_t i = 9; i < 12; ++i)
         size += std::abs(world_a.m[i]) + std::abs(world_b.m[i]);
     const double rounding = 0x1p-48 * size;
 
-    const PiecesGap gap = distance(a, world_a, b, world_b, {.workspace = workspace});
+    const PiecesGap gap = distance(a, world_a, b, world_b, {.warm_start = warm_start});
     EXPECT_EQ(gap.distance == 0, truth.meet) << gap.distance;
     EXPECT_NEAR(gap.distance, truth.distance, 1e-12 * truth.distance + rounding);
     EXPECT_LE(gap.at_least, truth.distance);
@@ -92,13 +92,13 @@ bool agree(const ConvexPieces& a, const Transform& world_a, const ConvexPieces& 
     }
 
     const double cold = distance(a, world_a, b, world_b).distance;
-    EXPECT_TRUE(within(a, world_a, b, world_b, cold, workspace));
-    EXPECT_EQ(within(a, world_a, b, world_b, 0, workspace), truth.meet);
+    EXPECT_TRUE(within(a, world_a, b, world_b, cold, {.warm_start = warm_start}));
+    EXPECT_EQ(within(a, world_a, b, world_b, 0, {.warm_start = warm_start}), truth.meet);
     if (const double less = cold * (1 - 1e-9) - 2 * rounding; less > 0) {
-        EXPECT_FALSE(within(a, world_a, b, world_b, less, workspace));
+        EXPECT_FALSE(within(a, world_a, b, world_b, less, {.warm_start = warm_start}));
     }
 
-    const PiecesContacts first = collide(a, world_a, b, world_b, {.workspace = workspace});
+    const PiecesContacts first = collide(a, world_a, b, world_b, {.warm_start = warm_start});
     const PiecesContacts all =
         collide(a, world_a, b, world_b, {.mode = ContactMode::all, .triangles = true});
     EXPECT_EQ(first.meet, truth.meet);
@@ -163,9 +163,9 @@ TEST(PiecesContact, ABoxMovedALittleMeetsItself) {
     for (int i = 0; i < many(20000); ++i) {
         const Transform world_a = random.pose(0.5);
         Transform world_b = world_a;
-        PiecesWorkspace workspace;
+        PiecesWarmStart warm_start;
         const auto expect_contact = [&] {
-            const PiecesGap gap = distance(box, world_a, box, world_b, {.workspace = &workspace});
+            const PiecesGap gap = distance(box, world_a, box, world_b, {.warm_start = &warm_start});
             ASSERT_EQ(gap.distance, 0) << i;
             ASSERT_EQ(gap.at_least, 0) << i;
         };
@@ -188,16 +188,16 @@ TEST(PiecesContact, AStepAwayFromTheSamePlace) {
         for (int k = 0; k < (is_box ? 40 : 4); ++k) {
             const Transform world_a = random.pose(k % 2);
             Transform world_b = world_a;
-            PiecesWorkspace workspace;
-            agree(a, world_a, a, world_b, &workspace, random);
+            PiecesWarmStart warm_start;
+            agree(a, world_a, a, world_b, &warm_start, random);
             world_b.m[9] = std::nextafter(world_b.m[9], 9);
-            agree(a, world_a, a, world_b, &workspace, random);
+            agree(a, world_a, a, world_b, &warm_start, random);
             for (int step = 0; step < 3; ++step, ++steps) {
                 const double by = step == 2             ? random.uniform(0, 6)
                                   : step == 0 && is_box ? 1e-3
                                                         : std::pow(10, random.uniform(-8, 0));
                 world_b = translated(world_b, by * random.direction());
-                apart += agree(a, world_a, a, world_b, &workspace, random) ? 0 : 1;
+                apart += agree(a, world_a, a, world_b, &warm_start, random) ? 0 : 1;
             }
         }
         if (HasFailure())
@@ -299,10 +299,10 @@ TEST(PiecesContact, ShallowPoses) {
         }
         if (offset < 0)
             continue; // one passes through the hole of the other
-        PiecesWorkspace workspace;
+        PiecesWarmStart warm_start;
         for (const double by : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 0.0, -1e-15, -1e-14,
                                 -1e-12, -1e-10, -1e-8, -1e-6, -1e-4})
-            (agree(a, world_a, b, placed(offset + by), &workspace, random) ? meet : apart) += 1;
+            (agree(a, world_a, b, placed(offset + by), &warm_start, random) ? meet : apart) += 1;
         if (HasFailure())
             FAIL() << "case " << i;
     }

@@ -124,8 +124,8 @@ TEST(PiecesBatch, AnswersAreThoseOfTheSingleQueries) {
     placements.reserve(static_cast<std::size_t>(many(60)));
     for (int i = 0; i < many(60); ++i)
         placements.push_back({random.pose(1), random.pose(1)});
-    PiecesWorkspace workspace;
-    const auto gaps = distance(a, b, placements, {.workspace = &workspace});
+    PiecesWarmStart warm_start;
+    const auto gaps = distance(a, b, placements, {.warm_start = &warm_start});
     const auto contacts = collide(a, b, placements, {.mode = ContactMode::all});
     const auto near = within(a, b, placements, 0.3);
     const auto depths = penetration(a, b, placements);

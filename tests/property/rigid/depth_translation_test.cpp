@@ -70,7 +70,7 @@ Depths depths_of(const Mesh& a, const Mesh& b, const Transform& world, double to
         scene.parts[i].world_from_mesh = world;
     }
     Depths result;
-    const ClashReport report = find_clashes({scene}, {.touch = touch});
+    const ClashReport report = find_clashes({scene}, {.touch_tolerance = touch});
     if (!report.clashes.empty()) {
         result.clash = -report.clashes[0].distance;
         result.kind = report.clashes[0].kind;

@@ -32,7 +32,7 @@ struct Scene {
     [[nodiscard]] Gap gap(const DistanceOptions& options = {}) const {
         return distance(a, world_a, b, world_b, options);
     }
-    [[nodiscard]] bool meet() const { return collide(a, world_a, b, world_b).any(); }
+    [[nodiscard]] bool meet() const { return collide(a, world_a, b, world_b).meet(); }
     [[nodiscard]] Triangle triangle_a(std::uint32_t i) const { return corners(a, world_a, i); }
     [[nodiscard]] Triangle triangle_b(std::uint32_t i) const { return corners(b, world_b, i); }
 
@@ -240,17 +240,17 @@ Transform on_path(Random& random, const Scene& s, int step, bool jump) {
     return Transform(Pose{at, {std::cos(angle), 0.3 * std::sin(angle), 0, std::sin(angle)}});
 }
 
-TEST(DistanceOptions, AWorkspaceChangesNoAnswer) {
+TEST(DistanceOptions, AWarmStartChangesNoAnswer) {
     Random random(4202);
     for (const bool jump : {false, true}) {
         std::uint64_t tests = 0, tests_with = 0, first_tests = 0, first_tests_with = 0;
         int meet = 0, steps = 0;
         for (int kinds = 0; kinds < 4; ++kinds) {
             Scene s = any_scene(random, 5 * kinds % 16, 1);
-            Workspace of_distance, of_collide, of_within;
+            WarmStart of_distance, of_collide, of_within;
             for (int step = 0; step < 100; ++step, ++steps) {
                 s.world_b = on_path(random, s, step, jump);
-                const Gap plain = s.gap(), with = s.gap({.workspace = &of_distance});
+                const Gap plain = s.gap(), with = s.gap({.warm_start = &of_distance});
                 ASSERT_NEAR(with.distance, plain.distance, kRounding);
                 ASSERT_EQ(with.distance == 0, plain.distance == 0);
                 ASSERT_EQ(with.status, plain.status);
@@ -261,7 +261,7 @@ TEST(DistanceOptions, AWorkspaceChangesNoAnswer) {
 
                 const Contacts first = collide(s.a, s.world_a, s.b, s.world_b),
                                first_with = collide(s.a, s.world_a, s.b, s.world_b,
-                                                    {.workspace = &of_collide});
+                                                    {.warm_start = &of_collide});
                 ASSERT_EQ(first.any(), first_with.any());
                 ASSERT_EQ(first.any(), plain.distance == 0);
                 if (first_with.any()) {
@@ -282,7 +282,7 @@ TEST(DistanceOptions, AWorkspaceChangesNoAnswer) {
             }
         }
         std::cout << (jump ? "jumps: " : "path: ") << meet << " of " << steps
-                  << " meet; volume tests " << tests << ", with workspace " << tests_with
+                  << " meet; volume tests " << tests << ", with warm_start " << tests_with
                   << "; first contact " << first_tests << ", " << first_tests_with << '\n';
         EXPECT_GT(meet, steps / 10);
         EXPECT_LT(meet, steps * 9 / 10);
@@ -293,44 +293,45 @@ TEST(DistanceOptions, AWorkspaceChangesNoAnswer) {
     }
 }
 
-TEST(DistanceOptions, AWorkspaceOfOtherModelsDoesNoHarm) {
+TEST(DistanceOptions, AWarmStartOfOtherModelsDoesNoHarm) {
     Random random(4203);
     const std::array<TrianglePair, 6> strange{
         {{0, 0}, {~0U, ~0U}, {11, 1000000}, {1000000, 3}, {0x80000000U, 0x7fffffffU}, {499, 499}}};
-    Workspace travelling; // from models to models
+    WarmStart travelling; // from models to models
     int meet = 0;
     for (int round = 0; round < 32; ++round) {
         const Scene s = any_scene(random, round, 2);
         const Gap plain = s.gap();
         meet += plain.distance == 0 ? 1 : 0;
-        ASSERT_NEAR(s.gap({.workspace = &travelling}).distance, plain.distance, kRounding);
+        ASSERT_NEAR(s.gap({.warm_start = &travelling}).distance, plain.distance, kRounding);
         for (const TrianglePair& last : strange)
             for (const bool used : {false, true}) {
-                Workspace w{used, last};
-                ASSERT_NEAR(s.gap({.workspace = &w}).distance, plain.distance, kRounding);
+                WarmStart w{used, last};
+                ASSERT_NEAR(s.gap({.warm_start = &w}).distance, plain.distance, kRounding);
                 w = {used, last};
-                ASSERT_NEAR(s.gap({.upper_bound = plain.distance / 2, .workspace = &w}).distance,
+                ASSERT_NEAR(s.gap({.upper_bound = plain.distance / 2, .warm_start = &w}).distance,
                             plain.distance / 2, kRounding);
                 w = {used, last};
-                ASSERT_EQ(collide(s.a, s.world_a, s.b, s.world_b, {.workspace = &w}).any(),
+                ASSERT_EQ(collide(s.a, s.world_a, s.b, s.world_b, {.warm_start = &w}).meet(),
                           plain.distance == 0);
                 w = {used, last};
-                ASSERT_EQ(within(s.a, s.world_a, s.b, s.world_b, 0.2, &w), plain.distance <= 0.2);
+                ASSERT_EQ(within(s.a, s.world_a, s.b, s.world_b, 0.2, {.warm_start = &w}),
+                          plain.distance <= 0.2);
             }
     }
     EXPECT_GT(meet, 4);
     EXPECT_LT(meet, 28);
     const Model none(Mesh{}), box(box_mesh({0, 0, 0}, {1, 1, 1}));
-    Workspace w{true, {0, 0}};
-    EXPECT_EQ(distance(none, {}, box, {}, {.workspace = &w}).distance, kInfinity);
-    EXPECT_FALSE(collide(box, {}, none, {}, {.workspace = &w}).any());
-    EXPECT_FALSE(within(none, {}, none, {}, 1, &w));
+    WarmStart w{true, {0, 0}};
+    EXPECT_EQ(distance(none, {}, box, {}, {.warm_start = &w}).distance, kInfinity);
+    EXPECT_FALSE(collide(box, {}, none, {}, {.warm_start = &w}).meet());
+    EXPECT_FALSE(within(none, {}, none, {}, 1, {.warm_start = &w}));
 }
 
 TEST(DistanceOptions, ARememberedContactHasItsSegment) {
     const Model box(box_mesh({0, 0, 0}, {1, 1, 1}));
-    Workspace w;
-    const CollideOptions options{.workspace = &w, .segments = true};
+    WarmStart w;
+    const CollideOptions options{.warm_start = &w, .segments = true};
     const Contacts first = collide(box, {}, box, translation(0.5, 0.4, 0.3), options),
                    again = collide(box, {}, box, translation(0.5, 0.4, 0.3), options);
     EXPECT_EQ(again.counters.volume_tests, 0U);

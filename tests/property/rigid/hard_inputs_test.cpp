@@ -178,7 +178,7 @@ double check(const Case& c) {
     EXPECT_EQ(swapped, truth.pairs);
     for (const TrianglePair& p : collide(a, c.world_a, b, c.world_b).pairs)
         EXPECT_TRUE(std::binary_search(truth.pairs.begin(), truth.pairs.end(), p));
-    EXPECT_EQ(collide(b, c.world_b, a, c.world_a).any(), !truth.pairs.empty());
+    EXPECT_EQ(collide(b, c.world_b, a, c.world_a).meet(), !truth.pairs.empty());
 
     const Gap gap = distance(a, c.world_a, b, c.world_b),
               back = distance(b, c.world_b, a, c.world_a);
@@ -358,13 +358,13 @@ TEST(HardInputs, ParallelFacesAtAnyGap) {
             const Transform world_a = translation(far, far, far),
                             world_b = translation(1 + far + gap, far + 0.25, far - 0.25);
             EXPECT_EQ(distance(box, world_a, box, world_b).distance, gap);
-            EXPECT_FALSE(collide(box, world_a, box, world_b).any());
+            EXPECT_FALSE(collide(box, world_a, box, world_b).meet());
             EXPECT_TRUE(within(box, world_a, box, world_b, gap));
             EXPECT_FALSE(within(box, world_a, box, world_b, std::nextafter(gap, 0)));
             const Transform overlapping = translation(1 + far - gap, far + 0.25, far - 0.25);
             EXPECT_EQ(distance(box, world_a, box, overlapping).distance, 0);
         }
-    EXPECT_TRUE(collide(box, translation(0x1p17, 0, 0), box, translation(0x1p17 + 1, 0, 0)).any());
+    EXPECT_TRUE(collide(box, translation(0x1p17, 0, 0), box, translation(0x1p17 + 1, 0, 0)).meet());
 }
 
 } // namespace

@@ -31,7 +31,7 @@ struct Case {
         return distance(a, at(motion_a, t), b, at(motion_b, t)).distance;
     }
     [[nodiscard]] bool meets_at(double t) const {
-        return collide(a, at(motion_a, t), b, at(motion_b, t)).any();
+        return collide(a, at(motion_a, t), b, at(motion_b, t)).meet();
     }
 };
 
@@ -168,14 +168,14 @@ TEST(LongMotions, AreAnsweredInTimeAndInFewSteps) {
     std::uint64_t most_steps = 0;
     for (int i = 0; i < kCases; ++i) {
         const Case c = UnlikeTriangles(random, random.uniform(0, 7)).make();
-        const Impact impact = c.ask({.tolerance = 1e-6});
+        const Impact impact = c.ask({.absolute_error = 1e-6});
         if (impact.time > 0) {
             ASSERT_FALSE(is_seen_to_meet(c, 0, impact.time)) << "case " << i;
         }
-        if (impact.hit && impact.status != Status::bound_only) {
+        if (impact.meet && impact.status != Status::bound_only) {
             ASSERT_TRUE(c.meets_at(impact.contact_time)) << "case " << i;
         }
-        hits += impact.hit ? 1 : 0;
+        hits += impact.meet ? 1 : 0;
         undecided += impact.status == Status::bound_only ? 1 : 0;
         most_steps = std::max(most_steps, impact.steps);
     }
@@ -215,8 +215,8 @@ TEST(LongMotions, ALargePlateMeetsASmallBall) {
                                                  {spin({0.6, 0.1, 0.2}), still},
                                                  {spin({0.6, 0.1, 0.2}), beside}}) {
             const Case c{large, ball, motion_a, motion_b};
-            const Impact impact = c.ask({.tolerance = 8e-5});
-            EXPECT_TRUE(impact.hit);
+            const Impact impact = c.ask({.absolute_error = 8e-5});
+            EXPECT_TRUE(impact.meet);
             EXPECT_EQ(impact.status, Status::exact);
             EXPECT_LE(impact.gap, 8e-5);
             EXPECT_LE(impact.contact_time - impact.time, 3e-4);
@@ -225,16 +225,16 @@ TEST(LongMotions, ALargePlateMeetsASmallBall) {
             EXPECT_LT(impact.steps, 3000U) << size;
             // The same pairs the other way round.
             const Impact swapped =
-                time_of_impact(ball, motion_b, large, motion_a, {.tolerance = 8e-5});
-            EXPECT_TRUE(swapped.hit);
+                time_of_impact(ball, motion_b, large, motion_a, {.absolute_error = 8e-5});
+            EXPECT_TRUE(swapped.meet);
             EXPECT_LE(swapped.time, impact.contact_time);
             EXPECT_LE(impact.time, swapped.contact_time);
             EXPECT_LT(swapped.steps, 3000U) << size;
         }
         // Nodes are compared along axes that turn with the plate.
         const Impact impact =
-            time_of_impact(large, spin({0.6, 0.1, 0.2}), fine, still, {.tolerance = 8e-5});
-        EXPECT_TRUE(impact.hit);
+            time_of_impact(large, spin({0.6, 0.1, 0.2}), fine, still, {.absolute_error = 8e-5});
+        EXPECT_TRUE(impact.meet);
         // Single precision blurs larger plates: balls around small boxes are compared with them.
         EXPECT_LT(impact.steps, size <= 1e3 ? 3000U : 10000U) << size;
     }
@@ -245,18 +245,18 @@ TEST(LongMotions, NeedlesPassAndPlatesSlideInFewSteps) {
         const Model low(needle(size, 1e-3, 0)), high(needle(size, 1e-3, 1e-3));
         for (const Vec3& w : {Vec3{0, 0, 2}, {0.01, 0, 2}, {1, 1, 2}, {1, 0, 2}, {-1, 0.3, 2}}) {
             const Case c{low, high, spin(w), Motion::fixed({})};
-            const Impact impact = c.ask({.tolerance = 1e-4});
+            const Impact impact = c.ask({.absolute_error = 1e-4});
             EXPECT_FALSE(is_seen_to_meet(c, 0, impact.time));
             EXPECT_LT(impact.steps, 300U) << size << ' ' << w.x << ' ' << w.y;
-            EXPECT_FALSE(impact.hit && impact.status == Status::bound_only);
+            EXPECT_FALSE(impact.meet && impact.status == Status::bound_only);
         }
         // Just above the tolerance, and nearer.
         for (const double tolerance : {1e-4, 1e-3, 1.0})
             for (const double tilt : {0.0, 1e-5 / size}) {
                 const Case c{Model(floor_mesh(size, 3, 0)), Model(floor_mesh(size, 3, 1.1e-4)),
                              Motion{{}, {}, {0.1, 0.2, 0}, {tilt, 0, 1}}, spin({0, 0, 3})};
-                const Impact impact = c.ask({.tolerance = tolerance});
-                EXPECT_FALSE(impact.hit) << size << ' ' << tolerance << ' ' << tilt;
+                const Impact impact = c.ask({.absolute_error = tolerance});
+                EXPECT_FALSE(impact.meet) << size << ' ' << tolerance << ' ' << tilt;
                 EXPECT_EQ(impact.status, Status::exact);
                 EXPECT_LT(impact.steps, 60000U) << size << ' ' << tolerance << ' ' << tilt;
             }
@@ -275,17 +275,17 @@ TEST(LongMotions, NestedCylindersTurnInEachOther) {
     for (const double gap : {1e-2, 1e-5, 1e-8}) {
         const Model inner = cylinder(std::cos(std::numbers::pi / kSides) - gap);
         for (const double tolerance : {1e-9, 2 * gap}) {
-            const Impact impact =
-                time_of_impact(outer, spin({0, 0, -1}), inner,
-                               Motion{{}, {}, {0, 0, 0.1}, {0, 0, 2}}, {.tolerance = tolerance});
-            EXPECT_FALSE(impact.hit) << gap << ' ' << tolerance;
+            const Impact impact = time_of_impact(outer, spin({0, 0, -1}), inner,
+                                                 Motion{{}, {}, {0, 0, 0.1}, {0, 0, 2}},
+                                                 {.absolute_error = tolerance});
+            EXPECT_FALSE(impact.meet) << gap << ' ' << tolerance;
             EXPECT_LT(impact.steps, 200000U) << gap << ' ' << tolerance;
         }
         // A little larger, it does not go round.
         const Model tight = cylinder(1 - 1e-3 * gap);
-        const Impact impact =
-            time_of_impact(outer, Motion::fixed({}), tight, spin({0, 0, 1}), {.tolerance = 1e-10});
-        EXPECT_TRUE(impact.hit);
+        const Impact impact = time_of_impact(outer, Motion::fixed({}), tight, spin({0, 0, 1}),
+                                             {.absolute_error = 1e-10});
+        EXPECT_TRUE(impact.meet);
         EXPECT_LT(impact.time, 1);
     }
 }
@@ -317,7 +317,7 @@ TEST(LongMotions, TheDefaultToleranceIsAMillionthOfTheLargerDiagonal) {
         const Model a = make(), b = make();
         const Impact impact =
             time_of_impact(a, motion_towards(random, {}, 3), b, Motion::fixed(random.pose(0)));
-        if (!impact.hit || impact.status != Status::exact)
+        if (!impact.meet || impact.status != Status::exact)
             continue;
         ++hits;
         const double share = impact.gap / std::max(diagonal(a), diagonal(b));
@@ -343,8 +343,8 @@ TEST(LongMotions, AGapAboveTheToleranceIsNotExact) {
         const std::optional<double> tolerance =
             random.chance(0.5) ? std::optional<double>() : std::pow(10, random.uniform(-9, -4));
         const Impact impact =
-            time_of_impact(a, motion_a, b, Motion::fixed(pose), {.tolerance = tolerance});
-        if (!impact.hit)
+            time_of_impact(a, motion_a, b, Motion::fixed(pose), {.absolute_error = tolerance});
+        if (!impact.meet)
             continue;
         ++of_status.at(static_cast<std::size_t>(impact.status));
         const double allowed = tolerance.value_or(1e-6 * std::max(diagonal(a), diagonal(b)));
@@ -356,7 +356,7 @@ TEST(LongMotions, AGapAboveTheToleranceIsNotExact) {
             ASSERT_LE(impact.gap, 1e-12 * length(far)) << "case " << i;
         }
         if (impact.status != Status::bound_only) {
-            ASSERT_TRUE(collide(a, at(motion_a, impact.contact_time), b, Transform(pose)).any());
+            ASSERT_TRUE(collide(a, at(motion_a, impact.contact_time), b, Transform(pose)).meet());
             ASSERT_LE(impact.time, impact.contact_time);
         }
     }
@@ -377,19 +377,19 @@ TEST(LongMotions, ALimitOnStepsTellsTheTimeThatIsProvenFree) {
                 : Case{Model(torus_mesh(0.6, 0.2, 10, 5)), Model(soup_mesh(random, 30, 0.6, 0.3)),
                        Motion{{}, {}, random.in_cube(2), random.in_cube(3)},
                        Motion::fixed({random.uniform(1.2, 2) * random.direction(), {1, 0, 0, 0}})};
-        const Impact whole = c.ask({.tolerance = 1e-6});
+        const Impact whole = c.ask({.absolute_error = 1e-6});
         EXPECT_FALSE(whole.out_of_steps);
-        misses += whole.hit ? 0 : 1;
+        misses += whole.meet ? 0 : 1;
         double before = 0;
         for (const std::uint64_t share : {0, 1, 2, 4, 8, 12, 15}) {
             const std::uint64_t most = whole.steps * share / 16;
-            const Impact impact = c.ask({.tolerance = 1e-6, .max_steps = most});
+            const Impact impact = c.ask({.absolute_error = 1e-6, .max_steps = most});
             if (!impact.out_of_steps) // nothing was left to do
                 continue;
             ++limited;
             EXPECT_LT(most, whole.steps);
             EXPECT_EQ(impact.steps, most);
-            EXPECT_TRUE(impact.hit);
+            EXPECT_TRUE(impact.meet);
             EXPECT_EQ(impact.status, Status::bound_only);
             EXPECT_EQ(impact.gap, std::numeric_limits<double>::infinity());
             EXPECT_EQ(impact.contact_time, std::numeric_limits<double>::infinity());
@@ -397,7 +397,7 @@ TEST(LongMotions, ALimitOnStepsTellsTheTimeThatIsProvenFree) {
             EXPECT_LE(impact.time, whole.time);
             before = impact.time;
         }
-        const Impact enough = c.ask({.tolerance = 1e-6, .max_steps = whole.steps});
+        const Impact enough = c.ask({.absolute_error = 1e-6, .max_steps = whole.steps});
         EXPECT_FALSE(enough.out_of_steps);
         EXPECT_EQ(enough.time, whole.time);
         EXPECT_EQ(enough.steps, whole.steps);
@@ -446,7 +446,7 @@ TEST(LongMotions, AreStoppedAndReport) {
     EXPECT_GT(reports.size(), 1U);
     EXPECT_TRUE(is_interrupted([&] { return many({.progress = stop_at(0.5)}); }));
     EXPECT_GT(reports.size(), 1U);
-    EXPECT_TRUE(one({.progress = stop_at(2)}).hit);
+    EXPECT_TRUE(one({.progress = stop_at(2)}).meet);
     EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
     EXPECT_EQ(many({.progress = stop_at(2)}).size(), motions.size());
 }

@@ -40,7 +40,7 @@ bool meet_within(const Model& a, const Motion& motion_a, const Model& b, const M
         // Half of them close to the end, where a bound that is too long shows.
         const double part = i % 2 == 0 ? double(i) / kSamples : 1 - std::pow(0.7, i);
         const double t = begin + part * (end - begin);
-        if (collide(a, at(motion_a, t), b, at(motion_b, t)).any())
+        if (collide(a, at(motion_a, t), b, at(motion_b, t)).meet())
             return true;
     }
     return false;

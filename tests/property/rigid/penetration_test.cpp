@@ -58,7 +58,7 @@ bool contains_any(const Body& outer, const Transform& world, const Body& inner,
 }
 
 bool separated(const Body& a, const Transform& world_a, const Body& b, const Transform& world_b) {
-    return !collide(a.model, world_a, b.model, world_b).any() &&
+    return !collide(a.model, world_a, b.model, world_b).meet() &&
            !contains_any(a, world_a, b, world_b) && !contains_any(b, world_b, a, world_a);
 }
 
@@ -296,9 +296,9 @@ TEST(Penetration, DirtyMeshes) {
         const Transform world_a = moved(random.pose(0.5), far),
                         world_b = compose(moved(random.pose(0.5), far), scaling(stretch, 1, 1));
         const Depth d = penetration(a, world_a, b, world_b);
-        const bool meet = collide(a, world_a, b, world_b).any();
+        const bool meet = collide(a, world_a, b, world_b).meet();
         ASSERT_TRUE(d.interpenetrate || !meet || d.regions.front().touching) << i;
-        ASSERT_FALSE(collide(a, world_a, b, moved(world_b, d.separation)).any()) << i;
+        ASSERT_FALSE(collide(a, world_a, b, moved(world_b, d.separation)).meet()) << i;
         ASSERT_TRUE(meet || d.interpenetrate || d.regions.empty());
         ASSERT_LE(d.depth, length(d.separation) * (1 + 1e-9)) << i;
         std::size_t pairs = 0;

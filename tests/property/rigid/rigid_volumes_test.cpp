@@ -277,8 +277,8 @@ TEST(RigidVolumes, EmptyModelsMeetNothing) {
         EXPECT_EQ(empty.data().volumes(), nullptr);
         for (const Model& none : {empty, loose})
             for (const Model& other : {empty, box}) {
-                EXPECT_FALSE(collide(none, {}, other, {}).any());
-                EXPECT_FALSE(collide(other, {}, none, {}, {.mode = ContactMode::all}).any());
+                EXPECT_FALSE(collide(none, {}, other, {}).meet());
+                EXPECT_FALSE(collide(other, {}, none, {}, {.mode = ContactMode::all}).meet());
                 const Gap gap = distance(none, {}, other, {});
                 EXPECT_EQ(gap.distance, HUGE_VAL);
                 EXPECT_EQ(gap.status, Status::bound_only);

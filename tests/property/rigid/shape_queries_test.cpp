@@ -222,8 +222,8 @@ TEST_P(ShapeQueries, RaysMeetWhatAllTrianglesSay) {
             const std::vector<RayHit> all = all_hits(s.model, s.world, ray);
             const RayHit first = first_hit(s.model, s.world, ray);
             ASSERT_EQ(all.size(), expected.size()) << k << ' ' << i;
-            ASSERT_EQ(first.hit, !expected.empty()) << k << ' ' << i;
-            hits += first.hit ? 1 : 0;
+            ASSERT_EQ(first.meet, !expected.empty()) << k << ' ' << i;
+            hits += first.meet ? 1 : 0;
             for (std::size_t h = 0; h < all.size(); ++h) {
                 ASSERT_EQ(all[h].triangle, expected[h].first);
                 ASSERT_TRUE(all[h].t >= ray.t_min && all[h].t <= ray.t_max);
@@ -235,7 +235,7 @@ TEST_P(ShapeQueries, RaysMeetWhatAllTrianglesSay) {
                 ASSERT_LE(length(at - all[h].point),
                           roundings(s, ray.origin) + 0x1p-38 * length(at - ray.origin));
             }
-            if (first.hit) {
+            if (first.meet) {
                 ASSERT_EQ(first.triangle, all[0].triangle);
                 ASSERT_EQ(first.t, all[0].t);
                 ASSERT_EQ(first.point, all[0].point);
@@ -359,7 +359,7 @@ TEST(Rays, NoneSlipsThroughAClosedSurface) {
                                               : (1.0 / 3) * (t[0] + t[1] + t[2]);
                 const Ray ray{o, aim - o};
                 const RayHit hit = first_hit(model, world, ray);
-                ASSERT_TRUE(hit.hit) << i;
+                ASSERT_TRUE(hit.meet) << i;
                 if (mesh.positions.size() != std::size_t{24} * 12) { // convex: nothing lies behind
                     ASSERT_LE((hit.t - 1) * length(aim - o), 256 * 0x1p-53 * (length(aim) + 1));
                 }
@@ -390,7 +390,7 @@ TEST(ManyShapes, GiveWhatOneGives) {
         ASSERT_EQ(contains(model, world, points[i]).side, sides[i].side);
         ASSERT_EQ(n.distance < 0, sides[i].side == Side::inside);
         const RayHit h = first_hit(model, world, rays[i]);
-        ASSERT_EQ(h.hit, hits[i].hit);
+        ASSERT_EQ(h.meet, hits[i].meet);
         ASSERT_EQ(h.t, hits[i].t);
         inside += sides[i].side == Side::inside ? 1 : 0;
     }

@@ -55,7 +55,7 @@ TEST(SignedGap, ChangesNoFasterThanTheModelMoves) {
             if (i > 0) {
                 ASSERT_LE(std::abs(now - before), step + 2e-3 * std::abs(now) + 1e-9);
             }
-            const bool meet = collide(torus.model, {}, ball.model, world).any();
+            const bool meet = collide(torus.model, {}, ball.model, world).meet();
             inside += now < 0 && !meet ? 1 : 0, across += meet ? 1 : 0, outside += now > 0 ? 1 : 0;
             before = now;
         }

@@ -89,25 +89,27 @@ TEST(Stops, AFlagThatIsSetEndsEveryQuery) {
         {"distance", [&] { distance(a, here, b, there, {.progress = progress}); }},
         {"signed distance",
          [&] { distance(a, here, b, there, {.signed_distance = true, .progress = progress}); }},
-        {"within", [&] { within(a, here, b, there, 1, nullptr, progress); }},
+        {"within", [&] { within(a, here, b, there, 1, {.progress = progress}); }},
         {"penetration", [&] { penetration(a, here, b, there, {.progress = progress}); }},
         {"time of impact", [&] { time_of_impact(a, {}, b, {}, {.progress = progress}); }},
         {"collide, batch", [&] { collide(a, b, placements, {.progress = progress}); }},
         {"distance, batch", [&] { distance(a, b, placements, {.progress = progress}); }},
-        {"within, batch", [&] { within(a, b, placements, 1, progress); }},
+        {"within, batch", [&] { within(a, b, placements, 1, {.progress = progress}); }},
         {"time of impact, batch", [&] { time_of_impact(a, b, motions, {.progress = progress}); }},
         {"collide, pieces",
          [&] { collide(solid_a, here, solid_b, there, {.progress = progress}); }},
         {"distance, pieces",
          [&] { distance(solid_a, here, solid_b, there, {.progress = progress}); }},
-        {"within, pieces", [&] { within(solid_a, here, solid_b, there, 1, nullptr, progress); }},
+        {"within, pieces",
+         [&] { within(solid_a, here, solid_b, there, 1, {.progress = progress}); }},
         {"penetration, pieces",
          [&] { penetration(solid_a, here, solid_b, there, {.progress = progress}); }},
         {"collide, pieces, batch",
          [&] { collide(solid_a, solid_b, placements, {.progress = progress}); }},
         {"distance, pieces, batch",
          [&] { distance(solid_a, solid_b, placements, {.progress = progress}); }},
-        {"within, pieces, batch", [&] { within(solid_a, solid_b, placements, 1, progress); }},
+        {"within, pieces, batch",
+         [&] { within(solid_a, solid_b, placements, 1, {.progress = progress}); }},
         {"penetration, pieces, batch",
          [&] { penetration(solid_a, solid_b, placements, {.progress = progress}); }},
         {"nearest", [&] { nearest(a, here, p, {.progress = progress}); }},
@@ -134,17 +136,17 @@ TEST(Stops, AFlagThatIsSetEndsEveryQuery) {
         {"contains, batch", [&] { contains(a, here, points, progress); }},
         {"self impacts", [&] { self_impacts(cloth, {}, progress); }},
         {"impacts", [&] { impacts(cloth, other, {}, progress); }},
-        {"first self impact", [&] { first_self_impact(cloth, {}, progress); }},
-        {"first impact", [&] { first_impact(cloth, other, {}, progress); }},
+        {"first self impact", [&] { self_time_of_impact(cloth, {}, progress); }},
+        {"first impact", [&] { time_of_impact(cloth, other, {}, progress); }},
         {"free of self impacts", [&] { is_free_of_self_impacts(cloth, {}, progress); }},
         {"free of impacts", [&] { is_free_of_impacts(cloth, other, {}, progress); }},
-        {"self pairs", [&] { self_pairs_within(cloth, 1, progress); }},
-        {"pairs", [&] { pairs_within(cloth, other, 1, progress); }},
+        {"self pairs", [&] { self_within(cloth, 1, progress); }},
+        {"pairs", [&] { within(cloth, other, 1, progress); }},
         {"elementary impacts", [&] { elementary_impacts(pairs, {}, progress); }},
-        {"touching", [&] { world.touching(progress); }},
-        {"contacts", [&] { world.contacts(progress); }},
-        {"closer than", [&] { world.closer_than(1, progress); }},
-        {"impacts of bodies", [&] { world.impacts(moves, {.progress = progress}); }},
+        {"bodies that meet", [&] { world.collide(progress); }},
+        {"penetration of bodies", [&] { world.penetration(progress); }},
+        {"bodies within", [&] { world.within(1, progress); }},
+        {"impacts of bodies", [&] { world.time_of_impact(moves, {.progress = progress}); }},
         {"advance", [&] { world.advance(0, progress); }},
     };
     for (const auto& [name, query] : queries) {
@@ -185,9 +187,9 @@ TEST(Stops, AFlagSetByAnotherThreadEndsLongQueries) {
         {"penetration", [&] { penetration(a, {}, b, {}, {.progress = progress}); }},
         {"self impacts", [&] { self_impacts(cloth, {}, progress); }},
         {"impacts", [&] { impacts(cloth, other, {}, progress); }},
-        {"self pairs", [&] { self_pairs_within(cloth, 1, progress); }},
-        {"pairs", [&] { pairs_within(cloth, other, 1, progress); }},
-        {"contacts", [&] { world.contacts(progress); }},
+        {"self pairs", [&] { self_within(cloth, 1, progress); }},
+        {"pairs", [&] { within(cloth, other, 1, progress); }},
+        {"penetration of bodies", [&] { world.penetration(progress); }},
     };
     for (const auto& [name, query] : queries) {
         SCOPED_TRACE(name);
@@ -219,11 +221,11 @@ TEST(Stops, AReportEndsABatch) {
     const std::vector<std::function<void()>> queries{
         [&] { collide(a, b, placements, {.progress = progress}); },
         [&] { distance(a, b, placements, {.progress = progress}); },
-        [&] { within(a, b, placements, 1, progress); },
+        [&] { within(a, b, placements, 1, {.progress = progress}); },
         [&] { distance(solid_a, solid_b, placements, {.progress = progress}); },
         [&] { penetration(solid_a, solid_b, placements, {.progress = progress}); },
-        [&] { world.touching(progress); },
-        [&] { world.closer_than(1, progress); },
+        [&] { world.collide(progress); },
+        [&] { world.within(1, progress); },
     };
     for (std::size_t i = 0; i < queries.size(); ++i) {
         SCOPED_TRACE(i);
@@ -264,13 +266,13 @@ TEST(Stops, AScheduleThatWasStoppedForgetsNoPair) {
     EXPECT_GT(touching, 20U);
 }
 
-// A search that was stopped leaves nothing in a workspace that a later one could be misled by.
-TEST(Stops, AWorkspaceSurvives) {
+// A search that was stopped leaves nothing in a warm start that a later one could be misled by.
+TEST(Stops, AWarmStartSurvives) {
     Random random(4);
     const Model a(torus_mesh(1, 0.4, 24, 12)), b(torus_mesh(1, 0.3, 20, 10));
     const ConvexPieces solid_a(a), solid_b(b);
-    PiecesWorkspace workspace;
-    Workspace of_models;
+    PiecesWarmStart warm_start;
+    WarmStart of_models;
     std::atomic<bool> stop = false, done = false;
     std::thread other([&] {
         while (!done) {
@@ -288,15 +290,15 @@ TEST(Stops, AWorkspaceSurvives) {
         stop = false;
         interrupted += is_interrupted([&] {
             distance(solid_a, {}, solid_b, pose,
-                     {.workspace = &workspace, .progress = {{}, &stop}});
+                     {.warm_start = &warm_start, .progress = {{}, &stop}});
         });
-        const PiecesGap gap = distance(solid_a, {}, solid_b, pose, {.workspace = &workspace}),
+        const PiecesGap gap = distance(solid_a, {}, solid_b, pose, {.warm_start = &warm_start}),
                         alone = distance(solid_a, {}, solid_b, pose);
         EXPECT_NEAR(gap.distance, alone.distance, 1e-12 + 1e-9 * alone.distance);
         interrupted += is_interrupted([&] {
-            distance(a, {}, b, pose, {.workspace = &of_models, .progress = {{}, &stop}});
+            distance(a, {}, b, pose, {.warm_start = &of_models, .progress = {{}, &stop}});
         });
-        EXPECT_NEAR(distance(a, {}, b, pose, {.workspace = &of_models}).distance,
+        EXPECT_NEAR(distance(a, {}, b, pose, {.warm_start = &of_models}).distance,
                     distance(a, {}, b, pose).distance, 1e-12);
     }
     done = true;
@@ -434,7 +436,7 @@ TEST_F(Limits, BoundsOfADepthHoldTheTruth) {
             Transform moved = wb;
             moved.m[9] += depth.separation.x, moved.m[10] += depth.separation.y,
                 moved.m[11] += depth.separation.z;
-            EXPECT_FALSE(collide(a, wa, b, moved).any());
+            EXPECT_FALSE(collide(a, wa, b, moved).meet());
         }
     }
     EXPECT_GT(limited, 50);

@@ -149,13 +149,13 @@ private:
 bool check(const Case& c, int& undecided) {
     const double tolerance = 1e-5;
     const Impact impact =
-        time_of_impact(c.a, c.motion_a, c.b, c.motion_b, {.tolerance = tolerance});
+        time_of_impact(c.a, c.motion_a, c.b, c.motion_b, {.absolute_error = tolerance});
     const FirstContact truth = Subdivision(c).run();
     // Not late, not missed.
     EXPECT_LE(impact.time, truth.contact);
-    EXPECT_EQ(impact.hit || truth.contact <= 1, impact.hit);
+    EXPECT_EQ(impact.meet || truth.contact <= 1, impact.meet);
     EXPECT_EQ(impact.time == 0, truth.contact == 0);
-    if (impact.hit) {
+    if (impact.meet) {
         // Another pair of triangles may be nearer by then.
         EXPECT_LE(c.distance_at(impact.time), impact.gap + 0x1p-48);
         EXPECT_LE(impact.gap, tolerance);
@@ -166,9 +166,9 @@ bool check(const Case& c, int& undecided) {
     }
     if (impact.status == Status::bound_only) {
         ++undecided;
-        EXPECT_TRUE(impact.hit);
+        EXPECT_TRUE(impact.meet);
         EXPECT_EQ(impact.contact_time, kInfinity);
-    } else if (impact.hit) {
+    } else if (impact.meet) {
         EXPECT_GE(impact.contact_time, truth.not_before);
         EXPECT_LE(impact.contact_time, 1);
         EXPECT_TRUE(
@@ -177,13 +177,13 @@ bool check(const Case& c, int& undecided) {
     }
     // Either way round, the same to what is proven.
     const Impact swapped =
-        time_of_impact(c.b, c.motion_b, c.a, c.motion_a, {.tolerance = tolerance});
+        time_of_impact(c.b, c.motion_b, c.a, c.motion_a, {.absolute_error = tolerance});
     if (impact.status == Status::exact && swapped.status == Status::exact) {
-        EXPECT_EQ(swapped.hit, impact.hit);
-        EXPECT_LE(swapped.time, impact.hit ? impact.contact_time : 1);
-        EXPECT_LE(impact.time, swapped.hit ? swapped.contact_time : 1);
+        EXPECT_EQ(swapped.meet, impact.meet);
+        EXPECT_LE(swapped.time, impact.meet ? impact.contact_time : 1);
+        EXPECT_LE(impact.time, swapped.meet ? swapped.contact_time : 1);
     }
-    return impact.hit;
+    return impact.meet;
 }
 
 TEST(TimeOfImpact, IsNeverLateAndMissesNothing) {
@@ -260,13 +260,13 @@ TEST(Batch, TimesOfImpactEqualSingleQueries) {
     int hits = 0;
     for (std::size_t i = 0; i < motions.size(); ++i) {
         const Impact impact = time_of_impact(a, motions[i].a, b, motions[i].b);
-        ASSERT_EQ(impacts[i].hit, impact.hit);
+        ASSERT_EQ(impacts[i].meet, impact.meet);
         ASSERT_EQ(impacts[i].time, impact.time);
         ASSERT_EQ(impacts[i].contact_time, impact.contact_time);
         ASSERT_EQ(impacts[i].point_a, impact.point_a);
         ASSERT_EQ(impacts[i].triangle_b, impact.triangle_b);
         expect_same(impacts[i].counters, impact.counters);
-        hits += impact.hit ? 1 : 0;
+        hits += impact.meet ? 1 : 0;
     }
     EXPECT_GT(hits, 40);
     EXPECT_LT(hits, 160);

@@ -236,7 +236,7 @@ private:
                     gap.status = Status::bound_only;
                 truth.emplace(part, gap);
             }
-        expect_parts(walk_.contacts(probe.probe, probe.world, query), truth);
+        expect_parts(walk_.penetration(probe.probe, probe.world, query), truth);
         touched += truth.empty() ? 0 : 1;
     }
 
@@ -287,14 +287,14 @@ private:
     }
 
     static BodyGap gap_of(const KnownPart& part, const SomeProbe& probe, Depths depths) {
-        PairWorkspace workspace;
+        PairWarmStart warm_start;
         return gap_between({part.shape, part.world}, {probe.probe.data().shape(), probe.world},
-                           HUGE_VAL, depths, workspace);
+                           HUGE_VAL, depths, warm_start);
     }
     static bool touches(const KnownPart& part, const SomeProbe& probe) {
-        PairWorkspace workspace;
+        PairWarmStart warm_start;
         return touch({part.shape, part.world}, {probe.probe.data().shape(), probe.world},
-                     workspace);
+                     warm_start);
     }
 
     Random& random_;

@@ -33,8 +33,8 @@ struct Seen {
 /// A search of all but hubs that tells what it is given.
 class Witness final : public PairSearch {
 public:
-    Witness(PairFilter wanted, Seen& seen)
-        : search_(make_tree_search(std::move(wanted))), seen_(seen) {}
+    Witness(PairFilter filter, Seen& seen)
+        : search_(make_tree_search(std::move(filter))), seen_(seen) {}
     void update(const BoxStep& step, PairList& list) override {
         seen_.empty = empty_boxes(step.boxes);
         search_->update(step, list);
@@ -54,14 +54,14 @@ struct Counts {
 };
 
 /// A search of its own for each script, which begins with a restart, as after `forget`.
-void run_script(Random& random, const BoxSceneKind& kind, const PairFilter& wanted,
+void run_script(Random& random, const BoxSceneKind& kind, const PairFilter& filter,
                 Counts& counts) {
     Seen seen;
-    const auto search = make_hub_search(std::make_unique<Witness>(wanted, seen), wanted);
+    const auto search = make_hub_search(std::make_unique<Witness>(filter, seen), filter);
     BoxScript script(random, kind, std::size_t(random.integer(30, 400)));
     PairList list;
     search->restart(script.boxes(), list);
-    Pairs last = all_pairs(script.boxes(), {{}, wanted});
+    Pairs last = all_pairs(script.boxes(), {{}, filter});
     ASSERT_EQ(list.pairs(), last);
     for (int i = 0; i < 40; ++i) {
         const std::size_t before = script.boxes().size();
@@ -74,7 +74,7 @@ void run_script(Random& random, const BoxSceneKind& kind, const PairFilter& want
             search->restart(script.boxes(), list);
         else
             search->update({script.boxes(), changed}, list);
-        const Pairs now = all_pairs(script.boxes(), {{}, wanted});
+        const Pairs now = all_pairs(script.boxes(), {{}, filter});
         ASSERT_EQ(list.pairs(), now) << i << " " << before;
         ASSERT_EQ(list.begun(), without(now, last));
         ASSERT_EQ(list.ended(), without(last, now));
@@ -92,10 +92,10 @@ TEST(HubSearch, FindsAllPairsAndChangesWhileHubsComeAndGo) {
     const int rounds = many(12);
     for (int round = 0; round < rounds; ++round)
         for (const BoxSceneKind& kind : kBoxSceneKinds)
-            for (const PairFilter& wanted : {PairFilter(), some}) {
+            for (const PairFilter& filter : {PairFilter(), some}) {
                 SCOPED_TRACE(kind.name);
                 set_threads(random.integer(1, 4));
-                ASSERT_NO_FATAL_FAILURE(run_script(random, kind, wanted, counts));
+                ASSERT_NO_FATAL_FAILURE(run_script(random, kind, filter, counts));
             }
     set_threads(0);
     std::cout << counts.with_hubs << " of " << counts.steps << ", restarts " << counts.restarts

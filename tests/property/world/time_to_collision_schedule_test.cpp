@@ -130,7 +130,7 @@ TEST(CollisionSchedule, ReportsAllPairsThatTouchAtEveryStep) {
             const double dt = random.chance(0.1) ? 0 : random.uniform(0.001, 0.02);
             flights.step(dt);
             const auto touching = world.advance(dt);
-            ASSERT_EQ(touching, world.touching()) << "step " << step;
+            ASSERT_EQ(touching, world.collide()) << "step " << step;
             met += touching.size();
             flights.steer();
             if (random.chance(0.05))
@@ -158,7 +158,7 @@ TEST(CollisionSchedule, NothingBeginsToTouchBeforeTheNextEvent) {
         double now = 0;
         for (const double dt = until / 20; now + dt <= until; now += dt) {
             flights.step(dt);
-            for (const BodyPair& pair : world.touching())
+            for (const BodyPair& pair : world.collide())
                 EXPECT_TRUE(std::binary_search(last.begin(), last.end(), pair));
         }
     }

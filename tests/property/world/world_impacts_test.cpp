@@ -31,7 +31,7 @@ std::optional<double> first_contact(World& world, const std::vector<BodyMotion>&
     for (int step = 0; step <= steps; ++step) {
         const double t = double(step) / steps;
         move_to(world, motions, surfaces, t);
-        if (holds(world.touching(), pair))
+        if (holds(world.collide(), pair))
             return t;
     }
     return std::nullopt;
@@ -44,7 +44,7 @@ public:
     void check(World& world, const std::vector<BodyMotion>& motions,
                const std::vector<Surface>& surfaces, BodyPair pair) {
         constexpr int kSteps = 60;
-        const auto impacts = world.impacts(motions);
+        const auto impacts = world.time_of_impact(motions);
         const auto contact = first_contact(world, motions, surfaces, pair, kSteps);
         if (!contact) {
             misses_ += impacts.empty() ? 1 : 0;
@@ -66,12 +66,12 @@ public:
         EXPECT_GE(impact.contact_time, impact.time);
         const bool near_end = impact.contact_time > 1 - 1e-6;
         move_to(world, motions, surfaces, impact.contact_time);
-        const auto gaps = world.closer_than(1e-8);
+        const auto gaps = world.within(1e-8);
         EXPECT_TRUE(near_end || gaps.size() == 1);
         // On the way to the contact b is where the normal points to.
         if (impact.time > 0.01 && impact.normal != Vec3{}) {
             move_to(world, motions, surfaces, impact.time - 1e-3);
-            for (const BodyGap& gap : world.closer_than(0.1))
+            for (const BodyGap& gap : world.within(0.1))
                 turned_ += gap.distance > 1e-6 && dot(gap.normal, impact.normal) < -0.5 ? 1 : 0;
         }
     }
@@ -190,7 +190,7 @@ TEST(WorldImpacts, OfSurfacesFarFromTheOriginComeNoLaterThanFineSteps) {
         const BodyId body = world.add(Model(tetrahedron(0.4)), pose);
         const std::vector<BodyMotion> motions{
             {body, {pose, pose.translation, random.in_cube(1), random.in_cube(3)}}};
-        const auto impacts = world.impacts(motions);
+        const auto impacts = world.time_of_impact(motions);
         const auto contact = first_contact(world, motions, {{sheet, moving}}, {sheet, body}, 40);
         if (!contact)
             continue;
@@ -206,11 +206,11 @@ TEST(WorldImpacts, AFastBallDoesNotPassAThinWall) {
     const BodyId wall = world.add(Box3{{-0.001, -5, -5}, {0.001, 5, 5}}, {});
     const BodyId ball = world.add(Sphere{{}, 0.1}, Pose{{-50, 0, 0}, {1, 0, 0, 0}});
     const BodyMotion motion{ball, {{{-50, 0, 0}, {1, 0, 0, 0}}, {-50, 0, 0}, {100, 0, 0}, {}}};
-    const auto impacts = world.impacts({motion});
+    const auto impacts = world.time_of_impact({motion});
     ASSERT_EQ(impacts.size(), 1U);
     EXPECT_EQ(impacts[0].a, wall);
     EXPECT_NEAR(impacts[0].impact.time, (50 - 0.101) / 100, 1e-5);
-    EXPECT_THROW(world.impacts({motion, motion}), Error);
+    EXPECT_THROW(world.time_of_impact({motion, motion}), Error);
 }
 
 /// A flat sheet across the x axis.
@@ -233,7 +233,7 @@ TEST(WorldImpacts, AFastSheetPassesNothing) {
     const BodyId needle =
         world.add(Convex(std::vector<Vec3>{{40, 0.1, 0.1}, {40.5, 0.1, 0.1}}), {});
     world.add(Sphere{{0, 1.2, 0}, 0.1}, {}); // beside its way
-    const auto impacts = world.impacts({});
+    const auto impacts = world.time_of_impact({});
     ASSERT_EQ(impacts.size(), 5U);
     const std::array expected{std::pair{wall, 49.999}, std::pair{ball, 59.99},
                               std::pair{cloth, 70.0}, std::pair{plate, 80.0},
@@ -256,7 +256,7 @@ TEST(WorldImpacts, AFallingSheetMeetsATurningBlade) {
     const BodyId cloth = world.add(sheet.surface);
     const BodyId blade = world.add(Box3{{0, -0.01, -0.1}, {4, 0.01, 0.1}}, {});
     const auto turn = [&](double angle) {
-        return world.impacts({{blade, {{}, {}, {}, {0, 0, angle}}}});
+        return world.time_of_impact({{blade, {{}, {}, {}, {0, 0, angle}}}});
     };
     // The blade's middle meets the sheet's upper edge, at y = 1 + t / 2, where t is 0.580 and its angle
     // 2.7346; half of its thickness takes 0.003 off.
@@ -283,7 +283,7 @@ TEST(WorldImpacts, ASheetThatSlidesJustAboveOthersIsNone) {
     world.add(Box3{{-2, -2, -1}, {2, 2, 0}}, {});
     MovingSurface below(floor);
     world.add(below.surface);
-    EXPECT_TRUE(world.impacts({}).empty());
+    EXPECT_TRUE(world.time_of_impact({}).empty());
 }
 
 TEST(WorldImpacts, ADeformableWithinASolidMeetsItAtOnceAndOneAtRestMovesNothing) {
@@ -291,10 +291,10 @@ TEST(WorldImpacts, ADeformableWithinASolidMeetsItAtOnceAndOneAtRestMovesNothing)
     World world;
     world.add(Box3{{-1, -1, -1}, {1, 1, 1}}, {});
     const BodyId body = world.add(inner.surface);
-    EXPECT_TRUE(world.impacts({}).empty()); // neither moves
+    EXPECT_TRUE(world.time_of_impact({}).empty()); // neither moves
     inner.set_step(inner.mesh.positions, transformed(inner.mesh, translation(0, 0, 0.1)).positions);
     world.refresh(body);
-    const auto impacts = world.impacts({});
+    const auto impacts = world.time_of_impact({});
     ASSERT_EQ(impacts.size(), 1U);
     EXPECT_EQ(impacts[0].impact.time, 0);
     EXPECT_EQ(impacts[0].impact.contact_time, 0);
@@ -314,11 +314,11 @@ TEST(WorldImpacts, ADeformableThatOverlapsABodyAtRestMeetsItAtTheStartIfItMoves)
             sheet.set_step(mesh.positions,
                            transformed(mesh, translation(step.x, step.y, step.z)).positions);
             world.refresh(moving);
-            EXPECT_EQ(world.touching().size(), 1U);
-            const auto impacts = world.impacts({});
+            EXPECT_EQ(world.collide().size(), 1U);
+            const auto impacts = world.time_of_impact({});
             if (step == Vec3{}) {
                 EXPECT_TRUE(impacts.empty()); // neither moves: `touching` names the pair
-                const auto pushed = world.impacts(
+                const auto pushed = world.time_of_impact(
                     {{rest, Motion::between({{}, {1, 0, 0, 0}}, {{5, 0, 0}, {1, 0, 0, 0}})}});
                 ASSERT_EQ(pushed.size(), 1U);
                 EXPECT_EQ(pushed[0].impact.time, 0);
@@ -358,13 +358,13 @@ TEST(WorldImpacts, ALimitOnStepsTellsTheTimeThatIsProvenFreeAndAFlagStopsThem) {
         std::vector<BodyMotion> motions;
         if (kind != 3)
             motions.push_back({body, {start, start.translation, {4, 0, 0}, random.in_cube(2)}});
-        const auto whole = world.impacts(motions);
+        const auto whole = world.time_of_impact(motions);
         ASSERT_EQ(whole.size(), 1U);
         EXPECT_GT(whole[0].impact.steps, 0U);
         EXPECT_FALSE(whole[0].impact.out_of_steps);
         double before = 0;
         for (std::uint64_t most = 0; most < whole[0].impact.steps; most += 1 + most / 4) {
-            const auto impacts = world.impacts(motions, {.max_steps = most});
+            const auto impacts = world.time_of_impact(motions, {.max_steps = most});
             ASSERT_EQ(impacts.size(), 1U);
             const Impact& impact = impacts[0].impact;
             if (!impact.out_of_steps)
@@ -378,12 +378,12 @@ TEST(WorldImpacts, ALimitOnStepsTellsTheTimeThatIsProvenFreeAndAFlagStopsThem) {
         }
         std::vector<double> reports;
         const auto report = [&](std::string_view, double fraction) { reports.push_back(fraction); };
-        ASSERT_EQ(world.impacts(motions, {.progress = {report, nullptr}}).size(), 1U);
+        ASSERT_EQ(world.time_of_impact(motions, {.progress = {report, nullptr}}).size(), 1U);
         EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
         EXPECT_EQ(reports.back(), 1);
         const std::atomic<bool> stop = true;
         try {
-            world.impacts(motions, {.progress = {{}, &stop}});
+            world.time_of_impact(motions, {.progress = {{}, &stop}});
             FAIL() << "not stopped";
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::interrupted);
@@ -396,13 +396,13 @@ TEST(WorldImpacts, RefusesMotionsOfDeformablesAndBadTolerances) {
     MovingSurface surface(tetrahedron(1));
     World world;
     const BodyId body = world.add(surface.surface);
-    EXPECT_THROW(world.impacts({{body, Motion::fixed({})}}), Error);
+    EXPECT_THROW(world.time_of_impact({{body, Motion::fixed({})}}), Error);
     EXPECT_THROW(world.move(body, {}), Error);
     ImpactOptions options;
-    options.tolerance = -1;
-    EXPECT_THROW(world.impacts({}, options), Error);
-    options.tolerance = NAN;
-    EXPECT_THROW(world.impacts({}, options), Error);
+    options.absolute_error = -1;
+    EXPECT_THROW(world.time_of_impact({}, options), Error);
+    options.absolute_error = NAN;
+    EXPECT_THROW(world.time_of_impact({}, options), Error);
 }
 
 } // namespace

@@ -65,13 +65,13 @@ std::optional<bool> touch_convex_by_hand(const Convex& convex, const Pose& pose,
         return std::nullopt;
     const Model solid(convex.mesh());
     if (const auto* model = std::get_if<Model>(&b.shape))
-        return collide(solid, pose, *model, b.pose).any() ||
+        return collide(solid, pose, *model, b.pose).meet() ||
                any_inside(*model, b.pose, solid, pose);
     if (const auto* other = std::get_if<Convex>(&b.shape)) {
         if (other->dimension() < 3)
             return std::nullopt;
         const Model other_solid(other->mesh());
-        return collide(solid, pose, other_solid, b.pose).any() ||
+        return collide(solid, pose, other_solid, b.pose).meet() ||
                any_inside(solid, pose, other_solid, b.pose) ||
                any_inside(other_solid, b.pose, solid, pose);
     }
@@ -117,7 +117,7 @@ std::optional<bool> touch_by_hand(const Known& a, const Known& b) {
         return length(way) <= x->radius + y->radius;
     }
     if (model_b != nullptr)
-        return collide(*model_a, a.pose, *model_b, b.pose).any();
+        return collide(*model_a, a.pose, *model_b, b.pose).meet();
     if (const auto* sphere = std::get_if<Sphere>(&b.shape))
         return overlaps(*model_a, a.pose, Sphere{apply(b.pose, sphere->centre), sphere->radius});
     if (const auto* box = std::get_if<Box3>(&b.shape))
@@ -137,7 +137,7 @@ TEST(World, TouchingPairsAreThoseOfAllPairs) {
         Script script(random, world, {0, true});
         for (int step = 0; step < 12; ++step) {
             script.step();
-            const BodyPairs touching = world.touching();
+            const BodyPairs touching = world.collide();
             const BodyPairs known = pairs_where(script, [&](BodyId a, BodyId b) {
                 const auto by_hand =
                     touch_by_hand(at_start(script.bodies().at(a)), at_start(script.bodies().at(b)));
@@ -146,7 +146,7 @@ TEST(World, TouchingPairsAreThoseOfAllPairs) {
             ASSERT_EQ(touching, known);
             met += touching.size();
             apart += world.pairs().size() - touching.size();
-            const auto contacts = world.contacts();
+            const auto contacts = world.penetration();
             ASSERT_EQ(contacts.size(), touching.size());
             for (std::size_t i = 0; i < contacts.size(); ++i) {
                 EXPECT_EQ(contacts[i].a, touching[i].a);
@@ -169,20 +169,20 @@ TEST(World, ClosePairsAreThoseOfAllPairs) {
         for (int step = 0; step < 12; ++step)
             script.step();
         const double limit = random.uniform(0, 0.3);
-        const auto all = world.closer_than(10);
+        const auto all = world.within(10);
         BodyPairs expected;
         for (const BodyGap& gap : all)
             if (gap.distance <= limit)
                 expected.push_back({gap.a, gap.b});
         EXPECT_EQ(pairs_where(script, [](BodyId, BodyId) { return true; }).size(), all.size());
         BodyPairs found;
-        for (const BodyGap& gap : world.closer_than(limit)) {
+        for (const BodyGap& gap : world.within(limit)) {
             found.push_back({gap.a, gap.b});
             EXPECT_LE(gap.distance, limit);
         }
         EXPECT_EQ(found, expected);
         near += found.size(), far += all.size() - found.size();
-        for (const BodyPair& pair : world.touching())
+        for (const BodyPair& pair : world.collide())
             EXPECT_TRUE(holds(found, pair));
     }
     EXPECT_GT(near, 50U);
@@ -212,7 +212,7 @@ TEST(World, RefusesBadBodiesByTheirIdAndStaysAsItWas) {
     world.remove(first);
     EXPECT_EQ(message([&] { world.move(first, {}); }).substr(0, 8), "body 0: ");
     EXPECT_EQ(message([&] { world.remove(first); }).substr(0, 8), "body 0: ");
-    EXPECT_EQ(message([&] { world.closer_than(-1); }), "distance must be a length, not negative");
+    EXPECT_EQ(message([&] { world.within(-1); }), "distance must be a length, not negative");
 }
 
 TEST(World, IdsAreNeverGivenAgainAndBodiesMayGoWhilePairsAreLookedAt) {
@@ -230,7 +230,7 @@ TEST(World, IdsAreNeverGivenAgainAndBodiesMayGoWhilePairsAreLookedAt) {
             ++gone;
         }
     EXPECT_EQ(gone, 3U);
-    EXPECT_TRUE(world.touching().empty());
+    EXPECT_TRUE(world.collide().empty());
     EXPECT_EQ(world.ended().size(), 5U);
     const BodyPairs ended = world.ended();
     for (int i = 0; i < 6; ++i) {
@@ -249,10 +249,10 @@ TEST(World, AFilterDecidesAndMayChange) {
     World world({BroadPhaseMethod::automatic, [&](BodyId, BodyId) { return !none; }});
     for (int i = 0; i < 3; ++i)
         world.add(Sphere{{}, 1}, {});
-    EXPECT_TRUE(world.touching().empty());
+    EXPECT_TRUE(world.collide().empty());
     none = false;
     world.refilter();
-    EXPECT_EQ(world.touching().size(), 3U);
+    EXPECT_EQ(world.collide().size(), 3U);
 }
 
 TEST(World, DeformablesMeetModelsAsTheyAreAtTheStart) {
@@ -262,13 +262,13 @@ TEST(World, DeformablesMeetModelsAsTheyAreAtTheStart) {
     const BodyId cloth_id = world.add(cloth);
     world.add(Sphere{{0, 0, 0.5}, 0.4}, {});
     world.add(Model(tetrahedron(1)), Pose{{0, 0, -0.5}, {1, 0, 0, 0}});
-    EXPECT_EQ(world.touching().size(), 2U); // model and cloth, model and ball
+    EXPECT_EQ(world.collide().size(), 2U); // model and cloth, model and ball
     for (Vec3& p : sheet.positions)
         p.z += 0.3;
     cloth.set_motion(sheet.positions, sheet.positions);
     world.refresh(cloth_id);
-    EXPECT_EQ(world.touching().size(), 3U);
-    const auto near = world.closer_than(1);
+    EXPECT_EQ(world.collide().size(), 3U);
+    const auto near = world.within(1);
     EXPECT_EQ(near.size(), 3U);
     EXPECT_NEAR(near[0].distance, -0.2, 1e-12);
 }

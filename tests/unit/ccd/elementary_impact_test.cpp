@@ -28,13 +28,13 @@ ElementaryImpact impact(ElementaryKind kind, const Points& start, const Points& 
 }
 
 void expect_hit(const ElementaryImpact& impact, double time) {
-    ASSERT_TRUE(impact.hit);
+    ASSERT_TRUE(impact.meet);
     EXPECT_EQ(impact.status, Status::exact);
     EXPECT_LE(impact.time, time);
     EXPECT_NEAR(impact.time, time, 1e-9);
 }
 void expect_miss(const ElementaryImpact& impact) {
-    EXPECT_FALSE(impact.hit);
+    EXPECT_FALSE(impact.meet);
     EXPECT_EQ(impact.time, 1);
     EXPECT_EQ(impact.status, Status::exact);
 }
@@ -241,8 +241,8 @@ TEST(ElementaryImpact, ConservativeReportsNearPairs) {
     ElementaryPair pair{kFace,
                         {Vec3{0, 0.25, 1}, Vec3{0, 0, 2}, Vec3{1, 0, 0}, Vec3{0, 1, 2}},
                         {Vec3{1, 0.25, 1}, Vec3{0, 0, 0}, Vec3{1, 0, 2}, Vec3{0, 1, 0}}};
-    const auto near = elementary_impact(pair, {.delta = 1e-3});
-    ASSERT_TRUE(near.hit);
+    const auto near = elementary_impact(pair, {.absolute_error = 1e-3});
+    ASSERT_TRUE(near.meet);
     EXPECT_EQ(near.status, Status::bound_only);
     EXPECT_EQ(near.decided_by, ElementaryStage::interval);
     EXPECT_LE(near.time, 0.5);
@@ -251,11 +251,13 @@ TEST(ElementaryImpact, ConservativeReportsNearPairs) {
 
 TEST(ElementaryImpact, BadInputIsRefused) {
     ElementaryPair pair{kFace, face_and({0, 0, 1}), face_and({0, 0, -1})};
-    EXPECT_THROW(elementary_impact(pair, {.delta = -1}), Error);
-    EXPECT_THROW(elementary_impact(pair, {.delta = std::numeric_limits<double>::infinity()}),
-                 Error);
-    EXPECT_THROW(elementary_impact(pair, {.delta = std::numeric_limits<double>::quiet_NaN()}),
-                 Error);
+    EXPECT_THROW(elementary_impact(pair, {.absolute_error = -1}), Error);
+    EXPECT_THROW(
+        elementary_impact(pair, {.absolute_error = std::numeric_limits<double>::infinity()}),
+        Error);
+    EXPECT_THROW(
+        elementary_impact(pair, {.absolute_error = std::numeric_limits<double>::quiet_NaN()}),
+        Error);
     std::vector<ElementaryPair> pairs(3, pair);
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {

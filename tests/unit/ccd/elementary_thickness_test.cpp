@@ -16,7 +16,7 @@ constexpr auto kFace = ElementaryKind::vertex_face, kEdges = ElementaryKind::edg
 
 ElementaryImpact impact(ElementaryKind kind, const Points& start, const Points& end,
                         double thickness, double delta = 0) {
-    return elementary_impact({kind, start, end}, {.delta = delta, .thickness = thickness});
+    return elementary_impact({kind, start, end}, {.absolute_error = delta, .thickness = thickness});
 }
 
 /// A vertex and the right triangle in the plane z = 0.
@@ -31,7 +31,7 @@ Points cross_at(double z) {
 /// Expects a hit at `time`, or at most `early` before it: the time that a distance of 1e-6 of the
 /// thickness takes.
 void expect_hit(const ElementaryImpact& i, double time, double early) {
-    ASSERT_TRUE(i.hit);
+    ASSERT_TRUE(i.meet);
     EXPECT_EQ(i.status, Status::converged);
     EXPECT_EQ(i.decided_by, ElementaryStage::interval);
     EXPECT_LE(i.time, time);
@@ -64,11 +64,11 @@ TEST(Thickness, VertexPassesBesideACornerAndAnEdge) {
     expect_hit(i, 0.375, 1e-5);
     expect_near(i.normal, {3 / std::sqrt(10), 0, 1 / std::sqrt(10)});
     EXPECT_NEAR(i.barycentric[1], 1, 1e-12);
-    EXPECT_FALSE(impact(kFace, start, end, 3 * (1 - 2e-6)).hit);
+    EXPECT_FALSE(impact(kFace, start, end, 3 * (1 - 2e-6)).meet);
     // The vertex passes beside the edge along x.
     const Points beside = face_and({0.5, -2, 3}), gone = face_and({0.5, -2, -3});
     expect_hit(impact(kFace, beside, gone, 2), 0.5, 1e-2);
-    EXPECT_FALSE(impact(kFace, beside, gone, 1.99).hit);
+    EXPECT_FALSE(impact(kFace, beside, gone, 1.99).meet);
 }
 
 TEST(Thickness, EdgesApproachAndSlide) {
@@ -81,7 +81,7 @@ TEST(Thickness, EdgesApproachAndSlide) {
     Points start = cross_at(1), end = cross_at(1);
     start[0].x = -0.5, end[0].x = -1;
     expect_hit(impact(kEdges, start, end, 1), 0, 0);
-    EXPECT_FALSE(impact(kEdges, start, end, 1 - 0x1p-19).hit);
+    EXPECT_FALSE(impact(kEdges, start, end, 1 - 0x1p-19).meet);
 }
 
 TEST(Thickness, ParallelEdgesAndOnesWithoutLength) {
@@ -113,7 +113,7 @@ TEST(Thickness, FacesThatAreSegmentsOrPoints) {
 TEST(Thickness, WithoutMotionAndAtTheSamePoint) {
     const Points above = face_and({0.25, 0.25, 0.5});
     expect_hit(impact(kFace, above, above, 0.5), 0, 0);
-    EXPECT_FALSE(impact(kFace, above, above, 0.499).hit);
+    EXPECT_FALSE(impact(kFace, above, above, 0.499).meet);
     const Points one{Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}};
     expect_hit(impact(kFace, one, one, 1e-300), 0, 0);
     // They cross at the start, so the normal is the one without a thickness.
@@ -126,16 +126,16 @@ TEST(Thickness, DeltaAllowsMore) {
     // 3 from the corner at the origin, in a direction that no filter tests.
     const Points p{Vec3{1, 2, 2}, Vec3{0, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}};
     const auto i = impact(kFace, p, p, 2.9, 0.2);
-    ASSERT_TRUE(i.hit);
+    ASSERT_TRUE(i.meet);
     EXPECT_EQ(i.status, Status::bound_only);
-    EXPECT_FALSE(impact(kFace, p, p, 2.9, 0.05).hit);
+    EXPECT_FALSE(impact(kFace, p, p, 2.9, 0.05).meet);
     EXPECT_EQ(impact(kFace, p, p, 3, 0.2).status, Status::converged);
 }
 
 TEST(Thickness, ThinOnesAreNotMissed) {
     // Smaller than the rounding of coordinates near 1. The status reports that.
     const auto i = impact(kFace, face_and({0.3, 0.3, 0.7}), face_and({0.3, 0.3, -0.1}), 1e-17);
-    ASSERT_TRUE(i.hit);
+    ASSERT_TRUE(i.meet);
     EXPECT_EQ(i.status, Status::bound_only);
     EXPECT_LE(i.time, 0.875);
     EXPECT_GE(i.time, 0.875 - 1e-11);

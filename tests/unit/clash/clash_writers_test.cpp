@@ -54,10 +54,10 @@ struct Sample {
         report.frame = {UpAxis::z, structure.file};
         report.warnings = {"the boxes of a and b are 2 km apart"};
         report.clearance = 0.05;
-        report.touch = 1e-9;
+        report.touch_tolerance = 1e-9;
         report.candidates = 17;
         report.seconds = {0.5, 0.25, 0.125, 0.0625, 1};
-        report.peak_rss_mb = 123.4;
+        report.peak_rss_mib = 123.4;
         for (const ClashKind kind : kClashKinds) {
             Clash clash;
             clash.id = 0xABCULL + static_cast<std::uint64_t>(kind);
@@ -142,7 +142,7 @@ TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
     const ordered_json root = ordered_json::parse(to_json(sample.report, sample.models));
     using Names = std::vector<std::string>;
     EXPECT_EQ(keys(root), (Names{"models", "frame", "warnings", "clearance", "touch", "candidates",
-                                 "counts", "clashes", "seconds", "peak_rss_mb"}));
+                                 "counts", "clashes", "seconds", "peak_rss_mib"}));
     EXPECT_EQ(keys(root["models"][0]), (Names{"file", "parts", "triangles", "unit", "up"}));
     EXPECT_EQ(keys(root["models"][1]),
               (Names{"file", "parts", "triangles", "unit", "up", "notes"}));
@@ -175,7 +175,7 @@ TEST_F(ClashWriters, JsonValuesReadBackAsTheyWere) {
     EXPECT_EQ(root["candidates"], 17);
     EXPECT_EQ(root["counts"]["duplicate"], 1);
     EXPECT_EQ(root["seconds"]["narrow"], 0.0625);
-    EXPECT_EQ(root["peak_rss_mb"], 123.4);
+    EXPECT_EQ(root["peak_rss_mib"], 123.4);
     ASSERT_EQ(root["clashes"].size(), 5U);
     const json& clash = root["clashes"][0];
     EXPECT_EQ(clash["id"], "0000000000000abc");

@@ -128,9 +128,9 @@ TEST(FindClashes, TouchTolerance) {
                aligned = box_mesh({0.99, 0, 0}, {2, 1, 1});
     for (const Mesh& b : {in, aligned}) {
         EXPECT_EQ(clash_of(kBox, b)->kind, ClashKind::hard);
-        EXPECT_EQ(clash_of(kBox, b, {.touch = 0.005})->kind, ClashKind::hard);
-        EXPECT_EQ(clash_of(kBox, b, {.touch = 0.02})->kind, ClashKind::touch);
-        EXPECT_NEAR(clash_of(kBox, b, {.touch = 0.02})->distance, -0.01, 1e-4);
+        EXPECT_EQ(clash_of(kBox, b, {.touch_tolerance = 0.005})->kind, ClashKind::hard);
+        EXPECT_EQ(clash_of(kBox, b, {.touch_tolerance = 0.02})->kind, ClashKind::touch);
+        EXPECT_NEAR(clash_of(kBox, b, {.touch_tolerance = 0.02})->distance, -0.01, 1e-4);
     }
 }
 
@@ -208,7 +208,7 @@ TEST(FindClashes, RulesHaveTheirOwnTolerances) {
     options.rules = {rule("all", {}, {})};
     options.rules[0].clearance = 0.1;
     EXPECT_EQ(find_clashes(models, options).clashes.size(), 2U);
-    options.rules[0].touch = 0.2;
+    options.rules[0].touch_tolerance = 0.2;
     EXPECT_EQ(find_clashes(models, options).clashes[0].kind, ClashKind::touch);
     options.rules[0].clearance = 0;
     options.clearance = 1;
@@ -333,7 +333,7 @@ TEST(FindClashes, IdsAreStableAndDistinct) {
     ASSERT_EQ(one.clashes.size(), 2U);
     EXPECT_EQ(one.clashes[0].id, two.clashes[0].id);
     EXPECT_NE(one.clashes[0].id, one.clashes[1].id);
-    const ClashReport soft = find_clashes({three_in_a_row("m.glb")}, {.touch = 1});
+    const ClashReport soft = find_clashes({three_in_a_row("m.glb")}, {.touch_tolerance = 1});
     EXPECT_NE(soft.clashes[0].id, one.clashes[0].id); // another kind
     const ClashReport other = find_clashes({three_in_a_row("n.glb")}, {.clearance = 0.1});
     EXPECT_NE(other.clashes[0].id, one.clashes[0].id); // another file
@@ -393,7 +393,7 @@ TEST(FindClashes, BadTolerancesAreErrors) {
         expect_error(ErrorCode::bad_argument, "clearance",
                      [&] { return find_clashes(models, {.clearance = bad}); });
         expect_error(ErrorCode::bad_argument, "touch",
-                     [&] { return find_clashes(models, {.touch = bad}); });
+                     [&] { return find_clashes(models, {.touch_tolerance = bad}); });
         ClashOptions options;
         options.rules = {rule("r", {}, {})};
         options.rules[0].clearance = bad;
@@ -491,12 +491,12 @@ TEST_F(ReadRules, AllKeys) {
     EXPECT_EQ(rules[0].a.type, std::vector<std::string>{"t"});
     EXPECT_TRUE(rules[0].b.file.empty());
     EXPECT_EQ(rules[0].clearance, 0.5);
-    EXPECT_EQ(rules[0].touch, 0.0);
+    EXPECT_EQ(rules[0].touch_tolerance, 0.0);
     EXPECT_TRUE(rules[0].ignore.same_file);
     EXPECT_FALSE(rules[0].ignore.same_type);
     EXPECT_EQ(rules[0].ignore.same_name_prefix, 3U);
     EXPECT_FALSE(rules[1].clearance);
-    EXPECT_FALSE(rules[1].touch);
+    EXPECT_FALSE(rules[1].touch_tolerance);
 }
 
 TEST_F(ReadRules, Faults) {
@@ -515,8 +515,8 @@ TEST_F(ReadRules, Faults) {
     expect_fault(R"({"rules": [{"name": 1}]})", "rules[0].name");
     expect_fault(R"({"rules": [{"name": "x"}, {"name": "y", "clearance": -1}]})",
                  "rules[1].clearance");
-    expect_fault(R"({"rules": [{"name": "x", "touch": "1"}]})", "rules[0].touch");
-    expect_fault(R"({"rules": [{"name": "x", "touch": null}]})", "rules[0].touch");
+    expect_fault(R"({"rules": [{"name": "x", "touch": "1"}]})", "rules[0].touch_tolerance");
+    expect_fault(R"({"rules": [{"name": "x", "touch": null}]})", "rules[0].touch_tolerance");
     expect_fault(R"({"rules": [{"name": "x", "clearance": 1e999}]})", "number");
     expect_fault(R"({"rules": [{"name": "x", "a": []}]})", "rules[0].a");
     expect_fault(R"({"rules": [{"name": "x", "a": {"file": 1}}]})", "rules[0].a.file");

@@ -251,18 +251,18 @@ TEST(Convex, BadArguments) {
     bad.m[4] = 1, bad.m[11] = std::numeric_limits<double>::infinity();
     EXPECT_THROW(distance(kCube, Pose{}, kCube, bad), Error);
     EXPECT_THROW(penetration(kCube, Pose{}, kCube, bad), Error);
-    EXPECT_THROW(distance(kCube, Pose{}, kCube, Pose{}, {.max_error = -1}), Error);
-    EXPECT_THROW(distance(kCube, Pose{}, kCube, Pose{}, {.max_error = kNaN}), Error);
+    EXPECT_THROW(distance(kCube, Pose{}, kCube, Pose{}, {.absolute_error = -1}), Error);
+    EXPECT_THROW(distance(kCube, Pose{}, kCube, Pose{}, {.absolute_error = kNaN}), Error);
 }
 
-TEST(Convex, AWorkspaceOfOtherBodiesDoesNoHarm) {
+TEST(Convex, AWarmStartOfOtherBodiesDoesNoHarm) {
     const Convex big(sphere_mesh(1, 40, 20)), point = hull({{0, 0, 0}});
     for (const double offset : {0.0, 3.0}) {
-        ConvexWorkspace workspace;
+        ConvexWarmStart warm_start;
         for (const Convex* a : {&big, &kCube, &point, &big})
             for (const Convex* b : {&big, &point, &kCube, &big}) {
                 const Transform at = translation(offset, 0.1, 0.2);
-                EXPECT_DOUBLE_EQ(distance(*a, Pose{}, *b, at, {.workspace = &workspace}).distance,
+                EXPECT_DOUBLE_EQ(distance(*a, Pose{}, *b, at, {.warm_start = &warm_start}).distance,
                                  distance(*a, Pose{}, *b, at).distance);
             }
     }

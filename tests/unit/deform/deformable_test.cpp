@@ -72,10 +72,10 @@ TEST(Deformable, FaceOfTheFirstAndVertexOfTheSecond) {
     EXPECT_TRUE(ab.list[0].face_first);
     EXPECT_FALSE(ba.list[0].face_first);
     EXPECT_EQ(ab.list[0].time, ba.list[0].time);
-    EXPECT_EQ(first_impact(a, b), ab.list[0]);
+    EXPECT_EQ(time_of_impact(a, b), ab.list[0]);
     EXPECT_FALSE(is_free_of_impacts(a, b));
     EXPECT_TRUE(is_free_of_self_impacts(a));
-    EXPECT_EQ(first_self_impact(a), std::nullopt);
+    EXPECT_EQ(self_time_of_impact(a), std::nullopt);
 }
 
 TEST(Deformable, NeighboursAreNoPair) {
@@ -119,7 +119,7 @@ TEST(Deformable, NothingMeetsNothing) {
             Deformable empty(Mesh{}, options);
             empty.set_motion({}, {});
             EXPECT_TRUE(self_impacts(empty).list.empty());
-            EXPECT_EQ(first_self_impact(empty), std::nullopt);
+            EXPECT_EQ(self_time_of_impact(empty), std::nullopt);
             const Deformable other = rising_tip().deformable(options);
             EXPECT_TRUE(impacts(empty, other).list.empty());
             EXPECT_TRUE(is_free_of_impacts(other, empty));
@@ -178,8 +178,9 @@ TEST(Deformable, BadInputIsAnErrorAndChangesNothing) {
     mesh.triangles[1][2] = 6;
     EXPECT_EQ(code_of([&] { surface.set_mesh(mesh); }), ErrorCode::bad_mesh);
     EXPECT_EQ(code_of([&] { const Deformable broken(mesh); }), ErrorCode::bad_mesh);
-    EXPECT_EQ(code_of([&] { self_impacts(surface, {.delta = -1}); }), ErrorCode::bad_argument);
-    EXPECT_EQ(code_of([&] { first_self_impact(surface, {.delta = kNaN}); }),
+    EXPECT_EQ(code_of([&] { self_impacts(surface, {.absolute_error = -1}); }),
+              ErrorCode::bad_argument);
+    EXPECT_EQ(code_of([&] { self_time_of_impact(surface, {.absolute_error = kNaN}); }),
               ErrorCode::bad_argument);
     EXPECT_EQ(self_impacts(surface).list, before.list);
     const Deformable other = moving.deformable({.scheme = Scheme::markup});
@@ -196,8 +197,8 @@ TEST(Deformable, EverythingIsWithinALargeThickness) {
         for (const double large : {1e3, 1e40, 1e300}) {
             const Impacts all = self_impacts(surface, {.thickness = large});
             EXPECT_EQ(all.list.size(), 6U + 9U) << large;
-            EXPECT_EQ(first_self_impact(surface, {.thickness = large}), all.list.at(0)) << large;
-            EXPECT_EQ(self_pairs_within(surface, large).size(), 6U + 9U) << large;
+            EXPECT_EQ(self_time_of_impact(surface, {.thickness = large}), all.list.at(0)) << large;
+            EXPECT_EQ(self_within(surface, large).size(), 6U + 9U) << large;
         }
     }
 }

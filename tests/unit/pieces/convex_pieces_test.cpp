@@ -90,11 +90,11 @@ TEST(ConvexPieces, SolidsInsideOfEachOtherAreAtDistanceZero) {
     EXPECT_TRUE(contacts.contained);
     EXPECT_TRUE(contacts.pairs.empty());
     EXPECT_TRUE(within(pitted, {}, seed, {}, 0));
-    PiecesWorkspace workspace;
+    PiecesWarmStart warm_start;
     for (int i = 0; i < 3; ++i) // nothing has moved
-        EXPECT_EQ(distance(pitted, {}, seed, {}, {.workspace = &workspace}).distance, 0);
+        EXPECT_EQ(distance(pitted, {}, seed, {}, {.warm_start = &warm_start}).distance, 0);
     const Transform away = translation(0, 0, 40);
-    EXPECT_GT(distance(pitted, {}, seed, away, {.workspace = &workspace}).distance, 30);
+    EXPECT_GT(distance(pitted, {}, seed, away, {.warm_start = &warm_start}).distance, 30);
     const ConvexPieces ring = pieces(torus_mesh(10, 4, 60, 40));
     // There is no solid in the ring's hole.
     const ConvexPieces ball = pieces(sphere_mesh(2, 12, 8));
@@ -189,7 +189,7 @@ TEST(ConvexPieces, BadArgumentsAreRefused) {
     EXPECT_THROW((void)distance(cube, bad, cube, {}), Error);
     EXPECT_THROW((void)distance(cube, {}, cube, bad), Error);
     EXPECT_THROW((void)distance(cube, {}, cube, {}, {.upper_bound = -1}), Error);
-    EXPECT_THROW((void)distance(cube, {}, cube, {}, {.max_error = kNaN}), Error);
+    EXPECT_THROW((void)distance(cube, {}, cube, {}, {.absolute_error = kNaN}), Error);
     EXPECT_THROW((void)within(cube, {}, cube, {}, kNaN), Error);
     EXPECT_THROW((void)collide(cube, bad, cube, {}), Error);
     EXPECT_THROW((void)collide(cube, bad, cube, {}, {.mode = ContactMode::all}), Error);
@@ -216,7 +216,7 @@ TEST(ConvexPieces, BoundsAndErrorsAllowed) {
     EXPECT_TRUE(within(u, {}, cube, {}, 6));
     EXPECT_FALSE(within(u, {}, cube, {}, 5.999));
     EXPECT_TRUE(within(u, {}, cube, {}, kInfinity));
-    const PiecesGap rough = distance(u, {}, cube, {}, {.max_error = 100});
+    const PiecesGap rough = distance(u, {}, cube, {}, {.absolute_error = 100});
     EXPECT_GE(rough.distance, 6);
     EXPECT_LE(rough.at_least, 6);
     EXPECT_GE(rough.distance, rough.at_least);
@@ -239,21 +239,21 @@ TEST(ConvexPieces, ContactsByPiecesAndTriangles) {
     EXPECT_FALSE(collide(u, {}, box({4.0001, 1, 1}, {5, 2, 2}), {}).meet);
 }
 
-TEST(ConvexPieces, WorkspacesOfOthersDoNoHarm) {
+TEST(ConvexPieces, WarmStartsOfOthersDoNoHarm) {
     const ConvexPieces u = pieces(u_mesh()), ring = pieces(torus_mesh(10, 4, 30, 20)),
                        cube = box({10, 0, 0}, {11, 1, 1});
-    PiecesWorkspace workspace;
+    PiecesWarmStart warm_start;
     const auto ask = [&](const ConvexPieces& a, const ConvexPieces& b) {
-        return distance(a, {}, b, {}, {.workspace = &workspace}).distance;
+        return distance(a, {}, b, {}, {.warm_start = &warm_start}).distance;
     };
     const double expected = distance_of(u, ring);
     EXPECT_DOUBLE_EQ(ask(u, cube), 6);
     EXPECT_EQ(ask(u, ring), expected);
     EXPECT_DOUBLE_EQ(ask(u, cube), 6);
     EXPECT_DOUBLE_EQ(ask(cube, u), 6);
-    PiecesWorkspace other = std::move(workspace);
-    EXPECT_DOUBLE_EQ(distance(cube, {}, u, {}, {.workspace = &other}).distance, 6);
-    workspace = PiecesWorkspace();
+    PiecesWarmStart other = std::move(warm_start);
+    EXPECT_DOUBLE_EQ(distance(cube, {}, u, {}, {.warm_start = &other}).distance, 6);
+    warm_start = PiecesWarmStart();
     EXPECT_DOUBLE_EQ(ask(u, cube), 6);
 }
 

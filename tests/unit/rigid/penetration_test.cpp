@@ -24,7 +24,7 @@ void expect_near(const Vec3& v, const Vec3& w, double tolerance) {
 /// Applies the separating motion and asks again.
 void expect_separated(const Mesh& a, const Mesh& b, const Depth& depth) {
     const Transform moved = translation(depth.separation.x, depth.separation.y, depth.separation.z);
-    EXPECT_FALSE(collide(Model(a), {}, Model(b), moved).any());
+    EXPECT_FALSE(collide(Model(a), {}, Model(b), moved).meet());
     const Depth after = penetration(Model(a), {}, Model(b), moved);
     EXPECT_FALSE(after.interpenetrate);
     EXPECT_TRUE(after.regions.empty());
@@ -299,8 +299,8 @@ TEST(Penetration, BadArgumentsAreErrors) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW((void)penetration(box, bad, box, {}), Error);
     EXPECT_THROW((void)penetration(box, {}, box, bad), Error);
-    EXPECT_THROW((void)penetration(box, {}, box, {}, {.relative_accuracy = -0.1}), Error);
-    EXPECT_THROW((void)penetration(box, {}, box, {}, {.relative_accuracy = nan}), Error);
+    EXPECT_THROW((void)penetration(box, {}, box, {}, {.relative_error = -0.1}), Error);
+    EXPECT_THROW((void)penetration(box, {}, box, {}, {.relative_error = nan}), Error);
     const Depth quick =
         penetration(box, {}, box, translation(0.9, 0.1, 0.2), {.separation = false});
     EXPECT_EQ(quick.separation, Vec3{});

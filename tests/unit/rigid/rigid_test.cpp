@@ -21,16 +21,16 @@ TEST(Rigid, BoxesByHand) {
     EXPECT_EQ(gap.point_b.y, 5);
     EXPECT_TRUE(within(kBox, Pose{}, kBox, translation(4, 5, 0), 5));
     EXPECT_FALSE(within(kBox, Pose{}, kBox, translation(4, 5, 0), 4.9999999999999991));
-    EXPECT_TRUE(collide(kBox, Pose{}, kBox, translation(1, 0, 0)).any()); // face to face
-    EXPECT_TRUE(collide(kBox, Pose{}, kBox, translation(1, 1, 1)).any()); // one corner
-    EXPECT_FALSE(collide(kBox, Pose{}, kBox, translation(1, 1, 1.0000000000000002)).any());
+    EXPECT_TRUE(collide(kBox, Pose{}, kBox, translation(1, 0, 0)).meet()); // face to face
+    EXPECT_TRUE(collide(kBox, Pose{}, kBox, translation(1, 1, 1)).meet()); // one corner
+    EXPECT_FALSE(collide(kBox, Pose{}, kBox, translation(1, 1, 1.0000000000000002)).meet());
     const Gap least = distance(kBox, Pose{}, kBox, translation(0, 0, 1.0000000000000002));
     EXPECT_EQ(least.distance, 0x1p-52);
 }
 
 TEST(Rigid, APartInsideAClosedOneDoesNotCollide) {
     const Model inner(box_mesh({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}));
-    EXPECT_FALSE(collide(kBox, Pose{}, inner, Pose{}).any());
+    EXPECT_FALSE(collide(kBox, Pose{}, inner, Pose{}).meet());
     EXPECT_EQ(distance(kBox, Pose{}, inner, Pose{}).distance, 0.25);
 }
 
@@ -40,16 +40,16 @@ TEST(Rigid, DistancesThatUnderflowAreNotZero) {
     const Gap gap = distance(Model(low), Pose{}, Model(high), Pose{});
     EXPECT_GT(gap.distance, 0);
     EXPECT_LT(gap.distance, 1e-150);
-    EXPECT_FALSE(collide(Model(low), Pose{}, Model(high), Pose{}).any());
+    EXPECT_FALSE(collide(Model(low), Pose{}, Model(high), Pose{}).meet());
 }
 
 TEST(Rigid, EmptyModelsMeetNothing) {
     const Model none(Mesh{});
     const Model loose(Mesh{{{0, 0, 0}}, {}}); // a vertex without a triangle
     for (const Model& empty : {none, loose}) {
-        EXPECT_FALSE(collide(empty, Pose{}, kBox, Pose{}).any());
-        EXPECT_FALSE(collide(kBox, Pose{}, empty, Pose{}).any());
-        EXPECT_FALSE(collide(empty, Pose{}, empty, Pose{}).any());
+        EXPECT_FALSE(collide(empty, Pose{}, kBox, Pose{}).meet());
+        EXPECT_FALSE(collide(kBox, Pose{}, empty, Pose{}).meet());
+        EXPECT_FALSE(collide(empty, Pose{}, empty, Pose{}).meet());
         EXPECT_EQ(distance(empty, Pose{}, kBox, Pose{}).distance, kInfinity);
         EXPECT_EQ(distance(empty, Pose{}, kBox, Pose{}).status, Status::bound_only);
         EXPECT_EQ(distance(kBox, Pose{}, empty, Pose{}, {.upper_bound = 3}).distance, 3);
@@ -60,9 +60,9 @@ TEST(Rigid, EmptyModelsMeetNothing) {
 TEST(Rigid, DegenerateModelsAreSegmentsAndPoints) {
     const Model point(Mesh{{{2, 0.5, 0.5}}, {{0, 0, 0}}});
     EXPECT_EQ(distance(kBox, Pose{}, point, Pose{}).distance, 1);
-    EXPECT_FALSE(collide(kBox, Pose{}, point, Pose{}).any());
-    EXPECT_TRUE(collide(kBox, Pose{}, point, translation(-1, 0, 0)).any());
-    EXPECT_TRUE(collide(point, Pose{}, point, Pose{}).any());
+    EXPECT_FALSE(collide(kBox, Pose{}, point, Pose{}).meet());
+    EXPECT_TRUE(collide(kBox, Pose{}, point, translation(-1, 0, 0)).meet());
+    EXPECT_TRUE(collide(point, Pose{}, point, Pose{}).meet());
     const Model segment(Mesh{{{0.5, 0.5, -1}, {0.5, 0.5, 3}}, {{0, 1, 0}}});
     EXPECT_EQ(collide(kBox, Pose{}, segment, translation(0, 0.25, 0), {.mode = ContactMode::all})
                   .pairs.size(),
@@ -71,7 +71,7 @@ TEST(Rigid, DegenerateModelsAreSegmentsAndPoints) {
 
 TEST(Rigid, SingularTransforms) {
     // Flattened into a plane that cuts the other box, and into a point.
-    EXPECT_TRUE(collide(kBox, scaling(1, 1, 0), kBox, translation(0.1, 0.1, -0.5)).any());
+    EXPECT_TRUE(collide(kBox, scaling(1, 1, 0), kBox, translation(0.1, 0.1, -0.5)).meet());
     EXPECT_EQ(distance(kBox, scaling(1, 1, 0), kBox, translation(0, 0, 2)).distance, 2);
     EXPECT_EQ(distance(kBox, scaling(0, 0, 0), kBox, translation(3, 0, 0)).distance, 3);
     EXPECT_TRUE(within(kBox, scaling(0, 0, 0), kBox, translation(3, 0, 0), 3));

@@ -83,14 +83,14 @@ TEST(NearestPoint, ZeroOnTheSurfaceOnly) {
 
 TEST(FirstHit, OfABoxByHand) {
     const RayHit in = first_hit(kBox, Pose{}, {{0.25, 0.5, 5}, {0, 0, -2}});
-    EXPECT_TRUE(in.hit);
+    EXPECT_TRUE(in.meet);
     EXPECT_EQ(in.t, 2);
     EXPECT_EQ(in.point, (Vec3{0.25, 0.5, 1}));
     EXPECT_EQ(in.side, HitSide::front);
     const RayHit out = first_hit(kBox, Pose{}, {{0.25, 0.5, 0.5}, {0, 0, -2}});
     EXPECT_EQ(out.t, 0.25);
     EXPECT_EQ(out.side, HitSide::back);
-    EXPECT_FALSE(first_hit(kBox, Pose{}, {{0.25, 0.5, 5}, {0, 0, 1}}).hit);
+    EXPECT_FALSE(first_hit(kBox, Pose{}, {{0.25, 0.5, 5}, {0, 0, 1}}).meet);
     EXPECT_EQ(first_hit(kBox, Pose{}, {{0.25, 0.5, 5}, {0, 0, 1}, -kInfinity}).t, -5);
     EXPECT_EQ(first_hit(kBox, Pose{}, {{0.25, 0.5, 5}, {0, 0, -1}, 4.5}).t, 5);
 }
@@ -105,31 +105,31 @@ TEST(FirstHit, TheRangeIncludesItsEnds) {
                                             {4.25, 4.75, false},
                                             {4.0, 3.0, false},
                                             {kInfinity, kInfinity, false}})
-        EXPECT_EQ(first_hit(kBox, Pose{}, {ray.origin, ray.direction, t_min, t_max}).hit, hit)
+        EXPECT_EQ(first_hit(kBox, Pose{}, {ray.origin, ray.direction, t_min, t_max}).meet, hit)
             << t_min << ' ' << t_max;
 }
 
 TEST(FirstHit, InAPlaneWhereItEnters) {
     const RayHit hit = first_hit(kTriangle, Pose{}, {{-1, 1, 0}, {1, 0, 0}});
-    EXPECT_TRUE(hit.hit);
+    EXPECT_TRUE(hit.meet);
     EXPECT_EQ(hit.t, 1);
     EXPECT_EQ(hit.side, HitSide::along);
     EXPECT_EQ(hit.barycentric, (std::array{0.75, 0.0, 0.25}));
     EXPECT_EQ(first_hit(kTriangle, Pose{}, {{1, 1, 0}, {1, 0, 0}}).t, 0);
     EXPECT_EQ(first_hit(kTriangle, Pose{}, {{-1, 4, 0}, {1, 0, 0}}).t, 1); // grazes a vertex
-    EXPECT_FALSE(first_hit(kTriangle, Pose{}, {{-1, 4.0000000000000009, 0}, {1, 0, 0}}).hit);
-    EXPECT_FALSE(first_hit(kTriangle, Pose{}, {{-1, 1, 0x1p-1000}, {1, 0, 0}}).hit);
+    EXPECT_FALSE(first_hit(kTriangle, Pose{}, {{-1, 4.0000000000000009, 0}, {1, 0, 0}}).meet);
+    EXPECT_FALSE(first_hit(kTriangle, Pose{}, {{-1, 1, 0x1p-1000}, {1, 0, 0}}).meet);
 }
 
 TEST(FirstHit, OfDegenerateTriangles) {
     const Model segment(Mesh{{{0, 0, 0}, {2, 0, 0}}, {{0, 1, 1}}});
     EXPECT_EQ(first_hit(segment, Pose{}, {{1, 0, 3}, {0, 0, -1}}).t, 3);
     EXPECT_EQ(first_hit(segment, Pose{}, {{1, 0, 3}, {0, 0, -1}}).side, HitSide::along);
-    EXPECT_FALSE(first_hit(segment, Pose{}, {{1, 0x1p-60, 3}, {0, 0, -1}}).hit);
+    EXPECT_FALSE(first_hit(segment, Pose{}, {{1, 0x1p-60, 3}, {0, 0, -1}}).meet);
     EXPECT_EQ(first_hit(segment, Pose{}, {{-1, 0, 0}, {2, 0, 0}}).t, 0.5);
     const Model point(Mesh{{{1, 2, 3}}, {{0, 0, 0}}});
     EXPECT_EQ(first_hit(point, Pose{}, {{0, 0, 0}, {0.5, 1, 1.5}}).t, 2);
-    EXPECT_FALSE(first_hit(point, Pose{}, {{0, 0, 0}, {0.5, 1, 1.25}}).hit);
+    EXPECT_FALSE(first_hit(point, Pose{}, {{0, 0, 0}, {0.5, 1, 1.25}}).meet);
 }
 
 /// A diagonal of the box passes through two corners and hits all their triangles, in order.
@@ -164,7 +164,7 @@ TEST(NearestPoint, OfPointsVeryFar) {
 TEST(FirstHit, FromVeryFarAndWithOddDirections) {
     for (const double far : {1e3, 1e9, 1e15, 1e18}) {
         const RayHit hit = first_hit(kBox, Pose{}, {{0.25, 0.5, far}, {0, 0, -1}});
-        EXPECT_TRUE(hit.hit) << far;
+        EXPECT_TRUE(hit.meet) << far;
         EXPECT_EQ(hit.t, far - 1);
     }
     EXPECT_EQ(first_hit(kBox, Pose{}, {{0.25, 0.5, 5}, {0, 0, -0x1p-1074}}).t,
@@ -280,7 +280,7 @@ TEST(ShapeQueries, EmptyModelsMeetNothing) {
         EXPECT_EQ(nearest(kNone, world, Vec3{}).distance, kInfinity);
         EXPECT_EQ(nearest(kNone, world, Vec3{}).status, Status::bound_only);
         EXPECT_EQ(nearest(kNone, world, Vec3{}, {.upper_bound = 3}).distance, 3);
-        EXPECT_FALSE(first_hit(kNone, world, {{0, 0, 0}, {1, 0, 0}}).hit);
+        EXPECT_FALSE(first_hit(kNone, world, {{0, 0, 0}, {1, 0, 0}}).meet);
         EXPECT_TRUE(all_hits(kNone, world, {{0, 0, 0}, {1, 0, 0}}).empty());
         EXPECT_FALSE(overlaps(kNone, world, Sphere{{0, 0, 0}, 1e9}));
         EXPECT_FALSE(overlaps(kNone, world, Box3{{-1, -1, -1}, {1, 1, 1}}));

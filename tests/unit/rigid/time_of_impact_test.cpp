@@ -37,7 +37,7 @@ Motion spin(const Vec3& w) {
 void expect_hit(const Model& a, const Motion& motion_a, const Model& b, const Motion& motion_b,
                 double expected, double slack = 1e-5) {
     const Impact impact = time_of_impact(a, motion_a, b, motion_b);
-    ASSERT_TRUE(impact.hit);
+    ASSERT_TRUE(impact.meet);
     EXPECT_EQ(impact.status, Status::exact);
     EXPECT_LE(impact.time, expected);
     EXPECT_NEAR(impact.time, expected, slack);
@@ -45,14 +45,14 @@ void expect_hit(const Model& a, const Motion& motion_a, const Model& b, const Mo
     EXPECT_NEAR(impact.contact_time, expected, slack);
     const Transform world_a = at(motion_a, impact.contact_time),
                     world_b = at(motion_b, impact.contact_time);
-    EXPECT_TRUE(collide(a, world_a, b, world_b).any());
+    EXPECT_TRUE(collide(a, world_a, b, world_b).meet());
     const Gap gap = distance(a, at(motion_a, impact.time), b, at(motion_b, impact.time));
     EXPECT_NEAR(gap.distance, impact.gap, 1e-14);
 }
 
 void expect_miss(const Model& a, const Motion& motion_a, const Model& b, const Motion& motion_b) {
     const Impact impact = time_of_impact(a, motion_a, b, motion_b);
-    EXPECT_FALSE(impact.hit);
+    EXPECT_FALSE(impact.meet);
     EXPECT_EQ(impact.time, 1);
     EXPECT_EQ(impact.contact_time, kInfinity);
     EXPECT_EQ(impact.status, Status::exact);
@@ -77,8 +77,8 @@ TEST(TimeOfImpact, TheToleranceBoundsTheGap) {
     const Motion towards = straight({3, 0.3, 0.1}, {-1, 0.3, 0.1});
     for (const double tolerance : {1.0, 0.01, 1e-9, 0.0}) {
         const Impact impact =
-            time_of_impact(kBox, Motion::fixed({}), kBox, towards, {.tolerance = tolerance});
-        ASSERT_TRUE(impact.hit);
+            time_of_impact(kBox, Motion::fixed({}), kBox, towards, {.absolute_error = tolerance});
+        ASSERT_TRUE(impact.meet);
         EXPECT_LE(impact.gap, std::max(tolerance, 1e-11));
         EXPECT_LE(impact.time, 0.5);
         EXPECT_NEAR(impact.time, 0.5, 0.3 * tolerance + 1e-11);
@@ -104,7 +104,7 @@ TEST(TimeOfImpact, ANeedleTurnsIntoATip) {
     const Vec3 tip{2 * std::cos(1.0), 2 * std::sin(1.0), 0};
     const Model plate(Mesh{{tip, tip + Vec3{-1, 2, -0.5}, tip + Vec3{-1, 2, 0.5}}, {{0, 1, 2}}});
     const Impact impact = time_of_impact(needle, spin({0, 0, 2}), plate, Motion::fixed({}));
-    ASSERT_TRUE(impact.hit);
+    ASSERT_TRUE(impact.meet);
     EXPECT_LE(impact.time, 0.5);
     EXPECT_NEAR(impact.time, 0.5, 1e-6);
 }
@@ -114,7 +114,7 @@ TEST(TimeOfImpact, PlatesWithoutThicknessAtAnySpeed) {
         // Starts at x = -1 and reaches the plate after 1 / speed.
         const Motion through = straight({-1, 0.1, 0.2}, {speed - 1, 0.1, 0.2});
         const Impact impact = time_of_impact(kPlate, Motion::fixed({}), kPlate, through);
-        ASSERT_TRUE(impact.hit) << speed;
+        ASSERT_TRUE(impact.meet) << speed;
         EXPECT_LE(impact.time, 1 / speed);
         EXPECT_NEAR(impact.time * speed, 1, 1e-5 + 1e-13 * speed);
     }
@@ -128,7 +128,7 @@ TEST(TimeOfImpact, AFastSpinningPlateMeetsAThinOne) {
     const Model point(Mesh{{p}, {{0, 0, 0}}});
     const double rate = 2 * kPi * 1e4;
     const Impact impact = time_of_impact(blade, spin({0, 0, rate}), point, Motion::fixed({}));
-    ASSERT_TRUE(impact.hit);
+    ASSERT_TRUE(impact.meet);
     EXPECT_LE(impact.time, angle / rate);
     EXPECT_NEAR(impact.time, angle / rate, 1e-5 / rate);
 }
@@ -137,7 +137,7 @@ TEST(TimeOfImpact, InContactAtTheStart) {
     for (const Pose& pose : {at_point(0.5, 0.25, 0.25), at_point(1, 0, 0), at_point(1, 1, 1)}) {
         const Impact impact =
             time_of_impact(kBox, Motion::fixed({}), kBox, Motion::between(pose, at_point(5, 5, 5)));
-        EXPECT_TRUE(impact.hit);
+        EXPECT_TRUE(impact.meet);
         EXPECT_EQ(impact.time, 0);
         EXPECT_EQ(impact.contact_time, 0);
         EXPECT_EQ(impact.gap, 0);
@@ -151,7 +151,7 @@ TEST(TimeOfImpact, InContactAtTheEnd) {
     // The faces coincide exactly at t = 1.
     const Impact impact =
         time_of_impact(kBox, Motion::fixed({}), kBox, straight({3, 0, 0}, {1, 0, 0}));
-    EXPECT_TRUE(impact.hit);
+    EXPECT_TRUE(impact.meet);
     EXPECT_NEAR(impact.time, 1, 1e-6);
     EXPECT_LE(impact.time, 1);
 }
@@ -177,7 +177,7 @@ TEST(TimeOfImpact, PassingNearIsNoHit) {
     expect_miss(bar, spin({0, 0, 3}), kBox, Motion::fixed(at_point(reach + 1e-9, -0.5, -0.5)));
     const Impact hit = time_of_impact(bar, spin({0, 0, 3}), kBox,
                                       Motion::fixed(at_point(reach - 1e-6, -0.5, -0.5)));
-    EXPECT_TRUE(hit.hit);
+    EXPECT_TRUE(hit.meet);
 }
 
 TEST(TimeOfImpact, SlidingInContactIsAHit) {
@@ -186,7 +186,7 @@ TEST(TimeOfImpact, SlidingInContactIsAHit) {
     const Model table(box_mesh({0, -2, -1}, {4, 2, 0}));
     const Impact impact =
         time_of_impact(table, Motion::fixed({}), kBox, straight({-3, 0, 0}, {1, 0, 0}));
-    EXPECT_TRUE(impact.hit);
+    EXPECT_TRUE(impact.meet);
     EXPECT_LE(impact.time, 0.5);
     EXPECT_NEAR(impact.time, 0.5, 1e-6);
 }
@@ -196,7 +196,7 @@ TEST(TimeOfImpact, FarFromTheOriginAndAtAnyScale) {
         const Model box(box_mesh({0, 0, 0}, {scale, scale, scale}));
         const Impact impact = time_of_impact(box, Motion::fixed({}), box,
                                              straight({3 * scale, 0, 0}, {-scale, 0, 0}));
-        ASSERT_TRUE(impact.hit);
+        ASSERT_TRUE(impact.meet);
         EXPECT_LE(impact.time, 0.5);
         EXPECT_NEAR(impact.time, 0.5, 1e-6);
         EXPECT_EQ(impact.status, Status::exact);
@@ -204,7 +204,7 @@ TEST(TimeOfImpact, FarFromTheOriginAndAtAnyScale) {
     const double far = 0x1p20;
     const Impact impact = time_of_impact(kBox, Motion::fixed(at_point(far, far, far)), kBox,
                                          straight({far + 3, far, far}, {far - 1, far, far}));
-    ASSERT_TRUE(impact.hit);
+    ASSERT_TRUE(impact.meet);
     EXPECT_LE(impact.time, 0.5);
     EXPECT_NEAR(impact.time, 0.5, 1e-6);
 }
@@ -221,14 +221,14 @@ TEST(TimeOfImpact, PointsAndSegmentsMeet) {
     const Model point(Mesh{{{0, 0, 0}}, {{0, 0, 0}}});
     const Impact points =
         time_of_impact(point, Motion::fixed({}), point, straight({1, 2, 3}, {-1, -2, -3}));
-    ASSERT_TRUE(points.hit); // up to rounding: whether the points coincide at any double is chance
+    ASSERT_TRUE(points.meet); // up to rounding: whether the points coincide at any double is chance
     EXPECT_LE(points.time, 0.5);
     EXPECT_NEAR(points.time, 0.5, 1e-6);
     const Model segment(Mesh{{{-1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}}});
     const Impact crossing = time_of_impact(
         segment, Motion::fixed({}), segment,
         Motion::between(turned(1, {0, 0, 1}, {0, 0, -1}), turned(1, {0, 0, 1}, {0, 0, 1})));
-    ASSERT_TRUE(crossing.hit);
+    ASSERT_TRUE(crossing.meet);
     EXPECT_NEAR(crossing.time, 0.5, 1e-6);
 }
 
@@ -305,10 +305,10 @@ TEST(TimeOfImpact, BadArgumentsAreErrors) {
     }
     expect_bad([&] { return at(Motion{{{}, {0, 0, 0, 0}}, {}, {}, {}}, 0); });
     expect_bad([&] { return time_of_impact(kBox, spin({1e200, 0, 0}), kBox, still); });
-    expect_bad([&] { return time_of_impact(kBox, still, kBox, still, {.tolerance = -1}); });
+    expect_bad([&] { return time_of_impact(kBox, still, kBox, still, {.absolute_error = -1}); });
     expect_bad([&] {
         return time_of_impact(kBox, still, kBox, still,
-                              {.tolerance = std::numeric_limits<double>::quiet_NaN()});
+                              {.absolute_error = std::numeric_limits<double>::quiet_NaN()});
     });
 }
 

@@ -84,7 +84,7 @@ TEST_F(WalkBy, TwoCubesFindsAllWithinAndTouched) {
     // Inside and away from the surface: parts are surfaces, so there is no contact.
     EXPECT_TRUE(walk.collide(ball_, Pose{}).parts.empty());
     // The ball's centre is 0.25 inside the closed cube, so 0.75 ends the overlap.
-    const NearParts contacts = walk.contacts(ball_, Pose{{0.75, 0, 0}});
+    const NearParts contacts = walk.penetration(ball_, Pose{{0.75, 0, 0}});
     ASSERT_EQ(contacts.parts.size(), 1U);
     EXPECT_EQ(contacts.parts[0].distance, -0.75);
     EXPECT_EQ(contacts.parts[0].normal, (Vec3{1, 0, 0}));

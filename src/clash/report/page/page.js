@@ -55,7 +55,7 @@ function showSummary() {
     fact('Touch tolerance', inMillimetres(report.touch)),
     fact('Candidate pairs', wholeNumber.format(report.candidates)),
     fact('Time', inSeconds(total)),
-    fact('Peak memory', `${wholeNumber.format(Math.round(report.peak_rss_mb ?? 0))} MiB`),
+    fact('Peak memory', `${wholeNumber.format(Math.round(report.peak_rss_mib ?? 0))} MiB`),
     fact('Clashes', wholeNumber.format(count)),
     ...report.warnings.map((warning) => fact('Warning', warning, 'wide')),
     ...report.models.flatMap((model) => NOTES.map(([kind, words]) => {

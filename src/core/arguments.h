@@ -1,0 +1,21 @@
+#pragma once
+
+#include <abut/error.h>
+
+#include <string>
+
+namespace abut {
+
+/// Errors      Error{bad_argument} with this message unless the condition holds.
+inline void require(bool condition, const std::string& message) {
+    if (!condition)
+        throw Error(ErrorCode::bad_argument, message);
+}
+
+/// Errors      Error{bad_argument} if the value is negative or NaN: "WHAT must not be negative".
+inline void require_not_negative(double value, const char* what) {
+    if (!(value >= 0))
+        throw Error(ErrorCode::bad_argument, std::string(what) + " must not be negative");
+}
+
+} // namespace abut
