@@ -275,14 +275,15 @@ TEST(DistanceOptions, AWarmStartChangesNoAnswer) {
                 }
                 for (const double tolerance :
                      {0.0, 0.1, plain.distance + kRounding, plain.distance / 2}) {
-                    ASSERT_EQ(within(s.a, s.world_a, s.b, s.world_b, tolerance, &of_within),
+                    ASSERT_EQ(within(s.a, s.world_a, s.b, s.world_b, tolerance,
+                                     {.warm_start = &of_within}),
                               within(s.a, s.world_a, s.b, s.world_b, tolerance))
                         << tolerance << ' ' << plain.distance;
                 }
             }
         }
         std::cout << (jump ? "jumps: " : "path: ") << meet << " of " << steps
-                  << " meet; volume tests " << tests << ", with warm_start " << tests_with
+                  << " meet; volume tests " << tests << ", with a warm start " << tests_with
                   << "; first contact " << first_tests << ", " << first_tests_with << '\n';
         EXPECT_GT(meet, steps / 10);
         EXPECT_LT(meet, steps * 9 / 10);
