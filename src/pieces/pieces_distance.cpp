@@ -17,6 +17,10 @@ namespace abut {
 
 namespace {
 
+/// A distance counts as exact if what is not proven of it is at most this share of it and so many
+/// roundings of a placed vertex.
+constexpr double kOpenShare = 1e-12, kOpenRoundings = 12;
+
 /// A triangle of the surface and what of it holds a closest point.
 struct SurfaceFeature {
     std::uint32_t triangle = 0;
@@ -202,12 +206,13 @@ void report_surfaces(const PlacedPieces& placed, PiecesQuery& query, double uppe
         return;
     }
     if (is_beyond) {
-        gap.distance = gap.at_least = upper_bound;
+        gap.distance = upper_bound;
+        gap.at_least = std::min(surfaces.at_least, upper_bound);
         gap.status = Status::bound_only;
         return;
     }
     gap.distance = surfaces.distance;
-    gap.at_least = std::max(0.0, surfaces.distance - placed.world_rounding());
+    gap.at_least = surfaces.at_least;
     gap.point_a = surfaces.point_a, gap.point_b = surfaces.point_b;
     gap.feature_a = surfaces.feature_a, gap.index_a = surfaces.index_a;
     gap.feature_b = surfaces.feature_b, gap.index_b = surfaces.index_b;
@@ -239,13 +244,23 @@ PiecesGap distance(const ConvexPieces& a, const Transform& world_from_a, const C
         report_common_point(placed, *point, gap);
         return gap;
     }
+    // The hulls' bound is for vertices placed without rounding.
+    const double proven = query.search().at_least() - 2 * placed.world_rounding();
     if (!found) {
-        gap.distance = gap.at_least = options.upper_bound;
+        gap.distance = options.upper_bound;
+        gap.at_least = std::clamp(proven, 0.0, options.upper_bound);
         gap.status = Status::bound_only;
         return gap;
     }
     report(placed, query, gap);
-    gap.at_least = std::min(query.search().at_least(), gap.distance);
+    gap.at_least = std::clamp(proven, 0.0, gap.distance);
+    // Hulls of slivers can leave more open than rounding does: then the triangles decide.
+    const double left_open = gap.distance - gap.at_least;
+    if (options.absolute_error == 0 &&
+        left_open > kOpenShare * gap.distance + kOpenRoundings * placed.world_rounding()) {
+        report_surfaces(placed, query, options.upper_bound, gap);
+        return gap;
+    }
     if (options.absolute_error > 0 && gap.at_least < gap.distance)
         gap.status = Status::converged;
     return gap;
@@ -265,7 +280,8 @@ bool within(const ConvexPieces& a, const Transform& world_from_a, const ConvexPi
     const bool found = query.run();
     const ClosestPieces& best = query.search().best();
     const double hidden = 0x1p-40 * tolerance + 8 * placed.contact_zone();
-    if (found && (best.proven || best.distance < tolerance - hidden))
+    // Hulls of slivers may seem to meet where they are apart: only a proof tells.
+    if (found && (best.meet() ? best.proven : best.distance < tolerance - hidden))
         return true;
     if (!found && query.search().at_least() > tolerance + hidden)
         return query.contained_point(query.search().at_least()).has_value();

@@ -2,123 +2,16 @@
 // by exact signs, and against each other.
 
 #include <abut/convex_pieces.h>
-#include <abut/shape_queries.h>
 
-#include "math/predicates.h"
-#include "pieces/pieces_data.h"
-#include "tests/support/oracle/brute_force.h"
+#include "tests/support/oracle/pieces_truth.h"
 #include "tests/support/rounds.h"
 #include "tests/support/solids.h"
 
-#include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
 
 namespace abut::test {
 namespace {
-
-/// Whether a surface winds around a point off it: exact, by the triangles that a ray crosses.
-bool winds_around(const std::vector<PlacedTriangle>& surface, const Vec3& point, Random& random) {
-    for (;;) {
-        const Vec3 far = point + 1e3 * random.direction();
-        int count = 0;
-        bool is_clear = true;
-        for (const PlacedTriangle& triangle : surface) {
-            const Triangle& t = triangle.corners;
-            if (collinear(t[0], t[1], t[2]))
-                continue;
-            const int from = orient3d(t[0], t[1], t[2], point),
-                      to = orient3d(t[0], t[1], t[2], far);
-            const int u = orient3d(point, far, t[0], t[1]), v = orient3d(point, far, t[1], t[2]),
-                      w = orient3d(point, far, t[2], t[0]);
-            const bool holds = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-            if (from * to > 0 || !holds)
-                continue;
-            is_clear = is_clear && from != 0 && to != 0 && u != 0 && v != 0 && w != 0;
-            count += to;
-        }
-        if (is_clear)
-            return count != 0;
-    }
-}
-
-/// What two solids are to each other, by all their triangles.
-struct Truth {
-    std::vector<TrianglePair> touching;
-    bool meet = false;
-    double distance = 0;
-};
-
-Truth look(const Model& a, const Transform& world_a, const Model& b, const Transform& world_b,
-           Random& random) {
-    const auto of_a = placed_triangles(a.mesh(), world_a),
-               of_b = placed_triangles(b.mesh(), world_b);
-    Truth truth;
-    truth.touching = brute_pairs(of_a, of_b);
-    const auto holds_one = [&](const auto& outer, const auto& inner) {
-        return std::any_of(inner.begin(), inner.end(), [&](const PlacedTriangle& t) {
-            return winds_around(outer, t.corners[0], random);
-        });
-    };
-    truth.meet = !truth.touching.empty() || holds_one(of_a, of_b) || holds_one(of_b, of_a);
-    if (!truth.meet)
-        truth.distance = brute_distance(of_a, of_b);
-    return truth;
-}
-
-/// How far a point is from a triangle of a model.
-double off(const Model& m, const Transform& world, std::uint32_t triangle, const Vec3& point) {
-    const Mesh one{m.mesh().positions, {m.mesh().triangles[triangle]}};
-    return nearest(Model(one), world, point).distance;
-}
-
-/// All four queries say what the triangles say. Whether the solids meet.
-bool agree(const ConvexPieces& a, const Transform& world_a, const ConvexPieces& b,
-           const Transform& world_b, PiecesWarmStart* warm_start, Random& random) {
-    const Truth truth = look(a.model(), world_a, b.model(), world_b, random);
-    double size = 8;
-    for (std::size_t i = 9; i < 12; ++i)
-        size += std::abs(world_a.m[i]) + std::abs(world_b.m[i]);
-    const double rounding = 0x1p-48 * size;
-
-    const PiecesGap gap = distance(a, world_a, b, world_b, {.warm_start = warm_start});
-    EXPECT_EQ(gap.distance == 0, truth.meet) << gap.distance;
-    EXPECT_NEAR(gap.distance, truth.distance, 1e-12 * truth.distance + rounding);
-    EXPECT_LE(gap.at_least, truth.distance);
-    EXPECT_EQ(gap.status, Status::exact);
-    if (gap.distance > 0) {
-        EXPECT_LE(off(a.model(), world_a, gap.triangle_a, gap.point_a), rounding);
-        EXPECT_LE(off(b.model(), world_b, gap.triangle_b, gap.point_b), rounding);
-    }
-
-    const double cold = distance(a, world_a, b, world_b).distance;
-    EXPECT_TRUE(within(a, world_a, b, world_b, cold, {.warm_start = warm_start}));
-    EXPECT_EQ(within(a, world_a, b, world_b, 0, {.warm_start = warm_start}), truth.meet);
-    if (const double less = cold * (1 - 1e-9) - 2 * rounding; less > 0) {
-        EXPECT_FALSE(within(a, world_a, b, world_b, less, {.warm_start = warm_start}));
-    }
-
-    const PiecesContacts first = collide(a, world_a, b, world_b, {.warm_start = warm_start});
-    const PiecesContacts all =
-        collide(a, world_a, b, world_b, {.mode = ContactMode::all, .triangles = true});
-    EXPECT_EQ(first.meet, truth.meet);
-    EXPECT_EQ(all.meet, truth.meet);
-    EXPECT_EQ(all.triangles, truth.touching);
-    const auto is_listed = [&](const PiecePair& pair) {
-        return std::binary_search(all.pairs.begin(), all.pairs.end(), pair);
-    };
-    EXPECT_TRUE(std::all_of(first.pairs.begin(), first.pairs.end(), is_listed));
-    for (const TrianglePair& t : truth.touching)
-        EXPECT_TRUE(is_listed(PiecePair{a.data().piece_of[t.a], b.data().piece_of[t.b]}));
-    EXPECT_EQ(collide(a, world_a, b, world_b, {.mode = ContactMode::all}).pairs, all.pairs);
-
-    const PiecesDepth depth = penetration(a, world_a, b, world_b, {.separation = false});
-    EXPECT_EQ(depth.meet, truth.meet);
-    if (!truth.meet) {
-        EXPECT_EQ(depth.depth, 0);
-    }
-    return truth.meet;
-}
 
 /// A cube whose sides bulge: the middle of each of `parts` squared squares of a side lies in front of
 /// it.
