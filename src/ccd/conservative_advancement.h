@@ -1,4 +1,5 @@
 // Conservative advancement [Mirtich 1996]: continuous collision detection by proven steps in time.
+//
 // At each moment the closest points of the features prove a time span in which the features cannot
 // come nearer than the thickness. Time advances by that span, and the closest points are computed
 // anew. The search ends when the features are as near as the thickness, or at the end of the

@@ -12,7 +12,7 @@ struct InnerBall {
     double radius = 0; ///< proven: the hull holds all points that are nearer to the middle
 };
 
-/// A ball inside of a hull, not much smaller than the largest.
+/// A ball inside a hull, not much smaller than the largest.
 ///
 /// In          an exact hull of points that are all vertices: counter-clockwise triangles.
 /// Degenerate  radius 0 and the middle of the box, if the hull has no volume, or if it or its

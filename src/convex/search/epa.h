@@ -1,4 +1,5 @@
 // The Expanding Polytope Algorithm (EPA): penetration depth of two convex polytopes.
+//
 // The depth is the distance from the origin to the boundary of the difference b - a. EPA begins
 // with a simplex of corners of the difference that holds the origin (GJK ends with one, gjk.h). It
 // takes the face nearest to the origin, looks for the farthest corner of the difference along the

@@ -1,10 +1,12 @@
 // The Gilbert-Johnson-Keerthi algorithm (GJK): the distance of two convex polytopes.
+//
 // Two bodies meet if, and only if, the difference b - a of their points holds the origin; otherwise
 // their distance is that of the difference from the origin. GJK keeps a simplex of up to four
 // corners of the difference, finds the point of it nearest to the origin, and adds the corner of
 // the difference that is farthest towards the origin. It ends when no corner is nearer along that
-// direction, or when the simplex holds the origin. A corner of the difference is a farthest vertex
-// of each body, found by hill climbing (hull/climb.h), so the difference is never built.
+// direction, or when the simplex holds the origin. The farthest corner of the difference is made of
+// a farthest vertex of each body, found by hill climbing (hull/climb.h), so the difference is never
+// built.
 
 #pragma once
 

@@ -1,4 +1,5 @@
 // Voronoi marching (SWIFT's name; Lin-Canny, V-Clip): closest features of two convex polytopes.
+//
 // A walk keeps one feature (vertex, edge or triangle) of each polytope. While a neighbour of a
 // feature is nearer to the other one, the walk moves to it. It ends where the gap between both
 // features lies in the normal cones of both: convexity then proves that no points are nearer.

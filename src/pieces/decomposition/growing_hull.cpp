@@ -68,8 +68,8 @@ void GrowingHull::settle() {
 }
 
 /// Returns a face that the vertex sees; kNone if there is none. The corners `near` lie with the
-/// vertex in a plane that touches the hull. If none of their faces sees the vertex, a visible face
-/// can only lie beyond faces that are coplanar with the vertex, and the search goes on across these.
+/// vertex in a plane that touches the hull. If the vertex sees none of their faces, it can see a
+/// face only beyond those that it is coplanar with, so the search continues across these.
 std::uint32_t GrowingHull::find_visible(std::uint32_t vertex, std::span<const std::uint32_t> near) {
     pending_.clear();
     for (const std::uint32_t v : near)

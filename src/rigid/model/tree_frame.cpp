@@ -26,7 +26,7 @@ Axes complete(const Vec3& first, const Vec3& second) {
     return std::abs(length_sq(z) - 1) < 0x1p-40 ? Axes{x, y, z} : kModelAxes;
 }
 
-/// Axes along the longest edge of the largest triangle, and along its normal.
+/// Axes along the second-longest edge of the largest triangle, and along its normal.
 Axes largest_face(const std::vector<Triangle>& triangles) {
     const auto doubled_area_sq = [](const Triangle& t) {
         return length_sq(cross(t[1] - t[0], t[2] - t[0]));

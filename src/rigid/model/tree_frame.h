@@ -30,8 +30,8 @@ inline Vec3 from_middle(const Box3& box, const Vec3& point) {
 /// In          the box of the mesh's triangles.
 /// Cost        that of a few hundred sampled triangles.
 /// Source      candidates: the model's own axes, the principal axes of the surface [Gottschalk et
-///             al. 1996], and the largest face with its longest edge. The least summed area of
-///             triangle boxes wins.
+///             al. 1996], and the largest triangle with its second-longest edge (the longer side of
+///             a halved rectangle). The least summed area of triangle boxes wins.
 TreeFrame choose_tree_frame(const Mesh& mesh, const Box3& bounds);
 
 /// The frame for axes that are already chosen.

@@ -231,7 +231,7 @@ private:
         if (!s.any())
             return kInfinity;
         const double reach = (length(piece.middle - s.point) + piece.radius) * kSafe;
-        // The sample is outside: a segment to a point inside crosses the surface first.
+        // From a sample outside, the way to a point inside first takes its distance to the surface.
         const double across = s.inside ? kInfinity : reach - s.distance / kSafe;
         if (across <= 0)
             return 0;

@@ -26,7 +26,7 @@ struct SurfacePart {
     std::uint32_t region = 0;
     const std::vector<bool>* contained = nullptr; ///< by triangle; if given, `in_contained` selects
     bool in_contained = false; ///< only triangles that are contained, or only the others
-    Vec3 origin;               ///< of the points asked for; cells are in world coordinates
+    Vec3 origin;               ///< of the points' frame; cells are in world coordinates
 
     [[nodiscard]] bool takes(std::uint32_t triangle) const {
         return contained == nullptr || (*contained)[triangle] == in_contained;
