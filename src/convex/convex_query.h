@@ -13,9 +13,9 @@
 /// Steps that distance and penetration of convex bodies share.
 namespace abut {
 
-/// Lengths that rounding may move a coordinate by.
+/// Bounds on the error of a coordinate: in the pair's frame, and compared with the positions that
+/// abut/types.h computes.
 struct Roundings {
-    /// In the pair's frame; and in all, compared with the positions that abut/types.h computes.
     double of_pair = 0, all = 0;
 };
 

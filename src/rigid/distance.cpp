@@ -198,7 +198,7 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     const double reach = pair.reach();
     Gap gap;
     finder.report(gap);
-    // The search and the report compute distances by different formulas, which differ by rounding.
+    // The reported distance is computed anew, and differs from the compared one by rounding.
     if (!finder.found() || (gap.distance > 0 && gap.distance >= options.upper_bound)) {
         gap = gap_beyond(options.upper_bound, rounded_down(options.upper_bound, reach));
     } else {

@@ -12,8 +12,8 @@ namespace abut {
 /// the triangles of each.
 ///
 /// In          a model of the surface, untransformed.
-/// Accuracy    what is returned is exactly convex. A component with other triangles in its box is
-///             left out.
+/// Accuracy    what is returned is exactly convex. A convex component with other triangles in or
+///             near its box is left out.
 /// Cost        O(n log n).
 std::vector<std::vector<std::uint32_t>> convex_components(const PlacedModel& model,
                                                           const SurfaceGraph& surface);

@@ -50,7 +50,7 @@ public:
     [[nodiscard]] bool may_hold(std::uint32_t region, const Vec3& point, double radius) const;
 
 private:
-    /// Consecutive pieces of one region's curve.
+    /// Consecutive parts of one region's curve.
     struct Chunk {
         Box3 box;
         std::uint32_t region = 0, first = 0, count = 0;

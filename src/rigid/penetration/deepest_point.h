@@ -53,9 +53,9 @@ struct DeepestPoint {
 ///             rounding, if that is above `deeper_than`; it is as narrow as asked for unless the
 ///             budget is used up.
 /// Source      branch and bound over the boxes of the surface's tree, then over bisected triangles.
-///             A piece of radius r whose centre has the distance d from the solid's surface holds
-///             no point deeper than d + r. Nor is any point deeper than the largest distance of the
-///             piece's corners from one triangle, since the distance to a convex set is convex.
+///             A piece of radius r whose centre has the distance d from any triangle of the solid
+///             holds no point deeper than d + r. Nor is any point deeper than the largest distance
+///             of the piece's corners from one triangle: the distance to a convex set is convex.
 DeepestPoint find_deepest_point(const PlacedModel& surface, const WorldSolid& solid,
                                 std::span<const std::uint32_t> starts, const SurfacePart& part,
                                 const DepthSearch& options, double deeper_than);
