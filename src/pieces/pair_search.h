@@ -36,7 +36,6 @@ struct PairFront {
     bool worn = false; ///< beginning anew costs less than continuing
 };
 
-/// The closest pieces found.
 struct ClosestPieces {
     HullPair hulls;
     ClosestPointSearch search;

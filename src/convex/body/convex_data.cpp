@@ -26,7 +26,6 @@ double reach_of(std::span<const Vec3> points) {
     return reach;
 }
 
-/// A table of about `cells` cells.
 NormalTable make_table(const Polytope& polytope, std::size_t cells) {
     const double resolution = std::round(std::sqrt(static_cast<double>(cells)));
     return {polytope, std::max(1U, static_cast<std::uint32_t>(resolution))};

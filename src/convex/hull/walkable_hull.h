@@ -8,7 +8,6 @@
 
 namespace abut {
 
-/// The vertices that a walkable hull leaves out.
 struct LeftOutVertices {
     std::vector<std::uint32_t> vertices; ///< indices of points that are vertices of the exact hull
     double outside = 0; ///< a length: no such vertex lies farther from the walkable hull

@@ -11,7 +11,6 @@ namespace abut {
 
 namespace {
 
-/// The vertices of a feature.
 struct FeatureCorners {
     std::array<std::uint32_t, 3> vertices{};
     std::size_t count = 1;
@@ -88,7 +87,6 @@ DifferenceSimplex start_from(const PolytopePair& pair, const ClosestPointSearch&
     return start;
 }
 
-/// The feature of a polytope that is nearest to a point.
 HullFeature nearest_feature(const ConvexData& body, const Transform& world, const Vec3& point) {
     const Polytope& p = body.levels[0].polytope;
     if (body.triangles.empty())

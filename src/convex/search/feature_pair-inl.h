@@ -130,7 +130,7 @@ HWY_INLINE Measured measure_face_vertex(const XyzTriangle& t, const Xyz& q) {
     return nearest;
 }
 
-/// Measures a triangle of a and the segment from q0 to q1, of b.
+/// The segment runs from q0 to q1, on b.
 inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, const Xyz& q1,
                                            Measured& nearest) {
     const Xyz normal = cross(t[1] - t[0], t[2] - t[0]);

@@ -61,7 +61,6 @@ public:
         return {apply(world, vertices_[t[0]]), apply(world, vertices_[t[1]]),
                 apply(world, vertices_[t[2]])};
     }
-    /// World position of a triangle by its mesh index.
     [[nodiscard]] Triangle world_triangle(std::uint32_t triangle, const Transform& world) const {
         const auto& t = mesh_.triangles[triangle];
         return {apply(world, mesh_.positions[t[0]]), apply(world, mesh_.positions[t[1]]),

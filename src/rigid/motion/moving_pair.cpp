@@ -21,7 +21,6 @@ Vec3 translation_of(const Transform& t) {
     return {t.m[9], t.m[10], t.m[11]};
 }
 
-/// The transform without the tree's scale.
 Transform unscaled(const Transform& world_from_tree, double scale) {
     Transform t = world_from_tree;
     for (std::size_t i = 0; i < 9; ++i)

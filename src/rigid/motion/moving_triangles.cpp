@@ -26,7 +26,6 @@ struct VertexMotion {
     double height, speed;
 };
 
-/// A moving triangle at one time.
 struct MovingTriangle {
     const Trajectory& trajectory;
     Triangle vertices;              ///< relative to a point near both triangles

@@ -336,7 +336,7 @@ private:
     /// Speed at which the bounds of a moment become worse: by rotation within a window, and by
     /// rounding in single precision.
     double blur_;
-    double window_end_ = 0; ///< end of the present window
+    double window_end_ = 0;
     double next_begin_ = 0; ///< no dropped pair can meet before this time
     bool answered_ = false;
     WaitingQueue boxes_, triangles_;

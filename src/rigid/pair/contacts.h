@@ -22,7 +22,6 @@ struct Contact {
 std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters,
                                    SearchSteps* steps = nullptr);
 
-/// The points that the two triangles share.
 Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles);
 
 } // namespace abut

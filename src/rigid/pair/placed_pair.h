@@ -84,7 +84,6 @@ public:
         known_b_ |= 1U << j;
         return b_[j];
     }
-    /// Mesh indices of triangle i of a and j of b.
     [[nodiscard]] TrianglePair indices(std::uint32_t i, std::uint32_t j) const {
         return {pair_.a().triangle_at(first_a_ + i), pair_.b().triangle_at(first_b_ + j)};
     }
