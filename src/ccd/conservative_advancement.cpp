@@ -66,8 +66,8 @@ public:
     }
 
 private:
-    /// Whether the patch is farther from the origin than the thickness at all times between two
-    /// moments.
+    /// Returns whether the patch is farther from the origin than the thickness at all times between
+    /// two moments.
     ///
     /// The direction is blended from n0 to n1 as time passes, so its length never exceeds the
     /// larger of theirs. A corner's coordinate along it, less the thickness, is quadratic in time

@@ -108,7 +108,8 @@ public:
         return times;
     }
 
-    /// Where the patch holds the origin, if it does. In: the coplanarity is zero at that time.
+    /// The position of the origin in the patch, if the patch holds it. In: the coplanarity is zero
+    /// at that time.
     [[nodiscard]] std::optional<PatchPoint> origin_at(UnitRoot& time) const {
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (const int side = time.sign_of(area_[axis]); side != 0)

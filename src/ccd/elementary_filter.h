@@ -8,8 +8,8 @@
 
 namespace abut {
 
-/// A bit for each lane whose features may share a point, or come within `thickness` of each other.
-/// A lane without a bit is proven to be farther apart at all times in [0, 1].
+/// Returns a bit for each lane whose features may share a point, or come within `thickness` of each
+/// other. A lane without a bit is proven to be farther apart at all times in [0, 1].
 ///
 /// In          finite coordinates of any size; the kind of all lanes; a thickness of at least 0.
 /// Accuracy    certified: rounding, overflow and underflow lose no pair, with or without fused

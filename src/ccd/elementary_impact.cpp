@@ -15,7 +15,6 @@ namespace abut {
 
 namespace {
 
-/// Pairs per task.
 constexpr std::size_t kPairsOfTask = 1024;
 
 bool is_finite(const ElementaryPair& pair) {

@@ -31,7 +31,7 @@ struct CubicCell {
     int level; ///< how often [0, 1] was halved
 };
 
-/// corner . (side_x x side_y): zero where the origin lies in the patch's plane.
+/// corner . (side_x x side_y): zero when the origin lies in the patch's plane.
 struct Coplanarity {
     std::array<double, 4> b{};
     double size;  ///< magnitude of the largest coefficient
@@ -111,7 +111,7 @@ struct PointOfLevel {
     }
 };
 
-/// In: the coefficients do not decrease.
+/// Encloses the zeros of a cubic. In: the coefficients do not decrease.
 RootInterval enclose_increasing(const CubicCell& cell, double error) {
     const auto& b = cell.b;
     const bool below = b[0]<-error, above = b[3]> error;
@@ -136,7 +136,8 @@ RootInterval enclose_increasing(const CubicCell& cell, double error) {
             b[1] - b[0] > least && b[2] - b[1] > least && b[3] - b[2] > least};
 }
 
-/// In: up to a slack, the coefficients do not increase, or do not decrease.
+/// Encloses the zeros of a cubic. In: up to a slack, the coefficients do not increase, or do not
+/// decrease.
 RootInterval enclose_monotone(CubicCell cell, double error) {
     auto& b = cell.b;
     const bool increases = b[0] <= b[3];
@@ -303,7 +304,7 @@ public:
     }
 
 private:
-    /// False if the interval could not be decided.
+    /// Returns false if the interval could not be decided.
     bool examine(RootInterval interval) {
         const OriginTest test(patch_, pair_.kind, interval);
         const Contact contact = test.decide();

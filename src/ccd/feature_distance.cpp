@@ -49,7 +49,7 @@ private:
         const DyadicVec3 across = cross(w, e);
         return at_most(dot(across, across), distance_sq_ * ee);
     }
-    /// Whether x / n is in [0, 1].
+    /// Returns whether x / n is in [0, 1].
     static bool in_unit(const Dyadic& x, const Dyadic& n) { return x.sign() >= 0 && at_most(x, n); }
     [[nodiscard]] bool inner_face() const {
         const DyadicVec3 u = points_[2] - points_[1], v = points_[3] - points_[1],

@@ -26,7 +26,7 @@ struct FeatureDistance {
 /// Cost        some 110 to 170 ns.
 FeatureDistance feature_distance(ElementaryKind kind, const std::array<Vec3, 4>& points);
 
-/// Whether two features are at most `distance` apart.
+/// Returns whether two features are at most `distance` apart.
 ///
 /// In          the points and their feature_distance; a finite distance of at least 0.
 /// Accuracy    exact: the certified bounds decide, or else exact arithmetic.

@@ -4,7 +4,7 @@
 
 namespace abut {
 
-/// The position of a vertex at the start and at the end of a step.
+/// A vertex in linear motion during a step.
 struct MovingVertex {
     Vec3 start, end;
 };

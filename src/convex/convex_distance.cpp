@@ -15,7 +15,7 @@ namespace abut {
 
 namespace {
 
-/// Two bodies under their transforms, and the hulls of them that are to answer.
+/// Two bodies under their transforms, and for each the level of its hulls that answers the query.
 struct PlacedBodies {
     const ConvexData &a, &b;
     const Transform &world_from_a, &world_from_b;
@@ -25,7 +25,7 @@ struct PlacedBodies {
     [[nodiscard]] PolytopePair at(std::size_t of_a, std::size_t of_b) const {
         return {a.levels[of_a].polytope, world_from_a, b.levels[of_b].polytope, world_from_b};
     }
-    /// What the distance of the hulls may exceed that of the bodies by.
+    /// Bounds by how much the distance of the hulls exceeds that of the bodies.
     [[nodiscard]] double deviation() const {
         if (level_a == 0 && level_b == 0)
             return 0;
@@ -34,7 +34,7 @@ struct PlacedBodies {
     }
 };
 
-/// The coarsest hull of a body that deviates by no more, once it is placed.
+/// The coarsest hull of a body whose deviation, once placed, is at most `error`.
 std::size_t coarsest_within(const ConvexData& body, const Transform& world, double error) {
     const double most = stretch_of(world).most;
     std::size_t level = body.levels.size() - 1;
@@ -43,12 +43,12 @@ std::size_t coarsest_within(const ConvexData& body, const Transform& world, doub
     return level;
 }
 
-/// Vertices that have passed each other by this share of the way between the middles: then the
-/// polytopes are likely to meet, which simplices find sooner than a walk. (0 to 0.5 were tried: 0
-/// makes poses apart a third slower, and all are alike where bodies meet.)
+/// If the facing vertices have passed each other by more than this share of the way between the
+/// centres, the polytopes are likely to meet, and GJK finds that sooner than a walk. With 0, poses
+/// apart are a third slower.
 constexpr double kDeep = 0.25;
 
-/// From the vertices that face each other along a direction.
+/// Searches from the vertices that face each other along a direction.
 void search_along(const PolytopePair& pair, const Vec3& direction, double rounding,
                   ClosestPointSearch& search) {
     const VertexPair start = facing_vertices(pair, direction);
@@ -64,7 +64,7 @@ void search_along(const PolytopePair& pair, const Vec3& direction, double roundi
     find_closest_points(pair, rounding, search);
 }
 
-/// Whether the bodies' inner balls meet: then the point between their middles lies in both.
+/// Returns whether the bodies' inner balls meet. If so, a point between their centres lies in both.
 bool balls_meet(const PlacedBodies& bodies, const PolytopePair& pair, const Vec3& between,
                 WalkState& at) {
     const double radius_a = stretch_of(bodies.world_from_a).least * bodies.a.ball.radius,
@@ -79,9 +79,10 @@ bool balls_meet(const PlacedBodies& bodies, const PolytopePair& pair, const Vec3
     return true;
 }
 
-/// Without a warm start: first the hulls that are small enough to walk on from anywhere. Where these
-/// are closest, the tables of normals of the others begin. Whether `search.at` holds features of the
-/// others, or its simplex is one of theirs.
+/// Searches without a warm start. It begins on hulls that are small enough to walk on from
+/// anywhere. Where these are closest, the tables of normals of the finer hulls give the start for
+/// those. Returns whether `search.at` (or its simplex) refers to the hulls that are to answer; if
+/// not, it refers to the entry hulls.
 bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& search) {
     const std::size_t entry_a = std::max(bodies.a.entry, bodies.level_a),
                       entry_b = std::max(bodies.b.entry, bodies.level_b);
@@ -90,7 +91,7 @@ bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& se
     if (balls_meet(bodies, first, between, search.at))
         return false;
     search_along(first, between, rounding, search);
-    // Hulls lie inside of the bodies: where they meet, so do these.
+    // The entry hulls lie inside the bodies: if they meet, so do the bodies.
     if (entry_a == bodies.level_a && entry_b == bodies.level_b)
         return true;
     if (search.at.end == WalkEnd::meeting)
@@ -99,7 +100,7 @@ bool descend(const PlacedBodies& bodies, double rounding, ClosestPointSearch& se
     return true;
 }
 
-/// The feature of the body that a feature of its triangulated surface is, or lies in.
+/// Sets the feature of the body that holds a feature of its triangulated surface.
 void name(const ConvexData& body, const HullFeature& f, Feature& kind, std::uint32_t& id) {
     kind = f.kind;
     id = f.vertex;
@@ -124,7 +125,7 @@ void remember(const ClosestPointSearch& search, ConvexWarmStart& warm_start) {
     pairs[2] = {static_cast<std::uint32_t>(a.kind), static_cast<std::uint32_t>(b.kind)};
 }
 
-/// Sets a feature to one that was remembered, if the polytope has it.
+/// Sets a feature to a remembered one, if the polytope has it.
 void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, std::uint32_t kind,
             HullFeature& f) {
     if (vertex >= polytope.vertices.size())
@@ -135,10 +136,11 @@ void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, 
     f.kind = edge - v.first_edge < v.degree ? static_cast<Feature>(kind) : Feature::vertex;
 }
 
-/// A walk from where the last query ended that takes longer is none of a small step.
+/// Steps that a walk from the last query's end may take. A longer one means that the motion was
+/// large.
 constexpr std::uint32_t kSmallStep = 4;
 
-/// Goes on from where the last query ended, or begins anew where that leads nowhere soon. Returns as
+/// Continues from where the last query ended, or begins anew if that takes long. Returns as
 /// `descend`.
 bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& last,
            ClosestPointSearch& search) {
@@ -156,12 +158,12 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& l
     return ended || descend(bodies, rounding, search);
 }
 
-/// Proves what the search has found, by a look at all vertices, or replaces it by what integers say.
-/// Those decide for the bodies themselves, whatever error is allowed.
+/// Proves what the search has found by looking at all vertices, or replaces it by an answer in
+/// integers. The integers decide for the bodies themselves, whatever error is allowed.
 ///
-/// In          `bodies`: by value, so that nothing of them need be in memory before.
-///             `is_at_level`: as returned by `descend`.
-/// Out         `is_decided`: the search is one of the bodies' own polytopes now.
+/// In          `bodies`: by value, so that the caller need not keep it in memory. `is_at_level`:
+///             what `descend` returned.
+/// Out         `is_decided`: the search now refers to the bodies' own polytopes.
 [[gnu::noinline, gnu::cold]] CertainDistance settle(PlacedBodies bodies, double rounding,
                                                     ClosestPointSearch& search, bool is_at_level,
                                                     bool& is_decided) {
@@ -179,7 +181,7 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& l
             return {distance, std::min(bound, distance)};
     }
     if (!is_at_level || is_simplified) {
-        // From anywhere: what the search has found are numbers of other polytopes.
+        // Begin anew: the search has numbers of other polytopes.
         search.at.a = search.at.b = {};
         search.at.end = WalkEnd::stuck;
         search.simplex.reset();
@@ -208,8 +210,8 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
         worth_keeping = go_on(bodies, rounding, *warm_start, search);
     else
         worth_keeping = descend(bodies, rounding, search);
-    // What rounding of the search and of coordinates, and points that the polytopes do without, may
-    // take from the distance.
+    // What the distance may lose to rounding of the search and of coordinates, and to the vertices
+    // that the polytopes leave out.
     double doubt = 8 * rounding + all_rounding;
     if (bodies.a.outside + bodies.b.outside > 0)
         doubt += PlacedConvexPair{bodies.a, bodies.b, world_from_a, world_from_b}.outside();

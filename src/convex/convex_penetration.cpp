@@ -15,8 +15,8 @@ namespace abut {
 
 namespace {
 
-/// Four corners all around: one where the boundary is nearest by what the middles say, and three
-/// across from that. Most often they hold the origin; if not, a search of simplices goes on from them.
+/// Four corners around the origin: one towards the boundary that is nearest judged by the centres,
+/// three on the opposite side. They hold the origin most often; otherwise GJK continues from them.
 DifferenceSimplex simplex_around(const PolytopePair& pair, const Vec3& between) {
     const Vec3 u = length_sq(between) > 0 ? normalized_or_zero(-between) : Vec3{1, 0, 0};
     const Vec3 v = perpendicular(u), w = cross(u, v);
@@ -27,7 +27,7 @@ DifferenceSimplex simplex_around(const PolytopePair& pair, const Vec3& between) 
     return simplex;
 }
 
-/// What a query knows of its bodies.
+/// What a query derives from its bodies.
 struct Bodies {
     const ConvexData &a, &b;
     const PlacedConvexPair placed;
@@ -35,14 +35,14 @@ struct Bodies {
     double rounding;
 };
 
-/// Whether a search has proven that bodies are apart.
+/// Returns whether a search has proven that the bodies are apart.
 bool surely_apart(const Bodies& bodies, const ClosestPointSearch& search) {
     return search.at.proven && search.at.end == WalkEnd::closest &&
            is_measurable(search.at.distance_sq, 9 * bodies.rounding + world_rounding(bodies.pair) +
                                                     bodies.placed.outside());
 }
 
-/// From a simplex that holds the origin; none if there surely is none.
+/// Searches from a simplex that holds the origin; none if the bodies are proven apart.
 std::optional<NearestBoundary> begin(const Bodies& bodies, ConvexWarmStart* warm_start,
                                      ConvexCounters& counters) {
     const PolytopePair& pair = bodies.pair;
@@ -67,8 +67,8 @@ std::optional<NearestBoundary> begin(const Bodies& bodies, ConvexWarmStart* warm
                           warm_start != nullptr ? &warm_start->deepest : nullptr);
 }
 
-/// Whether both bounds of a search are proven, if need be the upper one by a look at all vertices,
-/// and meet.
+/// Returns whether both bounds are proven and equal to rounding. The upper bound is proven by
+/// looking at all vertices if the search did not prove it.
 bool is_proven(const Bodies& bodies, const NearestBoundary& nearest) {
     const double error = bodies.rounding + world_rounding(bodies.pair);
     if (!(nearest.is_inside_proven && nearest.depth - nearest.at_least <= 12 * error))
@@ -80,7 +80,7 @@ bool is_proven(const Bodies& bodies, const NearestBoundary& nearest) {
     return reach <= nearest.depth + 4 * error;
 }
 
-/// By integers.
+/// Computes the depth in integers; none if the bodies do not meet.
 std::optional<NearestBoundary> decide_depth(const Bodies& bodies, const NearestBoundary& nearest,
                                             ConvexWarmStart* warm_start, Vec3& point_a,
                                             Vec3& point_b) {
@@ -104,7 +104,7 @@ std::optional<NearestBoundary> decide_depth(const Bodies& bodies, const NearestB
     return decided;
 }
 
-/// What is not proven yet.
+/// Replaces a result that is not proven.
 [[gnu::noinline, gnu::cold]] void settle_depth(const Bodies& bodies, NearestBoundary nearest,
                                                ConvexWarmStart* warm_start, ConvexDepth& result) {
     const ConvexCounters counters = result.counters;
@@ -132,7 +132,7 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     const Bodies bodies{a.data(), b.data(), placed, placed.pair(), rounding};
     const PolytopePair& pair = bodies.pair;
     ConvexDepth result;
-    // From what proved the last depth, if it still holds the origin.
+    // Continues from the polytope that proved the last depth, if it still holds the origin.
     std::optional<NearestBoundary> nearest;
     if (warm_start != nullptr && !warm_start->deepest.faces.empty())
         nearest = expand_again(pair, rounding, warm_start->deepest);
@@ -143,7 +143,7 @@ ConvexDepth penetration(const Convex& a, const Transform& world_from_a, const Co
     result.meet = true;
     result.counters.simplices += nearest->steps;
     result.depth = nearest->depth, result.at_least = nearest->at_least;
-    // b - a reaches that far along the normal: b goes back by as much.
+    // The difference b - a reaches `depth` along the normal, so b moves back by as much.
     result.direction = -nearest->normal;
     for (std::size_t i = 0; i < 3; ++i) {
         const double weight = nearest->weights[i];

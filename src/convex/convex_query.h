@@ -10,10 +10,11 @@
 #include <cmath>
 #include <cstddef>
 
-/// What queries of two convex bodies have in common.
+/// Steps that distance and penetration of convex bodies share.
 namespace abut {
 
-/// Lengths: no coordinate in the pair's frame is off by more, and none from where abut/types.h has it.
+/// Bounds on the error of a coordinate: in the pair's frame, and compared with the positions that
+/// abut/types.h computes.
 struct Roundings {
     double of_pair = 0, all = 0;
 };
@@ -22,7 +23,7 @@ struct Roundings {
 inline Roundings roundings_of(const ConvexData& a, const Transform& world_from_a,
                               const ConvexData& b, const Transform& world_from_b) {
     const auto &m = world_from_a.m, &n = world_from_b.m;
-    // Two sums, that two lanes may do.
+    // Two sums, so that two lanes may do the work.
     std::array<double, 2> sums{};
     for (std::size_t i = 0; i < 8; i += 2)
         for (std::size_t k = 0; k < 2; ++k)
@@ -30,7 +31,7 @@ inline Roundings roundings_of(const ConvexData& a, const Transform& world_from_a
     const double last = std::abs(m[8]) * a.reach + std::abs(n[8]) * b.reach;
     const double offset = sum_of_sizes(Vec3{n[9] - m[9], n[10] - m[10], n[11] - m[11]});
     const double of_pair = 0x1p-51 * (sums[0] + sums[1] + last + offset);
-    // The other translation is no longer than this one and the offset, which `of_pair` has.
+    // The other translation is at most this one plus the offset, which `of_pair` covers.
     const Roundings roundings{of_pair,
                               2 * of_pair + 0x1p-50 * sum_of_sizes(Vec3{m[9], m[10], m[11]})};
     if (!std::isfinite(roundings.all)) [[unlikely]] {
@@ -45,13 +46,13 @@ inline double rounding_of(const ConvexData& a, const Transform& world_from_a, co
     return roundings_of(a, world_from_a, b, world_from_b).of_pair;
 }
 
-/// From the middle of one body's inner ball to that of the other, in the pair's frame.
+/// The vector from the centre of a's inner ball to that of b's, in the pair's frame.
 Vec3 between_middles(const ConvexData& a, const ConvexData& b, const PolytopePair& pair);
 
-/// The vertices that face each other along a direction, as the tables of normals say.
+/// The vertices that face each other along a direction, by the tables of normals.
 VertexPair facing_vertices(const PolytopePair& pair, const Vec3& direction);
 
-/// A remembered pair, or the first vertices if the polytopes have no such.
+/// A remembered pair. Numbers that a polytope does not have are replaced by its first vertex.
 inline VertexPair recalled(const PolytopePair& pair, const VertexPair& last) {
     return {last.a < pair.a.polytope->vertices.size() ? last.a : 0,
             last.b < pair.b.polytope->vertices.size() ? last.b : 0};
@@ -61,10 +62,10 @@ inline bool has_simplex(const ConvexWarmStart& warm_start) {
     return warm_start.kind == ConvexWarmStart::Kind::simplex;
 }
 
-/// The simplex that is remembered, as far as the polytopes have it.
+/// The remembered simplex. Numbers that a polytope does not have are replaced by its first vertex.
 DifferenceSimplex recalled_simplex(const PolytopePair& pair, const ConvexWarmStart& warm_start);
 
-/// A simplex that holds the origin.
+/// Remembers a simplex that holds the origin.
 void remember(const DifferenceSimplex& simplex, ConvexWarmStart& warm_start);
 
 } // namespace abut

@@ -60,7 +60,7 @@ void require_convex(const Mesh& mesh, const ConvexData& hull, double dent) {
                              "in front of it",
                              i, hull.source[farthest], depth));
     }
-    // All triangles lie on the hull; it has to be covered once.
+    // All triangles lie on the hull. The volume tells whether they cover it once.
     const Extent given = extent(mesh.positions, mesh.triangles);
     const Extent wanted = extent(hull.vertices, hull.triangles);
     if (std::abs(given.volume - wanted.volume) > 3 * dent * (given.area + wanted.area))

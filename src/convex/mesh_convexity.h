@@ -8,7 +8,8 @@ namespace abut {
 
 /// Checks that a mesh is the surface of its hull.
 ///
-/// In          `hull`: that of its vertices. `dent`: a length; what lies no deeper is rounding.
+/// In          `hull`: the hull of the mesh's vertices. `dent`: a length; no shallower dent is
+///             reported.
 /// Errors      Error{bad_mesh} naming a triangle: the mesh is not closed, is flat, is turned inside
 ///             out, or has a dent.
 void require_convex(const Mesh& mesh, const ConvexData& hull, double dent);

@@ -13,22 +13,22 @@ namespace abut {
 
 namespace {
 
-/// Beyond so many pairs of triangles the trees are faster.
+/// For more pairs of triangles than this, the trees are faster.
 constexpr std::size_t kMostPairs = 128;
 
-/// How far the points of one hull move when it shrinks so that what is left of it lies `depth` below
-/// its surface. Nothing of a flat piece that its triangles cover moves: it is the surface.
+/// Bounds how far the points of a hull move when it shrinks so that the rest lies `depth` below its
+/// surface. A flat piece that its triangles cover is the surface itself and does not move.
 double shrinkage(const HullNode& piece, double most_stretch, double least_stretch, double depth) {
     if (piece.is_sheet)
         return 0;
     const double inner = least_stretch * piece.inner_radius;
-    // Each point moves by `depth` over the ball's radius of its way to the ball's middle.
+    // A point moves by the share depth / (ball's radius) of its way to the ball's centre.
     return inner > depth ? 2 * depth * most_stretch * piece.radius / inner
                          : std::numeric_limits<double>::infinity();
 }
 
-/// The ball that the difference of two hulls must have around the origin to prove that the solids
-/// share a point: infinite if it proves nothing.
+/// The radius of a ball around the origin inside the difference of two hulls that proves that the
+/// solids share a point. Infinite if no ball proves it.
 double least_radius(const PlacedPieces& placed, const HullPair& pieces) {
     const double depth = 8 * placed.world_rounding();
     return 2 * depth +
@@ -36,16 +36,16 @@ double least_radius(const PlacedPieces& placed, const HullPair& pieces) {
            shrinkage(placed.node_b(pieces.b), placed.most_b(), placed.least_b(), depth);
 }
 
-/// What the volumes below must exceed to prove a ball, whatever rounding did to corners and volumes.
-/// Six times the volume of a tetrahedron with a face in a plane and the origin as its top is at most
-/// the plane's distance times the square of the longest edge.
+/// The volume that the tetrahedra below must exceed to prove such a ball, whatever rounding did to
+/// corners and volumes. A tetrahedron with a face in a plane and the origin as its apex has six
+/// times its volume at most equal to the plane's distance times the square of the longest edge.
 double least_volume(const PlacedPieces& placed, const HullPair& pieces) {
-    // Hulls that meet, to rounding, have no two points that are farther apart.
+    // The hulls meet to rounding, so no two of their points are farther apart than this.
     const double size = placed.size(pieces) + placed.rounding;
     return ((least_radius(placed, pieces) + 4 * placed.rounding) + 0x1p-44 * size) * size * size;
 }
 
-/// Whether the tetrahedron that a simplex is has a ball around the origin inside.
+/// Returns whether the tetrahedron of a simplex holds the ball around the origin.
 bool holds_ball(const PolytopePair& pair, const DifferenceSimplex& simplex, double least_volume) {
     std::array<Vec3, 4> at;
     for (std::size_t i = 0; i < 4; ++i)
@@ -57,10 +57,10 @@ bool holds_ball(const PolytopePair& pair, const DifferenceSimplex& simplex, doub
     return *low > least_volume || *high < -least_volume;
 }
 
-/// Whether the difference of a triangle and an edge, a prism, has such a ball.
+/// Returns whether the difference of a triangle and an edge, a prism, holds the ball.
 bool holds_ball(const Triangle& t, const std::array<Vec3, 2>& edge, double least_volume) {
     const Vec3 along = edge[1] - edge[0], first = t[1] - t[0], second = t[2] - t[1];
-    // Its bases are the triangle, less either end of the edge.
+    // The prism's bases are the triangle minus each end of the edge.
     const Vec3 normal = cross(first, second), from = t[0] - edge[0];
     const double before = dot(normal, from), behind = dot(normal, t[0] - edge[1]);
     const double sign = before > 0 ? 1 : -1;
@@ -76,7 +76,7 @@ Triangle corners_of(const PlacedPolytope& side, const HullFeature& f) {
             side.place(p.to(p.after(p.vertices[f.vertex], f.edge)))};
 }
 
-/// Where a walk has ended with an edge through a triangle.
+/// Returns whether a walk has ended with an edge that surely passes through a triangle.
 bool pierces(const PolytopePair& pair, const WalkState& at, double least_volume) {
     const bool a_is_face = at.a.kind == Feature::face;
     const HullFeature &face = a_is_face ? at.a : at.b, &edge = a_is_face ? at.b : at.a;

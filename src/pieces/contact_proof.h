@@ -5,20 +5,20 @@
 
 namespace abut {
 
-/// Whether it is proven that two solids share a point, where a search has found a common point of
-/// two of their pieces. A search finds it to rounding; the solids are those that the placed vertices
-/// of their triangles bound, each rounded for itself.
+/// Returns whether it is proven that two solids share a point, after a search has found a common
+/// point of two of their convex pieces. The search finds it only to rounding; the solids are
+/// bounded by their triangles as placed, with each vertex rounded separately.
 ///
-/// Pieces with a volume: if the hulls still meet when both shrink towards a ball inside of them, so
-/// far that what is left of each lies deeper in it than rounding moves the surface, then there is a
-/// point that both surfaces wind around. Other pieces: if two of their triangles meet, by exact signs,
-/// where there are not many.
+/// Pieces with a volume: both hulls shrink towards a ball inside them, so far that each remaining
+/// hull lies deeper in the original than rounding moves the surface. If the remaining hulls still
+/// meet, both surfaces wind around some common point. Other pieces: if exact signs show that two of
+/// their triangles meet; tested only if there are few triangles.
 ///
-/// In          a pair of pieces and what a search found that ended with `meeting`.
+/// In          a pair of pieces, and a search that ended with `meeting`.
 bool proves_contact(const PlacedPieces& placed, const HullPair& pieces,
                     const ClosestPointSearch& search);
 
-/// The same for a common point found by simplices.
+/// The proof for a common point that GJK found.
 bool proves_contact(const PlacedPieces& placed, const HullPair& pieces,
                     const DifferenceSimplex& simplex);
 

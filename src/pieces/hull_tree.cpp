@@ -16,12 +16,12 @@ namespace abut {
 
 namespace {
 
-/// Below so many vertices a climb from any is as fast as a table's answer.
+/// In hulls of at most this many vertices a climb from any vertex is as fast as a table.
 constexpr std::size_t kNoTable = 8;
-/// Children of a node, at most.
+/// Maximal number of a node's children.
 constexpr std::size_t kWidth = 4;
 
-/// A hull, and which of the points given its vertices are.
+/// A hull, with the numbers of the positions of its vertices.
 struct SourcedHull {
     Polytope polytope;
     std::vector<std::uint32_t> source;
@@ -29,12 +29,12 @@ struct SourcedHull {
     bool is_flat = false;
 };
 
-/// Beyond so many pairs of a point and a triangle what a hull loses is not measured.
+/// For more pairs of a point and a triangle than this, the loss is not measured.
 constexpr std::size_t kMostForLoss = 1 << 20;
 
-/// How far points lie outside of the hull that was made of them.
+/// How far points lie outside the hull that was made of them.
 ///
-/// In          `is_vertex`: of each point. `known`: a bound, returned where measuring takes too long.
+/// In          `is_vertex`: by point. `known`: a bound, returned if measuring takes too long.
 double loss_of(std::span<const Vec3> points, const std::vector<bool>& is_vertex,
                const HullSurface& hull, double known) {
     if (hull.vertices.size() == points.size())
@@ -157,7 +157,7 @@ private:
             part_node(child + i, groups[i], level + 1);
     }
 
-    /// In: the hulls of its children are made.
+    /// In: the children's hulls are made.
     void make_hull(std::uint32_t node) {
         HullNode& n = tree_.nodes[node];
         SourcedHull hull;
@@ -182,8 +182,8 @@ private:
         sources_[node] = std::move(hull.source);
     }
 
-    /// Parts the pieces, and then the groups that are largest, until there are as many as a node has
-    /// children.
+    /// Splits the pieces, and then the group with the most pieces, until there are as many groups
+    /// as a node has children.
     std::vector<std::span<std::uint32_t>> groups_of(std::span<std::uint32_t> pieces) {
         std::vector<std::span<std::uint32_t>> groups{pieces};
         while (groups.size() < std::min(kWidth, pieces.size())) {
@@ -207,8 +207,8 @@ private:
             tree_.leaf_at.push_back(leaf[v]);
     }
 
-    /// Orders the pieces so that the boxes of the first and of the others have the least area, times
-    /// the number of pieces in them; returns how many are first.
+    /// Splits the pieces in two so that the sum of both boxes' areas, times their numbers of
+    /// pieces, is smallest. Orders them accordingly, and returns how many belong to the first.
     std::size_t part(std::span<std::uint32_t> pieces) {
         double least = std::numeric_limits<double>::infinity();
         std::size_t cut = pieces.size() / 2;
@@ -230,7 +230,7 @@ private:
                     least = cost, cut = i, best_axis = axis;
             }
         }
-        // Depth stays logarithmic, whatever the pieces are.
+        // Keeps the tree's depth logarithmic, whatever the pieces are.
         const std::size_t margin = pieces.size() / 16;
         sort(pieces, best_axis);
         return std::clamp(cut, std::max<std::size_t>(margin, 1),
@@ -255,8 +255,8 @@ private:
     const std::vector<std::vector<std::uint32_t>>& vertices_;
     std::vector<Box3> boxes_;
     HullTree tree_;
-    std::vector<std::vector<std::uint32_t>> levels_;  ///< nodes of each, the root's first
-    std::vector<std::vector<std::uint32_t>> sources_; ///< by node: which positions its vertices are
+    std::vector<std::vector<std::uint32_t>> levels_;  ///< nodes of each level, the root's first
+    std::vector<std::vector<std::uint32_t>> sources_; ///< by node: the positions of its vertices
 };
 
 } // namespace

@@ -13,15 +13,16 @@ namespace abut {
 
 namespace {
 
-/// Pairs of features of two hulls of many pieces that are measured at most: these only bound.
+/// Limit on measured feature pairs of two hulls that are not both pieces: these walks only give
+/// bounds.
 constexpr std::uint32_t kPatience = 24;
 
-/// Hulls that overlap along a direction by more than this share of the smaller's radius are opened
-/// at once: few of them are apart.
+/// Hulls that overlap along a direction by more than this share of the smaller radius are opened at
+/// once: few of them are apart.
 constexpr double kDeep = 0.35;
 
-/// What a bound of the distance of two pieces may be below that, in roundings, the margin aside: 8 of
-/// a walk that is proven, and 2 of the directions that prove others.
+/// Roundings by which a bound may lie below the distance of two pieces, the margin aside: 8 for a
+/// proven walk, and 2 for the directions that prove other pairs.
 constexpr double kTolerance = 10;
 
 bool is_root(const BoundedPair& pair) {
@@ -60,7 +61,7 @@ double PiecePairSearch::measure(const HullPair& hulls, const ClosestPointSearch&
     return take(hulls, pair, search);
 }
 
-/// The distance that the end of a walk proves two hulls to have at least; 0 if it proves nothing.
+/// The lower bound of a distance that the end of a walk proves; 0 if it proves nothing.
 double PiecePairSearch::bound_by_walk(const HullPair& hulls, const WalkState& at,
                                       double distance) const {
     return at.proven && is_measurable(at.distance_sq, placed_.rounding)
@@ -68,7 +69,8 @@ double PiecePairSearch::bound_by_walk(const HullPair& hulls, const WalkState& at
                : 0;
 }
 
-/// Notes what a search of a pair of pieces has found. Returns a proven bound of their distance.
+/// Records the result of a search on a pair of pieces. Returns a proven lower bound of the
+/// distance.
 double PiecePairSearch::take(const HullPair& hulls, const PolytopePair& pair,
                              const ClosestPointSearch& search) {
     counters_.feature_pairs += search.at.feature_pairs;
@@ -119,7 +121,7 @@ void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
     walk(hulls, placed_.rounding, kPatience, state);
     counters_.feature_pairs += state.feature_pairs;
     pair.a = state.a, pair.b = state.b;
-    // Where the walk ends early the hulls meet, mostly, and are opened anyway.
+    // If the walk ends early, the hulls most often meet, and are opened anyway.
     pair.bound = floor;
     pair.along = {};
     if (state.end == WalkEnd::closest) {
@@ -133,8 +135,8 @@ void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
     }
 }
 
-/// Sets the features to the vertices that are farthest towards each other in a direction. Returns
-/// how far apart the hulls are along it.
+/// Sets the features to the vertices that are farthest towards each other along a direction.
+/// Returns how far apart the hulls are along it.
 double PiecePairSearch::begin(BoundedPair& pair) {
     const PolytopePair hulls = placed_.hulls(pair.hulls);
     const Vec3 along = pair.along == Vec3{} ? placed_.between(pair.hulls) : pair.along;
@@ -167,8 +169,8 @@ void PiecePairSearch::measure(BoundedPair& pair, double floor) {
     }
 }
 
-/// To the pieces that have the closest vertices of the whole: they are the closest pieces, often,
-/// and never far from it.
+/// Measures the pieces that own the closest vertices of the root hulls: they are often the closest
+/// pieces, and give a good first bound.
 void PiecePairSearch::jump(const BoundedPair& roots) {
     const HullPair pieces{placed_.a.tree.leaf_at[roots.a.vertex],
                           placed_.b.tree.leaf_at[roots.b.vertex]};
@@ -211,7 +213,7 @@ void PiecePairSearch::run(PairFront& front, bool keep) {
             pair.a = best_.search.at.a, pair.b = best_.search.at.b;
         } else if (const double apart = pair.begun ? 0 : begin(pair);
                    apart > std::max(floor, 0.0)) {
-            // The others may come first now.
+            // Other pairs may come first now.
             pair.bound = apart + front.drift;
             push(front.heap, pair);
             continue;

@@ -15,71 +15,72 @@ namespace abut {
 
 /// A pair of hulls, and what is known of its distance.
 struct BoundedPair {
-    double bound = 0; ///< proven: no nearer than this less the drift since (see PairFront)
+    double bound = 0; ///< proven lower bound of the distance, plus PairFront::drift
     HullPair hulls;
     HullFeature a, b;   ///< where the last walk ended, or the next one begins
-    Vec3 along;         ///< at first: a direction in which the hulls may be apart
-    bool begun = false; ///< there are features
+    Vec3 along;         ///< initially: a direction along which the hulls may be apart
+    bool begun = false; ///< a and b are set
 };
 
-/// Pairs of hulls that together hold all pairs of pieces: where a search ended, and the next one
-/// begins. Each has a bound of its distance. Between poses the bounds shrink by what the motion may
-/// have brought: the drift, which is summed up, so that no bound needs to be touched.
+/// Pairs of hulls that together cover all pairs of pieces, each with a bound of its distance: a
+/// search ends with a front, and the next one begins with it. Between poses the bounds decrease by
+/// how far the bodies may have approached. That is summed up in `drift`, so that no bound needs to
+/// be changed.
 struct PairFront {
-    std::vector<BoundedPair> heap;    ///< the least bound first
-    std::vector<BoundedPair> settled; ///< while a search runs: measured, and not of interest
+    std::vector<BoundedPair> heap; ///< a heap: the smallest bound first
+    /// While a search runs: pairs that are measured and no longer matter.
+    std::vector<BoundedPair> settled;
     double drift = 0;
-    /// Of the search that began at the roots: pairs that it measured, and that it left here.
+    /// For the search that began at the roots: the pairs that it measured, and that it left here.
     std::uint64_t fresh_pairs = 0, fresh_size = 0;
-    bool worn = false; ///< to begin anew costs less than to go on
+    bool worn = false; ///< beginning anew costs less than continuing
 };
 
-/// The closest pieces found.
 struct ClosestPieces {
     HullPair hulls;
     ClosestPointSearch search;
     double distance = std::numeric_limits<double>::infinity();
-    double at_least = 0; ///< proven: no two points of the pair are closer
+    double at_least = 0; ///< proven lower bound of the pair's distance
     bool found = false;
-    bool proven = false; ///< if they meet: so do the solids, whatever rounding did
+    bool proven = false; ///< if the pieces meet: the solids are proven to meet
 
     [[nodiscard]] bool meet() const { return found && distance == 0; }
 };
 
-/// Looks for the closest pieces of two solids, nearest bound first.
+/// Finds the closest pieces of two solids, the pair with the smallest bound first.
 class PiecePairSearch {
 public:
     PiecePairSearch(const PlacedPieces& placed, PiecesCounters& counters)
         : placed_(placed), counters_(counters) {}
 
-    /// Nothing from here on matters; what is found must be nearer.
+    /// Looks only for pieces that are nearer than this.
     void set_bound(double bound) { best_.distance = bound; }
-    /// What is found may be so much farther than the closest.
+    /// Allows the found distance to exceed the smallest by this much.
     void set_slack(double slack) { slack_ = slack; }
-    /// One pair within the bound is enough.
+    /// Ends the search at the first pair within the bound.
     void stop_at_first() { first_ = true; }
 
-    /// Measures a pair of pieces, from features that were closest before. Whether it ends the
-    /// search.
+    /// Measures a pair of pieces, beginning at features that were closest before. Returns whether
+    /// that ends the search.
     bool try_pair(const HullPair& hulls, const ClosestPointSearch& start) {
         measure(hulls, start);
         return ends();
     }
-    /// The same; returns a proven bound of the pair's distance.
+    /// Measures a pair of pieces. Returns a proven lower bound of its distance.
     double measure(const HullPair& hulls, const ClosestPointSearch& start);
-    /// False only if the hulls of a pair are proven to be apart, by more than `room`.
+    /// Returns false only if the hulls of a pair are proven to be farther apart than `room`.
     bool may_meet(const HullPair& hulls, double room);
-    /// From the front on; an empty one begins at the roots. With `keep` it is left so that it holds
-    /// all pairs again.
+    /// Searches from the front; an empty one begins at the roots. With `keep`, the front covers all
+    /// pairs again afterwards.
     void run(PairFront& front, bool keep);
 
     [[nodiscard]] const ClosestPieces& best() const { return best_; }
-    /// Proven: no two pieces are closer. After `run`.
+    /// Proven lower bound of the distance of all pieces. Call it after `run`.
     [[nodiscard]] double at_least() const {
         return best_.found ? std::min(at_least_, best_.distance) : at_least_;
     }
-    /// Whether the distance found is that of the solids, to rounding; else rounding hides whether
-    /// other pieces are nearer, or whether these meet. After `run`.
+    /// Returns whether the found distance is that of the solids, to rounding. If not, rounding
+    /// hides whether other pieces are nearer, or whether these meet. Call it after `run`.
     [[nodiscard]] bool is_decided() const;
 
 private:
@@ -93,7 +94,7 @@ private:
     void measure_hulls(BoundedPair& pair, double floor);
     void open(const BoundedPair& pair, PairFront& front);
     [[nodiscard]] bool ends() const { return best_.found && (first_ || best_.distance == 0); }
-    /// Whether what is no nearer may matter.
+    /// Returns whether pairs with this bound may matter.
     [[nodiscard]] bool matters(double bound) const {
         return first_ ? bound <= best_.distance
                       : bound < best_.distance - (best_.found ? slack_ : 0);
@@ -103,7 +104,7 @@ private:
     PiecesCounters& counters_;
     ClosestPieces best_;
     double slack_ = 0, at_least_ = std::numeric_limits<double>::infinity();
-    /// The least bound of pairs measured whose distance is not known better than to rounding.
+    /// The smallest bound of measured pairs whose distance is known only to rounding.
     double unresolved_ = std::numeric_limits<double>::infinity();
     bool first_ = false;
 };

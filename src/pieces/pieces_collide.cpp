@@ -12,7 +12,7 @@ namespace abut {
 
 namespace {
 
-/// All pairs of pieces that meet, or are so near that rounding may hide it.
+/// Finds all pairs of pieces that meet, or are so near that rounding may hide it.
 class MeetingPieces {
 public:
     MeetingPieces(const PlacedPieces& placed, PiecesContacts& contacts)
@@ -40,7 +40,7 @@ public:
             }
         }
     }
-    /// Whether a pair of those found proves that the solids share a point.
+    /// Returns whether a pair found proves that the solids share a point.
     [[nodiscard]] bool proven() const { return proven_; }
 
 private:
@@ -49,7 +49,7 @@ private:
     bool proven_ = false;
 };
 
-/// Each triangle is in one piece, so no pair comes twice.
+/// Finds the triangles that meet. Each triangle is in one piece, so no pair occurs twice.
 void add_triangles(const PlacedPieces& placed, PiecesContacts& contacts) {
     std::vector<PlacedTriangle> of_a;
     std::uint32_t piece_a = 0xffffffffU;
@@ -86,7 +86,7 @@ void find_all(const PlacedPieces& placed, bool triangles, PiecesContacts& contac
         if (triangles)
             contacts.triangles = std::move(surfaces.pairs);
     }
-    // Hulls that meet to rounding only, of solids that do not.
+    // The hulls meet only to rounding, and the solids do not.
     if (!pieces.proven() && !surfaces_meet)
         contacts.pairs.clear();
     sort_once(contacts.pairs);

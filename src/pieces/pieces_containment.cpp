@@ -8,15 +8,16 @@ namespace abut {
 
 namespace {
 
-/// Whether the surface winds around a point off it.
+/// Returns whether the surface winds around a point that is not on it.
 bool winds_around(const PlacedModel& surface, const Vec3& point) {
     const double off = length(point - surface.middle());
     if (!(off <= 2 * surface.reach()))
         return false;
     const double far = off + 2 * surface.reach();
-    // A segment is unclear with probability next to zero; the limit ends the loop on absurd input.
+    // A segment is undecided with probability almost 0; the limit only ends the loop on absurd
+    // input.
     for (int k = 1; k < 64; ++k) {
-        // Directions with no special relation to each other or to any axis.
+        // Directions in general position to each other and to all axes.
         const Vec3 d =
             normalized_or_zero({std::sin(1.7 * k), std::sin(2.3 * k + 1), std::sin(3.1 * k + 2)});
         if (const auto count = crossings(surface, point, point + far * d))
@@ -25,7 +26,7 @@ bool winds_around(const PlacedModel& surface, const Vec3& point) {
     return false;
 }
 
-/// Whether a vertex of a component of the inner solid may lie within the ball around the outer one.
+/// Returns whether a vertex of an inner component may lie in the ball around the outer solid.
 bool may_contain(const ConvexPiecesData& inner, const Transform& world_from_inner,
                  const ConvexPiecesData& outer, const Transform& world_from_outer) {
     const HullNode& root = outer.tree.nodes[0];

@@ -6,11 +6,11 @@
 
 namespace abut {
 
-/// A point of the world that lies in both solids, if one of them, or a component of it, is inside of
-/// the other.
+/// Returns a world point that lies in both solids, if one of them, or a component of it, lies
+/// inside the other.
 ///
-/// In          solids no pieces of which meet.
-/// Accuracy    exact: by the signs of the crossings of a ray.
+/// In          solids whose pieces do not meet.
+/// Accuracy    exact: by the signs of a ray's crossings.
 std::optional<Vec3> contained_point(const PlacedPieces& placed);
 
 } // namespace abut

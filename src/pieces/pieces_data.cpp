@@ -16,7 +16,7 @@ namespace abut {
 
 namespace {
 
-/// Of so few triangles each is looked at.
+/// In pieces of at most this many triangles, each is compared.
 constexpr std::size_t kFewTriangles = 4;
 
 std::uint64_t next_id() {
@@ -29,7 +29,7 @@ Triangle corners(const Mesh& mesh, std::uint32_t t) {
     return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
-/// Whether the surface winds around what lies just below a triangle.
+/// Returns whether the surface winds around a point just below a triangle.
 bool has_inside_below(const Mesh& mesh, std::uint32_t triangle) {
     const Triangle t = corners(mesh, triangle);
     const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
@@ -38,7 +38,8 @@ bool has_inside_below(const Mesh& mesh, std::uint32_t triangle) {
     return winding_number(mesh, middle - step) > 0.5;
 }
 
-/// Whether the triangles of a flat piece cover its hull: no edge that ends them runs inside of it.
+/// Returns whether the triangles of a flat piece cover its hull: no border edge of the piece runs
+/// inside it.
 bool is_sheet(const SurfaceGraph& surface, const Polytope& hull,
               std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> piece_of) {
     const Triangle first = surface.triangle(triangles[0]);

@@ -12,7 +12,7 @@
 
 namespace abut {
 
-/// What a ConvexPieces shares among its copies.
+/// The data that copies of a ConvexPieces share.
 class ConvexPiecesData {
 public:
     /// Errors      Error{bad_mesh}.
@@ -26,12 +26,12 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
     Model model;
-    std::uint64_t id = 0;                           ///< no other in this process has it
+    std::uint64_t id = 0;                           ///< unique in this process
     std::vector<std::uint32_t> begin{0}, triangles; ///< of each piece
     std::vector<std::uint32_t> piece_of;            ///< by triangle
     HullTree tree;
-    std::vector<PieceFaces> faces;          ///< by piece; empty ones for pieces of few triangles
-    std::vector<std::uint32_t> triangle_at; ///< a triangle at each position
+    std::vector<PieceFaces> faces;          ///< by piece; empty for pieces of few triangles
+    std::vector<std::uint32_t> triangle_at; ///< by position: a triangle with that vertex
     std::vector<std::uint32_t> components;  ///< a vertex of each component
     double reach = 0;                       ///< largest |x| + |y| + |z| of a vertex
 };

@@ -21,7 +21,7 @@ namespace {
 /// roundings of a placed vertex.
 constexpr double kOpenShare = 1e-12, kOpenRoundings = 12;
 
-/// A triangle of the surface and what of it holds a closest point.
+/// A triangle of the surface, and its feature that holds a closest point.
 struct SurfaceFeature {
     std::uint32_t triangle = 0;
     Feature kind = Feature::face;
@@ -34,12 +34,13 @@ struct Side {
     const Transform& world;
     std::uint32_t piece;
     const HullFeature& on;       ///< of the piece's hull
-    const PlacedPolytope& place; ///< the frame of the query
-    const Vec3 &point, &other;   ///< in there, in that frame
+    const PlacedPolytope& place; ///< in the frame of the query
+    /// The closest points on this side and on the other, in that frame.
+    const Vec3 &point, &other;
 };
 
-/// The feature of one of some triangles that is nearest to a point. `least_sq`: only one that is
-/// nearer. `place`: that point of the feature.
+/// The feature of some triangles that is nearest to a point. `least_sq`: only features nearer than
+/// this count; set to the squared distance found. `place`: set to the nearest point.
 SurfaceFeature nearest_feature(const Side& s, const Vec3& point,
                                std::span<const std::uint32_t> triangles, double& least_sq,
                                Vec3& place) {
@@ -69,15 +70,15 @@ SurfaceFeature at_vertex(const Side& s) {
     return result;
 }
 
-/// Whether a point lies on a segment, to `most_off`.
+/// Returns whether a point lies on a segment, to `most_off`.
 bool lies_on(const Vec3& point, const Vec3& from, const Vec3& to, double most_off) {
     const Vec3 edge = to - from, w = point - from;
     const double along = dot(w, edge), all = length_sq(edge);
     return along >= 0 && along <= all && length_sq(cross(w, edge)) <= most_off * most_off * all;
 }
 
-/// The one of some triangles that has the hull's edge on which the closest point lies, as most such
-/// edges have one: found by its ends. None if there is none.
+/// The triangle that has the hull's edge with the closest point as one of its own, found by the
+/// edge's ends. None if there is none; most such edges have one.
 std::optional<SurfaceFeature> same_edge(const Side& s, double most_off,
                                         std::span<const std::uint32_t> triangles) {
     if (s.on.kind != Feature::edge)
@@ -99,7 +100,8 @@ std::optional<SurfaceFeature> same_edge(const Side& s, double most_off,
     return std::nullopt;
 }
 
-/// The triangle and its feature that a closest point lies on. `last`: the one before, or null.
+/// The triangle, and its feature, that hold a closest point. `last`: the triangle of the last
+/// query, or null.
 SurfaceFeature name(const Side& s, const Vec3& origin, double rounding, const std::uint32_t* last) {
     if (s.on.kind == Feature::vertex)
         return at_vertex(s);
@@ -137,7 +139,7 @@ SurfaceFeature name(const Side& s, const Vec3& origin, double rounding, const st
     }
     if (!std::isinf(least_sq) && holds_point())
         return result;
-    // The hull covers what other pieces have: one of theirs; or triangles lie almost in one plane.
+    // The point lies on triangles of another piece, or triangles lie almost in one plane.
     const std::uint32_t triangle = nearest(s.solid.model, s.world, origin + s.point).triangle;
     least_sq = std::numeric_limits<double>::infinity();
     result = nearest_feature(s, s.other, {&triangle, 1}, least_sq, place);
@@ -182,11 +184,11 @@ void report(const PlacedPieces& placed, PiecesQuery& query, PiecesGap& gap) {
     gap.triangle_b = b.triangle, gap.feature_b = b.kind, gap.index_b = b.index;
 }
 
-/// Where rounding hides what the hulls do.
+/// The answer if rounding hides what the hulls do: that of the triangles.
 void report_surfaces(const PlacedPieces& placed, PiecesQuery& query, double upper_bound,
                      PiecesGap& gap) {
     const ClosestPieces& best = query.search().best();
-    // Placed as the triangles are, the points found may be a little farther apart.
+    // Placed as the triangles are, the points found may be slightly farther apart.
     const double bound = best.found ? best.distance + 2 * placed.contact_zone() : upper_bound;
     Gap surfaces = query.surface_gap(bound);
     if (surfaces.status == Status::bound_only && best.found)

@@ -20,15 +20,15 @@ namespace abut {
 
 namespace {
 
-/// The pieces that go deepest into each other. A translation that separates the solids takes each pair
-/// of pieces apart: none is shorter than the depth of any pair.
+/// Finds the pair of pieces with the largest penetration depth. A translation that separates the
+/// solids separates each pair of pieces, so it is no shorter than the depth of any pair.
 class DeepestPieces {
 public:
     DeepestPieces(const PlacedPieces& placed, PiecesDepth& result)
         : placed_(placed), result_(result) {}
 
-    /// By the spheres around hulls the pairs come that may go deepest; those that may not be the
-    /// deepest any more are never looked at.
+    /// Searches pairs by the depth that the spheres around hulls allow, the largest first. Pairs
+    /// that cannot exceed the depth found are never measured.
     void find() {
         push({0, 0});
         SearchSteps steps;
@@ -45,20 +45,20 @@ public:
         }
     }
 
-    /// Whether two of the pieces prove that the solids share a point.
+    /// Returns whether two of the pieces prove that the solids share a point.
     [[nodiscard]] bool proven() const { return proven_; }
-    /// Whether some pieces are so near that rounding may hide that they meet.
+    /// Returns whether some pieces are so near that rounding may hide that they meet.
     [[nodiscard]] bool near() const { return near_; }
-    /// Whether pieces may go into each other that were measured as apart.
+    /// Returns whether pieces that were measured as apart may interpenetrate.
     [[nodiscard]] bool misses_depth() const { return misses_depth_; }
 
-    /// Of the pairs that were the deepest for a while, the deepest first.
+    /// The directions of the pairs that were the deepest for a while, the deepest first.
     [[nodiscard]] std::vector<Vec3> directions() const {
         return {directions_.rbegin(), directions_.rend()};
     }
 
 private:
-    using Bounded = std::pair<double, HullPair>; ///< goes no deeper than that
+    using Bounded = std::pair<double, HullPair>; ///< with a bound of its depth
     static bool less(const Bounded& p, const Bounded& q) { return p.first < q.first; }
 
     void push(const HullPair& pair) {
@@ -74,7 +74,7 @@ private:
         ++result_.counters.hull_pairs;
         const PolytopePair pair = placed_.hulls(hulls);
         DifferenceSimplex first;
-        first.count = 1; // of the first vertices
+        first.count = 1; // the first vertices
         const GjkState found = gjk(pair, first, placed_.rounding);
         result_.counters.simplices += found.steps;
         if (!found.meeting) {
@@ -91,7 +91,7 @@ private:
         result_.meet = true;
     }
 
-    /// Whether rounding may hide that pieces meet, which a search of simplices says are apart.
+    /// Returns whether rounding may hide that pieces meet that GJK found to be apart.
     bool may_be_near(const HullPair& hulls, const PolytopePair& pair, const GjkState& found) {
         const double zone = placed_.contact_zone(), margin = placed_.margin(hulls);
         const double room = proven_room(pair, found.gap, placed_.a.reach, placed_.b.reach, margin);
@@ -103,7 +103,7 @@ private:
 
     void keep(const HullPair& hulls, const PolytopePair& pair, const NearestBoundary& nearest) {
         result_.depth = nearest.at_least;
-        result_.direction = -nearest.normal; // b - a reaches that far along the normal
+        result_.direction = -nearest.normal; // b - a reaches `depth` along the normal
         result_.piece_a = placed_.node_a(hulls.a).piece;
         result_.piece_b = placed_.node_b(hulls.b).piece;
         result_.point_a = result_.point_b = placed_.origin();
@@ -138,7 +138,8 @@ Vec3 way_out(const PlacedPieces& placed, std::vector<Vec3> directions, double at
     const Transform moved = translated(placed.world_from_b, way);
     if (!contained_point(PlacedPieces(placed.a, placed.world_from_a, placed.b, moved)))
         return way;
-    // In a solid that goes through itself, where parity says outside: until the balls are apart.
+    // A solid that passes through itself has an outside by parity within it: moves until the balls
+    // are apart.
     const double far = length(middles) + placed.size();
     return (far * (1 + 0x1p-20) / length(way)) * way;
 }
@@ -161,7 +162,7 @@ PiecesDepth penetration(const ConvexPieces& a, const Transform& world_from_a, co
             result = apart;
             if (!contained_point(placed))
                 return result;
-            // Before b is out, the surfaces meet.
+            // The surfaces meet before b is outside, so the depth is at least their distance.
             result.depth = distance(a.model(), world_from_a, b.model(), world_from_b).distance;
         }
         result.meet = true;

@@ -34,7 +34,8 @@ void PiecesQuery::recall() {
             most_approach(last_->poses, poses, ball_of(placed_.a), ball_of(placed_.b));
         last_->front.drift += approach;
         last_->undisturbed -= approach;
-        // Bounds lose digits to a drift that is much larger; what is not finite ends it, too.
+        // Bounds lose digits to a much larger drift. A drift that is not finite also ends the
+        // front.
         constexpr double kLongest = 16;
         if (last_->front.worn || !(last_->front.drift <= kLongest * placed_.size()))
             last_->front = {};
@@ -43,7 +44,7 @@ void PiecesQuery::recall() {
 }
 
 bool PiecesQuery::run() {
-    // A search that is stopped leaves no front: pairs would be missing there.
+    // A search that is stopped leaves no front, since pairs would be missing from it.
     PairFront front = last_ != nullptr ? std::exchange(last_->front, {}) : PairFront();
     const bool done =
         last_ != nullptr && last_->has_closest && search_.try_pair(last_->closest, last_->search);

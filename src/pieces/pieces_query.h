@@ -8,35 +8,36 @@
 
 namespace abut {
 
-/// What is remembered of two solids from one pose to the next.
+/// What is remembered of two solids between poses.
 class PiecesWarmStart::Data {
 public:
     std::uint64_t id_a = 0, id_b = 0;
     PosePair poses; ///< of the last query
     PairFront front;
-    HullPair closest; ///< pieces
+    HullPair closest; ///< the closest pieces
     ClosestPointSearch search;
     bool has_closest = false;
-    HullPair named;         ///< pieces of which the triangles are
+    HullPair named;         ///< pieces to which `triangles` belongs
     TrianglePair triangles; ///< that held the closest points
     bool has_triangles = false;
-    /// The distance of the pieces in the last query that decided whether one solid is inside of the
-    /// other, less the approach since: while it is positive, that has not changed.
+    /// The distance of the pieces in the last query that decided whether one solid lies inside the
+    /// other, less the approach since then. While it is positive, that answer holds.
     double undisturbed = 0;
     std::optional<bool> contained;
-    WarmStart surfaces; ///< where the triangles were asked
+    WarmStart surfaces; ///< of the queries on triangles
 };
 
-/// One query of two solids: what is remembered, the search, whether one is inside of the other, and
-/// the triangles, which decide where rounding hides what the hulls do.
+/// One query on two solids: the warm start; the search; whether one solid lies inside the other;
+/// and the triangles, which decide where rounding hides what the hulls do.
 class PiecesQuery {
 public:
     PiecesQuery(const PlacedPieces& placed, PiecesWarmStart* warm_start, PiecesCounters& counters);
 
     [[nodiscard]] PiecePairSearch& search() { return search_; }
-    /// Finds the closest pieces, or what else `search` was told to. Returns whether it found any.
+    /// Finds the closest pieces, or what else `search` was set to. Returns whether it found any.
     bool run();
-    /// Triangles that held the closest points of the closest pieces before; null if there were none.
+    /// The triangles that held the last closest points, if these were on the same pieces; else
+    /// null.
     [[nodiscard]] const TrianglePair* last_triangles() const {
         return last_ != nullptr && last_->has_triangles && last_->named == search_.best().hulls
                    ? &last_->triangles
@@ -49,8 +50,8 @@ public:
             last_->has_triangles = true;
         }
     }
-    /// A point in both solids, where one is inside of the other. In: no pieces meet, and these are
-    /// no nearer than `apart`.
+    /// A point in both solids, if one lies inside the other. In: no pieces meet; the distance of
+    /// the pieces is at least `apart`.
     std::optional<Vec3> contained_point(double apart);
     /// The distance of the surfaces, if it is at most `bound`; else bound_only.
     [[nodiscard]] Gap surface_gap(double bound) const;

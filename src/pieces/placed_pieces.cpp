@@ -19,7 +19,8 @@ struct SquaredStretch {
     double least, most;
 };
 
-/// Of a rotation both are 1, found sooner than by its eigenvalues.
+/// Bounds on the squares of the stretch factors. For a rotation both are 1, without computing
+/// eigenvalues.
 SquaredStretch squared_stretch(const Transform& t) {
     const auto& m = t.m;
     const Vec3 x{m[0], m[1], m[2]}, y{m[3], m[4], m[5]}, z{m[6], m[7], m[8]};

@@ -16,7 +16,6 @@ struct PlacedTriangle {
     std::uint32_t number = 0; ///< in the solid's mesh
 };
 
-/// The triangles of a solid's piece.
 inline std::vector<PlacedTriangle> placed_triangles(const ConvexPiecesData& solid,
                                                     std::uint32_t piece, const Transform& world) {
     std::vector<PlacedTriangle> result;

@@ -10,13 +10,13 @@ namespace abut {
 
 namespace {
 
-/// Whether a vertex has a neighbour that is at least so high along a direction.
+/// Returns whether a vertex has a neighbour of at least the height `least` along a direction.
 bool has_high_neighbour(const Polytope& polytope, const Vec3& direction, const HullVertex& vertex,
                         double least) {
     const RingBatch* block = polytope.rings.data() + vertex.first_edge / RingBatch::kEdges;
     const RingBatch* const end =
         block + (vertex.degree + RingBatch::kEdges - 1) / RingBatch::kEdges;
-    // What is left of the last block repeats the first edge.
+    // Unused lanes of the last batch repeat the first edge.
     for (; block != end; ++block) {
         bool high = false;
         for (std::size_t k = 0; k < RingBatch::kEdges; ++k)
@@ -29,8 +29,8 @@ bool has_high_neighbour(const Polytope& polytope, const Vec3& direction, const H
     return false;
 }
 
-/// Returns the highest of the vertices that rounding may hide: those that are connected to `vertex`
-/// through vertices of at least the height `least`.
+/// Returns the highest of the vertices that rounding may hide: those connected to `vertex` through
+/// vertices of at least the height `least`.
 std::uint32_t highest_hidden(const Polytope& polytope, const Vec3& direction, std::uint32_t vertex,
                              double least) {
     std::vector<bool> seen(polytope.vertices.size());
@@ -53,12 +53,12 @@ std::uint32_t highest_hidden(const Polytope& polytope, const Vec3& direction, st
     return vertex;
 }
 
-/// The highest vertex along a direction, from one that no neighbour is higher than.
+/// The highest vertex along a direction, given one that no neighbour exceeds.
 std::uint32_t highest(const PlacedPolytope& side, const Vec3& along, std::uint32_t vertex,
                       double reach) {
     const Polytope& polytope = *side.polytope;
     const Vec3 direction = side.pulled_back(along);
-    // Two heights that seem to differ by less may be the other way round.
+    // Heights that differ by less may be in the other order.
     const double hidden = 0x1p-48 * sum_of_sizes(direction) * reach;
     const HullVertex& v = polytope.vertices[vertex];
     const double least = dot(direction, v.at) - hidden;
@@ -67,7 +67,7 @@ std::uint32_t highest(const PlacedPolytope& side, const Vec3& along, std::uint32
                : vertex;
 }
 
-/// Two edges of the triangle between an edge and the next around its vertex.
+/// Two edges of the triangle between an edge and the next one around its vertex.
 std::array<Vec3, 2> sides(const PlacedPolytope& side, std::uint32_t vertex, std::uint32_t edge) {
     const Polytope& p = *side.polytope;
     const HullVertex& v = p.vertices[vertex];
@@ -75,7 +75,7 @@ std::array<Vec3, 2> sides(const PlacedPolytope& side, std::uint32_t vertex, std:
             apply_linear(*side.linear, p.to(p.after(v, edge)) - v.at)};
 }
 
-/// Directions in which features face, on either side of them.
+/// Directions that the features face, towards either side.
 class FacingDirections {
 public:
     FacingDirections(const PolytopePair& pair, const WalkState& at) {
@@ -85,7 +85,7 @@ public:
         const Vec3 u = along(pair.a, at.a), v = along(pair.b, at.b);
         if (at.a.kind != Feature::vertex && at.b.kind != Feature::vertex)
             add(cross(u, v));
-        for (const Vec3& w : {u, v}) // across an edge
+        for (const Vec3& w : {u, v}) // perpendicular to an edge
             if (const double sq = length_sq(w); sq > 0)
                 add(at.gap - (dot(at.gap, w) / sq) * w);
     }
@@ -123,7 +123,7 @@ private:
 VertexPair proven_farthest(const PolytopePair& pair, const Vec3& along, double reach_a,
                            double reach_b) {
     VertexPair found = farthest(pair, along);
-    // All vertices of two small hulls have been looked at.
+    // In two small hulls all vertices were compared.
     if (pair.a.polytope->columns.empty() || pair.b.polytope->columns.empty()) {
         found.a = highest(pair.a, along, found.a, reach_a);
         found.b = highest(pair.b, -along, found.b, reach_b);

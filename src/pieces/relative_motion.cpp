@@ -8,9 +8,9 @@ namespace abut {
 
 namespace {
 
-/// What rounding may hide, relative: far above it.
+/// Far above relative rounding.
 constexpr double kSlack = 0x1p-40;
-/// By so much the products of a rotation's columns may be off.
+/// Tolerance for the products of a rotation's columns.
 constexpr double kRounding = 0x1p-44;
 
 Vec3 column(const Transform& t, std::size_t k) {
@@ -25,7 +25,7 @@ bool is_rotation(const Transform& t) {
            is_zero(dot(x, y)) && is_zero(dot(y, z)) && is_zero(dot(z, x));
 }
 
-/// Length of the longest way that a point of the ball has gone, its middle's and the turn's.
+/// Bounds the path length of a point of the ball: that of its centre, and that of the turn.
 double way(const Transform& from, const Transform& to, const BodyBall& ball, bool rotations) {
     Transform change;
     for (std::size_t i = 0; i < 12; ++i)
@@ -33,13 +33,13 @@ double way(const Transform& from, const Transform& to, const BodyBall& ball, boo
     double square = 0;
     for (std::size_t k = 0; k < 3; ++k)
         square += length_sq(column(change, k));
-    // The difference of two rotations stretches all across an axis by the same: its norm is its
-    // Frobenius norm over the root of 2.
+    // The difference of two rotations stretches all vectors perpendicular to an axis by the same
+    // factor: its norm is its Frobenius norm over the root of 2.
     const double turn = std::sqrt(rotations ? 0.5 * square : square);
     return length(apply(change, ball.middle)) + turn * ball.radius;
 }
 
-/// The pose of b as seen from a, a rotation.
+/// The pose of b relative to a, whose pose is a rotation.
 Transform seen_from(const Transform& a, const Transform& b) {
     const auto turned_back = [&](const Vec3& v) { return pull_back(a, v); };
     Transform result;
@@ -66,7 +66,7 @@ double most_approach(const PosePair& from, const PosePair& to, const BodyBall& a
     if (from.a == to.a) {
         if (from.b == to.b)
             return 0;
-        // What is a rotation but for rounding may stretch a ball by that.
+        // A transform that is a rotation only to rounding may stretch the ball by that rounding.
         return way(from.b, to.b, b, rotations) * (1 + kSlack) + 0x1p-50 * size_of(to.b, b) +
                (rotations ? 8 * kRounding * b.radius : 0);
     }

@@ -6,13 +6,13 @@
 
 namespace abut {
 
-/// A ball that holds a body, in the body's frame.
+/// A ball around a body, in the body's frame.
 struct BodyBall {
     Vec3 middle;
     double radius = 0;
 };
 
-/// Where two bodies stand.
+/// The poses of two bodies.
 struct PosePair {
     PosePair() = default;
     PosePair(const Transform& of_a, const Transform& of_b);
@@ -21,12 +21,13 @@ struct PosePair {
     bool a_is_rigid = true, b_is_rigid = true; ///< to rounding
 };
 
-/// How much nearer any point of one body can have come to any point of the other between two pairs
-/// of poses, at most.
+/// Bounds how much nearer any point of one body can have come to any point of the other between two
+/// pairs of poses.
 ///
 /// In          finite transforms.
-/// Accuracy    a proven bound, to rounding. Where a stands still, b's own motion; where both are
-///             rigid, that of b as seen from a: so bodies that move together have not moved.
+/// Accuracy    proven, to rounding. If a stands still, the bound is that of b's own motion. If both
+///             are rigid, it is that of b's motion relative to a, so bodies that move together have
+///             not approached.
 double most_approach(const PosePair& from, const PosePair& to, const BodyBall& a,
                      const BodyBall& b);
 

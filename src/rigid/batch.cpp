@@ -25,7 +25,7 @@ std::vector<Gap> distance(const Model& a, const Model& b, std::span<const Placem
 
 std::vector<bool> within(const Model& a, const Model& b, std::span<const Placement> placements,
                          double tolerance, const WithinOptions& options) {
-    // Bits of a vector<bool> share bytes: threads write to bytes of their own first.
+    // Bits of a vector<bool> share bytes, so each thread first writes a byte of its own.
     const auto answers = in_parallel<std::uint8_t>(
         options.progress, "placements", placements.size(), [&](std::size_t i) {
             const auto& [world_from_a, world_from_b] = placements[i];

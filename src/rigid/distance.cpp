@@ -19,36 +19,35 @@ namespace abut {
 
 namespace {
 
-/// What a distance may exceed the true one by.
+/// The allowed excess of a distance over the true one.
 struct Slack {
     double absolute = 0, relative = 0;
 
     [[nodiscard]] bool any() const { return absolute > 0 || relative > 0; }
-    /// Nothing that is nearer than this by less than the slack matters: d - error(d) >= 0.
+    /// Pairs nearer than `distance` matter only if nearer than this: d - error(d), at least 0.
     [[nodiscard]] double least_of_interest(double distance) const {
         return std::max(0.0, distance - std::max(absolute, relative * distance));
     }
 };
 
-/// A bound below a distance that was computed of a pair of models, or that a search with it as its
-/// bound left nothing nearer than.
+/// Rounds a distance down to a proven lower bound. The distance was computed for a pair of models,
+/// or is the bound within which a search has found nothing.
 ///
-/// Accuracy    certified: TrianglePairBatch says what a measured distance exceeds the true one by, and
-///             `reach` bounds its sizes: no two points of the models are farther apart, so that no
-///             vertex of one is farther from one of the other, and no edge longer than twice that.
+/// Accuracy    certified. TrianglePairBatch says by how much a measured distance exceeds the true
+///             one. `reach` bounds its sizes: no two points of the models are farther apart, so no
+///             two vertices of different models are, and no edge is longer than twice that.
 double rounded_down(double distance, double reach) {
     const double error = kTrianglePairError * 5 * reach + kTrianglePairUnderflow;
     const double bound = (distance - error) * (1 - 0x1p-50);
-    return bound > 0 ? bound : 0; // also where the reach, squared, is no number
+    return bound > 0 ? bound : 0; // also if the reach, squared, is not a number
 }
 
-/// Keeps the nearest pair of triangles below the bound; a contact ends the search with distance 0.
-///
-/// Pairs that cheap bounds do not rule out are collected, and measured eight at a time.
+/// Keeps the nearest pair of triangles below the bound. A contact ends the search with distance 0.
+/// Pairs that cheap bounds do not rule out are collected and measured in batches of eight.
 class NearestPairFinder : public LeafPairVisitor {
 public:
-    /// `first`: stop at the first pair within the bound. The slack is what the answer may exceed the
-    /// distance by.
+    /// `first`: stop at the first pair within the bound. `slack`: by how much the answer may exceed
+    /// the distance.
     NearestPairFinder(const PlacedPair& pair, double bound_sq, bool first, const Slack& slack = {})
         : first_(first), pair_(pair), leaves_(pair), slack_(slack), best_sq_(bound_sq) {}
 
@@ -84,7 +83,7 @@ public:
         return normalized_or_zero(points.b - points.a);
     }
 
-    /// Begins with a pair of triangles. Whether that answers everything.
+    /// Begins with a remembered pair of triangles. Returns whether it completes the search.
     bool begin_with(const TrianglePair& last) {
         if (!pair_.has(last))
             return false;
@@ -105,7 +104,7 @@ public:
         return bound * bound;
     }
 
-    /// Measures what is left. Call it after the traversal.
+    /// Measures the remaining pairs. Call it after the traversal.
     void finish() {
         if (!contact_)
             measure();
@@ -113,13 +112,13 @@ public:
 
     [[nodiscard]] bool found() const { return found_; }
     [[nodiscard]] const TrianglePair& indices() const { return best_.indices; }
-    /// As it was compared with others.
+    /// The squared distance as it was compared with others.
     [[nodiscard]] double measured_sq() const { return best_sq_; }
     void report(Gap& gap) const {
         if (!found_)
             return;
         const ClosestPoints points = triangle_triangle_distance(best_.a, best_.b);
-        // Surfaces apart by less than rounding are still apart.
+        // Surfaces that are apart by less than rounding are still apart.
         gap.distance =
             contact_ ? 0
                      : std::max(std::sqrt(points.distance_sq), std::numeric_limits<double>::min());
@@ -138,11 +137,12 @@ private:
     void measure() {
         if (collected_ == 0)
             return;
-        // What stands in unused lanes is measured too, and not looked at.
+        // Unused lanes are measured too, and ignored.
         double lanes_sq[TrianglePairBatch::kLanes];
         distance_sq(block_, lanes_sq);
         for (std::size_t lane = 0; lane < collected_; ++lane) {
-            // Of equal distances, that of the least triangles: so the order of the search is not seen.
+            // Of equal distances the smallest triangle pair wins, so that the result does not
+            // depend on the order.
             const double sq = lanes_sq[lane];
             if (sq < best_sq_ ||
                 (sq == best_sq_ && (found_ ? indices_[lane] < best_.indices : first_))) {
@@ -198,7 +198,7 @@ Gap distance(const PlacedPair& pair, const DistanceOptions& options) {
     const double reach = pair.reach();
     Gap gap;
     finder.report(gap);
-    // What the search compared and what is reported differ by rounding.
+    // The reported distance is computed anew, and differs from the compared one by rounding.
     if (!finder.found() || (gap.distance > 0 && gap.distance >= options.upper_bound)) {
         gap = gap_beyond(options.upper_bound, rounded_down(options.upper_bound, reach));
     } else {
@@ -252,7 +252,7 @@ bool within(const Model& a, const Transform& world_from_a, const Model& b,
     WarmStart* const warm_start = options.warm_start;
     require_not_negative(tolerance, "tolerance");
     const StopScope stopping(options.progress);
-    if (tolerance == 0) // whether they meet is exact, a distance is not
+    if (tolerance == 0) // collide is exact, a distance is not
         return collide(a, world_from_a, b, world_from_b, {.warm_start = warm_start}).meet();
     if (far_apart(a.data(), world_from_a, b.data(), world_from_b, tolerance))
         return false;

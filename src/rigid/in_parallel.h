@@ -14,13 +14,13 @@
 #include <string_view>
 #include <vector>
 
-/// What batches of queries have in common.
+/// Steps that batches of queries share.
 namespace abut {
 
-/// The error of the smallest index, whatever the order in which they come.
+/// Keeps the error with the smallest index, whatever the order in which errors arrive.
 class FirstError {
 public:
-    /// Whether this index need not be looked at any more.
+    /// Returns whether a smaller index already has an error, so that this one need not be computed.
     [[nodiscard]] bool is_behind(std::size_t index) const {
         return index > first_.load(std::memory_order_relaxed);
     }
@@ -41,10 +41,10 @@ private:
     std::optional<Error> error_;
 };
 
-/// query(i) for each of `count`; a query is far more work than handing it out. Reports the share that
-/// is done as one stage.
+/// Computes query(i) for each i < count in parallel. A query should be far more work than handing
+/// it out. Reports the share done as one stage.
 ///
-/// Errors      the first of the queries'; Error{interrupted}.
+/// Errors      the error of the smallest index; Error{interrupted}.
 template <typename Result, typename Query>
 std::vector<Result> in_parallel(const Progress& progress, std::string_view stage, std::size_t count,
                                 const Query& query) {
@@ -68,7 +68,8 @@ std::vector<Result> in_parallel(const Progress& progress, std::string_view stage
     return results;
 }
 
-/// Options of one query of many. A warm start is one thread's; what is reported is the share of all.
+/// The options of one query of a batch: without the warm start, which belongs to one thread, and
+/// without reports, which concern the whole batch.
 template <typename Options>
 Options of_each(Options options) {
     if constexpr (requires { options.warm_start; })

@@ -37,11 +37,11 @@ Gap minus_depth(const LocalPenetration& p) {
     return gap;
 }
 
-/// Where the steps ran out: the nearest, or deepest, points that were found, and what is proven by
-/// them and by the models' boxes.
+/// The answer if the steps are used up: the nearest or deepest points found so far, with the bounds
+/// that these and the models' boxes prove.
 ///
-/// In          at_most: a bound of the distance if no points were found; p: of a search for the
-///             depth, if there was one.
+/// In          at_most: bounds the distance if no points were found. p: the result of a search for
+///             the depth, if there was one.
 Gap undecided(const PlacedSolid& a, const PlacedSolid& b, const std::vector<Contact>& contacts,
               double at_most, const LocalPenetration& p, const SearchSteps& steps,
               Counters& counters) {
@@ -68,8 +68,8 @@ Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
                const Transform& world_from_b, const DistanceOptions& apart, double relative_error) {
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
-        // Flattened: the pair made copies in world coordinates. What is flat contains nothing, but
-        // the other may be a solid.
+        // A transform was flattened: the pair holds copies of the meshes in world coordinates. A
+        // flat model contains nothing, but the other may be a solid.
         return signed_gap(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, apart,
                           relative_error);
 

@@ -5,21 +5,22 @@
 
 namespace abut {
 
-/// Distance of two models, negative where they go into each other: a signed distance for solids.
+/// The signed distance of two models: negative if they interpenetrate.
 ///
-/// Apart: as `distance`. Touching: 0. Else minus the local penetration depth: of the points of
-/// either surface inside the other, a solid, the largest distance to its surface; so also where one
-/// lies inside the other without contact. The points and triangles are those that realise it.
+/// If the models are apart, the result is that of `distance`; if they only touch, it is 0.
+/// Otherwise it is minus the local penetration depth: the largest distance from a solid's surface
+/// that a point of the other surface has inside that solid. That includes a model that lies inside
+/// the other without contact. The points and triangles are those that realise the distance.
 ///
-/// In/out      `apart`: for models that are; returns the gap, `distance` negative inside.
-/// Degenerate  open shells contain nothing: where they cross, minus the depth of triangles as
-///             Depth::depth defines it, the points being one common point; so also where solids
-///             coincide. Flattened models contain nothing either.
-/// Accuracy    apart: to double rounding. Inside: |distance| is reached at the points, hence a
+/// In/out      `apart`: options for models that are apart.
+/// Degenerate  open shells contain nothing: if they cross, the depth is that of triangles as
+///             Depth::depth defines it, at one common point. Solids that coincide are handled in
+///             the same way. Flattened models contain nothing either.
+/// Accuracy    apart: to double rounding. Inside: |distance| is reached at the points, and so is a
 ///             lower bound of the depth (status bound_only), to the accuracy asked for unless the
-///             search's budget ends.
-/// Cost        a distance query where the models are apart, plus one point-in-solid test each way;
-///             else that of local_penetration.
+///             search's budget is used up.
+/// Cost        apart: a distance query and one point-in-solid test for each model; else that of
+///             local_penetration.
 Gap signed_gap(const Model& a, const Transform& world_from_a, const Model& b,
                const Transform& world_from_b, const DistanceOptions& apart = {},
                double relative_error = 0.01);

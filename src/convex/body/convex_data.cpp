@@ -13,7 +13,8 @@ namespace abut {
 
 namespace {
 
-/// Vertices below which a hull has no simpler one, and vertices of a hull for one of the next.
+/// Hulls with at most kCoarsest vertices are not simplified; a simpler hull has about 1/kReduction
+/// of the vertices.
 constexpr std::size_t kCoarsest = 48, kReduction = 4;
 /// Vertices of a hull on which walking from any start is cheap enough.
 constexpr std::size_t kEntry = 3000;
@@ -25,7 +26,6 @@ double reach_of(std::span<const Vec3> points) {
     return reach;
 }
 
-/// Of about so many cells.
 NormalTable make_table(const Polytope& polytope, std::size_t cells) {
     const double resolution = std::round(std::sqrt(static_cast<double>(cells)));
     return {polytope, std::max(1U, static_cast<std::uint32_t>(resolution))};
@@ -38,7 +38,7 @@ HullLevel make_level(std::span<const Vec3> points, std::span<const IndexTriangle
     return level;
 }
 
-/// The hull of those vertices of a level that are farthest along evenly spread directions.
+/// The hull of the vertices that are farthest along evenly spread directions.
 HullLevel coarser(const HullLevel& fine) {
     const std::vector<HullVertex>& all = fine.polytope.vertices;
     std::vector<std::uint32_t> kept = make_table(fine.polytope, all.size() / kReduction).vertices();
@@ -48,7 +48,7 @@ HullLevel coarser(const HullLevel& fine) {
     points.reserve(kept.size());
     for (const std::uint32_t v : kept)
         points.push_back(all[v].at);
-    // Vertices of a hull are vertices of the hull of some of them.
+    // Vertices of a hull are also vertices of the hull of any subset that holds them.
     const HullSurface hull = exact_hull(points);
     HullLevel level = make_level(points, hull.triangles);
     for (const std::uint32_t v : kept)
@@ -56,7 +56,7 @@ HullLevel coarser(const HullLevel& fine) {
     return level;
 }
 
-/// The largest distance of a vertex from a hull inside, a little more for rounding.
+/// The largest distance of a vertex from a hull inside, with a margin for rounding.
 double deviation(std::span<const Vec3> vertices, const HullLevel& level, double rounding) {
     double largest = 0;
     const Transform unmoved;
@@ -108,7 +108,7 @@ ConvexData::ConvexData(std::span<const Vec3> points) {
 
 void ConvexData::number_features() {
     const Polytope& p = levels[0].polytope;
-    // A face of a polygon is what lies on one side: the fan over the top comes first.
+    // A polygon has one face on each side; the triangles of the top come first.
     std::vector<std::uint32_t> face_of;
     if (dimension == 3)
         face_of = coplanar_groups(vertices, triangles);
@@ -136,8 +136,8 @@ void ConvexData::number_features() {
             edges.push_back({v, p.target(e)});
         }
 
-    // The border of a face: from an edge to the one that leaves its end and has the face on its
-    // left too.
+    // The border of a face: each edge is followed by the one that leaves its end and also has the
+    // face on its left.
     const std::uint32_t faces =
         face_of.empty() ? 0 : 1 + *std::max_element(face_of.begin(), face_of.end());
     std::vector<std::uint32_t> border(faces, kNoEdge);

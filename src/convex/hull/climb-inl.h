@@ -1,4 +1,4 @@
-// Climbs to farthest vertices, and looks at the neighbours of one: kernels.
+// Hill climbing to farthest vertices, and the highest neighbour of a vertex: SIMD kernels.
 
 // Included once for each target.
 #if defined(ABUT_CONVEX_CLIMB_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -29,7 +29,7 @@ using V = hn::VFromD<D>;
 constexpr std::size_t kLanes = hn::MaxLanes(D());
 constexpr std::size_t kVectors = std::size_t{2} * RingBatch::kEdges / kLanes; ///< of two batches
 
-/// In the order of `dot`, without fused operations: the same on all targets.
+/// The order of operations of `dot`, without fused operations: the same result on all targets.
 HWY_INLINE V dot(const V* direction, V x, V y, V z) {
     return hn::Add(hn::Add(hn::Mul(direction[0], x), hn::Mul(direction[1], y)),
                    hn::Mul(direction[2], z));
@@ -45,7 +45,7 @@ HWY_INLINE std::uint32_t first_of(const V* heights, std::size_t vectors, V most)
     return static_cast<std::uint32_t>(std::countr_zero(bits));
 }
 
-/// A climb that is under way.
+/// A climb in progress.
 class Climber {
 public:
     HWY_INLINE Climber(const Polytope& polytope, const Vec3& direction, std::uint32_t start)
@@ -56,14 +56,14 @@ public:
         lanes_[2] = hn::Set(d, direction.z);
     }
 
-    /// To the highest neighbour, if that is higher. Whether it was.
+    /// Moves to the highest neighbour if it is higher. Returns whether it moved.
     HWY_INLINE bool step() {
         const D d;
         const HullVertex& vertex = polytope_.vertices[vertex_];
         const RingBatch* const ring =
             polytope_.rings.data() + vertex.first_edge / RingBatch::kEdges;
-        // Two batches always: most vertices have no more neighbours, and to look at some of the next
-        // vertex costs less than a branch on their number.
+        // Always reads two batches: most vertices have no more neighbours, and reading some of the
+        // next vertex's costs less than a branch on their number.
         V heights[kVectors];
         for (std::size_t i = 0; i < kVectors; ++i) {
             const RingBatch& batch = ring[i * kLanes / RingBatch::kEdges];
@@ -106,7 +106,7 @@ private:
     double height_;
 };
 
-/// Looks at all vertices.
+/// The farthest vertex, by looking at all of them.
 HWY_INLINE std::uint32_t scan(const Polytope& polytope, const Vec3& direction) {
     const D d;
     const std::size_t count = polytope.columns.size() / 3;
@@ -127,9 +127,9 @@ HWY_INLINE std::uint32_t scan(const Polytope& polytope, const Vec3& direction) {
         hn::MinOfLanes(d, hn::IfThenElse(highest, hn::Min(place_of_most, last), last))));
 }
 
-/// The vertices that are farthest along a direction each: of small hulls by looking at all, else from
-/// where the tables of normals say. (Both climbs go on at once: what one waits for, the other need
-/// not.)
+/// The farthest vertex of each polytope along a direction of its own. Small hulls are scanned;
+/// others are climbed from the start that the table of normals gives. Both climbs run interleaved,
+/// so that neither waits for the other's memory.
 HWY_INLINE VertexPair farthest_two(const Polytope& a, const Vec3& direction_a, const Polytope& b,
                                    const Vec3& direction_b) {
     if (!a.columns.empty() && !b.columns.empty())
@@ -146,8 +146,9 @@ HWY_INLINE VertexPair farthest_two(const Polytope& a, const Vec3& direction_a, c
 /// The neighbour that is highest along a direction, and how much higher than the vertex.
 struct HighestNeighbour {
     double excess = 0;      ///< 0 if none is higher
-    std::uint32_t edge = 0; ///< to it; the first if none is higher
-    /// How much higher than the vertex any neighbour is: below 0 if lower. The least if asked for.
+    std::uint32_t edge = 0; ///< to that neighbour; the first edge if none is higher
+    /// How much higher than the vertex the lowest and the highest neighbour are; negative if lower.
+    /// `least` is computed only if asked for.
     double least = std::numeric_limits<double>::infinity(), most = -least;
 };
 
@@ -160,7 +161,7 @@ HWY_INLINE HighestNeighbour highest_neighbour(const Polytope& polytope, const Hu
     const RingBatch* const ring = polytope.rings.data() + vertex.first_edge / RingBatch::kEdges;
     constexpr std::uint32_t kTwo = 2 * RingBatch::kEdges;
     for (std::uint32_t first = 0; first < vertex.degree; first += kTwo) {
-        // Two batches at a time: the first again where there is no second.
+        // Two batches at a time: the first one twice if there is no second.
         const RingBatch* const one = ring + first / RingBatch::kEdges;
         const RingBatch* const batches[2] = {
             one, vertex.degree - first > RingBatch::kEdges ? one + 1 : one};

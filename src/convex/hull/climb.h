@@ -9,15 +9,15 @@
 
 namespace abut {
 
-/// A vertex of the polytope that is farthest along a direction, by going uphill from `start`.
+/// A vertex of the polytope that is farthest along a direction, by hill climbing from `start`.
 std::uint32_t climb(const Polytope& polytope, const Vec3& direction, std::uint32_t start);
 
-/// The same, from where the table of normals says.
+/// A farthest vertex, climbing from the start that the table of normals gives.
 inline std::uint32_t farthest(const Polytope& polytope, const Vec3& direction) {
     return climb(polytope, direction, polytope.starts.vertex(direction));
 }
 
-/// The vertices of a and b that are farthest along a direction and against it, found so.
+/// The vertex of a that is farthest along a direction, and that of b farthest against it.
 VertexPair farthest(const PolytopePair& pair, const Vec3& direction);
 
 } // namespace abut

@@ -9,7 +9,7 @@ namespace abut {
 
 namespace {
 
-/// One side of a triangle: its ends in ascending order, and the triangle's third corner.
+/// One side of a triangle: its ends in ascending order, and the triangle's third corner as `apex`.
 struct Side {
     std::uint32_t low, high, apex, triangle;
 };

@@ -9,11 +9,11 @@
 
 namespace abut {
 
-/// For each triangle of a convex surface a number that it shares with those that form one flat face
-/// with it: 0, 1, ... in the order of their first triangles.
+/// Numbers the flat faces of a convex surface. Returns for each triangle the number of its face: 0,
+/// 1, ... in the order of the faces' first triangles.
 ///
 /// In          a closed surface around a volume.
-/// Accuracy    exact: faces that are flat to rounding only stay apart.
+/// Accuracy    exact: faces that are coplanar only to rounding are separate.
 std::vector<std::uint32_t> coplanar_groups(std::span<const Vec3> points,
                                            std::span<const IndexTriangle> triangles);
 

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// Four points that span a volume; fewer where all points lie in a plane, on a line, at one place.
+/// Four points that span a volume. Fewer, if all points lie in a plane, on a line or at one place.
 std::vector<std::uint32_t> spanning_points(std::span<const Vec3> points) {
     const auto n = static_cast<std::uint32_t>(points.size());
-    // The farthest by a measure in floating point if the exact test takes it, else the first that
-    // the test takes.
+    // The point that is farthest by a floating-point measure, if the exact test accepts it;
+    // otherwise the first point that the test accepts.
     const auto pick = [&](const auto& measure, const auto& test) {
         std::uint32_t best = 0;
         double most = -1;
@@ -58,11 +58,11 @@ std::vector<std::uint32_t> spanning_points(std::span<const Vec3> points) {
     return {first, second, third, fourth};
 }
 
-/// Grows a tetrahedron by one point at a time: the faces that see it give way to a cone from their
-/// border.
+/// Grows a tetrahedron by one point at a time. The faces that see the point are replaced by a cone
+/// from their border.
 class QuickHull {
 public:
-    /// In          four points such that the last lies inside of the plane of the first three.
+    /// In          four points; the last lies on the inner side of the plane of the first three.
     QuickHull(std::span<const Vec3> points, const std::vector<std::uint32_t>& start)
         : points_(points), cone_from_(points.size(), kNone) {
         const std::uint32_t a = start[0], b = start[1], c = start[2], d = start[3];
@@ -95,10 +95,10 @@ private:
     struct Face {
         IndexTriangle corners;
         IndexTriangle across;               ///< across[k]: the face beyond the edge from corner k
-        std::vector<std::uint32_t> outside; ///< points that this face sees, and no earlier one
+        std::vector<std::uint32_t> outside; ///< points that this face sees and no earlier face does
         bool alive;
     };
-    /// An edge of a face that stays, seen from a face that goes: from, to.
+    /// An edge between a face that stays (`beyond`) and one that goes, directed as in the latter.
     struct HorizonEdge {
         std::uint32_t from, to, beyond;
     };
@@ -117,7 +117,7 @@ private:
             });
     }
 
-    /// Gives each point to the first of the faces from `first_face` on that sees it.
+    /// Gives each point to the first face, from `first_face` on, that sees it.
     void assign(std::span<const std::uint32_t> points, std::size_t first_face) {
         for (const std::uint32_t p : points)
             for (std::size_t f = first_face; f < faces_.size(); ++f)
@@ -127,7 +127,7 @@ private:
                 }
     }
 
-    /// Takes away the faces that see the point; what they saw is orphaned.
+    /// Removes the faces that see the point; the points that they saw become orphans.
     void remove_visible(std::uint32_t point, std::uint32_t seen_by) {
         horizon_.clear();
         orphans_.clear();
@@ -182,9 +182,10 @@ private:
     std::vector<HorizonEdge> horizon_;
 };
 
-/// Corners of the hull of points in a plane, counter-clockwise as seen along `axis` from its end.
+/// Corners of the hull of points in a plane, counter-clockwise as seen from the positive end of
+/// `axis`.
 ///
-/// Source      monotone chains [Andrew 1979].
+/// Source      monotone chain [Andrew 1979].
 std::vector<std::uint32_t> polygon_hull(std::span<const Vec3> points, int axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     std::vector<std::uint32_t> order(points.size());
@@ -203,7 +204,7 @@ std::vector<std::uint32_t> polygon_hull(std::span<const Vec3> points, int axis) 
                 hull.pop_back();
             hull.push_back(i);
         }
-        hull.pop_back(); // the first of the other chain
+        hull.pop_back(); // the first point of the other chain
     };
     add_chain(order);
     std::reverse(order.begin(), order.end());
@@ -211,8 +212,8 @@ std::vector<std::uint32_t> polygon_hull(std::span<const Vec3> points, int axis) 
     return hull;
 }
 
-/// A fan over the top from the first corner, and one over the bottom from the second: so no two
-/// triangles share both ends of a diagonal.
+/// A fan over the top from the first corner, and one over the bottom from the second, so that no
+/// two triangles share both ends of a diagonal.
 std::vector<IndexTriangle> cover_both_sides(const std::vector<std::uint32_t>& polygon) {
     const std::size_t n = polygon.size();
     std::vector<IndexTriangle> triangles;
@@ -224,7 +225,7 @@ std::vector<IndexTriangle> cover_both_sides(const std::vector<std::uint32_t>& po
 }
 
 HullSurface planar_hull(std::span<const Vec3> points, const std::vector<std::uint32_t>& span) {
-    // An axis along which the spanning triangle keeps an area.
+    // An axis along which the spanning triangle projects to a positive area.
     const auto area_along = [&](int axis) {
         return orient2d(points[span[0]], points[span[1]], points[span[2]], axis);
     };
@@ -273,8 +274,8 @@ HullSurface exact_hull(std::span<const Vec3> points) {
         return {1, {*low, *high}, {}};
     }
     HullSurface hull{3, extreme_vertices(points, QuickHull(points, span).run()), {}};
-    // A point on an edge or a face of the hull may have come before the corners around it: the hull
-    // of the extreme points has no such.
+    // A point on an edge or a face of the hull may have been added before the corners around it.
+    // The hull of the extreme points alone has no such vertex.
     std::vector<Vec3> corners;
     for (const std::uint32_t v : hull.vertices)
         corners.push_back(points[v]);

@@ -10,11 +10,11 @@ namespace {
 
 constexpr int kSteps = 48;
 
-/// Points below: dot(normal, p) < offset.
+/// The half-space dot(normal, p) < offset.
 struct Plane {
     Vec3 normal; ///< unit vector, rounded
     double offset = 0;
-    double error = 0; ///< of a depth below it, at most, for points of the box
+    double error = 0; ///< bounds the error of a depth below the plane, for points of the box
 };
 
 Box3 box_of(std::span<const Vec3> vertices) {
@@ -24,8 +24,8 @@ Box3 box_of(std::span<const Vec3> vertices) {
     return box;
 }
 
-/// Relative to the middle of the box, so that only its size rounds; none if a triangle has no area to
-/// rounding.
+/// The planes relative to the middle of the box, so that rounding depends on its size alone. Empty
+/// if a triangle has no area to rounding.
 std::vector<Plane> planes_of(std::span<const Vec3> vertices,
                              std::span<const IndexTriangle> triangles, const Vec3& middle,
                              double size) {
@@ -36,7 +36,7 @@ std::vector<Plane> planes_of(std::span<const Vec3> vertices,
                    v = vertices[t[2]] - middle - p;
         const Vec3 normal = cross(u, v);
         const double scale = 1 / length(normal);
-        // The normal is off by some roundings of |u| |v|, or by those of the corners on the way.
+        // The normal is off by a few roundings of |u| |v|, or by those of the corners' differences.
         const double error = 64 * 0x1p-53 * scale * size * size;
         if (!std::isfinite(scale))
             return {};
@@ -69,7 +69,7 @@ InnerBall inner_ball(std::span<const Vec3> vertices, std::span<const IndexTriang
         at = at - step * nearest->normal;
         step *= 0.9;
     }
-    // What the middle's own rounding, and that of a length, may take.
+    // Allow for rounding of the middle and of a length.
     best.radius = best.radius * (1 - 0x1p-40) - 0x1p-48 * (max_abs(best.middle) + size);
     return best.radius > 0 ? best : InnerBall{middle, 0};
 }

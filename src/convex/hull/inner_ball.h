@@ -9,17 +9,17 @@ namespace abut {
 
 struct InnerBall {
     Vec3 middle;
-    double radius = 0; ///< the hull holds all that is nearer to the middle: proven
+    double radius = 0; ///< proven: the hull holds all points that are nearer to the middle
 };
 
-/// A ball inside of a hull, not much smaller than the largest.
+/// A ball inside a hull, not much smaller than the largest.
 ///
 /// In          an exact hull of points that are all vertices: counter-clockwise triangles.
-/// Degenerate  radius 0 where the hull has no volume, or it or its triangles are so thin that no ball is
-///             found or rounding hides where their planes are; the middle of the box then.
-/// Cost        some dozen looks at all planes.
-/// Source      subgradient steps towards the Chebyshev centre: away from the nearest plane, by ever
-///             less.
+/// Degenerate  radius 0 and the middle of the box, if the hull has no volume, or if it or its
+///             triangles are so thin that rounding hides their planes.
+/// Cost        some dozen passes over all planes.
+/// Source      subgradient steps towards the Chebyshev centre: away from the nearest plane, by
+///             decreasing lengths.
 InnerBall inner_ball(std::span<const Vec3> vertices, std::span<const IndexTriangle> triangles);
 
 } // namespace abut

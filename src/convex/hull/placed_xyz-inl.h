@@ -1,4 +1,4 @@
-// A placed polytope, made ready for many vertices and directions.
+// A placed polytope in SIMD form, for many vertices and directions.
 
 // Included once for each target.
 #if defined(ABUT_CONVEX_PLACED_XYZ_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// Answers as PlacedPolytope does, to the bit.
+/// Gives the same values as PlacedPolytope, bit by bit.
 class PlacedXyz {
 public:
     HWY_INLINE explicit PlacedXyz(const PlacedPolytope& placed)

@@ -7,8 +7,8 @@ namespace abut {
 
 namespace {
 
-/// The side from -> to of a triangle whose third corner is `apex`: after the edge to `to`, the ring
-/// around `from` goes on with the one to `apex`.
+/// The side from -> to of a triangle whose third corner is `apex`. In the ring around `from`, the
+/// edge to `apex` follows that to `to`.
 struct Corner {
     std::uint32_t from, to, apex;
 };
@@ -25,7 +25,7 @@ std::vector<Corner> corners_by_vertex(std::span<const IndexTriangle> triangles) 
     return corners;
 }
 
-/// Puts the corners around one vertex, sorted by `to`, into the order in which they follow.
+/// Puts the corners around one vertex, which are sorted by `to`, into ring order.
 void order_ring(std::span<Corner> ring) {
     const std::vector<Corner> sorted(ring.begin(), ring.end());
     for (std::size_t i = 1; i < ring.size(); ++i)
@@ -46,7 +46,8 @@ void add_ring(std::span<const Vec3> points, std::span<const Corner> ring,
     }
 }
 
-/// So that two batches can be read where the last ring begins. What is there is a vertex too.
+/// Pads the rings so that two batches can be read where the last one begins. The padding repeats a
+/// vertex.
 void add_room(Polytope& polytope) {
     RingBatch last;
     const Vec3& at = polytope.vertices[0].at;

@@ -12,8 +12,8 @@
 
 namespace abut {
 
-/// Four neighbours of a vertex, coordinate by coordinate: two cache lines that are compared with a
-/// direction at once.
+/// Four neighbours of a vertex, coordinate by coordinate: two cache lines, which SIMD compares with
+/// a direction at once.
 struct alignas(64) RingBatch {
     static constexpr std::uint32_t kEdges = 4;
     std::array<double, kEdges> x{}, y{}, z{};
@@ -26,21 +26,22 @@ struct HullVertex {
     std::uint32_t first_edge = 0, degree = 0;
 };
 
-/// A convex polytope as a graph for walking: every vertex with the ring of its edges,
-/// counter-clockwise as seen from outside. The surface is triangulated, so that edges next to each
-/// other in a ring span a triangle; some triangles may be coplanar.
+/// A convex polytope as a graph for walking: each vertex with the ring of its edges,
+/// counter-clockwise as seen from outside. The surface is triangulated, so edges that are adjacent
+/// in a ring span a triangle; some triangles may be coplanar.
 ///
-/// An edge is numbered by its place in the rings, which holds where the other end is, so that a look
-/// at all neighbours of a vertex touches one run of memory. A ring begins with a batch; what is left
-/// of its last batch repeats its first edge, and has numbers that no edge has.
+/// An edge's number is its place in `rings`, which hold the position of its other end. So all
+/// neighbours of a vertex lie in one run of memory. Each ring begins with a new batch. Unused lanes
+/// of its last batch repeat its first edge; their numbers name no edge.
 ///
-/// A point is a vertex without edges, a segment two with one edge each, a polygon has triangles on
-/// both sides: nothing that walks needs to know.
+/// A point is a vertex without edges; a segment is two vertices with one edge each; a polygon has
+/// triangles on both sides. No walk needs to treat them apart.
 struct Polytope {
     std::vector<HullVertex> vertices;
-    std::vector<RingBatch> rings; ///< by vertex, then around it; one more at the end
+    std::vector<RingBatch> rings; ///< ordered by vertex, then around it; padded at the end
     NormalTable starts;
-    /// Of a small hull: all x, then all y, all z, padded to whole batches by the last vertex.
+    /// Only of a small hull: all x, then all y, all z, each padded to whole batches with the last
+    /// vertex.
     std::vector<double> columns;
 
     /// One more than the largest number of an edge.
@@ -69,7 +70,7 @@ struct Polytope {
     }
     [[nodiscard]] std::size_t bytes() const;
 
-    static constexpr std::size_t kSmall = 64; ///< vertices, of a hull that has columns
+    static constexpr std::size_t kSmall = 64; ///< vertices of a hull that has columns, at most
 };
 
 /// In          an exact hull (exact_hull.h) of points that are all vertices: counter-clockwise

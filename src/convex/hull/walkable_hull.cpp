@@ -10,18 +10,18 @@ namespace abut {
 
 namespace {
 
-/// Some roundings of a coordinate of 1.
+/// A few roundings of a coordinate of size 1.
 constexpr double kRounding = 0x1p-46;
 
-/// Finds vertices of a hull that the hull of the others holds to rounding. The surface around such a
-/// vertex is flat, or bends along an edge, by so little that no walk can tell which way.
+/// Finds vertices that lie within rounding of the hull of the others, where the surface is flat, or
+/// bends along an edge, by too little for a walk to tell the direction.
 class SuperfluousVertices {
 public:
     SuperfluousVertices(std::span<const Vec3> points, const HullSurface& hull, double rounding)
         : points_(points), hull_(hull), rounding_(rounding), dropped_(points.size()),
           kept_(points.size()) {}
 
-    /// Each but those that another one needs; none if there are no such.
+    /// Marks such vertices, except those that hold another marked one. Empty if there are none.
     std::vector<bool> find() && {
         for (const IndexTriangle& t : hull_.triangles)
             drop_from_segment(t);
@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    /// A corner that lies on the segment between the others.
+    /// Drops a corner that lies on the segment between the other two.
     void drop_from_segment(const IndexTriangle& t) {
         std::size_t k = 0; // the longest side runs from corner k
         const auto side = [&](std::size_t i) { return points_[t[(i + 1) % 3]] - points_[t[i]]; };
@@ -46,7 +46,7 @@ private:
             drop(middle, std::array{t[k], t[(k + 1) % 3]});
     }
 
-    /// A vertex in the middle of triangles that lie in one plane, and face one way.
+    /// Drops vertices that are surrounded by triangles in one plane which face the same way.
     void drop_from_faces() {
         std::vector<std::vector<std::uint32_t>> triangles_at(points_.size());
         for (std::uint32_t i = 0; i < hull_.triangles.size(); ++i)
@@ -114,7 +114,8 @@ HullSurface walkable_hull(std::span<const Vec3> all, LeftOutVertices* left_out) 
         hull = exact_hull(points);
         if (left_out != nullptr && round == 0)
             all_vertices = hull.vertices;
-        // In each round what is dropped is held by vertices that stay; twice for its own rounding.
+        // In each round, vertices that stay hold what is dropped. Doubled for the rounding of the
+        // test itself.
         if (left_out != nullptr)
             left_out->outside = 2 * round * kRounding * largest;
         const std::vector<bool> dropped =

@@ -8,21 +8,20 @@
 
 namespace abut {
 
-/// Vertices that a walkable hull does without.
 struct LeftOutVertices {
-    std::vector<std::uint32_t> vertices; ///< of the exact hull, by numbers of points
-    double outside = 0; ///< no such vertex lies farther from the walkable hull: a length
+    std::vector<std::uint32_t> vertices; ///< indices of points that are vertices of the exact hull
+    double outside = 0; ///< a length: no such vertex lies farther from the walkable hull
 };
 
-/// The convex hull of some points, less those vertices that the hull of the others holds to
-/// rounding: 2^-46 of the largest coordinate.
+/// The convex hull of some points, without those vertices that lie within rounding (2^-46 of the
+/// largest coordinate) of the hull of the others.
 ///
-/// Around such a vertex, the surface is flat or bends along an edge by so little that rounding hides
-/// on which side the body is: a walk would take it for the farthest vertex along the direction
-/// inwards too. Without them, a vertex that beats its neighbours is the best of all, in floating
-/// point as well.
+/// At such a vertex the surface is flat, or bends along an edge, by so little that rounding hides
+/// on which side the body is: a walk would take it for the farthest vertex along the inward
+/// direction too. Without them, a vertex that beats its neighbours is the farthest of all in
+/// floating point as well.
 ///
-/// In, errors, cost: as exact_hull, some times.
+/// In, errors, cost: as exact_hull, for several rounds.
 /// Out         `left_out`, if not null.
 HullSurface walkable_hull(std::span<const Vec3> points, LeftOutVertices* left_out = nullptr);
 

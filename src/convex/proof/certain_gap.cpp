@@ -11,7 +11,6 @@ namespace abut {
 
 namespace {
 
-/// Corners of a feature, in the pair's frame.
 struct FeatureCorners {
     std::array<std::uint32_t, 3> vertices{};
     std::size_t count = 1;
@@ -34,8 +33,8 @@ std::array<Vec3, 3> placed(const PlacedPolytope& side, const FeatureCorners& cor
     return points;
 }
 
-/// The direction across both features, as far as they have extent; it has a few roundings of its own,
-/// not those of a short gap. Zero where there is none.
+/// The direction perpendicular to both features, as far as they have extent. Its relative error is
+/// a few roundings, however short the gap. Zero where there is none.
 Vec3 across(const PolytopePair& pair, const WalkState& at) {
     const FeatureCorners a = corners_of(*pair.a.polytope, at.a),
                          b = corners_of(*pair.b.polytope, at.b);
@@ -58,15 +57,16 @@ Vec3 across(const PolytopePair& pair, const WalkState& at) {
     return dot(n, at.gap) < 0 ? -n : n;
 }
 
-/// Whether a segment passes through a triangle's inside wherever rounding may have moved their corners
-/// from, each by `error` at most.
+/// Returns whether a segment certainly passes through the inside of a triangle, if each corner is
+/// off by at most `error`.
 bool pierces_surely(const std::array<Vec3, 3>& t, const Vec3& q0, const Vec3& q1, double error) {
     const Vec3 e0 = t[0] - q0, e1 = t[1] - q0, e2 = t[2] - q0, d = q1 - q0;
     const double size_sq = std::max({length_sq(e0), length_sq(e1), length_sq(e2), length_sq(d)});
     const Vec3 c01 = cross(e0, e1), c12 = cross(e1, e2), c20 = cross(e2, e0);
     const double s0 = dot(d, c12), s1 = dot(d, c20), s2 = dot(d, c01);
     const double before = dot(e0, c12), after = before - (s0 + s1 + s2);
-    // A determinant of three differences, each off by 2 e at most, by 8 e size^2, and by its rounding.
+    // A determinant of three differences, each off by at most 2 e: off by 8 e size^2, and by its
+    // rounding.
     const double doubt = 64 * error * size_sq;
     const bool around =
         (s0 > doubt && s1 > doubt && s2 > doubt) || (s0 < -doubt && s1 < -doubt && s2 < -doubt);
@@ -74,7 +74,7 @@ bool pierces_surely(const std::array<Vec3, 3>& t, const Vec3& q0, const Vec3& q1
            ((before > doubt && after < -doubt) || (before < -doubt && after > doubt));
 }
 
-/// Corners of the difference of the features that a search has ended with.
+/// Corners of the difference, from the simplex or the features that a search ended with.
 DifferenceSimplex start_from(const PolytopePair& pair, const ClosestPointSearch& search) {
     if (search.simplex && search.simplex->count > 0)
         return *search.simplex;
@@ -87,7 +87,6 @@ DifferenceSimplex start_from(const PolytopePair& pair, const ClosestPointSearch&
     return start;
 }
 
-/// The feature of a polytope that is nearest to a point.
 HullFeature nearest_feature(const ConvexData& body, const Transform& world, const Vec3& point) {
     const Polytope& p = body.levels[0].polytope;
     if (body.triangles.empty())
@@ -113,7 +112,7 @@ HullFeature nearest_feature(const ConvexData& body, const Transform& world, cons
     return {from, edge, nearest.dimension == 1 ? Feature::edge : Feature::face};
 }
 
-/// The feature that has these corners, or the one nearest to the point.
+/// The feature that has these corners; if there is none, the one nearest to the point.
 HullFeature feature_of(const ConvexData& body, const Transform& world,
                        std::span<const std::uint32_t> corners, const Vec3& point) {
     const Polytope& p = body.levels[0].polytope;
@@ -129,7 +128,7 @@ HullFeature feature_of(const ConvexData& body, const Transform& world,
     return nearest_feature(body, world, point);
 }
 
-/// Corners that the polytopes know.
+/// The corners of a simplex whose vertices the polytopes have.
 DifferenceSimplex known_part(const PolytopePair& pair, const DifferenceSimplex& simplex) {
     DifferenceSimplex known;
     for (std::uint32_t i = 0; i < simplex.count; ++i)
@@ -156,7 +155,7 @@ CertainDistance decide(const PlacedConvexPair& bodies, const PolytopePair& pair,
     at.end = found.meeting ? WalkEnd::meeting : WalkEnd::closest;
     search.simplex.reset();
     if (found.meeting) {
-        // The next query with this warm start begins with the same part of the difference.
+        // The next query with this warm start begins with this simplex.
         const DifferenceSimplex known = known_part(pair, found.simplex);
         if (known.count > 0)
             search.simplex = known;
@@ -183,7 +182,7 @@ double highest(const PlacedPolytope& side, std::span<const Vec3> left_out, const
 
 double certain_distance(const PolytopePair& pair, std::span<const Vec3> left_out_a,
                         std::span<const Vec3> left_out_b, double rounding, const WalkState& at) {
-    // Two roundings for the heights, one for their quotient, and that of the positions.
+    // Two roundings for the heights, one for their quotient, one for the positions.
     const double error = 4 * (rounding + world_rounding(pair));
     double bound = -std::numeric_limits<double>::infinity();
     for (const Vec3& n : {at.gap, across(pair, at)}) {

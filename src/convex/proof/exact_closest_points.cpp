@@ -38,9 +38,9 @@ private:
         at_[count_++] = difference_.at(corner);
     }
 
-    /// Keeps those corners whose hull has the point nearest to the origin in its inside: the only
-    /// ones, up to others for the same point, with positive weights and no corner nearer along the
-    /// gap.
+    /// Keeps the corners whose hull has the point nearest to the origin in its inside. They are
+    /// recognised by positive weights and by no other corner being nearer along the gap; only other
+    /// sets for the same point share these properties.
     void reduce() {
         const std::uint32_t all = (1U << count_) - 1;
         for (int size = static_cast<int>(count_); size >= 1; --size)
@@ -61,7 +61,8 @@ private:
         count_ = kept;
     }
 
-    /// Sets the gap and the weights, in the order of the subset, if it holds the nearest point.
+    /// Returns whether the subset holds the nearest point. Sets the gap and the weights, in the
+    /// subset's order.
     bool is_nearest(std::uint32_t subset) {
         std::array<const Vector*, 4> p{};
         std::size_t n = 0;
@@ -152,7 +153,7 @@ private:
         if (result.meeting)
             return;
         result.distance = measure();
-        // Also where that is below what doubles resolve.
+        // A distance below the range of doubles must not become 0.
         if (!(result.distance > 0))
             result.distance = std::numeric_limits<double>::denorm_min();
         result.at_least = std::max(0.0, result.distance * (1 - 0x1p-48) -
@@ -160,7 +161,7 @@ private:
         result.gap = result.distance * normalized_or_zero(direction_of(gap_));
     }
 
-    /// The length of the gap; to 2^-49.
+    /// The length of the gap, to 2^-49 of itself.
     [[nodiscard]] double measure() const {
         const int unit = difference_.exponent();
         const auto ratio = [&](const Int& squared, const Int& by_squared) {
@@ -190,8 +191,8 @@ private:
     std::array<VertexPair, 4> corners_{};
     std::array<Vector, 4> at_{};
     std::uint32_t count_ = 0;
-    std::array<Int, 4> weights_{}; ///< of the nearest point, of any sum
-    Vector gap_;                   ///< from the origin to that point, of any positive length
+    std::array<Int, 4> weights_{}; ///< of the nearest point, not normalised
+    Vector gap_;                   ///< from the origin to that point, times some positive factor
 };
 
 } // namespace

@@ -38,10 +38,10 @@ private:
     };
     struct Face {
         std::array<std::uint32_t, 3> corners{};
-        std::array<Side, 3> across{}; ///< across[k]: beyond the edge from corner k
+        std::array<Side, 3> across{}; ///< across[k]: the side beyond the edge from corner k
         Vector normal;
-        Int height{};      ///< of the plane along the normal
-        double offset = 0; ///< the plane's distance; to 2^-49
+        Int height{};      ///< of the plane: normal . p for each of its points p
+        double offset = 0; ///< the plane's distance, to 2^-49 of itself
         bool alive = true;
     };
 
@@ -51,8 +51,8 @@ private:
         cone_.push_back(0);
     }
 
-    /// Adds the farthest corner along a direction if that, or against it, leads out of the hull of
-    /// those there are. In: the direction is perpendicular to that.
+    /// Adds the farthest corner along or against a direction, if it lies outside the hull of the
+    /// corners so far. Returns whether it did. In: the direction is perpendicular to that hull.
     bool add_beyond(const Vector& direction) {
         if (is_zero(direction))
             return false;
@@ -66,7 +66,7 @@ private:
         return false;
     }
 
-    /// Makes four corners that span a volume. False if all of the difference is flat: then its plane
+    /// Completes the corners to four that span a volume. False if the difference is flat: its plane
     /// holds the origin, and is the answer.
     bool complete(NearestBoundary& flat) {
         const Vector axes[3] = {
@@ -135,7 +135,7 @@ private:
 
     static constexpr std::uint32_t next(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
 
-    /// Faces that see the corner, or have it in their planes, make way for a cone.
+    /// Replaces the faces that see the corner, or have it in their planes, by a cone.
     void grow(const VertexPair& vertices, std::uint32_t seen_by) {
         const auto point = static_cast<std::uint32_t>(at_.size());
         add_corner(vertices);
@@ -167,7 +167,8 @@ private:
             join({f, 1}, {cone_[faces_[f].corners[1]], 2});
     }
 
-    /// The foot of the origin on the face's plane, in this face or in one that is coplanar with it.
+    /// Writes the foot of the origin on the face's plane, which lies in this face or in a coplanar
+    /// one.
     void finish(const Face& face, NearestBoundary& nearest) const {
         nearest.normal = normalized_or_zero(direction_of(face.normal));
         nearest.depth = face.offset;
@@ -206,7 +207,7 @@ private:
     IntegerDifference<Int> difference_;
     std::vector<VertexPair> vertices_;
     std::vector<Vector> at_;
-    std::vector<std::uint32_t> cone_; ///< while a cone is built: its face that begins at the corner
+    std::vector<std::uint32_t> cone_; ///< by corner: the face of the cone that begins there
     std::vector<Face> faces_;
 };
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-/// The difference b - a of two sets of points in integers over one power of two, without rounding.
+/// The difference b - a of two point sets, in integers times one power of two, without rounding.
 namespace abut {
 
 using Int512 = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
@@ -22,9 +22,9 @@ using Int512 = boost::multiprecision::number<boost::multiprecision::cpp_int_back
 using IntAny = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
                                              boost::multiprecision::et_off>;
 
-/// A value as a double times a power of two: no integer is too large for it.
+/// A value as a double times a power of two, which may be beyond the range of doubles.
 struct ScaledDouble {
-    double mantissa = 0; ///< 0, or of a size in [1/2, 1)
+    double mantissa = 0; ///< 0, or of magnitude in [1/2, 1)
     int exponent = 0;
 };
 
@@ -82,7 +82,7 @@ bool is_zero(const IntVec3<Int>& a) {
 
 /// The vector in doubles, scaled by some power of two so that it neither over- nor underflows.
 ///
-/// Accuracy    each coordinate is within 2^-51 of the largest one's size.
+/// Accuracy    each coordinate is within 2^-51 of the largest magnitude.
 template <class Int>
 Vec3 direction_of(const IntVec3<Int>& v) {
     const ScaledDouble x = scaled_double(v.x), y = scaled_double(v.y), z = scaled_double(v.z);
@@ -96,7 +96,7 @@ Vec3 direction_of(const IntVec3<Int>& v) {
     return {value(x), value(y), value(z)};
 }
 
-/// Bits of integers that hold all coordinates of the points, and the exponent of their unit.
+/// The bits that hold all coordinates of the points as integers, and the exponent of their unit.
 struct IntegerGrid {
     explicit IntegerGrid(const PlacedPoints& points) {
         int largest = std::numeric_limits<int>::min();
@@ -119,11 +119,11 @@ struct IntegerGrid {
     int least = 0, bits = 0;
 };
 
-/// Largest IntegerGrid::bits for which products of four differences of coordinates, and the sums of
-/// some dozen such products, fit in an integer of the type.
+/// The largest IntegerGrid::bits for which products of four coordinate differences, and sums of
+/// some dozen such products, fit in the type.
 inline constexpr int kBitsOf128 = 28, kBitsOf512 = 124;
 
-/// Corners of the difference by numbers of points, and the farthest of them along a direction.
+/// Corners of the difference, named by numbers of points; finds the farthest one along a direction.
 template <class Int>
 class IntegerDifference {
 public:
@@ -139,7 +139,7 @@ public:
     }
     [[nodiscard]] int exponent() const { return least_; }
 
-    /// The corner that is farthest along a direction: exactly.
+    /// The corner that is farthest along a direction, exactly.
     [[nodiscard]] VertexPair farthest(const Vector& direction) const {
         const Vec3 d = direction_of(direction);
         return {farthest(points_->a, -direction, -d), farthest(points_->b, direction, d)};
@@ -158,7 +158,7 @@ private:
         return {integer(p.x), integer(p.y), integer(p.z)};
     }
 
-    /// Doubles leave few candidates, integers choose among them.
+    /// Doubles select a few candidates; integers decide among them.
     [[nodiscard]] std::uint32_t farthest(const std::vector<Vec3>& points, const Vector& direction,
                                          const Vec3& d) const {
         double most = -std::numeric_limits<double>::infinity(), extent = 0;
@@ -169,13 +169,15 @@ private:
             most = std::max(most, heights_[i]);
             extent = std::max(extent, max_abs(p));
         }
-        // Each product loses a few roundings of a coordinate, whose direction's size is at most 1.
+        // Each product loses a few roundings of a coordinate; the direction's coordinates are at
+        // most 1.
         const double error = 0x1p-47 * extent + 64 * std::numeric_limits<double>::denorm_min();
         std::uint32_t best = 0;
         bool found = false;
         Int best_height{};
         for (std::uint32_t i = 0; i < points.size(); ++i) {
-            // A height that is not a number is looked at too: differences of coordinates may overflow.
+            // Also a candidate if its height is not a number: differences of coordinates may
+            // overflow.
             if (heights_[i] < most - error)
                 continue;
             Int height = dot(direction, integer(points[i]));
@@ -191,7 +193,7 @@ private:
     mutable std::vector<double> heights_;
 };
 
-/// Calls f.template operator()<Int>() with integers that are wide enough.
+/// Calls f.template operator()<Int>() with an integer type that is wide enough.
 template <class F>
 auto with_integers(const IntegerGrid& grid, const F& f) {
     if (grid.bits <= kBitsOf128)

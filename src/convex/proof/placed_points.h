@@ -10,8 +10,8 @@
 
 namespace abut {
 
-/// All vertices of the hulls of two bodies, each placed as abut/types.h says: what "exact" refers to.
-/// A body's own vertices come first, then those that its polytope does without.
+/// All vertices of the hulls of two bodies, placed as abut/types.h says: the positions that "exact"
+/// refers to. A body's own vertices come first, then those that its polytope leaves out.
 struct PlacedPoints {
     std::vector<Vec3> a, b;
 };

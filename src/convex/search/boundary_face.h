@@ -10,20 +10,20 @@
 
 namespace abut {
 
-/// A triangle of a growing boundary (growing_boundary-inl.h), counter-clockwise as seen from outside.
+/// A triangle of a growing boundary (growing_boundary-inl.h), counter-clockwise seen from outside.
 struct BoundaryFace {
-    BoundaryFace() {} // Not zeroed as a whole: it is written field by field.
+    BoundaryFace() {} // Leaves members unset: they are written one by one.
 
     std::array<std::uint32_t, 3> corners;
     std::uint32_t gone;
     std::array<DifferencePolytope::Side, 3> across; ///< across[k]: beyond the edge from corner k
     Vec3 normal;                                    ///< of any length
-    double height;                                  ///< of the plane along the normal
-    double slack;                                   ///< height that is rounding
-    double offset_sq; ///< the plane's distance from the origin, times its size
+    double height;                                  ///< normal . p for each point p of the plane
+    double slack;     ///< heights above the plane that may be rounding
+    double offset_sq; ///< the plane's signed squared distance
 
     [[nodiscard]] bool alive() const { return gone == 0; }
-    /// It is never the nearest then.
+    /// Removes the face; its infinite offset keeps it from being the nearest.
     void remove() { gone = 1, offset_sq = std::numeric_limits<double>::infinity(); }
 };
 

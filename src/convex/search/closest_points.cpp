@@ -37,11 +37,12 @@ std::vector<std::uint32_t> vertices_of(const DifferenceSimplex& simplex,
 
 namespace {
 
-/// After so many pairs of features a search by the tables of normals may be shorter.
+/// Measured feature pairs after which a restart from the tables of normals may be shorter.
 constexpr std::uint32_t kLeap = 8;
 
-/// To the vertices that face each other along the gap, if they are nearer. If there is no room
-/// between them along it, the polytopes are likely to meet, which simplices find sooner: stuck.
+/// Moves to the vertices that face each other along the gap, if they are nearer. If they have
+/// passed each other along it, the polytopes are likely to meet, and the walk is set to stuck: GJK
+/// finds that sooner.
 void leap(const PolytopePair& pair, WalkState& at) {
     const std::uint32_t a = pair.a.polytope->starts.vertex(pair.a.pulled_back(at.gap)),
                         b = pair.b.polytope->starts.vertex(pair.b.pulled_back(-at.gap));
@@ -61,8 +62,8 @@ void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
     search.simplex = found.simplex;
     WalkState& at = search.at;
     if (!found.meeting) {
-        // The closest features, and the digits that weights lose, come from a walk that begins at
-        // the vertices nearest to them.
+        // A walk from the vertices of the heaviest corner finds the closest features, and the
+        // digits of the distance that weights lose.
         const auto& weights = found.simplex.weights;
         const auto* heaviest =
             std::max_element(weights.begin(), weights.begin() + found.simplex.count);

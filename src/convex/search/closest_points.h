@@ -11,34 +11,34 @@
 
 namespace abut {
 
-/// The closest points of two polytopes, or a common one.
+/// The closest points of two polytopes, or a common point.
 struct ClosestPointSearch {
-    /// Not constant: a constant object is zeroed as a whole, which takes some 30 cycles.
+    /// User-provided, so that the object is not zeroed first, which takes some 30 cycles.
     ClosestPointSearch() {}
 
-    /// Where it begins, then the closest points. `end` is meeting or closest; `proven` says of either
-    /// whether that is so without a doubt.
+    /// The features to begin with; then the closest points. At the end `at.end` is `meeting` or
+    /// `closest`, and `at.proven` tells whether that is certain.
     WalkState at;
-    std::optional<DifferenceSimplex> simplex; ///< if meeting, and found so: it proves that
-    std::uint32_t simplices = 0;              ///< that were measured
+    std::optional<DifferenceSimplex> simplex; ///< holds the origin, if GJK found the meeting
+    std::uint32_t simplices = 0;              ///< simplices measured
 };
 
-/// Walks from a pair of features, and leaves the cases in which walking ends early to the search by
-/// simplices.
+/// Walks from a pair of features (voronoi_marching.h), and continues with GJK (gjk.h) if the walk
+/// gets stuck.
 ///
 /// In/out      `search.at` and `rounding` as for `walk`.
 void find_closest_points(const PolytopePair& pair, double rounding, ClosestPointSearch& search);
 
-/// The same from `search.simplex`, as of polytopes that meet and may have moved since.
+/// Searches with GJK from `search.simplex`: for polytopes that probably meet, as in the last query.
 void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
                                       ClosestPointSearch& search);
 
-/// The feature whose corners, or some of them, the vertices are. In a face of many corners these
-/// need not be neighbours: then the triangle next to the first that is flattest as seen along n.
+/// The feature whose corners include the vertices. In a face of many corners the vertices need not
+/// be neighbours; then the triangle at the first vertex that is flattest as seen along n.
 HullFeature spanned_feature(const Polytope& polytope, const Vec3& n,
                             std::span<const std::uint32_t> vertices);
 
-/// The distinct vertices of one side of a simplex.
+/// The distinct vertices of polytope a or b that a simplex uses.
 std::vector<std::uint32_t> vertices_of(const DifferenceSimplex& simplex,
                                        std::uint32_t VertexPair::*side);
 

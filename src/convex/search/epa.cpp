@@ -15,9 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// After so many corners the bounds have to do as they are.
+/// Limit on added corners; the bounds reached by then are returned.
 constexpr std::uint32_t kMostSteps = 2000;
-/// Faces of a polytope that is worth to be remembered.
+/// A polytope of more faces is not remembered.
 constexpr std::uint32_t kMostKept = 160;
 constexpr std::uint32_t kNoNumber = 0xffffffffU;
 
@@ -29,12 +29,13 @@ public:
         open_.resize(64);
     }
 
-    /// True if it holds the origin. Else the difference is flat, and this is the answer.
+    /// Begins with a tetrahedron around the origin. False if the difference is flat; `flat` is the
+    /// answer then.
     bool begin(const DifferenceSimplex& start, NearestBoundary& flat) {
         if (!complete(start, flat))
             return false;
         const auto corner = [&](std::uint32_t i) HWY_ATTR { return boundary_.at(i); };
-        // Their order is what counter-clockwise depends on.
+        // Its corners' order decides which faces are counter-clockwise.
         const Vec3 normal = cross(corner(1) - corner(0), corner(2) - corner(0));
         const bool turned = dot(normal, corner(3) - corner(0)) > 0;
         const std::uint32_t one = turned ? 2 : 1, two = turned ? 1 : 2;
@@ -46,7 +47,7 @@ public:
         return true;
     }
 
-    /// False if the faces do not go around the origin.
+    /// Begins with a remembered polytope. False if its faces do not go around the origin.
     bool recall(const DifferencePolytope& last) {
         recalled_ = true;
         for (const VertexPair& vertices : last.corners) {
@@ -63,7 +64,8 @@ public:
         return open_new_faces();
     }
 
-    /// False if what was recalled has come to have faces that the origin is not below.
+    /// Adds corners until both bounds agree. False if a recalled polytope got a face that the
+    /// origin is not below.
     bool expand(NearestBoundary& nearest) {
         open_new_faces();
         for (;;) {
@@ -137,8 +139,8 @@ private:
         return is_one;
     }
 
-    /// Makes four corners of a simplex that may have fewer, or is flat. False if no corner lies beyond
-    /// a plane through the origin: then `flat` is the answer.
+    /// Completes a simplex of fewer corners, or a flat one, to four corners. False if no corner
+    /// lies beyond some plane through the origin: then `flat` is the answer.
     bool complete(const DifferenceSimplex& start, NearestBoundary& flat) {
         for (std::uint32_t i = 0; i < start.count; ++i)
             boundary_.add_corner(placed(start.corners[i]), start.corners[i]);
@@ -147,7 +149,7 @@ private:
             const Vec3 normal = cross(at(1) - at(0), at(2) - at(0));
             if (std::abs(dot(normal, at(3) - at(0))) > rounding_ * length(normal))
                 return true;
-            // Flat: some three corners of it hold the origin too.
+            // The simplex is flat: three of its corners hold the origin too.
             std::uint32_t least = 0;
             double least_sq = std::numeric_limits<double>::infinity();
             for (std::uint32_t i = 0; i < 4; ++i) {
@@ -177,9 +179,9 @@ private:
         return true;
     }
 
-    /// Faces that came since the last time: those that may be the nearest. False if one of a polytope
-    /// that was recalled has the origin not below it. (Values are chosen, here and below: branches
-    /// would be coins'.)
+    /// Opens the faces that were added since the last call and that may be the nearest. False if
+    /// the polytope was recalled and the origin is not below one of them. (Here and below, values
+    /// are selected without branches, which could not be predicted.)
     HWY_INLINE bool open_new_faces() {
         const auto& faces = boundary_.faces();
         if (open_.size() < open_count_ + (faces.size() - seen_))
@@ -194,7 +196,7 @@ private:
         return around;
     }
 
-    /// Takes the nearest face from those that are open, and forgets those that will not be it.
+    /// Returns the nearest open face. Drops faces beyond the upper bound.
     HWY_INLINE std::uint32_t nearest_face() {
         std::size_t kept = 0, nearest = 0;
         double least = std::numeric_limits<double>::infinity();
@@ -210,8 +212,8 @@ private:
         return open_[nearest];
     }
 
-    /// Where a recalled polytope is dented along an edge of the face, with the corner on the other
-    /// side: the edge that fills the dent takes its place. Whether there was one.
+    /// If the recalled polytope has a dent along an edge of the face, with `corner` across that
+    /// edge, flips the edge, which fills the dent. Returns whether there was one.
     bool fill_dent(const VertexPair& corner, std::uint32_t face) {
         for (std::uint32_t k = 0; k < 3; ++k)
             if (boundary_.corner_across({face, k}).vertices == corner) {
@@ -221,8 +223,8 @@ private:
         return false;
     }
 
-    /// The point of the plane, which lies in this face or in one that is coplanar with it. Whether it
-    /// lies in this one.
+    /// Writes the weights of the plane's nearest point, which lies in this face or in a coplanar
+    /// one. Returns whether it lies in this one.
     bool finish(const GrowingBoundary::Face& face, double offset, NearestBoundary& nearest) const {
         const Vec3 point = offset * nearest.normal;
         double least_sq = std::numeric_limits<double>::infinity();
@@ -247,8 +249,8 @@ private:
         return false;
     }
 
-    /// Proves both bounds; docs/convex.md, "Proofs". In: the nearest face, which has `nearest` but for
-    /// what is set here.
+    /// Proves both bounds (docs/convex.md, "Proofs"). `f` is the nearest face; `nearest` is
+    /// complete but for the flags and `at_least`.
     HWY_INLINE void prove(std::uint32_t f, bool is_foot_inside, NearestBoundary& nearest) const {
         const double at_least =
             least_along(boundary_.faces()[f], nearest.normal) - 4 * all_rounding_;
@@ -262,9 +264,9 @@ private:
                               (is_foot_inside || is_foot_near(boundary_.faces()[f], nearest)));
     }
 
-    /// Whether the foot of the origin lies in a face's plane not much farther from it than it is
-    /// large, as in the other half of a parallelogram: what rounding turns the plane by may then be as
-    /// much there as at its corners.
+    /// Returns whether the foot of the origin in a face's plane lies within about the face's size
+    /// of it, as in the other half of a parallelogram. Rounding that turns the plane then moves it
+    /// there about as much as at the corners.
     [[nodiscard]] HWY_NOINLINE bool is_foot_near(const GrowingBoundary::Face& face,
                                                  const NearestBoundary& nearest) const {
         const Vec3 foot = nearest.depth * nearest.normal;
@@ -284,13 +286,13 @@ private:
                          dot(direction, boundary_.at(face.corners[2]))});
     }
 
-    /// Whether all faces turn their inner side to the origin, wherever rounding may have moved their
-    /// corners from, and no point of them is nearer to it than a length.
+    /// Returns whether, whatever rounding has done to the corners, all faces turn their inner side
+    /// to the origin and no point of a face is nearer to it than `radius`.
     [[nodiscard]] HWY_INLINE bool is_around(double radius) const {
         double size_sq = 0;
         for (const GrowingBoundary::Corner& corner : boundary_.corners())
             size_sq = std::max(size_sq, length_sq(corner.at));
-        // Twice what rounding may have added to a height or to the radius times the normal.
+        // Twice what rounding may have added to a height, or to the radius times the normal.
         const double doubt = 64 * all_rounding_ * size_sq, radius_sq = radius * radius;
         bool around = size_sq > 0x1p-600;
         for (const GrowingBoundary::Face& face : boundary_.faces()) {
@@ -300,16 +302,18 @@ private:
         }
         return around;
     }
-    /// The same of a face whose plane is nearer, or too short to tell: by its corners, of which the
-    /// face's points are mixtures.
+    /// The test of `is_around` for a face whose plane is nearer than the radius, or whose normal is
+    /// too short to tell. Points of a face are convex combinations of its corners, so the corners
+    /// decide.
     [[nodiscard]] HWY_NOINLINE bool is_beyond(const GrowingBoundary::Face& face, double doubt,
                                               double radius) const {
         return face.height > doubt &&
                least_along(face, normalized_or_zero(face.normal)) >= radius + 3 * all_rounding_;
     }
 
-    /// Whether a face of the polytope surely lies in one of the difference: a triangle of one body at
-    /// a vertex of the other, or two edges. By the neighbours, as a walk proves a distance.
+    /// Returns whether a face of the polytope certainly lies in a face of the difference: a
+    /// triangle of one body and a vertex of the other, or two edges. Decided by the neighbours, as
+    /// for a walk's distance.
     [[nodiscard]] bool is_facet(std::uint32_t f, const Vec3& normal) const {
         const GrowingBoundary::Face& face = boundary_.faces()[f];
         std::uint32_t a[3], b[3];
@@ -338,8 +342,8 @@ private:
                behind_b * behind_b * height_sq >= least_behind;
     }
 
-    /// How much further along a direction than a vertex, an edge or a triangle a neighbour lies at
-    /// most; below 0 if all lie behind; 0 if the vertices are no such.
+    /// The largest excess of a neighbour along a direction over a vertex, an edge or a triangle:
+    /// negative if all neighbours lie behind; 0 if the vertices are no such feature.
     [[nodiscard]] HWY_INLINE static double behind(const PlacedXyz& side, const Vec3& n,
                                                   const std::uint32_t* vertices,
                                                   std::uint32_t count) {
@@ -357,7 +361,7 @@ private:
         const std::uint32_t left = p.after(v, edge), right = p.before(v, edge);
         if (count == 2)
             return std::max(excess(left), excess(right));
-        // Of a triangle, which has all behind it on one side: that of another neighbour.
+        // All neighbours of a triangle lie on one side of it: one of them tells which.
         if (p.target(left) == vertices[2])
             return excess(p.after(v, left));
         return p.target(right) == vertices[2] ? excess(left) : 0;
@@ -365,13 +369,13 @@ private:
 
     PlacedXyz a_, b_;
     double rounding_;
-    double all_rounding_;  ///< that of positions in the world's frame too
+    double all_rounding_;  ///< rounding_ with that of positions in the world's frame
     bool is_whole_ = true; ///< the boundary is closed
-    double upper_sq_ = std::numeric_limits<double>::infinity(); ///< of the depth's square
+    double upper_sq_ = std::numeric_limits<double>::infinity(); ///< bound of depth squared
     GrowingBoundary boundary_;
-    std::vector<std::uint32_t> open_; ///< faces that may be the nearest, some that went, and room
-    std::size_t open_count_ = 0;      ///< without the room
-    std::size_t seen_ = 0;            ///< faces that were looked at
+    std::vector<std::uint32_t> open_; ///< faces that may be the nearest; some are removed or unused
+    std::size_t open_count_ = 0;      ///< used slots
+    std::size_t seen_ = 0;            ///< number of faces that open_new_faces has seen
     bool recalled_ = false;
 };
 

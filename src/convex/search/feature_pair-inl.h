@@ -1,4 +1,4 @@
-// Closest points of two features of convex polytopes.
+// The closest points of two features of convex polytopes.
 
 // Included once for each target.
 #if defined(ABUT_CONVEX_FEATURE_PAIR_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -23,24 +23,24 @@ namespace abut::HWY_NAMESPACE {
 
 using XyzTriangle = std::array<Xyz, 3>;
 
-/// Corners of a feature that hold the closest point: bit 0 its vertex, bit 1 the end of its edge,
-/// bit 2 the end of the next edge.
+/// The corners of a feature that hold the closest point, as bits: bit 0 its vertex, bit 1 the end
+/// of its edge, bit 2 the end of the next edge.
 using Corners = std::uint32_t;
 
-/// Closest points of two features, and what of each holds them.
+/// The closest points of two features, and the corners that hold them.
 struct Measured {
     Xyz point_a, gap;
     double distance_sq = std::numeric_limits<double>::infinity();
     Corners a = 1, b = 1;
-    /// How far rounding of the corners may turn the gap between the features' lines and planes: by its
-    /// share of the root of this, an edge's length or a triangle's height. 0: that is not known.
-    /// kOfEdges: as spread_of_edges says.
+    /// The square of a length s: an edge's length or a triangle's height. Rounding of the corners
+    /// by e turns the gap between the features' lines or planes by at most about e / s. 0: not
+    /// known. kOfEdges: to be computed by spread_of_edges.
     double spread_sq = std::numeric_limits<double>::infinity();
 };
 
 inline constexpr double kOfEdges = -1;
 
-/// Two edges, from end to end.
+/// Two edges as vectors.
 struct EdgePair {
     Xyz u, v;
 };
@@ -54,7 +54,7 @@ HWY_INLINE Measured measured(const Xyz& point_a, const Xyz& gap, Corners a, Corn
     return {point_a, gap, length_sq(gap), a, b, spread_sq};
 }
 
-/// A point q and the segment from p0 to p1, that of a.
+/// Measures the segment from p0 to p1, of a, and the point q, of b.
 HWY_INLINE Measured measure_edge_vertex(const Xyz& p0, const Xyz& p1, const Xyz& q) {
     const Xyz u = p1 - p0, w = q - p0;
     const double along = dot(w, u), all = length_sq(u);
@@ -70,15 +70,15 @@ HWY_INLINE Corners corners_at(double parameter) {
     return parameter <= 0 ? 1 : parameter >= 1 ? 2 : 3;
 }
 
-/// Measured::spread_sq of two edges: of those of them that have the closest point in their inside,
-/// if the gap is across them to rounding, and they are not almost parallel.
+/// Measured::spread_sq of two edges, from those that have the closest point inside. 0 (not known)
+/// if the gap is not perpendicular to both to rounding, or if they are almost parallel.
 ///
-/// In          closest points as by nearest_on_segments.
+/// In          closest points as nearest_on_segments returns them.
 HWY_INLINE double spread_of_edges(const EdgePair& edges, const Xyz& gap, double gap_sq,
                                   Corners on_u, Corners on_v) {
     const auto& [u, v] = edges;
     const double uu = length_sq(u), vv = length_sq(v);
-    // The point of u was chosen last, and makes up for what that of v is off by.
+    // The point on u was computed last, and so corrects the error of the point on v.
     if (on_v != 3)
         return on_u == 3 ? uu : std::numeric_limits<double>::infinity();
     const double along = dot(gap, v);
@@ -97,17 +97,17 @@ HWY_INLINE Measured measure_edge_edge(const Xyz& p0, const Xyz& p1, const Xyz& q
     return {p0 + from, gap, c.distance_sq, corners_at(c.s), corners_at(c.t), kOfEdges};
 }
 
-/// Corners of a triangle's foot that have weight.
+/// The corners of a triangle that have weight at a foot.
 HWY_INLINE Corners corners_of(const Foot<Xyz>& foot) {
     const Corners corners =
         (1 - foot.g - foot.h > 0 ? 1U : 0U) | (foot.g > 0 ? 2U : 0U) | (foot.h > 0 ? 4U : 0U);
     return (corners << foot.first | corners >> (3 - foot.first)) & 7U;
 }
 
-/// For each edge of a triangle, what of the triangle corners of that edge are.
+/// kEdgeCorners[k][c]: the triangle's corners that the corners c of its edge k are.
 constexpr Corners kEdgeCorners[3][4] = {{0, 1, 2, 3}, {0, 2, 4, 6}, {0, 4, 1, 5}};
 
-/// A triangle of a and a point of b that has no foot in it.
+/// Measures a triangle of a and a point of b whose foot lies outside the triangle.
 inline HWY_NOINLINE void measure_border_vertex(const XyzTriangle& t, const Xyz& q,
                                                Measured& nearest) {
     nearest.distance_sq = std::numeric_limits<double>::infinity();
@@ -120,7 +120,7 @@ inline HWY_NOINLINE void measure_border_vertex(const XyzTriangle& t, const Xyz& 
     }
 }
 
-/// A triangle of a and a point of b.
+/// Measures a triangle of a and a point of b.
 HWY_INLINE Measured measure_face_vertex(const XyzTriangle& t, const Xyz& q) {
     const Foot<Xyz> foot = foot_on(q, t);
     if (foot.within)
@@ -130,7 +130,7 @@ HWY_INLINE Measured measure_face_vertex(const XyzTriangle& t, const Xyz& q) {
     return nearest;
 }
 
-/// A triangle of a and the segment from q0 to q1, that of b.
+/// The segment runs from q0 to q1, on b.
 inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, const Xyz& q1,
                                            Measured& nearest) {
     const Xyz normal = cross(t[1] - t[0], t[2] - t[0]);
@@ -148,8 +148,8 @@ inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, 
         if (m.distance_sq < nearest.distance_sq)
             nearest = m;
     };
-    // Inside of the triangle only an end of the segment can be nearest, and if the segment stays on
-    // one side, only the end that is nearer to the plane: then nothing else is nearer.
+    // Inside the triangle, only an end of the segment can be nearest. If the segment stays on one
+    // side of the plane, only the end nearer to the plane can be, and nothing else is nearer then.
     const bool first_is_nearer = std::abs(h0) < std::abs(h1);
     if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q0 : q1, t); foot.within) {
         take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 1 : 2,
@@ -188,9 +188,9 @@ HWY_INLINE XyzTriangle triangle(const PlacedXyz& side, const HullFeature& f) {
             side.place(p.to(p.after(p.vertices[f.vertex], f.edge)))};
 }
 
-/// In          any two features but two triangles.
-/// Out         `edges`: set if both are edges, whose spread is left to the caller: a walk needs only
-///             that of its last pair.
+/// In          any two features except two triangles.
+/// Out         `edges`: set if both are edges. Their spread is left to the caller, since a walk
+///             needs only that of its last pair.
 HWY_INLINE Measured measure(const PlacedXyz& side_a, const PlacedXyz& side_b, const HullFeature& a,
                             const HullFeature& b, EdgePair& edges) {
     switch (3 * static_cast<int>(a.kind) + static_cast<int>(b.kind)) {

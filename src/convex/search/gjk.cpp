@@ -12,7 +12,7 @@ namespace abut {
 
 namespace {
 
-/// Corners placed, and what of them holds the point nearest to the origin.
+/// The corners of a simplex in the pair's frame, and the point of their hull nearest to the origin.
 class PlacedSimplex {
 public:
     PlacedSimplex(const PolytopePair& pair, const DifferenceSimplex& start, double rounding)
@@ -39,16 +39,16 @@ public:
             p = p + s_.weights[i] * pair_->a.vertex(s_.corners[i].a);
         return p;
     }
-    /// Whether the origin lies inside of four corners wherever rounding may have moved them from.
+    /// Returns whether the origin lies inside four corners, whatever rounding has done to them.
     [[nodiscard]] bool surely_holds_origin() const {
         if (!holds_origin_)
             return false;
         double size_sq = 0;
         for (const Vec3& p : at_)
             size_sq = std::max(size_sq, length_sq(p));
-        // A volume is a normal times a corner, each of three corners that are off by e at most. The
-        // normal, of differences, is off by 8 e size, and both together by 12 e size^2. Rounding adds
-        // about as much.
+        // A volume is a normal times a corner, where each of three corners is off by at most e. The
+        // normal, from differences, is off by 8 e size, and the product by 12 e size^2. Rounding of
+        // the operations adds about as much.
         const double error = 32 * (rounding_ + world_rounding(*pair_)) * size_sq;
         return size_sq > 0x1p-600 && (least_volume_ > error || most_volume_ < -error);
     }
@@ -92,7 +92,8 @@ private:
         keep(weights);
     }
 
-    /// The weights of the origin as a point of the tetrahedron, if it is one.
+    /// Sets the weights of the origin, by shares of the volume; returns whether they are those of a
+    /// point inside.
     bool measure_inside(const std::array<double, 4>& shares) {
         const double sum = shares[0] + shares[1] + shares[2] + shares[3];
         Vec3 point;
@@ -102,13 +103,14 @@ private:
             s_.weights[i] = shares[i] / sum;
             point = point + s_.weights[i] * at_[i];
         }
-        // Not if the shares of a flat tetrahedron are nothing but rounding.
+        // The shares of a flat tetrahedron may be rounding only: the weighted sum must be the
+        // origin.
         return length_sq(point) <= kRoundings * kRoundings * rounding_ * rounding_;
     }
 
-    /// Shares of the volume; else the nearest of the faces that the origin lies outside of. Of a flat
-    /// tetrahedron, whose shares do not add up or put the origin inside of it falsely, that cannot be
-    /// told: then of all.
+    /// Sets the weights by shares of the volume if the origin lies inside. Otherwise by the nearest
+    /// of the faces that have the origin outside. Shares that are not sound, as those of a flat
+    /// tetrahedron, do not tell which faces these are: then all four are measured.
     void measure_tetrahedron() {
         constexpr std::uint32_t kOthers[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
         const auto face = [&](std::size_t i) {
@@ -128,7 +130,7 @@ private:
         gap_ = {};
         if (holds_origin_)
             return;
-        // Only which faces are worth a look: what the search proves in the end rests on no share.
+        // This only selects faces to measure; what the search proves does not rest on the shares.
         constexpr double kSound = 1e-9;
         const bool sound = std::abs(shares[0] + shares[1] + shares[2] + shares[3] - 1) < kSound &&
                            *std::min_element(shares.begin(), shares.end()) <= 0;
@@ -155,8 +157,8 @@ private:
     std::array<Vec3, 4> at_{};
     Vec3 gap_;
     bool holds_origin_ = false;
-    /// Of the four tetrahedra of the origin and three corners, six times; all of one sign if, and only
-    /// if, it lies inside.
+    /// Six times the volumes of the four tetrahedra of the origin and three corners. All have one
+    /// sign if, and only if, the origin lies inside.
     double least_volume_ = 0, most_volume_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Triangles around the origin that grow corner by corner: the boundary of an expanding polytope.
+// The boundary of an expanding polytope: triangles around the origin that grow corner by corner.
 
 // Included once for each target.
 #if defined(ABUT_CONVEX_GROWING_BOUNDARY_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -23,18 +23,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// Closed, but while it is begun. Faces are numbered as they come, and keep their numbers.
+/// A triangle mesh, closed once its first faces are joined. Faces are numbered as they are added;
+/// numbers stay.
 class GrowingBoundary {
 public:
     using Side = DifferencePolytope::Side;
     struct Corner {
         Xyz at;
         VertexPair vertices;
-        std::uint32_t cone = 0; ///< while a cone is built: its face that begins here
+        std::uint32_t cone = 0; ///< while a cone is built: its face that begins at this corner
     };
     using Face = BoundaryFace;
 
-    /// `rounding`: a length, that of the corners' coordinates.
+    /// `rounding`: a length that bounds the error of the corners' coordinates.
     explicit GrowingBoundary(double rounding) : rounding_(rounding) {
         corners_.reserve(64);
         faces_.reserve(256);
@@ -53,8 +54,8 @@ public:
         corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(corner));
     }
 
-    /// With the edges' other sides still to be set. (No root is taken: planes are compared by the
-    /// squares of their distances.)
+    /// Adds a face whose neighbours are still to be joined. Planes are compared by squared
+    /// distances, so no square root is taken.
     HWY_INLINE void add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const Vec3 p = at(a), q = at(b), r = at(c);
         Face& face = faces_.emplace_back();
@@ -65,7 +66,7 @@ public:
         face.normal = normal;
         face.height = height;
         face.slack = rounding_ * sum_of_sizes(normal);
-        // A face of no area is never the nearest: those around it reach as far.
+        // A face without area is never the nearest: its neighbours reach as far.
         face.offset_sq =
             sq > 0 ? height / sq * std::abs(height) : std::numeric_limits<double>::infinity();
     }
@@ -74,8 +75,8 @@ public:
         faces_[other.face].across[other.edge] = one;
     }
 
-    /// Takes a corner in that lies beyond a face: those that see it go, and a cone takes their place.
-    /// False if that has two cones at one corner: what faces the origin is not one ring any more.
+    /// Adds a corner that lies beyond a face: replaces the faces that see it by a cone. False if
+    /// two cones share a corner: the border of the faces that see it is not one ring.
     HWY_INLINE bool grow(const Xyz& corner, const VertexPair& vertices, std::uint32_t seen_by) {
         remove_visible(to_vec3(corner), seen_by);
         const auto point = static_cast<std::uint32_t>(corners_.size());
@@ -99,11 +100,11 @@ public:
         return one_ring;
     }
 
-    /// Returns whether the last corner was joined to one closed ring of edges. If each was, the boundary is
-    /// closed.
+    /// Returns whether the last corner was joined to one closed ring of edges. If every corner was,
+    /// the boundary is closed.
     [[nodiscard]] HWY_INLINE bool is_one_ring() const { return is_one_ring_; }
 
-    /// The other two corners of an edge's faces are joined in its place.
+    /// Replaces an edge by that between the other two corners of its faces.
     void flip(const Side& side) {
         const Side back = faces_[side.face].across[side.edge];
         const Face f = faces_[side.face], g = faces_[back.face];
@@ -118,14 +119,13 @@ public:
         join({left, 2}, f.across[next(next(k))]), join({right, 1}, f.across[next(k)]);
     }
 
-    /// The corner across an edge of a face that is not one of its own.
+    /// The corner of the neighbouring face that is not on the given edge.
     [[nodiscard]] const Corner& corner_across(const Side& side) const {
         const Side beyond = faces_[side.face].across[side.edge];
         return corners_[faces_[beyond.face].corners[next(next(beyond.edge))]];
     }
 
-    /// Whether all faces that are left meet along their edges, two and two: rounding may have undone
-    /// that.
+    /// Returns whether all faces are joined in pairs along their edges. Rounding may prevent that.
     [[nodiscard]] bool is_closed() const {
         for (std::uint32_t f = 0; f < faces_.size(); ++f)
             for (std::uint32_t k = 0; faces_[f].alive() && k < 3; ++k) {
@@ -140,8 +140,9 @@ public:
 private:
     static constexpr std::uint32_t next(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
 
-    /// Faces that see the corner, beginning with one of them, go; the border around them stays. (Both
-    /// lists are written to always, and counted by what is seen: branches would be coins'.)
+    /// Removes the faces that see the corner, beginning with one of them, and lists the border
+    /// around them. (Both lists are always written to, and the counts advance by the tests'
+    /// results, since branches could not be predicted.)
     HWY_INLINE void remove_visible(const Vec3& corner, std::uint32_t seen_by) {
         visible_[0] = seen_by;
         faces_[seen_by].gone = 1;
@@ -171,9 +172,9 @@ private:
     double rounding_;
     std::vector<Corner> corners_;
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> visible_; ///< faces, and room
-    std::vector<Side> horizon_;          ///< of faces that stay, and room
-    std::size_t horizon_count_ = 0;      ///< without the room
+    std::vector<std::uint32_t> visible_; ///< faces, and unused slots
+    std::vector<Side> horizon_;          ///< sides of faces that stay, and unused slots
+    std::size_t horizon_count_ = 0;      ///< used slots
     bool is_one_ring_ = true;
 };
 

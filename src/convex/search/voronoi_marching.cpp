@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// What remains of a feature of which these corners hold the closest point.
+/// Shrinks a feature to the part of it whose corners hold the closest point.
 HWY_INLINE void shrink(const Polytope& p, Corners corners, HullFeature& f) {
     const std::uint32_t next = f.kind == Feature::face ? p.after(p.vertices[f.vertex], f.edge) : 0;
     switch (corners) {
@@ -45,18 +45,18 @@ HWY_INLINE void shrink(const Polytope& p, Corners corners, HullFeature& f) {
     }
 }
 
-/// How much further along the gap than a feature a neighbour lies at most, and the feature grown
-/// towards it.
+/// The largest excess of a neighbour along the gap over a feature, and the feature grown towards
+/// that neighbour.
 struct Growth {
     double excess = 0;
     HullFeature feature;
     bool possible = false;
-    /// The same excess, below 0 if all neighbours lie behind the feature; of a triangle that of the
-    /// neighbour that lies behind it most, which tells on which side the body is.
+    /// The excess with its sign: negative if all neighbours lie behind the feature. For a triangle,
+    /// the excess of the neighbour farthest behind it, which tells on which side of it the body is.
     double most = 0;
 };
 
-/// `tolerance_sq`: the square of an excess that is rounding.
+/// Grows a feature. `tolerance_sq`: the square of an excess that may be rounding.
 HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& gap,
                        double tolerance_sq) {
     const Polytope& p = side.polytope();
@@ -70,7 +70,8 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
         const double most = left ? to_left : to_right;
         if (most * most > tolerance_sq)
             return {most, {f.vertex, left ? f.edge : right, Feature::face}, most > 0, most};
-        // Between coplanar triangles: a part of a face, whose side only the others tell.
+        // An edge between coplanar triangles is part of a face; only other neighbours tell the
+        // body's side.
     }
     const bool is_face = f.kind == Feature::face;
     const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n, is_face);
@@ -80,8 +81,8 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
             is_face ? h.least : h.most};
 }
 
-/// Whether the features' neighbours lie behind them by more than rounding can be the reason of:
-/// docs/convex.md, "Proofs". `most`: as Growth has it.
+/// Returns whether the features' neighbours lie behind them by more than rounding explains
+/// (docs/convex.md, "Proofs"). `most` as in Growth.
 HWY_INLINE bool is_proof(double most, double spread_sq, double distance_sq, double rounding_sq) {
     const double spread = std::min(spread_sq, distance_sq);
     return most < 0 && spread * spread >= 0x1p12 * rounding_sq * distance_sq &&
@@ -124,7 +125,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
             end = WalkEnd::limit;
             break;
         }
-        // The larger excess first. What has been tried is not possible any more.
+        // Try the larger excess first. A growth that was tried is not possible again.
         next_a = a, next_b = b;
         if (grown_a.possible && !(grown_b.possible && grown_b.excess > grown_a.excess)) {
             next_a = grown_a.feature;
@@ -145,7 +146,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     state.proven = false;
     if (end != WalkEnd::closest)
         return;
-    // The pair that was measured last is the one that ended the walk.
+    // The pair measured last is the one that ended the walk.
     const double spread_sq = next.spread_sq == kOfEdges
                                  ? spread_of_edges(edges, gap, distance_sq, next.a, next.b)
                                  : next.spread_sq;

@@ -10,7 +10,8 @@ namespace abut {
 
 namespace {
 
-/// Triangles that edges connect; those with two equal corners have none.
+/// The components of the surface: triangles connected by edges. Triangles with two equal corners
+/// are in none.
 std::vector<std::vector<std::uint32_t>> components(const SurfaceGraph& surface) {
     std::vector<std::vector<std::uint32_t>> result;
     std::vector<bool> seen(surface.corners.size());
@@ -36,7 +37,7 @@ public:
         : model_(model), surface_(surface), number_(surface.positions.size(), kNoEdge) {}
 
     bool operator()(const std::vector<std::uint32_t>& component) {
-        // A dent anywhere is found soon, without a hull.
+        // Most dents are found between neighbours, without a hull.
         for (const std::uint32_t t : component)
             for (const std::uint32_t u : surface_.across[t])
                 for (const std::uint32_t v : surface_.corners[u])
@@ -84,7 +85,7 @@ private:
                 const std::uint32_t v = vertex[number_[c]];
                 if (v == kNoEdge)
                     continue;
-                // None of its neighbours is in front: so nothing is.
+                // No neighbour of the corner is in front of the plane, so no vertex is.
                 at = &polytope.vertices[v].at;
                 const HullVertex& h = polytope.vertices[v];
                 for (std::uint32_t e = h.first_edge; e < h.first_edge + h.degree; ++e)
@@ -97,7 +98,7 @@ private:
         });
     }
 
-    /// No other triangle is in its box.
+    /// Returns whether the component's box holds no other triangle.
     [[nodiscard]] bool is_alone(const std::vector<std::uint32_t>& component,
                                 const std::vector<Vec3>& points) const {
         if (component.size() == surface_.corners.size())
@@ -117,7 +118,7 @@ private:
 
     const PlacedModel& model_;
     const SurfaceGraph& surface_;
-    std::vector<std::uint32_t> number_; ///< of each vertex among the component's
+    std::vector<std::uint32_t> number_; ///< of each vertex in the component
 };
 
 } // namespace

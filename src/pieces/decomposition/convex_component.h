@@ -8,11 +8,12 @@
 
 namespace abut {
 
-/// The components of a surface that are convex as a whole, and have nothing inside: each as the list
-/// of its triangles.
+/// Finds the components of a surface that are convex as a whole and have nothing inside. Returns
+/// the triangles of each.
 ///
-/// In          the model of the surface, as it is.
-/// Accuracy    exact for what is said to be convex. One that has others in its box may be left out.
+/// In          a model of the surface, untransformed.
+/// Accuracy    what is returned is exactly convex. A convex component with other triangles in or
+///             near its box is left out.
 /// Cost        O(n log n).
 std::vector<std::vector<std::uint32_t>> convex_components(const PlacedModel& model,
                                                           const SurfaceGraph& surface);

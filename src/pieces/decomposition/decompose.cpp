@@ -12,7 +12,7 @@ namespace abut {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
-/// Triangles of a patch, at most: some of its steps look at all of its hull.
+/// Limit on a patch's triangles: some steps of its growth pass over the whole hull.
 constexpr std::size_t kLargestPatch = 1 << 14;
 
 class Decomposition {
@@ -47,8 +47,8 @@ private:
         return planes;
     }
 
-    /// Breadth first. What a patch refuses it refuses for good: it has only more planes and
-    /// vertices later.
+    /// Grows a patch breadth first. A triangle that is refused once would be refused later too,
+    /// since the patch only gains planes and vertices.
     void grow(std::uint32_t seed) {
         patch_.clear();
         add(seed);
@@ -74,13 +74,14 @@ private:
             in_patch_[v] = next_piece();
     }
 
-    /// Enlarges the hull if the patch stays on it, and no other triangle enters it.
+    /// Enlarges the hull by a triangle, if the patch stays on the hull and no other triangle enters
+    /// it. Returns whether it did.
     bool joins(std::uint32_t t) {
         const IndexTriangle& corners = surface_.corners[t];
         const bool has_area = !surface_.is_degenerate(t);
         if (!hull_.lies_behind(corners, t, has_area))
             return false;
-        // Two corners are those of the edge.
+        // The other two corners are those of the common edge.
         const auto added = std::find_if(corners.begin(), corners.end(), [&](std::uint32_t v) {
             return in_patch_[v] != next_piece();
         });
@@ -118,8 +119,9 @@ private:
     std::vector<ExactPlane> planes_; ///< of the triangles
     PatchHull hull_;
     Pieces pieces_;
-    std::vector<std::uint32_t> piece_of_, tried_; ///< by triangle; tried_: the last that did
-    std::vector<std::uint32_t> in_patch_;         ///< by vertex: the last piece that has it
+    /// By triangle: its piece; the last piece that tried it.
+    std::vector<std::uint32_t> piece_of_, tried_;
+    std::vector<std::uint32_t> in_patch_; ///< by vertex: the last piece with that vertex
     std::vector<std::uint32_t> patch_;
 };
 

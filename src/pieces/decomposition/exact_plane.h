@@ -8,7 +8,7 @@
 
 namespace abut {
 
-/// The plane through three points, for many questions about its sides.
+/// The plane through three points, prepared for many side tests.
 struct ExactPlane {
     ExactPlane() = default;
     ExactPlane(const Vec3& p, const Vec3& q, const Vec3& r) : a(p), b(q), c(r) {
@@ -20,7 +20,7 @@ struct ExactPlane {
     }
     explicit ExactPlane(const Triangle& t) : ExactPlane(t[0], t[1], t[2]) {}
 
-    /// As orient3d(a, b, c, p), exact; 0 for all points if a, b, c lie on one line.
+    /// orient3d(a, b, c, p), exactly; 0 for all points if a, b, c lie on one line.
     [[nodiscard]] int side(const Vec3& p) const {
         const Vec3 w = p - a;
         const double s = dot(normal, w), reach = max_abs(w);

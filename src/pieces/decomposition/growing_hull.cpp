@@ -67,8 +67,9 @@ void GrowingHull::settle() {
     grown_ = false;
 }
 
-/// A vertex that the faces around a corner do not see lies, as seen from there, in the face of the
-/// hull that its plane touches. So it is hidden by faces that it is coplanar with, or by none.
+/// Returns a face that the vertex sees; kNone if there is none. The corners `near` lie with the
+/// vertex in a plane that touches the hull. If the vertex sees none of their faces, it can see a
+/// face only beyond those that it is coplanar with, so the search continues across these.
 std::uint32_t GrowingHull::find_visible(std::uint32_t vertex, std::span<const std::uint32_t> near) {
     pending_.clear();
     for (const std::uint32_t v : near)
@@ -107,7 +108,7 @@ void GrowingHull::look_from(std::uint32_t vertex, std::span<const std::uint32_t>
     const std::uint32_t first = find_visible(vertex, near);
     if (first == kNone)
         return;
-    // Dead while it is collected, so that none comes twice.
+    // Dead while it is collected, so that no face is collected twice.
     removed_.push_back(first);
     faces_[first].alive = false;
     for (std::size_t i = 0; i < removed_.size(); ++i)
@@ -142,7 +143,7 @@ void GrowingHull::link_cone() {
         const std::uint32_t f = new_face({edge.from, edge.to, vertex_});
         Face &face = faces_[f], &beyond = faces_[edge.beyond];
         face.across[0] = edge.beyond;
-        // What is coplanar with a closed face lies around it, in this plane.
+        // A face that is coplanar with a closed one extends it, in the same plane.
         face.is_closed = beyond.is_closed && side(edge.beyond, vertex_) == 0;
         beyond.across[corner_in(edge.beyond, edge.to)] = f;
         cone_from_[edge.from] = f;

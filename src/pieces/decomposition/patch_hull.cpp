@@ -10,11 +10,11 @@ namespace abut {
 
 namespace {
 
-/// Beyond so many corners, planes through edges of a hull are not tried: some triangles then count as
-/// crossing it that do not.
+/// In hulls of more corners, planes through edges are not tried: some triangles then count as
+/// entering the hull although they do not.
 constexpr std::size_t kMostForEdges = 64;
 
-/// On which sides of a plane points lie.
+/// The sides of a plane on which points lie.
 struct Sides {
     bool front = false, back = false;
 
@@ -29,7 +29,7 @@ Sides sides_of(const ExactPlane& plane, const Triangle& t) {
     return sides;
 }
 
-/// What is in front of a face's plane, if a triangle is.
+/// The half-space in front of a face's plane, if the triangle lies in it.
 std::optional<PlacedModel::HalfSpace> in_front_of(const ExactPlane& plane, const Triangle& t) {
     for (const Vec3& p : t)
         if (plane.side(p) < 0)
@@ -37,8 +37,9 @@ std::optional<PlacedModel::HalfSpace> in_front_of(const ExactPlane& plane, const
     return PlacedModel::HalfSpace{plane.a, plane.normal};
 }
 
-/// What is beyond a plane that has the hull on one side and the triangle not on that one. A hull in
-/// the plane itself has its inside on both sides. `add_hull(plane, sides)`: on which sides it lies.
+/// The half-space beyond a plane, if the hull lies on one side and the triangle does not. A hull in
+/// the plane itself has its inside on both sides. `add_hull(plane, sides)` adds the sides of the
+/// hull.
 template <typename AddHull>
 std::optional<PlacedModel::HalfSpace> beyond(const ExactPlane& plane, const Triangle& t,
                                              const AddHull& add_hull) {
@@ -83,13 +84,13 @@ bool PatchHull::lies_behind(const IndexTriangle& triangle, std::uint32_t number,
     const ExactPlane& plane = planes_[number];
     const auto in_front = [&](std::uint32_t v) { return plane.side(at(v)) > 0; };
     if (is_flat()) {
-        // Three corners of the polygon span its plane.
+        // The first three corners of the polygon span its plane.
         const bool in_plane = std::all_of(polygon_.begin(), polygon_.begin() + 3,
                                           [&](auto v) { return plane.side(at(v)) == 0; });
         return in_plane ? faces_alike(corners(triangle))
                         : std::none_of(polygon_.begin(), polygon_.end(), in_front);
     }
-    // Where no neighbour of a corner in the plane is in front, nothing is.
+    // If no neighbour of a corner in the plane is in front of it, no vertex is.
     const std::uint32_t corner = common_corner(triangle);
     const auto& faces = solid_.faces();
     if (corner != GrowingHull::kNone)
@@ -112,7 +113,8 @@ void PatchHull::propose_in_plane(std::uint32_t vertex) {
     grows_ = std::any_of(sides.begin(), sides.end(), [](int s) { return s < 0; });
     if (!grows_)
         return;
-    // The edges seen, with those whose line it is on, follow each other: it takes their place.
+    // The vertex replaces the edges that it sees, with those whose line holds it: they are
+    // consecutive.
     const auto goes = [&](std::size_t i) { return sides[i % n] <= 0; };
     std::size_t first = 0;
     while (!goes(first) || goes(first + n - 1))
@@ -151,7 +153,7 @@ bool PatchHull::propose(std::uint32_t vertex, const IndexTriangle& triangle, boo
             extend(gained_, at(v));
         return true;
     }
-    // A triangle without an area has no plane that says where to begin.
+    // A triangle without area has no plane that tells where to begin.
     solid_.look_from(vertex, has_area ? std::span(triangle) : std::span<const std::uint32_t>());
     const auto& faces = solid_.faces();
     for (const std::uint32_t f : solid_.visible())
@@ -210,8 +212,8 @@ std::optional<PatchHull::HalfSpace> PatchHull::outside_layer(const Triangle& t,
     return std::nullopt;
 }
 
-/// With a common corner, hull and triangle are apart if their cones at the corner are, and a plane
-/// that shows it goes through the corner.
+/// Hull and triangle with a common corner are apart if their cones at the corner are. A plane that
+/// proves it passes through the corner.
 std::optional<PatchHull::HalfSpace> PatchHull::outside_cone(std::uint32_t corner,
                                                             const IndexTriangle& triangle,
                                                             const ExactPlane& plane) const {
@@ -247,7 +249,7 @@ std::optional<PatchHull::HalfSpace> PatchHull::outside_solid(const Triangle& t,
             last_face_ = f;
         return found.has_value();
     };
-    // What comes next is near the last one, and near the latest faces.
+    // The next triangle is probably near the last one, and near the newest faces.
     if (is_in_front_of(last_face_))
         return found;
     for (const std::uint32_t f : solid_.added())

@@ -13,48 +13,49 @@
 
 namespace abut {
 
-/// The convex hull of a patch of a surface while it grows by one triangle at a time: a flat polygon
-/// at first, then around a volume.
+/// The convex hull of a patch of a surface, which grows by one triangle at a time: a flat polygon
+/// at first, then a body with a volume.
 ///
-/// A triangle joins in three steps: `lies_behind`, that its plane has the patch behind it; `propose`
-/// of its new vertex, if it has one, which the patch's planes must have behind them; and `cover`.
-/// Between the last two, `take_back` refuses it.
+/// A triangle joins in three steps. `lies_behind` checks that its plane has the patch behind it.
+/// `propose` adds its new vertex, if it has one, and checks that the patch's planes have it behind
+/// them. `cover` completes the step; `take_back` undoes `propose`.
 ///
-/// Vertices are numbers of positions, equal ones merged to one number. All decisions are exact.
+/// A vertex is the number of a position; equal positions have one number. All decisions are exact.
 class PatchHull {
 public:
-    /// Refers to both: `planes` of all triangles of the surface.
+    /// Refers to both arguments. `planes`: of all triangles of the surface.
     PatchHull(std::span<const Vec3> positions, std::span<const ExactPlane> planes)
         : positions_(positions), planes_(planes), solid_(positions) {}
 
-    /// Begins anew with a triangle that has an area.
+    /// Begins with a triangle that has an area.
     void begin(const IndexTriangle& triangle, std::uint32_t number);
 
-    /// Whether no vertex of the patch is in front of a triangle's plane; and if it is coplanar with a
-    /// flat patch, whether it faces the same way. One without an area has no front.
+    /// Returns whether no vertex of the patch is in front of a triangle's plane. A triangle that is
+    /// coplanar with a flat patch must also face the same way. A triangle without area has no
+    /// front.
     [[nodiscard]] bool lies_behind(const IndexTriangle& triangle, std::uint32_t number,
                                    bool has_area) const;
 
-    /// Takes a new vertex of such a triangle into the hull; false, and nothing changes, if a plane of
-    /// the patch has it in front of it.
+    /// Adds a new vertex of such a triangle to the hull. Returns false, and changes nothing, if the
+    /// vertex is in front of a plane of the patch.
     bool propose(std::uint32_t vertex, const IndexTriangle& triangle, bool has_area);
     void take_back();
-    /// Of the vertex proposed: whether the hull has got larger, and the box of what it gained.
+    /// Whether the proposed vertex has enlarged the hull, and the box of what the hull gained.
     [[nodiscard]] bool grows() const { return grows_; }
     [[nodiscard]] const Box3& gained() const { return gained_; }
 
     using HalfSpace = PlacedModel::HalfSpace;
-    /// Looks for a proof that the inside of the hull is free of a triangle of the surface: a plane has
-    /// it on one side, and the triangle on the other, where it is free of everything. The inside of a
-    /// flat hull is the thin layer just below it.
+    /// Looks for a proof that a triangle of the surface does not enter the inside of the hull: a
+    /// plane with the hull on one side and the triangle on the other. Returns the half-space beyond
+    /// that plane. The inside of a flat hull is the thin layer just below it.
     ///
-    /// Accuracy    proven by exact signs. The planes tried are those of the triangle and of
-    ///             the hull's faces, and those through an edge of one and a vertex of the other; of a
-    ///             triangle with a corner of the hull, those through the corner.
+    /// Accuracy    proven by exact signs. The planes tried are those of the triangle and of the
+    ///             hull's faces, and those through an edge of one and a vertex of the other; for a
+    ///             triangle with a corner of the hull, those through that corner.
     [[nodiscard]] std::optional<HalfSpace> outside(const IndexTriangle& triangle,
                                                    std::uint32_t number);
 
-    /// The triangle belongs to the patch.
+    /// Records that the triangle belongs to the patch.
     void cover(const IndexTriangle& triangle, std::uint32_t number, bool has_area);
 
 private:
@@ -75,11 +76,11 @@ private:
 
     std::span<const Vec3> positions_;
     std::span<const ExactPlane> planes_;
-    ExactPlane front_;        ///< of the first triangle: what a flat patch faces
-    int axis_ = 0, turn_ = 1; ///< it turns by this as seen along the axis
+    ExactPlane front_;        ///< plane of the first triangle: the side that a flat patch faces
+    int axis_ = 0, turn_ = 1; ///< the triangle's orientation as seen along the axis
     std::vector<std::uint32_t> polygon_, polygon_before_; ///< of a flat hull, counter-clockwise
     GrowingHull solid_;
-    std::uint32_t last_face_ = 0; ///< that had a triangle in front of it
+    std::uint32_t last_face_ = 0; ///< the last face that had a triangle in front of it
     enum class Step : std::uint8_t { none, in_plane, first_solid, solid } step_ = Step::none;
     bool grows_ = false;
     Box3 gained_;

@@ -10,7 +10,7 @@ namespace abut {
 
 namespace {
 
-/// The triangles of a hull, and for each edge the triangle on its left.
+/// The triangles of a hull, and the triangle on the left of each edge.
 struct HullTriangles {
     explicit HullTriangles(const Polytope& hull) : left_of(hull.edge_end(), kNoEdge) {
         for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) {
@@ -18,8 +18,8 @@ struct HullTriangles {
             for (std::uint32_t e = vertex.first_edge; e < vertex.first_edge + vertex.degree; ++e) {
                 if (left_of[e] != kNoEdge)
                     continue;
-                // On along the border of the triangle: back from each edge's end to the one before
-                // its twin there.
+                // Walks around the triangle: the next edge precedes, around this edge's end, this
+                // edge's twin.
                 const auto next = [&](std::uint32_t edge) {
                     const HullVertex& end = hull.vertices[hull.target(edge)];
                     return hull.before(end, hull.twin(edge));

@@ -11,8 +11,8 @@
 
 namespace abut {
 
-/// The triangles of a closed surface and their neighbours. Equal positions count as one vertex: the
-/// first of them.
+/// The triangles of a closed surface, with their neighbours. Equal positions count as one vertex,
+/// the first of them.
 ///
 /// Refers to the mesh.
 struct SurfaceGraph {
@@ -24,13 +24,14 @@ struct SurfaceGraph {
         const IndexTriangle& c = corners[t];
         return {positions[c[0]], positions[c[1]], positions[c[2]]};
     }
-    /// Whether a triangle has no area. Exact.
+    /// Returns whether a triangle has no area. Exact.
     [[nodiscard]] bool is_degenerate(std::uint32_t t) const;
 
     std::span<const Vec3> positions;
     std::vector<IndexTriangle> corners;
-    std::vector<IndexTriangle> across; ///< across[t][k]: the triangle beyond the edge from corner
-                                       ///< k; kNoEdge where two corners are one vertex
+    /// across[t][k]: the triangle beyond the edge from corner k; kNoEdge if two corners are one
+    /// vertex.
+    std::vector<IndexTriangle> across;
 };
 
 } // namespace abut

@@ -12,15 +12,15 @@ namespace abut {
 
 namespace {
 
-/// The power of two that brings half a box to 1 or a little less; within what single precision
-/// can square.
+/// The power of two that scales half the box to 1 or slightly less, limited so that single
+/// precision can square it.
 double scale_of(const Box3& box) {
     const Vec3 half = is_empty(box) ? Vec3{} : 0.5 * (box.upper - box.lower);
     const double size = std::max({half.x, half.y, half.z});
     return size > 0 ? std::ldexp(1, std::clamp(std::ilogb(size) + 1, -30, 62)) : 1;
 }
 
-/// In: a rotation times the scale.
+/// In: model_from_tree is a rotation times the scale.
 std::vector<Vec3> tree_positions(const Mesh& mesh, const Box3& bounds,
                                  const Transform& model_from_tree, double scale) {
     const auto& f = model_from_tree.m;
@@ -45,7 +45,7 @@ ModelData::ModelData(Mesh mesh, const ModelOutline& outline) : mesh_(std::move(m
     build(&outline);
 }
 
-/// In: null if it is not known.
+/// In: null if no outline is known.
 void ModelData::build(const ModelOutline* outline) {
     require_valid(mesh_);
     Box3 bounds;
@@ -94,7 +94,7 @@ std::size_t ModelData::bytes() const {
 }
 
 std::uint64_t most_model_bytes(std::uint64_t triangles, std::uint64_t vertices) {
-    // Measured; a property test holds models to it.
+    // Measured; a property test checks that models stay below it.
     constexpr std::uint64_t kOfTriangle = 74, kOfVertex = 60, kOfModel = 2048;
     return kOfTriangle * triangles + kOfVertex * vertices + kOfModel;
 }

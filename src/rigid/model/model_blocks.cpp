@@ -15,7 +15,8 @@ ModelBlocks::ModelBlocks(std::uint64_t triangles, std::vector<Box3> boxes, std::
 }
 
 const BlocksSolid& ModelBlocks::solid() const {
-    // A thread that examines must not take up other work meanwhile: that might ask for the same.
+    // A thread that examines must not run other tasks meanwhile: they might ask for the same
+    // result.
     std::call_once(once_,
                    [&] { isolated([&] { solid_ = examine_solid(*this, folder_, memory_); }); });
     return solid_;

@@ -14,28 +14,30 @@
 
 namespace abut {
 
-/// Triangles of a large mesh that lie together, with a hierarchy of their own.
+/// A mesh block of a large mesh, with a hierarchy of its own.
 struct ModelBlock {
     Model model;
-    std::vector<std::uint32_t> numbers; ///< that its triangles have in the whole, ascending
+    std::vector<std::uint32_t> numbers; ///< of its triangles in the whole mesh, ascending
 };
 
-/// What a mesh in blocks is as a whole: as Solid says of a mesh in memory.
+/// Whether a mesh in blocks bounds a solid; the fields mean the same as in Solid.
 struct BlocksSolid {
     std::vector<Vec3> component_points; ///< a vertex of each connected component
     bool closed = false, solid = false;
     int outward = 0;
 };
 
-/// A large mesh as blocks that need not be in memory all at once. Any number of threads may ask.
+/// A large mesh as mesh blocks that need not be in memory at the same time. Safe for concurrent
+/// use.
 class ModelBlocks {
 public:
-    /// A block has fewer triangles than this, and a mesh fewer blocks: the two fit into one number.
+    /// A block has fewer than 2^kTriangleBits triangles, and a mesh has at most 2^kBlockBits
+    /// blocks, so both numbers fit into 32 bits.
     static constexpr unsigned kTriangleBits = 17, kBlockBits = 32 - kTriangleBits;
 
-    /// In          triangles: of all blocks together; boxes: of each, in the mesh's frame. folder,
-    ///             memory: where, and in how many bytes, solid() may work.
-    /// Errors      Error{unsupported} if there are more blocks than a number has room for.
+    /// In          triangles: number in all blocks. boxes: one for each block, in the mesh's frame.
+    ///             folder, memory: where, and within how many bytes, solid() may work.
+    /// Errors      Error{unsupported} if there are more than 2^kBlockBits blocks.
     ModelBlocks(std::uint64_t triangles, std::vector<Box3> boxes, std::string folder,
                 std::size_t memory);
     ModelBlocks(const ModelBlocks&) = delete;
@@ -44,13 +46,13 @@ public:
 
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
     [[nodiscard]] std::size_t size() const { return boxes_.size(); }
-    /// In the mesh's frame, of the vertices that its triangles use; empty: it has none, and is not
-    /// asked for.
+    /// The box of the vertices that the block's triangles use, in the mesh's frame. Empty if the
+    /// block has no triangles; block() is not called for it then.
     [[nodiscard]] const Box3& box(std::size_t i) const { return boxes_[i]; }
-    /// Errors      of whatever it is read from.
+    /// Errors      those of reading the block.
     [[nodiscard]] virtual std::shared_ptr<const ModelBlock> block(std::size_t i) const = 0;
 
-    /// Whether the mesh bounds a solid; the first question reads all blocks.
+    /// Tells whether the mesh bounds a solid. The first call reads all blocks.
     [[nodiscard]] const BlocksSolid& solid() const;
 
 private:
@@ -62,11 +64,11 @@ private:
     mutable BlocksSolid solid_;
 };
 
-/// As examine_solid, of blocks one after the other.
+/// As examine_solid for a mesh, reading one block after the other.
 ///
-/// Accuracy    closed, components: exact; outward as examine_solid, to rounding.
-/// Cost        reads each block two to four times; sorts vertices and edges on the disk, in `memory`
-///             bytes, a bit and 4 bytes a vertex on top.
+/// Accuracy    closed, components: exact; outward: as examine_solid, to rounding.
+/// Cost        reads each block two to four times. Sorts vertices and edges on disk with `memory`
+///             bytes, plus 4 bytes and a bit for each vertex.
 BlocksSolid examine_solid(const ModelBlocks& blocks, const std::string& folder, std::size_t memory);
 
 } // namespace abut

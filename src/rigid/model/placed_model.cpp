@@ -33,15 +33,15 @@ PlacedModel::PlacedModel(const Model& model, const Transform& world_from_model,
     require_finite(world_from_model, "transform");
     if (make_frame(origin.has_value()))
         return;
-    // The same positions by the same formula; identity then leaves them as they are.
+    // The copy has the same positions, by the same formula; the identity keeps them.
     model_ = baked(model, world_);
     world_ = {};
     make_frame(origin.has_value());
 }
 
 bool PlacedModel::make_frame(bool has_origin) {
-    // Beyond, cubes of what the inverse is made of leave the range of doubles; or one direction is
-    // so much shorter than another that rounding swamps it.
+    // Beyond these, cubes of terms in the inverse leave the range of doubles; or one direction is
+    // so much shorter than another that rounding hides it.
     constexpr double kLeastStretch = 0x1p-300, kMostStretch = 0x1p300, kLeastRatio = 0x1p-30;
     world_from_tree_ = compose(world_, model().model_from_tree());
     tree_from_world_ = inverse(world_from_tree_);
@@ -61,12 +61,12 @@ bool PlacedModel::make_frame(bool has_origin) {
             least_stretch_ > kLeastRatio * most_stretch_ && margin(0) < 1e18);
 }
 
-/// The tree's frame as seen from the origin: by a vertex, of which both places are known without the
-/// rounding of places far away.
+/// Places the tree's frame relative to the origin, by a vertex whose positions in both frames are
+/// known without the rounding of far places.
 void PlacedModel::move_to_origin() {
-    // Far below the margin that single precision needs, far above what world positions are rounded
-    // by unless they are 2^27 times as far away as the model is large. So the margin is the same
-    // wherever the model is.
+    // `least` is far below the margin of single precision, and far above the rounding of world
+    // positions unless these are 2^27 times as far away as the model is large. So the margin is the
+    // same wherever the model is.
     const double least = 0x1p-18 * half_,
                  needed = 128 * 0x1p-53 * (world_extent_ + magnitude(origin_)) / least_stretch_;
     origin_margin_ = std::max(least, needed);
@@ -95,8 +95,8 @@ TreeHalfSpace PlacedModel::tree_half_space(const HalfSpace& space) const {
         normalized_or_zero(pull_back(world_from_tree_, normalized_or_zero(space.normal)));
     if (normal == Vec3{})
         return {{}, std::numeric_limits<float>::infinity()};
-    // The margin of a point also covers the sums of products in a node's frame; twice, for axes that
-    // are at right angles to single precision only.
+    // The margin of a point also covers the sums of products in a node's frame; doubled, since axes
+    // are perpendicular only to single precision.
     const double offset = dot(normal, apply(tree_from_world_, space.point));
     return {to_float(normal), round_up(offset + 2 * margin(magnitude(space.point)))};
 }
@@ -104,7 +104,8 @@ TreeHalfSpace PlacedModel::tree_half_space(const HalfSpace& space) const {
 std::optional<ClippedSegment> PlacedModel::tree_segment(const Vec3& from, const Vec3& to,
                                                         double error) const {
     const double margin = this->margin(magnitude(from) + magnitude(to)) + error / least_stretch_;
-    // Off by more than the model's size: all of it may be met, and squares must stay finite.
+    // If the margin exceeds the model's size, any of its triangles may be met. Squares must stay
+    // finite.
     if (!(margin <= half_))
         return ClippedSegment{{{}, {}, round_up(2 * half_)}, 0, 1};
     const Vec3 p = apply(tree_from_world_, from), d = apply(tree_from_world_, to) - p;

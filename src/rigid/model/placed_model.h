@@ -16,34 +16,34 @@
 
 namespace abut {
 
-/// The part of a segment of the world that lies near a model.
+/// The part of a world segment that lies near a model.
 struct ClippedSegment {
     TreeSegment segment;
-    double begin, end; ///< where it begins and ends: fractions of the whole
+    double begin, end; ///< as fractions of the whole segment
 };
 
-/// One model under its transform, ready for questions with points, segments and boxes of the world.
-/// Immutable: any number of threads may ask.
+/// One model under its transform, prepared for queries with points, segments and boxes in world
+/// coordinates. Immutable and safe for concurrent use.
 ///
-/// It may be seen from an `origin`, which is taken off all of its world positions: in what follows
-/// "the world" then has its zero there. If models, origin and all are moved together, and no position
-/// is rounded by that, every answer is the same to the last bit.
+/// With an `origin`, that point is subtracted from all world positions: "the world" below has its
+/// zero there. If models and origin are moved together, and no position is rounded by that, every
+/// answer is the same to the last bit.
 class PlacedModel {
 public:
-    /// A transform without an inverse (a flattened part) is applied to a copy of the mesh first.
+    /// A transform without an inverse (a flattened part) is first applied to a copy of the mesh.
     ///
     /// Errors      Error{bad_argument} if the transform is not finite; Error{bad_mesh} if such a
     ///             copy has positions out of range.
     PlacedModel(const Model& model, const Transform& world_from_model,
                 const std::optional<Vec3>& origin = {});
 
-    /// The model that the tree is of, under world(): the one given, or its transformed copy. Both
+    /// The model that owns the tree, under world(): the given one, or its transformed copy. Both
     /// have the same triangles.
     [[nodiscard]] const Model& public_model() const { return model_; }
     [[nodiscard]] const ModelData& model() const { return model_.data(); }
     [[nodiscard]] const Transform& world() const { return world_; }
     [[nodiscard]] const Vec3& origin() const { return origin_; }
-    /// No two points of the model are farther apart.
+    /// No two points of the model are farther apart than this.
     [[nodiscard]] double world_size() const { return 2 * reach_; }
     [[nodiscard]] Vec3 world_vertex(std::uint32_t vertex) const {
         return apply(world_, model().mesh().positions[vertex]) - origin_;
@@ -56,29 +56,29 @@ public:
     }
     [[nodiscard]] const Transform& world_from_tree() const { return world_from_tree_; }
     [[nodiscard]] const Transform& tree_from_world() const { return tree_from_world_; }
-    /// No vector of the tree's frame becomes longer than this times its length.
+    /// No vector of the tree's frame is stretched by more than this factor.
     [[nodiscard]] double most_stretch() const { return most_stretch_; }
-    /// No point of the model is farther than reach() from here.
+    /// The centre: no point of the model is farther from it than reach().
     [[nodiscard]] Vec3 middle() const {
         return {world_from_tree_.m[9], world_from_tree_.m[10], world_from_tree_.m[11]};
     }
     [[nodiscard]] double reach() const { return reach_; }
 
-    /// The part of a segment that may meet the model, in the tree's frame; nothing if none may.
-    /// `error`: how far either end may be off, world units.
+    /// The part of a segment that may meet the model, in the tree's frame; none if no part may.
+    /// `error`: how far either end may be off, in world units.
     [[nodiscard]] std::optional<ClippedSegment> tree_segment(const Vec3& from, const Vec3& to,
                                                              double error = 0) const;
 
-    /// Calls visit(slot) for every triangle that may meet a box of the world.
+    /// Calls visit(slot) for every triangle that may meet a world box.
     template <typename Visit>
     void for_each_overlap(const Box3& box, const Visit& visit) const;
 
-    /// What is in front of a plane through a point. One without a normal holds nothing.
+    /// The half-space in front of a plane through a point. Empty if the normal is zero.
     struct HalfSpace {
         Vec3 point, normal;
     };
-    /// Calls visit(slot) for triangles that may meet a box of the world. It returns a half-space: many
-    /// of the triangles there are left out from then on.
+    /// Calls visit(slot) for triangles that may meet a world box. visit returns a half-space; many
+    /// of the triangles inside it are skipped from then on.
     template <typename Visit>
     void for_each_overlap_outside(const Box3& box, const Visit& visit) const;
 
@@ -86,26 +86,26 @@ public:
     template <typename Visit>
     void for_each_on_segment(const Vec3& from, const Vec3& to, const Visit& visit) const;
 
-    /// Calls visit(slot) for triangles, nearest box to the point first; visit returns the squared
-    /// distance beyond which nothing matters any more; a negative one ends it.
+    /// Calls visit(slot) for triangles, the nearest box first. visit returns the squared distance
+    /// beyond which triangles do not matter; a negative value ends the search.
     template <typename Visit>
     void for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const;
 
-    /// The triangle of least index that the point lies on. Exact.
+    /// The triangle with the smallest index that the point lies on. Exact.
     [[nodiscard]] std::optional<std::uint32_t> triangle_at(const Vec3& point) const;
-    /// Whether the point lies on the surface. Exact.
+    /// Returns whether the point lies on the surface. Exact.
     [[nodiscard]] bool on_surface(const Vec3& point) const {
         return triangle_at(point).has_value();
     }
 
 private:
-    /// Prepares the tree's frame; false if the transform leaves none to work in.
+    /// Prepares the tree's frame. Returns false if the transform leaves none that is usable.
     bool make_frame(bool has_origin);
     void move_to_origin();
     [[nodiscard]] Aabb tree_box(const Box3& box) const;
     [[nodiscard]] TreeHalfSpace tree_half_space(const HalfSpace& space) const;
-    /// What a world point near the model may be off by in the tree's frame in single precision;
-    /// `size`: of the world coordinates that it was computed from.
+    /// Bounds the error in single precision, in the tree's frame, of a world point near the model.
+    /// `size`: of the world coordinates that the point was computed from.
     [[nodiscard]] double margin(double size) const {
         return 64 * 0x1p-24 * 4 * half_ + 128 * 0x1p-53 * (world_extent_ + size) / least_stretch_ +
                origin_margin_;
@@ -119,11 +119,12 @@ private:
     Vec3 origin_;
     Transform world_from_tree_, tree_from_world_;
     double least_stretch_ = 0, most_stretch_ = 0;
-    double half_ = 0;          ///< largest coordinate of the tree's box
-    double reach_ = 0;         ///< no point of the model is farther from the tree's origin
-    double world_extent_ = 0;  ///< bounds the model's world coordinates
-    double origin_margin_ = 0; ///< the part of the margin for the rounding of positions that the
-                               ///< origin was taken off; in the tree's frame
+    double half_ = 0;         ///< largest coordinate of the tree's box
+    double reach_ = 0;        ///< the model's largest distance from the tree's origin
+    double world_extent_ = 0; ///< bounds the model's world coordinates
+    /// The part of the margin for the rounding of positions from which the origin was subtracted,
+    /// in the tree's frame.
+    double origin_margin_ = 0;
 };
 
 inline double magnitude(const Vec3& p) {
@@ -143,7 +144,7 @@ void PlacedModel::for_each_overlap_outside(const Box3& box, const Visit& visit) 
         const HalfSpace space = visit(slot);
         if (space.normal == Vec3{})
             return;
-        // The latest ones replace the oldest.
+        // The latest half-spaces replace the oldest.
         if (outside.size() < outside.capacity())
             outside.emplace_back();
         outside[latest++ % outside.capacity()] = tree_half_space(space);

@@ -43,7 +43,7 @@ int outward_by_winding(const Mesh& mesh) {
     return vote.outward();
 }
 
-/// Of a closed mesh.
+/// In: the mesh is closed.
 int outward_by_volume(const Mesh& mesh, const Topology& topology) {
     const auto& e = topology.half_edges;
     for (std::size_t i = 0; i < e.size(); i += 2)
@@ -71,7 +71,7 @@ double doubled_area_sq(const Triangle& t) {
 FaceProbe face_probe(const Triangle& t) {
     const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
     const Vec3 centre = (1.0 / 3) * (t[0] + t[1] + t[2]);
-    // A thousandth of the triangle's size off its middle.
+    // A thousandth of the triangle's size from its centroid.
     const Vec3 step = (1e-3 * std::sqrt(length(n))) * normalized_or_zero(n);
     return {centre + step, centre - step};
 }

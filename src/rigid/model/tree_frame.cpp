@@ -17,8 +17,8 @@ constexpr std::size_t kSamples = 256;
 
 constexpr Axes kModelAxes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
-/// Third axis from two that are at right angles to rounding; the model's axes if they are no
-/// directions at all.
+/// Completes two axes that are perpendicular to rounding by a third. Returns the model's axes if
+/// the two are no directions.
 Axes complete(const Vec3& first, const Vec3& second) {
     const Vec3 x = normalized_or_zero(first);
     const Vec3 y = normalized_or_zero(second - dot(second, x) * x);
@@ -26,7 +26,7 @@ Axes complete(const Vec3& first, const Vec3& second) {
     return std::abs(length_sq(z) - 1) < 0x1p-40 ? Axes{x, y, z} : kModelAxes;
 }
 
-/// Along the longest edge of the triangle of largest area, and along its normal.
+/// Axes along the second-longest edge of the largest triangle, and along its normal.
 Axes largest_face(const std::vector<Triangle>& triangles) {
     const auto doubled_area_sq = [](const Triangle& t) {
         return length_sq(cross(t[1] - t[0], t[2] - t[0]));
@@ -36,8 +36,8 @@ Axes largest_face(const std::vector<Triangle>& triangles) {
                                               return doubled_area_sq(s) < doubled_area_sq(u);
                                           });
     std::array edges{t[1] - t[0], t[2] - t[1], t[0] - t[2]};
-    // The diagonal of a rectangle is its longest edge and no axis of it: take the longest of the
-    // other two.
+    // The longest edge may be the diagonal of a rectangle, which is no axis of it: take the longer
+    // of the other two.
     std::sort(edges.begin(), edges.end(),
               [](const Vec3& p, const Vec3& q) { return length_sq(p) < length_sq(q); });
     return complete(edges[1], cross(edges[0], edges[1]));
@@ -57,7 +57,7 @@ double summed_box_area(const std::vector<Triangle>& triangles, const Axes& axes)
     return sum;
 }
 
-/// Some triangles, evenly chosen, as seen from the middle of the bounds.
+/// An even sample of triangles, relative to the centre of the bounds.
 std::vector<Triangle> some_triangles(const Mesh& mesh, const Box3& bounds) {
     std::vector<Triangle> sample;
     const std::size_t count = std::min(kSamples, mesh.triangles.size());

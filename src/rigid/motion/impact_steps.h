@@ -9,7 +9,7 @@
 
 namespace abut {
 
-/// Counts the steps of one search for a first contact, up to its limit, and reports how far it is.
+/// Counts the steps of one search for a first contact, up to a limit, and reports its progress.
 class ImpactSteps {
 public:
     explicit ImpactSteps(const ImpactOptions& options)
@@ -17,10 +17,10 @@ public:
           steps_(options.max_steps.value_or(std::numeric_limits<std::uint64_t>::max())),
           next_report_(progress_.report ? 0 : std::numeric_limits<double>::infinity()) {}
 
-    /// Before each step. Returns false, and counts nothing, if the limit is reached.
+    /// Counts a step. Returns false, and counts nothing, if the limit is reached. Call it before
+    /// each step.
     ///
-    /// In          free: the motion is free up to this time.
-    /// Errors      Error{interrupted}.
+    /// In          free: the time up to which the motion is free.
     bool take(double free) {
         if (!steps_.take())
             return false;

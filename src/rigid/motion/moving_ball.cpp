@@ -15,14 +15,14 @@ MovingBall ball_of_child(const Tree& tree, std::uint32_t name, const Transform& 
     const std::size_t i = lane_of(name);
     const Vec3 lower{node.lower[0][i], node.lower[1][i], node.lower[2][i]},
         upper{node.upper[0][i], node.upper[1][i], node.upper[2][i]};
-    // The frame's axes are at right angles to a few parts in 2^24.
+    // The frame's axes are perpendicular to a few parts in 2^24.
     const double off = 0x1p-20 * (length(lower) + length(upper));
     return {apply(world_from_tree, node.frame.point_to_tree(0.5 * lower + 0.5 * upper)),
             (0.5 * length(upper - lower) + off) * scale * (1 + 0x1p-20)};
 }
 
-// As the other body sees it, the ball's centre has the velocity u = v + w x r - v' - w' x (c - c'),
-// r its arm, and u' = w x (w x r) - w' x (v - v' + w x r).
+// Relative to the other body, the ball's centre has the velocity u = v + w x r - v' - w' x (c -
+// c'), with r its arm, and the acceleration u' = w x (w x r) - w' x (v - v' + w x r).
 BallGap gap_of_ball(const MovingBall& ball, const Trajectory& of_ball,
                     std::span<const Triangle> triangles, const Trajectory& of_triangles,
                     double time, double margin) {
@@ -41,7 +41,7 @@ BallGap gap_of_ball(const MovingBall& ball, const Trajectory& of_ball,
         kMore *
         (rate * turning + of_triangles.speed_of_rotation() *
                               (length(of_ball.velocity() - of_triangles.velocity()) + turning));
-    // The motion ends at 1: the speed is never more than both together.
+    // The motion ends at time 1, so the speed never exceeds their sum.
     gap.free_time = free_time(Approach{gap.distance, speed, bend, speed + bend});
     return gap;
 }

@@ -15,18 +15,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// The size of a child and of a triangle of a leaf, relative to the node, more or less.
+/// Approximate sizes of a child, and of a triangle of a leaf, relative to the node.
 constexpr double kChild = 0.5, kTriangle = 0.1;
 
-/// When two sets may meet, lane by lane: from one share of the span to another, by their gaps along
-/// directions. What is not a number tells nothing.
+/// The share of the span in which two sets may meet, in each lane, from their gaps along
+/// directions. A value that is not a number excludes nothing.
 template <class D>
 struct Meeting {
     hn::Vec<D> from, to;
 
     HWY_INLINE Meeting(D d, float begin) : from(hn::Set(d, begin)), to(hn::Set(d, 1.0F)) {}
 
-    /// The sets are apart while gap - s closing > 0.
+    /// The sets are apart as long as gap - s closing > 0.
     HWY_INLINE void take(D d, hn::Vec<D> gap, hn::Vec<D> closing) {
         const auto zero = hn::Zero(d), never = hn::Set(d, std::numeric_limits<float>::infinity());
         const auto share = hn::Div(gap, closing);
@@ -35,7 +35,7 @@ struct Meeting {
             from, hn::IfThenElseZero(apart, hn::IfThenElse(hn::Gt(closing, zero), share, never)));
         to = hn::Min(to, hn::IfThenElse(hn::AndNot(apart, hn::Lt(closing, zero)), share, never));
     }
-    /// Not later than they can meet: the difference, the quotient and this product are rounded.
+    /// A share at or before their first meeting: the difference, quotient and product are rounded.
     [[nodiscard]] HWY_INLINE hn::Vec<D> share(D d) const {
         return hn::Mul(from, hn::Set(d, 1 - 0x1p-20F));
     }
@@ -44,21 +44,22 @@ struct Meeting {
     }
 };
 
-/// Where the span begins, or before.
+/// The share at which the span begins, rounded down.
 HWY_INLINE float first_share(const TimeSpan& span) {
     const double length = span.end - span.moment.time;
     return length > 0 ? to_float((1 - 0x1p-20) * (span.begin - span.moment.time) / length) : 0.0F;
 }
 
-/// The children of a node of a pair, in motion.
+/// The children of a node, with their motion.
 struct MovingSiblings {
-    /// Along the axes of a frame: of the middle, and by how much any point's may differ.
+    /// Along a frame's axes: the speed of a box's centre, and the bound by which points of it
+    /// differ.
     struct Speeds {
         HWY_ALIGN float middle[3][Node::kWidth];
         HWY_ALIGN float more[3][Node::kWidth];
     };
     Siblings boxes;
-    Speeds own_speeds, seen_speeds; ///< in the own frame, in the other's
+    Speeds own_speeds, seen_speeds; ///< in the node's own frame, and in the other node's
 
     HWY_INLINE MovingSiblings(const Node& node, const FrameMap& to_own, const FrameMap& to_other,
                               const NodeMotion& in_own, const NodeMotion& in_other) {
@@ -92,7 +93,7 @@ private:
     }
 };
 
-/// Child i of one node against some of the other's, along the axes of one frame.
+/// Compares child i of one node with some of the other's, along the axes of one frame.
 HWY_INLINE void compare_along(Lanes8 d, const MiddleBoxes& one,
                               const MovingSiblings::Speeds& one_speeds, std::size_t i,
                               const MiddleBoxes& others, const MovingSiblings::Speeds& other_speeds,
@@ -111,7 +112,7 @@ HWY_INLINE void compare_along(Lanes8 d, const MiddleBoxes& one,
     }
 }
 
-/// Child i of x against all of y.
+/// Compares child i of x with all children of y.
 HWY_INLINE std::uint32_t meet_row(const MovingSiblings& x, std::size_t i, const MovingSiblings& y,
                                   float begin, float* share) {
     const Lanes8 d;
@@ -144,7 +145,7 @@ void find_meeting_children(const TimeSpan& span, const NodeChildren& a, const No
     const float begin = first_share(span);
     result.pairs = 0;
     const std::uint32_t lanes_a = a.lanes & p.boxes.used, lanes_b = b.lanes & q.boxes.used;
-    // The fewer children one by one, each against all of the others.
+    // Each child of the node with fewer children is compared with all of the other's.
     if (std::popcount(lanes_a) <= std::popcount(lanes_b)) {
         for (std::uint32_t lanes = lanes_a; lanes != 0; lanes &= lanes - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -165,15 +166,15 @@ void find_meeting_children(const TimeSpan& span, const NodeChildren& a, const No
     }
 }
 
-/// Pairs of triangles, lane by lane, and how they move.
+/// Pairs of triangles with their motion, lane by lane.
 template <class D>
 struct MovingTriangles {
     Lanes3<D> a[3], b[3]; ///< vertices
     Lanes3<D> velocity_a[3], velocity_b[3];
     bool turns = false;
 
-    /// Compares along a direction of any length, of which margin and spread are as well: a triangle
-    /// stays on its side of a plane while its vertices do.
+    /// Compares along a direction of any length; margin and spread are scaled by that length. A
+    /// triangle stays on its side of a plane while its vertices do.
     HWY_INLINE void take(D d, const Lanes3<D>& n, hn::Vec<D> margin, hn::Vec<D> spread,
                          Meeting<D>& meeting) const {
         const auto heights = [&](const Lanes3<D>(&v)[3], hn::Vec<D>& low,
@@ -212,7 +213,7 @@ void find_meeting_triangles(const TimeSpan& span, const Node& node_a, const Tria
     turn_leaf(leaf_b, a_from_b, turned);
     const float begin = first_share(span);
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
-    // The vertices are off by two margins together, and heights are rounded.
+    // The vertices are off by two margins in sum, and the heights are rounded.
     const auto margin = hn::Set(d, 3 * (a_from_b.margin + to_float(frame.margin)));
     result.pairs = 0;
     for (std::size_t lane = 0; lane < kPairs; lane += hn::Lanes(d)) {

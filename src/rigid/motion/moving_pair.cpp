@@ -11,7 +11,7 @@ namespace abut {
 
 namespace {
 
-/// Of a rotation: its transpose takes back.
+/// Applies the inverse of a rotation.
 Vec3 apply_transposed(const Transform& t, const Vec3& v) {
     const auto& m = t.m;
     return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
@@ -21,7 +21,6 @@ Vec3 translation_of(const Transform& t) {
     return {t.m[9], t.m[10], t.m[11]};
 }
 
-/// Without the scale of a tree.
 Transform unscaled(const Transform& world_from_tree, double scale) {
     Transform t = world_from_tree;
     for (std::size_t i = 0; i < 9; ++i)
@@ -29,7 +28,7 @@ Transform unscaled(const Transform& world_from_tree, double scale) {
     return t;
 }
 
-/// No point of the box is farther from the origin.
+/// Bounds the distance of the box's points from the origin.
 double farthest(const Aabb& box) {
     const auto largest = [&](std::size_t i) {
         return std::max(std::abs(double{box.lower[i]}), std::abs(double{box.upper[i]}));
@@ -53,18 +52,18 @@ MovingPair::Body make_body(const Tree& tree, const Transform& model_from_tree,
     return body;
 }
 
-/// Speed of the fastest point, from its centre's.
+/// Bounds the speed of any point relative to the body's centre.
 double speed_of_turning(const MovingPair::Body& body) {
     return body.trajectory.speed_of_rotation() * (length(body.centre) + body.reach);
 }
 
-/// Bounds all coordinates that play a part, and the ways of all points.
+/// Bounds all coordinates that occur, and all path lengths.
 double size_of(const MovingPair::Body& body) {
     const Transform& start = body.trajectory.start();
     const double turning = speed_of_turning(body);
     return length(translation_of(start)) + length(translation_of(body.model_from_tree)) +
            body.reach + length(body.trajectory.velocity()) + turning +
-           // The centre itself counts only as far as the body turns about it.
+           // The centre counts only as far as the body turns about it.
            std::min(1.0, body.trajectory.speed_of_rotation()) * length(body.trajectory.centre(0));
 }
 
@@ -109,7 +108,7 @@ double MovingPair::free_time_of_balls(double time, double horizon) const {
     const auto origin = [&](const Body& body) {
         return translation_of(compose(body.trajectory.at(time), body.model_from_tree));
     };
-    // The acceleration of a point that turns.
+    // Acceleration of a point of a turning body.
     const auto bend_of = [&](const Body& body, const Vec3& x) {
         const double rate = body.trajectory.speed_of_rotation();
         return rate * rate * body.trajectory.axis_distance(x, time);

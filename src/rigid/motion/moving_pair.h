@@ -7,44 +7,44 @@
 
 namespace abut {
 
-/// Two bodies in motion: their trees, and how each frame moves.
+/// Two bodies in motion, with their trees.
 struct MovingPair {
     struct Body {
         Trajectory trajectory;
         const Tree& tree;
-        double scale = 1;              ///< the model's units in one of the tree's
+        double scale = 1;              ///< the length of the tree's unit in the model
         Transform model_from_tree;     ///< with the scale
-        Vec3 centre, angular_velocity; ///< in the axes of the tree, where both stand still
-        double reach = 0;              ///< of the tree's points from its origin
+        Vec3 centre, angular_velocity; ///< in the axes of the tree, where both are constant
+        double reach = 0;              ///< largest distance of the tree's points from its origin
     };
     Body a, b;
-    double speed = 0;  ///< no two points approach each other faster
-    double bend = 0;   ///< no two points' velocities change faster
-    double margin = 0; ///< what rounding can have changed of any distance, many times over
+    double speed = 0;  ///< bound on the speed at which two points approach each other
+    double bend = 0;   ///< bound on the change of two points' relative velocity
+    double margin = 0; ///< far above what rounding can change in any distance
 
     /// Errors      Error{bad_argument}.
     MovingPair(const Tree& tree_a, const Transform& model_from_tree_a, const Motion& motion_a,
                const Tree& tree_b, const Transform& model_from_tree_b, const Motion& motion_b);
 
-    /// From `time` on, balls around the models do not meet for at least this long; infinite: not
-    /// for as long as `horizon`.
+    /// From `time` on, balls around the models do not meet for at least this long. Infinite if they
+    /// do not meet within `horizon`.
     [[nodiscard]] double free_time_of_balls(double time, double horizon) const;
 };
 
-/// The bodies' motion at one time as a tree's frame sees it that stands still from then on: in its
-/// axes and units, per unit of time.
+/// Both bodies' velocities at one time, in a tree's frame frozen at that time: in its axes and
+/// units, per unit of time.
 struct FrameMotion {
-    Vec3 centre_own, centre_other; ///< on the axes of rotation
-    Vec3 velocity;                 ///< of the other's centre minus that of the own
+    Vec3 centre_own, centre_other; ///< points on the axes of rotation
+    Vec3 velocity;                 ///< velocity of the other's centre relative to the own
     Vec3 spin_own, spin_other;     ///< angular velocities
     double rate_own = 0, rate_other = 0;
-    double rate_between = 0;   ///< of the difference of the spins
+    double rate_between = 0;   ///< size of the difference of the spins
     double centres = 0;        ///< speed of the centres relative to each other
-    double own_from_other = 1; ///< units of the own tree in one of the other's
-    double margin = 0;         ///< as the pair's
+    double own_from_other = 1; ///< length of the other tree's unit in the own tree
+    double margin = 0;         ///< the pair's margin, in the own tree's units
 };
 
-/// Both bodies at one time.
+/// The poses and motions of both bodies at one time.
 class Moment {
 public:
     Moment() = default;

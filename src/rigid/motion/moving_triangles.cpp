@@ -13,24 +13,24 @@ namespace abut {
 namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-/// A horizon is shortened this many times where much less is proven than it allows.
+/// How often a horizon is shortened while much less time is proven than it allows.
 constexpr int kHorizonRounds = 3;
-/// A plane that does not turn is good enough if it proves so much of what may be hoped for.
+/// A plane that does not turn is good enough if it proves this share of the time that may be hoped
+/// for.
 constexpr double kGoodEnough = 0.25;
-/// Relative to the terms of a sum of a few products, many times over.
+/// Far above the rounding of a sum of a few products, relative to its terms.
 constexpr double kSumRounding = 0x1p-47;
 
-/// How a vertex moves along a direction.
+/// The motion of a vertex along a direction.
 struct VertexMotion {
     double height, speed;
 };
 
-/// A triangle in motion at one time.
 struct MovingTriangle {
     const Trajectory& trajectory;
     Triangle vertices;              ///< relative to a point near both triangles
     std::array<Vec3, 3> velocities; ///< of the vertices
-    std::array<double, 3> arms{};   ///< of the vertices from the axis of rotation
+    std::array<double, 3> arms{};   ///< distances of the vertices from the axis of rotation
     double arm = 0;                 ///< the longest
 
     MovingTriangle(const Trajectory& t, const Triangle& world, const Vec3& origin, double time)
@@ -49,14 +49,14 @@ struct MovingTriangle {
     }
 };
 
-/// The most that |n x x| becomes within a time in which n turns at the rate `turning`.
+/// Bounds |n x x| within a time in which n turns at the rate `turning`.
 double most_across(const Vec3& n, const Vec3& x, double turning, double time) {
     const double size = length(x);
     return std::min(size, length(cross(n, x)) + time * turning * size);
 }
 
-/// What a function of time is at first, how fast it decreases then, and a bound of its second
-/// derivative.
+/// A function of time by its first value, the speed of its first decrease, and a bound of its
+/// second derivative.
 struct HeightBound {
     double value = 0, decrease = 0, bend = 0;
 
@@ -66,7 +66,7 @@ struct HeightBound {
     }
 };
 
-/// Two bodies that turn, near a pair of points of theirs.
+/// Two triangles of turning bodies, with their closest points.
 class TrianglesInMotion {
 public:
     TrianglesInMotion(const MovingPair& pair, double time, const Triangle& a, const Triangle& b,
@@ -78,12 +78,12 @@ public:
     [[nodiscard]] const MovingTriangle& b() const { return b_; }
 
     struct Result {
-        double gap;  ///< along the direction; negative: it does not separate them
-        double time; ///< for which they stay apart
+        double gap;  ///< along the direction; negative if the direction does not separate them
+        double time; ///< how long they stay apart
     };
 
-    /// By a plane that does not turn. Vertex by vertex: triangles stay on their sides of a plane
-    /// while all their vertices do.
+    /// Separates the triangles by a plane that does not turn. Each pair of vertices gives a time:
+    /// triangles stay on their sides of a plane as long as all their vertices do.
     [[nodiscard]] Result along(const Vec3& n) const {
         const double bend = bend_along(a_, n) + bend_along(b_, n);
         const auto project = [&](const MovingTriangle& body) {
@@ -105,7 +105,7 @@ public:
         return result;
     }
 
-    /// What the functions below rest on.
+    /// Computes the members that the functions below need.
     void look_at_both() {
         velocity_ = pair_.b.trajectory.velocity() - pair_.a.trajectory.velocity();
         spin_ = b_.spin() - a_.spin();
@@ -115,8 +115,8 @@ public:
         turning_of_b_ = b_.rate() * pair_.b.trajectory.axis_distance(closest_.b, time_);
     }
 
-    /// An estimate, which proves nothing: how long the closest points alone would stay apart if a plane
-    /// turned with the better of the two bodies.
+    /// Estimates how long the closest points alone would stay apart if a plane turned with the
+    /// better of the two bodies. Proves nothing.
     [[nodiscard]] double hope(const Vec3& n) const {
         const double turning_of_a = a_.rate() * pair_.a.trajectory.axis_distance(closest_.a, time_);
         const double spin = length(spin_), moving = length(velocity_) + length(closing_in_a_);
@@ -125,8 +125,8 @@ public:
         return free_time({length(between_), -dot(n, closing_in_a_), bend, kUnbounded});
     }
 
-    /// By a plane that turns with one of the bodies, `horizon` at most: however large that body's
-    /// triangle is, only the other's vertices move. n: from a to b.
+    /// Separates the triangles by a plane that turns with one of the bodies, for at most `horizon`.
+    /// However large that body's triangle is, only the other's vertices move. n: from a to b.
     [[nodiscard]] double along_with(const MovingTriangle& own, const Vec3& n,
                                     double horizon) const {
         const bool is_a = &own == &a_;
@@ -152,7 +152,8 @@ public:
         return proven;
     }
 
-    /// By a plane that stays parallel to an edge of each, in directions e and f of length 1.
+    /// Separates the triangles by a plane parallel to an edge of each, with unit directions e and
+    /// f.
     [[nodiscard]] double along_edges(const Vec3& e_any, const Vec3& f, double horizon) const {
         const double sign = dot(between_, cross(e_any, f)) < 0 ? -1 : 1;
         const Vec3 e = sign * e_any, n = cross(e, f);
@@ -167,15 +168,15 @@ private:
         return length(cross(n, body.spin())) * body.rate() * body.arm;
     }
 
-    /// As seen from the own body, no point of the other one that has the velocity u now, and turns
-    /// at this speed, becomes faster before the time `end`.
+    /// Bounds, until the time `end`, the speed relative to the own body of a point of the other one
+    /// that has the relative velocity u now and turns at the given speed.
     [[nodiscard]] double most_speed(const Vec3& u, const MovingTriangle& own, double turning,
                                     double end) const {
         return kHorizonGrowth *
                (length(u) + end * (length(spin_) * turning + own.rate() * length(velocity_)));
     }
 
-    /// The longest time that a bound proves that holds for a given horizon.
+    /// The longest time that a bound proves, over horizons that are shortened step by step.
     template <class Bound>
     [[nodiscard]] double in_rounds(double horizon, const Bound& bound) const {
         const double most = kHorizonTurn / (a_.rate() + b_.rate());
@@ -214,7 +215,7 @@ private:
                                  -(dot(closing_in_a_, n) + turned) + lost,
                                  most_bend * most_sine + 2 * sideways * across_f +
                                      distance * (spin * spin_of_f + a_.rate() * across_f)};
-        // How far the vertices are behind.
+        // How far the vertices lie behind the closest points.
         std::array<HeightBound, 3> of_a, of_b;
         const auto behind = [&](const Vec3& w, const Vec3& direction, const Vec3& turned_direction,
                                 const MovingTriangle& own, double spin_of_other,
@@ -247,13 +248,13 @@ private:
     double time_;
     const ClosestPoints& closest_;
     MovingTriangle a_, b_;
-    Vec3 velocity_, spin_;    ///< of b's centre minus that of a's; of b minus that of a
+    Vec3 velocity_, spin_;    ///< velocity of b's centre relative to a's; spin of b relative to a
     Vec3 between_;            ///< from the closest point of a to that of b
-    Vec3 closing_in_a_;       ///< velocity of the closest point of b as seen from a
-    double turning_of_b_ = 0; ///< its speed about the axis of b
+    Vec3 closing_in_a_;       ///< velocity of the closest point of b relative to a
+    double turning_of_b_ = 0; ///< speed of that point about the axis of b
 };
 
-/// Whether an edge belongs to the part of a triangle that the closest point is on.
+/// Returns whether an edge belongs to the feature of a triangle that holds the closest point.
 bool is_near(std::size_t edge, const TriangleFeature& on) {
     return on.kind == Feature::face || on.index == edge ||
            (on.kind == Feature::vertex && on.index == (edge + 1) % 3);
@@ -265,7 +266,7 @@ double free_time(const MovingPair& pair, double time, const Triangle& a, const T
                  const ClosestPoints& closest, double horizon) {
     const Vec3 between = closest.b - closest.a;
     const double gap = length(between);
-    // Whatever the direction.
+    // A bound for any direction.
     const double least = free_time({gap - pair.margin, pair.speed, 0, pair.speed});
     if (least == 0)
         return 0;
@@ -296,8 +297,9 @@ double free_time(const MovingPair& pair, double time, const Triangle& a, const T
     }
     if (is_exact || best >= horizon)
         return best;
-    // A direction in which faces or edges part the triangles is exact to rounding however near they
-    // are, where that of the closest points, a difference of almost equal points, is not.
+    // The direction of the closest points is a difference of almost equal points. If its rounding
+    // is too large, a direction from faces or edges that part the triangles is exact to rounding,
+    // however near the triangles are.
     const auto attempt = [&](const Vec3& direction) {
         const Vec3 unit = normalized_or_zero(direction), up = dot(unit, n) < 0 ? -unit : unit;
         best = std::max(best, triangles.along(up).time);

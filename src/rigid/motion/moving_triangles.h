@@ -5,11 +5,11 @@
 
 namespace abut {
 
-/// From `time` on, when the triangles (of a and b, in the world) are where they are given and these
-/// are their closest points: they do not meet for at least this long; infinite: never.
+/// How long two triangles of a and b do not meet, from `time` on, when they are at the given places
+/// in the world and `closest` are their closest points. Infinite: they never meet.
 ///
-/// Degenerate  needles and points are as good as any: directions that rounding spoils are replaced
-///             by those of their edges and faces.
+/// Degenerate  needles and points are handled: directions that rounding spoils are replaced by
+///             those of edges and faces.
 double free_time(const MovingPair& pair, double time, const Triangle& a, const Triangle& b,
                  const ClosestPoints& closest, double horizon);
 

@@ -11,23 +11,23 @@ namespace abut {
 
 namespace {
 
-/// Relative, of sums of a few products in single precision, and of axes that are of unit length only
-/// nearly: both are some 2^-22.
+/// Relative error of sums of a few products in single precision, and of axes whose length is nearly
+/// 1: both are about 2^-22.
 constexpr double kRounding = 0x1p-20;
 constexpr double kMore = 1 + kRounding;
-/// Absolute: more than products lose that are too small for single precision.
+/// Absolute error: above what products lose that underflow in single precision.
 constexpr double kTooSmall = 0x1p-100;
-/// Ways beyond which products may overflow, and sums of them be anything.
+/// Path lengths beyond which products may overflow.
 constexpr double kTooLarge = 0x1p60;
-constexpr double kDiagonal = 1.75; ///< of a cube: more than the root of 3
-/// Axes that turn are considered where speeds are off by so many times what they may gain.
+constexpr double kDiagonal = 1.75; ///< more than the root of 3, for a cube's diagonal
+/// Axes that turn are considered only if the error of speeds exceeds this many times the gain.
 constexpr double kWorthwhile = 4;
 
 std::array<float, 3> in_node(const Node& node, const Vec3& v) {
     return node.frame.vector_from_tree(to_float(v));
 }
 
-/// |n x w| for each axis n, not less.
+/// An upper bound of |n x w| for each axis n.
 std::array<float, 3> across_axes(const std::array<float, 3>& w) {
     std::array<float, 3> result{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -37,23 +37,26 @@ std::array<float, 3> across_axes(const std::array<float, 3>& w) {
     return result;
 }
 
-/// How fast the points of two nodes turn and move: bounds, in the own tree's units, per unit of
+/// Bounds on how fast the points of two nodes turn and move, in the own tree's units per unit of
 /// time.
 struct NodeSpeeds {
-    /// Angular: of the bodies, and of their difference.
+    /// Angular speeds of the bodies, and of their difference.
     double rate_own = 0, rate_other = 0, rate_between = 0;
-    double radius_own = 0, radius_other = 0;   ///< of the nodes
-    double reach_other = 0;                    ///< of the other node's points from the own origin
-    double turning_own = 0, turning_other = 0; ///< about the axes of rotation
-    double between = 0;                        ///< of the frames' origins, relative to each other
-    double of_centres = 0;                     ///< of the centres of rotation, likewise
+    double radius_own = 0, radius_other = 0; ///< of the nodes
+    /// Largest distance of the other node's points from the own origin.
+    double reach_other = 0;
+    double turning_own = 0, turning_other = 0; ///< speeds about the axes of rotation
+    /// Speed of the frames' origins relative to each other.
+    double between = 0;
+    /// Speed of the centres of rotation relative to each other.
+    double of_centres = 0;
 };
 
-/// What the node of one body does as the other body sees it, which turns at `rate_seen`.
+/// The motion of one body's node in the frame of the other body, which turns at `rate_seen`.
 struct SeenMotion {
-    double turning = 0; ///< about its own axis
+    double turning = 0; ///< speed about its own axis
     double speed = 0;   ///< relative to the other body
-    /// Of the height of its points along an axis of the other body.
+    /// Bounds the second derivative of its points' heights along an axis of the other body.
     [[nodiscard]] double bend(double across_between, double across_seen, double of_centres) const {
         return across_between * turning + across_seen * (of_centres + speed);
     }
@@ -66,13 +69,13 @@ SeenMotion seen(double turning, double reach, double rate_seen, const NodeSpeeds
                               duration * (x.rate_between * turning + rate_seen * x.of_centres))};
 }
 
-/// What speeds along standing axes can be off by in the middle of the span, and along axes that
-/// turn with one of the bodies: the least is best.
+/// Chooses whether the axes stand still or turn with one of the bodies: the choice with the
+/// smallest error of speeds in the middle of the span.
 AxesTurn best_turn(NodeSpeeds& x, const Vec3& velocity, double duration, double part) {
     const double half = 0.5 * duration;
     const double standing = part * (x.rate_own * x.radius_own + x.rate_other * x.radius_other) +
                             half * (x.rate_own * x.turning_own + x.rate_other * x.turning_other);
-    // Nodes of like size gain little.
+    // Nodes of similar size gain little.
     if (standing < kWorthwhile * part * x.rate_between * std::min(x.radius_own, x.radius_other) ||
         duration * (x.rate_own + x.rate_other) > kHorizonTurn)
         return AxesTurn::none;
@@ -133,10 +136,10 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
         m.spin_other = in_node(own, duration * spin_other);
         m.turn_own = across_axes(m.spin_own);
         m.turn_other = across_axes(m.spin_other);
-        // The points themselves are where they are seen to be but for the margin.
+        // The points' positions are exact but for the margin.
         rounding += kRounding * (rate_own * x.radius_own + rate_other * x.reach_other) +
                     kDiagonal * (rate_own + rate_other) * own_from_other.margin;
-        // s^2 / 2 times the acceleration, and s^2 <= s duration.
+        // s^2 / 2 times the acceleration, with s^2 <= s duration.
         const double half = 0.5 * duration;
         if (m.axes == AxesTurn::none) {
             // |n x spin| |spin x arm|
@@ -156,7 +159,7 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
                 in_node(own, duration * (with_own ? frame.spin_own : frame.spin_other)));
             const auto& across_between = with_own ? m.turn_other : m.turn_own;
             for (std::size_t i = 0; i < 3; ++i) {
-                // The axes turn, the difference of the spins does not.
+                // The axes turn; the difference of the spins is constant.
                 const double most_between =
                     across_between[i] + duration * x.rate_between * across_seen[i];
                 m.spread[i] = to_float(kMore * half *

@@ -25,28 +25,28 @@ namespace abut {
 
 namespace {
 
-constexpr double kEnd = 1; ///< of the time that is looked at
+constexpr double kEnd = 1; ///< end of the time that is searched
 constexpr double kNoTime = std::numeric_limits<double>::infinity();
-/// How often pairs of triangles within the tolerance are followed, in all and for each pair that
-/// was found, before contact is reported as possible.
+/// Limits on steps with pairs of triangles within the tolerance: in all, and for each found pair.
+/// Beyond them, contact is reported as possible.
 constexpr std::uint64_t kMostFollowed = 4096, kMostFollowedOfPair = 64;
-/// Below this many times the margin for rounding, nothing is told from contact: twice, so that what
-/// is left of larger gaps always moves the time on.
+/// A gap below this many margins for rounding is not told from contact. At 2, what is left of a
+/// larger gap always advances the time.
 constexpr double kUndecided = 2;
-/// Radians by which both together turn within a window: bounds hold for one, and are good for
-/// turns this small.
+/// The sum of both bodies' turns within a window, in radians: the bounds hold for one window and
+/// are good for such small turns.
 constexpr double kMostTurn = 0.25;
-/// A window is not shorter, so that they come to an end.
+/// Shortest window, so that the number of windows is bounded.
 constexpr double kLeastWindow = 0x1p-20;
-/// A moment is used again while what its bounds have lost by its age is no more than this share of
-/// a box's radius.
+/// A moment is used again as long as the bounds have lost at most this share of a box's radius by
+/// its age.
 constexpr double kStale = 1.0 / 64;
 /// A box of less than this share of another's radius is lost in the rounding of single precision.
 constexpr double kBlurred = 0x1p-16;
-/// A ball that is nearer than this share of its radius, or free for less than this share of a window,
-/// is not waited for: what is in it is looked at.
+/// A ball is not postponed, but its contents are opened, if it is nearer than this share of its
+/// radius, or free for less than this share of a window.
 constexpr double kNear = 0.25, kShortWait = 1.0 / 256;
-/// Where one box has so many times the radius of the other, it is opened alone.
+/// If one box has this many times the radius of the other, only the larger is opened.
 constexpr double kUnlike = 3;
 constexpr std::uint32_t kAllLanes = (1U << Node::kWidth) - 1;
 
@@ -57,12 +57,12 @@ struct Waiting {
     std::uint32_t a, b;
 };
 
-/// Gives the pair of the earliest time first; of the same time, one that is deeper in the tree of
-/// a: nodes come after those above them.
+/// A priority queue (a binary heap) by time. Of equal times, the pair deeper in the tree of a comes
+/// first, since nodes are numbered after their ancestors.
 class WaitingQueue {
 public:
     void clear() { heap_.clear(); }
-    /// Infinite if none waits.
+    /// Infinite if the queue is empty.
     [[nodiscard]] double first_time() const { return heap_.empty() ? kNoTime : heap_.front().time; }
 
     void push(const Waiting& pair) {
@@ -85,8 +85,8 @@ private:
     std::vector<Waiting> heap_;
 };
 
-/// Half the diagonal of a box, in units of its tree; in single precision, as it only decides what is
-/// opened and when a moment is too old.
+/// Half the diagonal of a box, in its tree's units. In single precision, since it decides only what
+/// is opened and when a moment is too old.
 double radius_of(const Tree& tree, std::uint32_t name) {
     const auto half_of = [](float x, float y, float z) {
         return 0.5F * std::sqrt(x * x + y * y + z * z);
@@ -101,7 +101,7 @@ double radius_of(const Tree& tree, std::uint32_t name) {
                    node.upper[2][i] - node.lower[2][i]);
 }
 
-/// Advances all pairs in the order of the times before which they cannot meet.
+/// Advances pairs in the order of the times before which they certainly do not meet.
 class ImpactSearch {
 public:
     ImpactSearch(const Model& a, const Model& b, const MovingPair& pair,
@@ -123,8 +123,9 @@ public:
     }
 
 private:
-    /// One window of time. What can only meet after it is not kept: the next window finds it again
-    /// from the roots, in fewer pairs than the many small ones into which it was split here.
+    /// Searches one window of time. Pairs that can meet only after it are dropped: the next window
+    /// finds them again from the roots, in fewer pairs than the small ones that they were split
+    /// into here.
     void search_from(double begin) {
         begin += pair_.free_time_of_balls(begin, kEnd - begin);
         window_end_ = std::min(kEnd, begin + window_);
@@ -149,7 +150,7 @@ private:
         }
     }
 
-    /// The time span from a pair's on, from a moment that serves boxes of this size.
+    /// The span from a pair's time on, with a moment that is recent enough for boxes of this size.
     TimeSpan span_from(double time, double radius) {
         const double passed = time - moment_.time;
         if (moment_.time < 0 || passed * blur_ > kStale * radius)
@@ -176,7 +177,7 @@ private:
                             (b.is_leaf() || pair.b == kRootName || radius_b < kUnlike * radius_a),
                    open_b = !b.is_leaf() &&
                             (a.is_leaf() || pair.a == kRootName || radius_a < kUnlike * radius_b);
-        // What is not opened is compared as the child that it is.
+        // A box that is not opened is compared as a child of its node.
         const std::uint32_t index_a = open_a ? a.index() : node_of(pair.a),
                             index_b = open_b ? b.index() : node_of(pair.b);
         const std::uint32_t lanes_a = open_a ? kAllLanes : 1U << lane_of(pair.a),
@@ -203,9 +204,9 @@ private:
         NodeRef leaf;
     };
 
-    /// In single precision, relative to a large leaf, a small box is anywhere: in double precision
-    /// the ball around it may be told to be apart from the leaf's triangles for some time. Not if
-    /// it is so near that what is below it must be looked at.
+    /// Relative to a large leaf, single precision does not locate a small box. In double precision,
+    /// the ball around the box may be proven apart from the leaf's triangles for some time. Returns
+    /// false if the ball is so near that its contents must be opened.
     bool postpone(const Waiting& pair, const SmallBox& small, const LargeLeaf& large) {
         if (small.name == kRootName)
             return false;
@@ -221,7 +222,7 @@ private:
         const BallGap gap =
             gap_of_ball(ball, small.body.trajectory, {triangles.data(), triangles.size()},
                         large.body.trajectory, pair.time, pair_.margin);
-        // Also where something is not a number.
+        // Negated, so that a value that is not a number returns false.
         if (!(gap.distance >= kNear * ball.radius &&
               gap.free_time >= kShortWait * std::min(kEnd, window_)))
             return false;
@@ -254,7 +255,7 @@ private:
         return b_.data().world_slot(slot, pair_.b.trajectory.at(time));
     }
 
-    /// Measures two triangles: they are the answer, or wait for their next time.
+    /// Measures two triangles. They end the search, or wait for their next time.
     void advance(const Waiting& pair) {
         ++counters_.primitive_tests;
         const Triangle a = triangle_a(pair.a, pair.time), b = triangle_b(pair.b, pair.time);
@@ -268,7 +269,8 @@ private:
             triangles_.push({next, pair.a, pair.b});
     }
 
-    /// Whether two triangles within the tolerance end the search: they will meet, or nobody knows.
+    /// Returns whether two triangles within the tolerance end the search: they will meet, or it
+    /// cannot be decided.
     bool decide(const Waiting& pair, const ClosestPoints& closest, double gap) {
         const Vec3 normal = normalized_or_zero(closest.b - closest.a);
         const double closing =
@@ -296,8 +298,8 @@ private:
         return true;
     }
 
-    /// A time at which the two triangles share a point, now or where they should at their present
-    /// speed; infinite if none is found.
+    /// A time at which the two triangles share a point: now, or near the time that their present
+    /// speed predicts. Infinite if none is found.
     double contact_of_triangles(const Waiting& pair, double expected) {
         for (const double part : {0.0, 1.001, 1.1, 2.0, 8.0}) {
             const double time = std::min(kEnd, pair.time + part * expected);
@@ -311,7 +313,8 @@ private:
         return kNoTime;
     }
 
-    /// The same for the whole models: near two triangles that only touch, others may cross.
+    /// A time at which the whole models share a point: near two triangles that only touch, others
+    /// may cross.
     double contact_of_models(double time, double step) {
         for (const double steps : {1.0, 16.0, 256.0, 4096.0}) {
             const double then = std::min(kEnd, time + steps * step);
@@ -330,11 +333,11 @@ private:
     double asked_tolerance_, tolerance_;
     ImpactSteps steps_;
     double window_; ///< length of a window
-    /// Speed at which the bounds of a moment become worse: rotation within a window, and roundings
-    /// of single precision.
+    /// Speed at which the bounds of a moment become worse: by rotation within a window, and by
+    /// rounding in single precision.
     double blur_;
-    double window_end_ = 0; ///< of the present one
-    double next_begin_ = 0; ///< no pair that was left out can meet before this time
+    double window_end_ = 0;
+    double next_begin_ = 0; ///< no dropped pair can meet before this time
     bool answered_ = false;
     WaitingQueue boxes_, triangles_;
     Moment moment_;
@@ -343,7 +346,7 @@ private:
     Impact impact_;
 };
 
-/// The models share a point at the start.
+/// The answer for models that share a point at the start.
 Impact impact_at_start(const PlacedPair& placed, const Contact& contact) {
     const ClosestPoints common = triangle_triangle_distance(placed.triangle_a(contact.pair.a),
                                                             placed.triangle_b(contact.pair.b));

@@ -14,7 +14,7 @@ namespace {
 
 using Quaternion = std::array<double, 4>; // w, x, y, z
 
-/// Of unit length. The pose was checked by its Transform.
+/// The pose's rotation as a unit quaternion. The pose was checked by its Transform.
 Quaternion unit_rotation(const Pose& pose) {
     Quaternion q = pose.rotation;
     const double largest =
@@ -65,8 +65,9 @@ Transform Trajectory::at(double t) const {
     const Vec3 origin{start_.m[9], start_.m[10], start_.m[11]};
     Vec3 moved = origin + t * velocity_;
     if (rate_ > 0) {
-        // (Rot - I) x = sin(angle) n x x + (1 - cos(angle)) n x (n x x), the latter factor as 2
-        // sin^2(angle / 2): far centres of slow rotations lose nothing.
+        // (Rot - I) x = sin(angle) n x x + (1 - cos(angle)) n x (n x x). The factor 1 - cos(angle)
+        // is computed as 2 sin^2(angle / 2), so that slow rotations about far centres lose no
+        // digits.
         const double angle = t * rate_;
         const double sine = std::sin(angle), half_sine = std::sin(0.5 * angle);
         const double versine = 2 * half_sine * half_sine;
@@ -98,13 +99,15 @@ Motion Motion::screw(const Pose& start, const Pose& end) {
     const Motion straight = between(start, end);
     const Vec3 w = straight.angular_velocity;
     const double angle = length(w);
-    // From s to s + d: d = h n + (Rot - I)(s - c), n the axis. Solved for the point c of the axis
-    // nearest to s: c = s + (d' + cot(angle / 2) n x d') / 2, d' the part of d across the axis.
+    // From s to s + d: d = h n + (Rot - I)(s - c), with n the axis. Solved for the point c of the
+    // axis nearest to s: c = s + (d' + cot(angle / 2) n x d') / 2, with d' the part of d across the
+    // axis.
     const Vec3 n = normalized_or_zero(w), d = straight.velocity;
     const Vec3 along = dot(d, n) * n, across = d - along;
     const Vec3 centre =
         straight.centre + 0.5 * across + (0.5 / std::tan(0.5 * angle)) * cross(n, across);
-    // Rotations so small that their axis is out of reach are no screws in double precision.
+    // If the rotation is so small that its axis lies beyond the range of doubles, the motion is
+    // straight.
     return is_finite(centre) && angle > 0 ? Motion{start, centre, along, w} : straight;
 }
 

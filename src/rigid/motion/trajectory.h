@@ -6,24 +6,24 @@
 
 namespace abut {
 
-/// A motion, ready to be evaluated at many times. The one implementation of its formula.
+/// A motion, prepared for evaluation at many times. The only implementation of its formula.
 class Trajectory {
 public:
     /// Errors      Error{bad_argument} if a value is not finite or the quaternion has zero length.
     explicit Trajectory(const Motion& motion);
 
     [[nodiscard]] Transform at(double t) const;
-    /// Place of the centre at time t.
+    /// Position of the centre at time t.
     [[nodiscard]] Vec3 centre(double t) const { return centre_ + t * velocity_; }
     [[nodiscard]] const Vec3& velocity() const { return velocity_; }
     [[nodiscard]] const Vec3& angular_velocity() const { return angular_velocity_; }
     [[nodiscard]] double speed_of_rotation() const { return rate_; }
-    /// Velocity of the body's point that is at x at time t.
+    /// Velocity of the point of the body that is at x at time t.
     [[nodiscard]] Vec3 velocity_at(const Vec3& x, double t) const {
         return velocity_ + cross(angular_velocity_, x - centre(t));
     }
-    /// Distance of a world point from the axis through the centre at time t; of a point of the
-    /// body it never changes.
+    /// Distance of a world point from the axis through the centre at time t. It is constant for a
+    /// point of the body.
     [[nodiscard]] double axis_distance(const Vec3& x, double t) const {
         return length(cross(axis_, x - centre(t)));
     }

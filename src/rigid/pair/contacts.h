@@ -15,15 +15,13 @@ struct Contact {
     TriangleContact kind = TriangleContact::none;
 };
 
-/// The contacts of two placed models, in the order of the traversal; the first one only, if so
-/// asked.
+/// The contacts of two placed models, in the order of the traversal; or only the first one found.
 ///
-/// In/out      steps: if given, limits the pairs of boxes that are opened. Where it has run out,
-///             contacts are missing.
+/// In/out      steps: if given, limits the pairs of boxes that are opened. If they are used up,
+///             contacts may be missing.
 std::vector<Contact> find_contacts(const PlacedPair& pair, ContactMode mode, Counters& counters,
                                    SearchSteps* steps = nullptr);
 
-/// What the two triangles share.
 Intersection common_points(const PlacedPair& pair, const TrianglePair& triangles);
 
 } // namespace abut

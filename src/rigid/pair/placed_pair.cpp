@@ -9,7 +9,7 @@ PlacedPair::PlacedPair(const Model& a, const Transform& world_from_a, const Mode
     require_finite(world_from_b, "transform of b");
     compare_frames();
     if (!frame_.valid && !a_->tree().empty() && !b_->tree().empty()) {
-        // The same positions by the same formula; identity then leaves them as they are.
+        // The copies have the same positions, by the same formula; the identity keeps them.
         baked_a_ = baked(a, world_from_a), baked_b_ = baked(b, world_from_b);
         a_ = &baked_a_->data(), b_ = &baked_b_->data();
         world_from_a_ = world_from_b_ = {};

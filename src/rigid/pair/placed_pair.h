@@ -15,10 +15,10 @@
 
 namespace abut {
 
-/// Two models under their transforms, ready for a traversal.
+/// Two models under their transforms, prepared for a traversal.
 class PlacedPair {
 public:
-    /// A transform without an inverse (a flattened part) is applied to a copy of the mesh first.
+    /// A transform without an inverse (a flattened part) is first applied to a copy of the mesh.
     ///
     /// In          models that outlive the pair.
     /// Errors      Error{bad_argument} if a transform is not finite; Error{bad_mesh} if such a copy
@@ -37,16 +37,16 @@ public:
     [[nodiscard]] Triangle triangle_b(std::uint32_t i) const {
         return b().world_triangle(i, world_from_b_);
     }
-    /// No point of a is farther than this from one of b.
+    /// No point of a is farther than this from any point of b.
     [[nodiscard]] double reach() const { return std::sqrt(double{frame_.reach_sq}); }
-    /// Whether both models have such triangles.
+    /// Returns whether both models have these triangles.
     [[nodiscard]] bool has(const TrianglePair& pair) const {
         return pair.a < a().mesh().triangles.size() && pair.b < b().mesh().triangles.size();
     }
     [[nodiscard]] PairTraversal traversal(double bound_sq) const {
         return {a().tree(), b().tree(), frame_, bound_sq};
     }
-    /// The traversals of the models' volumes; of their boxes where they have none, or not the same.
+    /// Traverse the models' volumes, if both have volumes of the same kind; otherwise their boxes.
     Verdict visit_contacts(PairTraversal& traversal, LeafPairVisitor& visitor) const;
     Verdict visit_within(PairTraversal& traversal, LeafPairVisitor& visitor) const;
     Verdict visit_nearest(PairTraversal& traversal, LeafPairVisitor& visitor) const;
@@ -55,13 +55,13 @@ private:
     void compare_frames();
 
     const ModelData *a_, *b_;
-    std::optional<Model> baked_a_, baked_b_; ///< the copies, if there are any
+    std::optional<Model> baked_a_, baked_b_; ///< the transformed copies, if there are any
     Transform world_from_a_, world_from_b_;
     PairFrame frame_;
-    VolumeFrame volume_frame_; ///< valid where both have volumes of the same kind
+    VolumeFrame volume_frame_; ///< valid if both models have volumes of the same kind
 };
 
-/// The world triangles of two leaves, computed when they are asked for.
+/// The world triangles of two leaves, computed on demand.
 class LeafTriangles {
 public:
     explicit LeafTriangles(const PlacedPair& pair) : pair_(pair) {}
@@ -84,7 +84,6 @@ public:
         known_b_ |= 1U << j;
         return b_[j];
     }
-    /// Mesh indices of triangle i of a and j of b.
     [[nodiscard]] TrianglePair indices(std::uint32_t i, std::uint32_t j) const {
         return {pair_.a().triangle_at(first_a_ + i), pair_.b().triangle_at(first_b_ + j)};
     }
@@ -95,8 +94,8 @@ private:
     std::array<Triangle, TriangleLeaf::kLanes> a_, b_;
 };
 
-/// Calls body(i, j) for each pair in a set of LeafPairs, until it returns false. Whether it never
-/// did.
+/// Calls body(i, j) for each pair in a set of LeafPairs until it returns false. Returns whether it
+/// never did.
 template <typename Body>
 bool for_each_pair(std::uint32_t pairs, const Body& body) {
     for (; pairs != 0; pairs &= pairs - 1) {
@@ -107,17 +106,17 @@ bool for_each_pair(std::uint32_t pairs, const Body& body) {
     return true;
 }
 
-/// As the public query, for a pair placed already.
+/// The public query, for a pair that is already placed.
 Gap distance(const PlacedPair& pair, const DistanceOptions& options);
 
-/// The gap of a pair, and its square as the search compared it: to two scalar roundings the same.
+/// The gap of a pair, and its square as the search compared it. They agree to two roundings.
 struct MeasuredGap {
     Gap gap;
-    double measured_sq = std::numeric_limits<double>::infinity(); ///< infinite: none was found
+    double measured_sq = std::numeric_limits<double>::infinity(); ///< infinite if no pair was found
 };
-/// The nearest two triangles whose squared distance is less than the bound; of equally near ones,
-/// those of least index. For models that are blocks of larger ones: whichever way these are cut, the
-/// least of all is the same, to the last bit.
+/// The nearest two triangles whose squared distance is below the bound; of equally near pairs, the
+/// one with the smallest indices. For mesh blocks of larger models: however a mesh is cut, the
+/// smallest of all results is the same, to the last bit.
 MeasuredGap nearest_gap(const PlacedPair& pair, double bound_sq);
 
 } // namespace abut

@@ -10,13 +10,13 @@ namespace abut {
 namespace {
 
 constexpr int kDirections = 4;
-/// Where models overlap by more than this share of their distance along a direction, others hardly
-/// ever tell them apart.
+/// If models overlap by more than this share of their distance along a direction, further
+/// directions hardly ever separate them.
 constexpr double kHopeless = 0.125;
-/// Nothing that is not smaller is lost where products underflow.
+/// Values above this are not affected by products that underflow.
 constexpr double kSmallest = 0x1p-900;
 
-/// A model's support in the world.
+/// The support function of a placed model.
 class PlacedSupport {
 public:
     PlacedSupport(const SupportBound& support, const Transform& world)
@@ -24,15 +24,15 @@ public:
 
     [[nodiscard]] const Vec3& middle() const { return middle_; }
 
-    /// A direction of the world as the model sees it.
+    /// A world direction in the model's frame.
     [[nodiscard]] Vec3 seen(const Vec3& n) const { return pull_back(world_, n); }
-    /// From the middle, along a direction that the model sees: as SupportBound.
+    /// The height from the centre along a direction in the model's frame, as in SupportBound.
     [[nodiscard]] double height(const Vec3& seen) const { return support_.height(seen); }
     [[nodiscard]] Vec3 support(const Vec3& seen) const {
         return apply_linear(world_, support_.support(seen));
     }
 
-    /// No world coordinate, and no sum on the way to one, is larger.
+    /// Bounds all world coordinates, and all sums on the way to them.
     [[nodiscard]] double reach() const {
         return sum_of_sizes(world_) * (support_.size() + sum_of_sizes(support_.middle())) +
                sum_of_sizes(Vec3{world_.m[9], world_.m[10], world_.m[11]});
@@ -44,7 +44,7 @@ private:
     Vec3 middle_;
 };
 
-/// How far along a segment its point nearest to the origin lies, in lengths of it.
+/// The position on a segment of its point nearest to the origin, as a share of its length.
 double nearest_to_origin(const Vec3& p, const Vec3& along) {
     return std::clamp(-dot(p, along) / length_sq(along), 0.0, 1.0);
 }
@@ -67,7 +67,7 @@ bool far_apart(const ModelData& model_a, const Transform& world_from_a, const Mo
         if (apart > kSmallest && apart * apart > gap * gap * n_sq * (1 + 0x1p-40))
             return true;
         const Vec3 along = between + b.support(n_b) - a.support(n_a) - nearest;
-        // From the middle, half the step: the first support is far to one side.
+        // Half the step from the centre: the first support point is far to one side.
         nearest = nearest + (i == 0 ? 0.5 : 1) * nearest_to_origin(nearest, along) * along;
     }
     return false;

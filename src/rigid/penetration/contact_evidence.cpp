@@ -13,16 +13,16 @@ namespace abut {
 
 namespace {
 
-/// Where an edge of a triangle runs along another triangle for a positive length.
+/// How an edge of one triangle runs along another triangle for a positive length.
 enum class Run : std::uint8_t { none, inside, along_edge };
 
 struct EdgeRun {
     Run kind = Run::none;
-    std::size_t edge = 0; ///< of the triangle, if along_edge: from this vertex to the next
-    std::size_t left = 0, right = 0; ///< vertices on either side, if inside
+    std::size_t edge = 0; ///< of the triangle, from this vertex to the next; if along_edge
+    std::size_t left = 0, right = 0; ///< the triangle's vertices on either side; if inside
 };
 
-/// In: t has an area, and e0, e1 lie in its plane.
+/// Classifies the edge e0 e1. In: t has an area, and e0, e1 lie in its plane.
 EdgeRun edge_run(const Vec3& e0, const Vec3& e1, const Triangle& t, int axis) {
     std::array<int, 3> side{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -31,7 +31,7 @@ EdgeRun edge_run(const Vec3& e0, const Vec3& e1, const Triangle& t, int axis) {
         const std::size_t j = (i + 1) % 3;
         if (side[i] != 0 || side[j] != 0)
             continue;
-        // On one line: compare along a coordinate in which the edge is not a point.
+        // On one line: compare a coordinate in which the edge has a length.
         const int k = e0.x != e1.x ? 0 : e0.y != e1.y ? 1 : 2;
         const auto [e_low, e_high] = std::minmax({component(e0, k), component(e1, k)});
         const auto [t_low, t_high] = std::minmax({component(t[i], k), component(t[j], k)});
@@ -42,8 +42,8 @@ EdgeRun edge_run(const Vec3& e0, const Vec3& e1, const Triangle& t, int axis) {
                right = std::find(side.begin(), side.end(), -1);
     if (left == side.end() || right == side.end())
         return {};
-    // The line cuts the triangle. The edge misses its interior if an edge of the triangle has both
-    // ends outside.
+    // The line cuts the triangle. The edge misses the inside if both its ends lie beyond one of the
+    // triangle's edges.
     const int winding = orient2d(t[0], t[1], t[2], axis);
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &p = t[i], &q = t[(i + 1) % 3];
@@ -54,7 +54,8 @@ EdgeRun edge_run(const Vec3& e0, const Vec3& e1, const Triangle& t, int axis) {
             static_cast<std::size_t>(right - side.begin())};
 }
 
-/// The faces of a surface around one of its triangles' edges, as rays around the line e0 e1.
+/// Adds the faces of a surface around an edge of one of its triangles, as rays around the line e0
+/// e1.
 void add_edge_rays(const WorldSolid& surface, std::uint32_t triangle, std::size_t edge,
                    const Vec3& e0, const Vec3& e1, bool of_a, EdgeSectors& sectors) {
     const int k = e0.x != e1.x ? 0 : e0.y != e1.y ? 1 : 2;
@@ -65,7 +66,7 @@ void add_edge_rays(const WorldSolid& surface, std::uint32_t triangle, std::size_
     }
 }
 
-/// Edges of `first`'s triangle that run along the triangle of `second`.
+/// Tests the edges of a triangle of `first` that run along the triangle of `second`.
 bool sectors_overlap(const WorldSolid& first, std::uint32_t i, const WorldSolid& second,
                      std::uint32_t j, bool first_is_a) {
     const Triangle s = first.world_triangle(i), t = second.world_triangle(j);
@@ -84,8 +85,8 @@ bool sectors_overlap(const WorldSolid& first, std::uint32_t i, const WorldSolid&
         if (run.kind == Run::along_edge) {
             add_edge_rays(second, j, run.edge, e0, e1, !first_is_a, sectors);
         } else {
-            // (e0, e1, left) turns as the projection's positive sense does, (e0, e1, right) against
-            // it.
+            // (e0, e1, left) turns in the positive sense of the projection, (e0, e1, right) in the
+            // negative.
             const int turn = second.outward() * orient2d(t[0], t[1], t[2], axis);
             sectors.add({t[run.left], !first_is_a, turn});
             sectors.add({t[run.right], !first_is_a, -turn});
@@ -96,8 +97,8 @@ bool sectors_overlap(const WorldSolid& first, std::uint32_t i, const WorldSolid&
     return false;
 }
 
-/// A vertex or a middle of the triangles in contact, or another component, strictly inside the
-/// solid.
+/// Returns whether a vertex or the centroid of a triangle in contact, or another component of the
+/// surface, lies strictly inside the solid.
 bool reaches_inside(const WorldSolid& surface, std::vector<std::uint32_t> triangles,
                     const WorldSolid& solid) {
     if (!solid.bounds_solid())
@@ -118,7 +119,7 @@ bool reaches_inside(const WorldSolid& surface, std::vector<std::uint32_t> triang
     for (const std::uint32_t i : triangles) {
         const Triangle t = surface.world_triangle(i);
         const Vec3 middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
-        // The middle is rounded: it must be farther inside than that.
+        // The centroid is rounded: it must lie farther inside than by its rounding.
         const double rounding =
             16 * 0x1p-53 * (std::abs(middle.x) + std::abs(middle.y) + std::abs(middle.z));
         if (solid.contains(middle) && !(solid.nearest(middle, 2 * rounding).distance <= rounding))

@@ -7,24 +7,26 @@
 
 namespace abut {
 
-/// How two models that meet do so.
+/// How two models that share points meet.
 struct Meeting {
     bool interpenetrate = false;
-    Vec3 parting; ///< a unit vector along which a small step of b parts them, if one was found;
-                  ///< else zero
+    /// A unit vector along which a small step of b parts the models; zero if none was
+    /// found.
+    Vec3 parting;
 };
 
-/// Whether two models that meet go into each other, or only touch.
+/// Decides whether two models that share points interpenetrate or only touch.
 ///
-/// They do if triangles cross, or a part of one's surface lies inside the other, a solid. Else, two
-/// solids do if their interiors share points (coplanar faces that turn the same way, faces that
-/// enter along an edge); where one of the two is open, if no small translation parts them: which
-/// side of an open surface is meant is not known, so being locked counts as going through.
+/// They interpenetrate if triangles cross, or if a part of one surface lies inside the other model,
+/// a solid. Otherwise, a small translation that parts them shows that they only touch. If none is
+/// found, two solids interpenetrate if their interiors share points (coplanar faces that face the
+/// same way, or faces that enter along an edge). If one of the two is open, its inner side is not
+/// known, so being locked counts as interpenetration.
 ///
 /// In          all contacts of the pair.
-/// Accuracy    crossing, inside at stored vertices, overlap along edges: exact, by orientation
-///             signs of stored points. Triangles that lie inside a solid and touch its surface at
-///             vertices only are found by their middles.
+/// Accuracy    crossings, stored vertices inside, and overlaps along edges are exact, by
+///             orientation signs of stored points. Triangles inside a solid that touch its surface
+///             only at their vertices are found by their centroids.
 Meeting examine_meeting(const WorldSolid& a, const WorldSolid& b,
                         std::span<const Contact> contacts);
 

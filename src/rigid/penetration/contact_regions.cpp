@@ -12,7 +12,7 @@ namespace abut {
 
 namespace {
 
-/// Disjoint sets of contacts; the root of a set is its least member.
+/// Disjoint sets of contacts (union-find). The root of a set is its smallest member.
 class ContactSets {
 public:
     explicit ContactSets(std::size_t count) : parent_(count) {
@@ -32,12 +32,12 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// An edge or (v = w) a vertex of a triangle in contact.
+/// An edge of a triangle in contact, or a vertex of one (v = w).
 struct ContactFeature {
     std::uint32_t v, w; ///< merged vertices, v <= w
     std::uint32_t contact;
     [[nodiscard]] bool same(const ContactFeature& f) const { return v == f.v && w == f.w; }
-    /// Edges first: they settle nearly all vertices.
+    /// Edges first: they decide nearly all connections.
     bool operator<(const ContactFeature& f) const {
         const bool point = v == w, f_point = f.v == f.w;
         return point != f_point ? f_point : std::tie(v, w, contact) < std::tie(f.v, f.w, f.contact);
@@ -69,7 +69,8 @@ void connect_around(const Triangle& triangle, const PlacedSolid& other,
     }
 }
 
-/// Connects contacts that share a triangle of `model`. In: `order` sorts the contacts by it.
+/// Connects contacts that share a triangle of `model`. In: `order` lists the contacts by that
+/// triangle.
 void connect(const PlacedSolid& model, std::uint32_t TrianglePair::*of_model,
              const PlacedSolid& other, std::uint32_t TrianglePair::*of_other,
              const std::vector<Contact>& contacts, std::span<const std::uint32_t> order,
@@ -134,7 +135,7 @@ std::vector<RegionContacts> find_regions(const PlacedSolid& a, const PlacedSolid
 }
 
 Vec3 enclosed_area(const PlacedSolid& a, const PlacedSolid& b, const RegionContacts& region) {
-    // No special relation to any axis or to another such direction.
+    // A direction in general position to the axes and to other such directions.
     constexpr Vec3 kDirection{0.30115, 0.54772, 0.78056};
     const bool general =
         std::all_of(region.contacts.begin(), region.contacts.end(),
@@ -155,7 +156,7 @@ Vec3 enclosed_area(const PlacedSolid& a, const PlacedSolid& b, const RegionConta
     }
     if (segments.empty())
         return {};
-    const Vec3 origin = segments[0][0]; // near the curve: differences are small and exact
+    const Vec3 origin = segments[0][0]; // near the curve, so that differences are small and exact
     Vec3 moment;
     double total = 0;
     for (const auto& [p, q] : segments) {
@@ -213,8 +214,9 @@ bool RegionCells::may_hold(std::uint32_t region, const Vec3& point, double radiu
     for (const Chunk& chunk : chunks_)
         if (chunk.region == region)
             own_sq = nearest_sq(chunk, point, own_sq);
-    // A point belongs to the region unless another is nearer; distances change by `radius` at most.
-    // One as far from another to rounding belongs to both: so rounding does not decide.
+    // A point belongs to the region unless another region is nearer; distances change by `radius`
+    // at most. A point at equal distances, to rounding, belongs to both, so rounding does not
+    // decide.
     const double own = std::sqrt(own_sq),
                  enough = own - 2 * radius - 0x1p-40 * (own + max_abs(point));
     if (!(enough > 0))

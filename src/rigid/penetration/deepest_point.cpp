@@ -14,43 +14,43 @@ namespace abut {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Bounds are rounded by some units in the last place: this much outweighs that.
+/// A factor that outweighs the rounding of bounds, which is a few units in the last place.
 constexpr double kSafe = 1 + 0x1p-40;
-/// Faces of the solid that a piece remembers.
+/// Limit on the faces of the solid that a piece remembers.
 constexpr std::size_t kFaces = 4;
 
 /// A point and its distance to the solid's surface.
 struct Sample {
     Vec3 point;
     double distance = kInfinity;
-    std::uint32_t slot = 0; ///< of the solid: the nearest triangle
+    std::uint32_t slot = 0; ///< of the solid: the nearest triangle's slot
     bool inside = false;
 
     [[nodiscard]] bool any() const { return distance < kInfinity; }
 };
 
-/// A part of the surface that may hold its deepest point: a box of its tree, or a piece of a
+/// A part of the surface that may hold its deepest point: a box of its tree, or a part of a
 /// triangle.
 struct Piece {
-    double at_most = kInfinity; ///< no point of the piece is deeper
-    NodeRef box;                ///< none: the piece is a triangle
+    double at_most = kInfinity; ///< upper bound of the depth of the piece's points
+    NodeRef box;                ///< none, if the piece is a part of a triangle
     std::uint32_t slot = 0;     ///< of that triangle
     boost::container::static_vector<Vec3, 8> corners;
     Vec3 middle;
-    double radius = 0; ///< of a ball around the middle that holds the piece
-    Sample sample;     ///< at the middle if sampled, else at that of an enclosing piece
+    double radius = 0; ///< of a ball around `middle` that holds the piece
+    Sample sample;     ///< at `middle` if sampled, else that of an enclosing piece
     bool sampled = false;
-    /// Slots of the solid, of the last samples of this piece and those around it.
+    /// Nearest slots of the solid for the last samples of this piece and of enclosing ones.
     boost::container::static_vector<std::uint32_t, kFaces> faces;
     bool operator<(const Piece& other) const { return at_most < other.at_most; }
 };
 
-/// Distances of a piece's corners from a face. Distance to a convex set is convex: at any mean of
-/// the corners it is at most the mean of theirs.
+/// The distances of a piece's corners from a face. The distance to a convex set is convex: at a
+/// mean of the corners it is at most the mean of their distances.
 using CornerDistances = std::array<double, 8>;
 
-/// The largest that the smaller of two functions can be that are linear in the weights of n corners:
-/// at a corner, or between two where they are equal.
+/// The largest value of min(f, g) for two functions that are linear in the weights of n corners. It
+/// is taken at a corner, or between two corners where f = g.
 double largest_of_smaller(const CornerDistances& f, const CornerDistances& g, std::size_t n) {
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -100,7 +100,7 @@ public:
 private:
     using Polygon = boost::container::static_vector<Vec3, 9>;
 
-    /// Not worth a closer look.
+    /// A depth that a piece must exceed to be worth another look.
     [[nodiscard]] double wanted() const { return best_.depth * (1 + options_.relative_error); }
 
     [[nodiscard]] bool finished(double at_most) const {
@@ -132,7 +132,7 @@ private:
     void add_box(NodeRef ref, const Aabb& box, const NodeFrame& frame, const Piece& parent) {
         Vec3 lower{box.lower[0], box.lower[1], box.lower[2]},
             upper{box.upper[0], box.upper[1], box.upper[2]};
-        // The frame's axes are at right angles to a few parts in 2^24.
+        // The frame's axes are perpendicular to a few parts in 2^24.
         const double off = 0x1p-20 * (length(lower) + length(upper));
         lower = lower - Vec3{off, off, off}, upper = upper + Vec3{off, off, off};
         const Vec3 middle = 0.5 * lower + 0.5 * upper;
@@ -150,7 +150,7 @@ private:
         inherit(piece, parent);
     }
 
-    /// Only what lies in the solid's box can lie inside it.
+    /// Adds the part of a triangle in the solid's box; the rest cannot lie inside the solid.
     void add_clipped(std::uint32_t slot, const Piece& parent) {
         Polygon polygon;
         for (const Vec3& p : surface_.world_slot(slot))
@@ -163,7 +163,7 @@ private:
                          slot, parent);
     }
 
-    /// Source: [Sutherland, Hodgman 1974].
+    /// Clips a convex polygon to a box. Source: [Sutherland, Hodgman 1974].
     static void clip(Polygon& polygon, const Aabb& box) {
         for (int plane = 0; plane < 6 && !polygon.empty(); ++plane) {
             const int axis = plane / 2;
@@ -207,7 +207,7 @@ private:
         inherit(piece, parent);
     }
 
-    /// Keeps a piece unless what is known of the piece that it is part of rules it out.
+    /// Adds a piece, unless its parent's sample rules it out.
     void inherit(Piece& piece, const Piece& parent) {
         piece.sample = parent.sample;
         piece.faces = parent.faces;
@@ -225,13 +225,13 @@ private:
         return false;
     }
 
-    /// What the sample, at the piece's middle or farther off, says of the piece's depth.
+    /// Bounds the depth of a piece by its sample, which is at the piece's middle or farther off.
     [[nodiscard]] double bound(const Piece& piece) const {
         const Sample& s = piece.sample;
         if (!s.any())
             return kInfinity;
         const double reach = (length(piece.middle - s.point) + piece.radius) * kSafe;
-        // From outside, a point is at least as far away from the first one inside.
+        // From a sample outside, the way to a point inside first takes its distance to the surface.
         const double across = s.inside ? kInfinity : reach - s.distance / kSafe;
         if (across <= 0)
             return 0;
@@ -241,8 +241,8 @@ private:
         return std::min(limit, bound_by_faces(piece) * kSafe);
     }
 
-    /// The least that a pair of faces allows: it is tight where the piece lies across the middle
-    /// between two.
+    /// The least bound that a pair of faces gives. It is tight if the piece lies halfway between
+    /// two faces.
     [[nodiscard]] double bound_by_faces(const Piece& piece) const {
         const std::size_t n = piece.corners.size();
         std::array<CornerDistances, kFaces> distances{};
@@ -263,17 +263,18 @@ private:
     void sample(Piece piece) {
         ++evaluations_;
         const Sample known = piece.sample;
-        // A triangle that is near enough to rule the piece out ends the search for the nearest.
+        // The search for the nearest ends at any triangle that is near enough to rule the piece
+        // out.
         const WorldSolid::NearestSearch search{.enough = wanted() - piece.radius,
                                                .seed = known.any() ? &known.slot : nullptr};
         const WorldSolid::Nearest nearest = solid_.nearest(piece.middle, search);
         if (nearest.distance <= search.enough) {
-            // Nothing in the piece is deeper than that.
+            // No point of the piece is deeper than this.
             (void)worth_keeping((nearest.distance + piece.radius) * kSafe);
             return;
         }
         piece.sampled = true;
-        // Whether it is inside is asked only where that matters.
+        // Assume inside first: the test is made only if its result matters.
         piece.sample = {piece.middle, nearest.distance, nearest.slot, true};
         remember(piece, nearest.slot);
         piece.at_most = std::min(piece.at_most, bound(piece));
@@ -295,8 +296,8 @@ private:
     [[nodiscard]] bool is_inside(const Sample& s, const Sample& known) const {
         if (!(s.distance > 0))
             return false;
-        // Between two points nearer to each other than to the surface, nothing changes from inside
-        // to outside.
+        // Two points that are nearer to each other than to the surface are both inside or both
+        // outside.
         if (known.any() && length(s.point - known.point) * kSafe * kSafe < known.distance)
             return known.inside;
         return known.any() && known.distance > 0
@@ -304,7 +305,7 @@ private:
                    : solid_.contains_off_surface(s.point);
     }
 
-    /// First; the last makes room.
+    /// Puts the slot first; drops the last one if there are too many.
     static void remember(Piece& piece, std::uint32_t slot) {
         auto& faces = piece.faces;
         const auto known = std::find(faces.begin(), faces.end(), slot);
@@ -315,9 +316,10 @@ private:
         faces.insert(faces.begin(), slot);
     }
 
-    // ---- points of the surface, for a depth that is reached
+    // ---- points of the surface at which a depth is reached
 
-    /// The sample of a piece of a triangle; its corners, if that is deeper than what was known.
+    /// Takes the sample of a part of a triangle if it is deeper than the best; then tries the
+    /// corners.
     void try_points(const Piece& piece, const WorldSolid::Nearest& nearest) {
         const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
         if (!(nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle)))
@@ -327,7 +329,7 @@ private:
             try_point(corner, triangle, &nearest.slot);
     }
 
-    /// A vertex in a box.
+    /// Tries a vertex of a triangle in a box.
     void try_any_point(NodeRef box, std::uint32_t seed) {
         while (!box.is_leaf())
             box = surface_.model().tree().nodes[box.index()].child[0];
@@ -335,7 +337,7 @@ private:
                   &seed);
     }
 
-    /// `seed`: a slot of the solid that is likely near, or null.
+    /// `seed`: a slot of the solid that is probably near, or null.
     void try_point(const Vec3& point, std::uint32_t triangle, const std::uint32_t* seed) {
         if (!belongs(point, triangle))
             return;
@@ -345,7 +347,8 @@ private:
             take(point, triangle, nearest);
     }
 
-    /// A point of a face that lies in the surface is inside or outside by rounding alone.
+    /// The depth that a point must exceed. At least its rounding: that decides whether a point on
+    /// the surface counts as inside.
     [[nodiscard]] double beyond(const Vec3& point) const {
         return std::max(best_.depth,
                         16 * 0x1p-53 * (std::abs(point.x) + std::abs(point.y) + std::abs(point.z)));
@@ -366,7 +369,7 @@ private:
     const SurfacePart& part_;
     const DepthSearch& options_;
     DeepestPoint best_;
-    double dropped_ = 0; ///< largest bound of a piece that was dropped although deeper
+    double dropped_ = 0; ///< largest bound of a dropped piece, if above the depth
     std::priority_queue<Piece> pieces_;
     int evaluations_ = 0;
 };

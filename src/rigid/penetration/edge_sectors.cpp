@@ -12,8 +12,8 @@ void EdgeSectors::add(const Ray& ray) {
         rays_.push_back(ray);
 }
 
-/// 0: with the first ray; 1: less than half a turn counter-clockwise from it; 2: opposite; 3:
-/// beyond.
+/// The angle from the first ray, counter-clockwise: 0: none; 1: less than half a turn; 2: half a
+/// turn; 3: more.
 int EdgeSectors::half_turn(const Vec3& apex) const {
     const Vec3& first = rays_.front().apex;
     const int side = orient3d(e0_, e1_, first, apex);
@@ -31,7 +31,7 @@ bool EdgeSectors::before(const Ray& r, const Ray& s) const {
 }
 
 void EdgeSectors::sort() {
-    const Ray first = rays_.front(); // the order is relative to it: it stays first
+    const Ray first = rays_.front(); // the order is relative to this ray, so it must stay first
     std::stable_sort(rays_.begin() + 1, rays_.end(),
                      [&](const Ray& r, const Ray& s) { return before(r, s); });
     rays_.front() = first;
@@ -40,7 +40,7 @@ void EdgeSectors::sort() {
         angle_[i] = angle_[i - 1] + (before(rays_[i - 1], rays_[i]) ? 1 : 0);
 }
 
-/// Coplanar faces on one ray whose inner sides agree: both interiors lie there.
+/// Two coplanar faces on one ray with the same inner side have both interiors there.
 bool EdgeSectors::interiors_share_a_face() const {
     for (std::size_t i = 0; i < rays_.size(); ++i)
         for (std::size_t j = i + 1; j < rays_.size() && angle_[j] == angle_[i]; ++j)
@@ -50,18 +50,19 @@ bool EdgeSectors::interiors_share_a_face() const {
     return false;
 }
 
-/// A face of one model strictly between the two faces of the other, on their inner side.
+/// Returns whether a face of one model lies strictly between two faces of the other, on their inner
+/// side.
 bool EdgeSectors::enters(bool of_a) const {
     std::vector<std::size_t> walls;
     for (std::size_t i = 0; i < rays_.size(); ++i)
         if (rays_[i].of_a != of_a)
             walls.push_back(i);
-    // Exactly one wedge of the solid, its faces turned consistently: else the sector's side is not
-    // known.
+    // Only one wedge of the solid with consistently oriented faces tells on which side the inside
+    // is.
     if (walls.size() != 2 || rays_[walls[0]].outward == 0 ||
         rays_[walls[0]].outward != -rays_[walls[1]].outward || angle_[walls[0]] == angle_[walls[1]])
         return false;
-    // Counter-clockwise of a wall lies the inside if that side is not its outer one.
+    // The inside lies counter-clockwise of a wall if that is not the wall's outer side.
     const bool inside_between = rays_[walls[0]].outward < 0;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         if (rays_[i].of_a != of_a || angle_[i] == angle_[walls[0]] || angle_[i] == angle_[walls[1]])

@@ -28,7 +28,7 @@ LocalPenetration deepest_crossing(const WorldSolid& a, const WorldSolid& b,
     return best;
 }
 
-/// A few of the triangles in contact: deep points are near them.
+/// Some of the triangles in contact: deep points are likely near them.
 std::vector<std::uint32_t> some_triangles(std::span<const Contact> contacts,
                                           std::uint32_t TrianglePair::*side) {
     constexpr std::size_t kTriangles = 8;
@@ -41,7 +41,7 @@ std::vector<std::uint32_t> some_triangles(std::span<const Contact> contacts,
     return triangles;
 }
 
-/// Of a surface's triangles, those that a block has, by their numbers there.
+/// The triangles that belong to a mesh block, by their numbers in the block.
 std::vector<std::uint32_t> in_block(const std::vector<std::uint32_t>& triangles,
                                     const WorldSolid::Block& block) {
     if (block.numbers.empty())
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> in_block(const std::vector<std::uint32_t>& triangles,
     return local;
 }
 
-/// Block by block: what one has reached is the least that matters in the next.
+/// Searches block by block; each block has to exceed the depth reached so far.
 DeepestPoint deepest_of(const WorldSolid& surface, const WorldSolid& solid,
                         const std::vector<std::uint32_t>& starts, const SurfacePart& part,
                         const DepthSearch& options, double deeper_than) {
@@ -99,7 +99,7 @@ LocalPenetration deepest_inside(const WorldSolid& a, const WorldSolid& b,
     return best;
 }
 
-/// A vertex of the models; of a, near their contacts if there are any.
+/// A vertex of a; near the contacts if there are any.
 Vec3 origin_of(const WorldSolid& a, std::span<const Contact> contacts) {
     if (!contacts.empty())
         return a.world_triangle(contacts[0].pair.a)[0];
@@ -107,8 +107,8 @@ Vec3 origin_of(const WorldSolid& a, std::span<const Contact> contacts) {
     return points.empty() ? Vec3{} : points[0];
 }
 
-/// A bound on the rounding of a distance between two points of the models, the rounding of the points
-/// themselves, relative to an origin nearby, included.
+/// Bounds the rounding of a distance between two points of the models, including that of the
+/// points' coordinates relative to a near origin.
 double depth_rounding(const WorldSolid& a, const WorldSolid& b) {
     return 0x1p-47 * (a.world_size() + b.world_size());
 }

@@ -8,39 +8,42 @@
 
 namespace abut {
 
-/// How deep two models that interpenetrate go into each other.
+/// The penetration depth of two models that interpenetrate.
 struct LocalPenetration {
-    double depth = 0;    ///< a depth that is reached
-    double at_most = 0;  ///< no deeper than this, to rounding
-    double rounding = 0; ///< at_most + rounding is proven; 0 where at_most is no bound but a length
+    double depth = 0;   ///< reached at the points below
+    double at_most = 0; ///< upper bound of the depth, to rounding
+    /// at_most + rounding is proven. 0 if `at_most` is a length but no bound.
+    double rounding = 0;
     Vec3 point_a, point_b;
-    Vec3 direction; ///< unit vector along which b moves to get out at point_a; zero if the depth is
-    TrianglePair triangles{}; ///< that hold the points
+    Vec3 direction; ///< unit vector along which b leaves a at point_a; zero if the depth is
+    TrianglePair triangles{}; ///< the triangles that hold the points
 };
 
-/// Local penetration depth.
+/// Computes the local penetration depth.
 ///
-/// With a solid: the largest distance from a point of the other's surface inside the solid to the
-/// solid's surface (of two solids, the larger of both ways). Between open surfaces: the largest,
-/// over the crossing triangle pairs, of the shortest translation that separates the two triangles.
+/// With a solid: the largest distance from the solid's surface that a point of the other surface
+/// has inside the solid (of two solids, the larger of both). Between open surfaces: over all
+/// crossing triangle pairs, the largest of the shortest translations that separate the two
+/// triangles.
 ///
-/// It is found as seen from one of the models' vertices: models that are moved together, without
+/// Coordinates are relative to one of the models' vertices: models that are moved together, without
 /// rounding, have the same depth to the last bit.
 ///
-/// In          all contacts, or those of a region and the part of the surfaces that is its own.
-/// Accuracy    with a solid, `depth` is reached at point_a and point_b to rounding, and
-///             [depth, at_most] encloses the true value; else it is the definition's value at a
+/// In          all contacts; or those of a region, with the parts of the surfaces that belong to
+///             it.
+/// Accuracy    with a solid, `depth` is reached at point_a and point_b to rounding, and [depth,
+///             at_most] encloses the true value. Otherwise it is the value of the definition, at a
 ///             common point.
 LocalPenetration local_penetration(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options,
                                    const SurfacePart& part_a = {}, const SurfacePart& part_b = {});
 
-/// The depth of two models that have contacts and interpenetrate: their local penetration; where the
-/// surfaces give none although the models are locked into each other (coplanar faces only), the
-/// shortest translation found that parts the surfaces.
+/// The depth of two models that have contacts and interpenetrate: their local penetration. If that
+/// is 0 because the models are only locked into each other (coplanar faces), the length of the
+/// shortest separating motion found.
 LocalPenetration penetration_depth(const WorldSolid& a, const WorldSolid& b,
                                    std::span<const Contact> contacts, const DepthSearch& options);
-/// That translation, as a depth at a common point.
+/// The length of the shortest separating motion found, as a depth at a common point.
 LocalPenetration locked_depth(const WorldSolid& a, const WorldSolid& b,
                               std::span<const Contact> contacts);
 

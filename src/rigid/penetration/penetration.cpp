@@ -16,7 +16,7 @@ namespace abut {
 
 namespace {
 
-/// Two placed models, their contacts, and which of their components lie inside the other.
+/// Two placed models, their contacts, and the components of each that lie inside the other.
 class Overlap {
 public:
     Overlap(const PlacedSolid& a, const PlacedSolid& b, std::vector<Contact> contacts,
@@ -59,7 +59,8 @@ public:
         return result;
     }
 
-    /// Where b might get out soon: out of each region, the deepest first, and across each.
+    /// Directions along which b may separate soon: those of the regions, deepest first, and their
+    /// normals.
     [[nodiscard]] std::vector<Vec3> ways_out(const Depth& depth) const {
         constexpr std::size_t kRegions = 16;
         std::vector<const ContactRegion*> regions;
@@ -79,7 +80,8 @@ public:
         return ways;
     }
 
-    /// Whether the depth is a translation's length, since no surface reaches inside the other.
+    /// Returns whether the depth is the length of a separating motion, since neither surface
+    /// reaches inside the other.
     [[nodiscard]] bool is_locked() const { return locked_; }
 
 private:
@@ -139,7 +141,7 @@ private:
 
     [[nodiscard]] ContactRegion contained_region() {
         ContactRegion result;
-        // A surface without contained components has no part in it.
+        // A surface without contained components contributes no triangles.
         const std::vector<bool> none_of_a(a_.model().mesh().triangles.size()),
             none_of_b(b_.model().mesh().triangles.size());
         const auto part = [](const std::vector<bool>& contained, const std::vector<bool>& none) {
@@ -164,13 +166,13 @@ private:
     const PlacedSolid& b_;
     std::vector<Contact> contacts_;
     const DepthSearch& options_;
-    std::vector<bool> inside_b_, inside_a_; ///< triangles of a, of b; empty: none
+    std::vector<bool> inside_b_, inside_a_; ///< triangles of a, of b; empty if none
     Meeting meeting_;
-    double rounding_ = 0; ///< by which the bounds of depths are proven
+    double rounding_ = 0; ///< the margin by which the depths' bounds are proven
     bool locked_ = false;
 };
 
-/// Nothing lies deeper than the length of a translation that separates.
+/// Limits the bounds of depths by the length of a translation that separates.
 void limit_depths(Depth& result, const Vec3& separation) {
     if (separation == Vec3{})
         return;
@@ -180,7 +182,7 @@ void limit_depths(Depth& result, const Vec3& separation) {
         region.depth_at_most = std::min(region.depth_at_most, most);
 }
 
-/// Where the steps did not suffice to find where the models meet: what their boxes tell.
+/// The answer if the steps ended before all contacts were found: the bounds that the boxes give.
 Depth undecided(const PlacedSolid& a, const PlacedSolid& b, const PenetrationOptions& options,
                 const SearchSteps& steps, Counters& counters) {
     const Vec3 separation = separation_of_boxes(a, b, counters);
@@ -205,7 +207,7 @@ Depth penetration(const Model& a, const Transform& world_from_a, const Model& b,
     const StopScope stopping(options.progress);
     const PlacedPair pair(a, world_from_a, b, world_from_b);
     if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
-        // Flattened: the pair made copies in world coordinates.
+        // A transform was flattened: the pair holds copies of the meshes in world coordinates.
         return penetration(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options);
     Counters counters;
     SearchSteps steps(options.max_steps.value_or(std::numeric_limits<std::uint64_t>::max()));

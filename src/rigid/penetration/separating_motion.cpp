@@ -9,7 +9,7 @@ namespace abut {
 
 namespace {
 
-constexpr double kTight = 0x1p-24; // a sixteenth of a millionth
+constexpr double kTight = 0x1p-24; // 1/16 of a millionth
 
 std::vector<Vec3> directions(const WorldSolid& a, const WorldSolid& b,
                              std::span<const Contact> contacts) {

@@ -7,8 +7,8 @@
 
 namespace abut {
 
-/// Share of the larger model by which positions are moved apart: far above their rounding, far
-/// below anything built.
+/// The step by which positions are moved apart, as a share of the larger model: far above rounding,
+/// far below manufacturing precision.
 inline constexpr double kNudge = 0x1p-30;
 
 /// A translation of b after which the surfaces share no point.
@@ -17,14 +17,15 @@ struct SeparatingMotion {
     Vec3 direction;    ///< unit vector
 };
 
-/// A direction in which b, moved by 2^-30 of the pair's size, no longer meets a; zero if none was
-/// found.
+/// Returns a direction in which b, moved by 2^-30 of the pair's size, no longer meets a; zero if
+/// none was found.
 ///
-/// Accuracy    exact for the moved positions; the directions tried are the separating ones of the
-///             contacts, the commonest first, their mean, and 26 evenly spread.
+/// Accuracy    exact for the moved positions. The directions tried are those that separate the
+///             contacts' triangles, the most frequent first; their mean; and 26 evenly spread ones.
 Vec3 nudge_that_parts(const WorldSolid& a, const WorldSolid& b, std::span<const Contact> contacts);
 
-/// The shortest translation along the same directions that parts the surfaces, to 2^-24 of it.
+/// The shortest translation along the same directions that parts the surfaces, to 2^-24 of its
+/// length.
 SeparatingMotion find_separating_motion(const WorldSolid& a, const WorldSolid& b,
                                         std::span<const Contact> contacts);
 

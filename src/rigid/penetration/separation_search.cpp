@@ -23,7 +23,7 @@ public:
         : a_(a), b_(b), nudge_(kNudge * std::max(a.world_size(), b.world_size())),
           at_least_(std::max(at_least, nudge_)), counters_(counters), steps_(steps) {}
 
-    /// False also where the steps run out.
+    /// Returns whether the models are apart after the shift. False also if the steps are used up.
     [[nodiscard]] bool separates(const Vec3& shift) const { return separates(shift, steps_); }
 
     [[nodiscard]] bool separates(const Vec3& shift, SearchSteps* steps) const {
@@ -38,8 +38,8 @@ public:
         return !any_component_inside(a_, b) && !any_component_inside(b, a_);
     }
 
-    /// The boxes of both trees, seen along the axes of the world and of both trees: beyond them,
-    /// nothing is left.
+    /// Separates the boxes of both trees along the axes of the world and of both trees: models
+    /// whose boxes are apart are apart.
     void start_from_boxes() {
         std::vector<Vec3> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (const PlacedSolid* s : {&a_, &b_}) {
@@ -57,7 +57,7 @@ public:
         }
         std::sort(ways.begin(), ways.end(),
                   [](const Vec3& v, const Vec3& w) { return length_sq(v) < length_sq(w); });
-        // The first lies beyond by rounding at most; far from the origin that grows.
+        // The shortest shift may fail by rounding, which grows with the distance from the origin.
         for (double beyond = 0x1p-20; beyond < 0x1p20 && best_ == Vec3{}; beyond *= 16)
             for (const Vec3& way : ways) {
                 const double size = a_.world_size() + b_.world_size();
@@ -67,7 +67,8 @@ public:
             }
     }
 
-    /// Along one direction, if it leads out sooner than what is known.
+    /// Bisects along one direction, if that may separate by a shorter translation than the best so
+    /// far.
     void try_direction(const Vec3& direction) {
         double enough = (1 - kAccuracy) * length(best_);
         if (direction == Vec3{} || !(enough > at_least_) || !separates(enough * direction))
@@ -76,7 +77,7 @@ public:
         shorten();
     }
 
-    /// The same, for a translation given.
+    /// Takes a given translation if it is shorter and separates.
     bool try_shift(const Vec3& shift) {
         if (!(length(shift) < (1 - kAccuracy) * length(best_)) || !separates(shift))
             return false;
@@ -96,13 +97,14 @@ public:
         blocked_ = short_of * direction;
     }
 
-    /// Slides along what is in the way just before the best translation is reached.
+    /// Slides along the triangles that block the motion just short of the best translation.
     void slide() {
         constexpr int kRounds = 16;
         for (int round = 0; round < kRounds && length(best_) > at_least_; ++round) {
             const Vec3 before = best_;
             for (const Vec3& n : blocking_normals()) {
-                // The foot of the origin on the plane through `before` across n, and a bit.
+                // The foot of the origin on the plane through `before` with normal n, and slightly
+                // beyond.
                 const double out = dot(before, n);
                 if (out > 0 && try_shift((1 + 0.5 * kAccuracy) * out * n)) {
                     shorten();
@@ -114,7 +116,7 @@ public:
         }
     }
 
-    /// A step along one direction that is as good as none.
+    /// Tries the smallest step along one direction.
     bool try_nudge(const Vec3& direction) {
         if (direction == Vec3{} || !separates(nudge_ * direction))
             return false;
@@ -142,7 +144,7 @@ private:
         return e;
     }
 
-    /// Directions that part some triangles in contact there, the commonest first.
+    /// Directions that part some triangles in contact at `blocked_`, and their mean.
     [[nodiscard]] std::vector<Vec3> blocking_normals() const {
         constexpr std::size_t kContacts = 32, kNormals = 6;
         const Transform moved = b_.world_moved(blocked_);
@@ -170,10 +172,10 @@ private:
 
     const PlacedSolid& a_;
     const PlacedSolid& b_;
-    double nudge_, at_least_; ///< nothing shorter is looked for
+    double nudge_, at_least_; ///< shorter translations are not searched for
     Counters& counters_;
     SearchSteps* steps_;
-    Vec3 best_, blocked_; ///< blocked_: shorter on the same line, does not separate
+    Vec3 best_, blocked_; ///< blocked_: shorter, along the same line; does not separate
 };
 
 } // namespace

@@ -25,7 +25,8 @@ public:
         } else if (closed) {
             result.side = placed_.contains_off_surface(point) ? Side::inside : Side::outside;
         } else {
-            // An affine map moves mesh and point alike; a mirroring one turns the number's sign.
+            // An affine map moves mesh and point alike; a mirroring one changes the sign of the
+            // number.
             const double number =
                 winding_number(placed_.model().mesh(), apply(model_from_world_, point));
             result.winding_number = placed_.mirrored() ? -number : number;

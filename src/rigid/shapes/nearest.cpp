@@ -12,8 +12,6 @@ namespace abut {
 
 namespace {
 
-/// Points are cheap: this many are worth a task.
-
 Nearest on_triangle(const Vec3& point, const PlacedModel& model, std::uint32_t triangle) {
     const NearestOnTriangle n = nearest_on_triangle(point, model.world_triangle(triangle));
     Nearest result;
@@ -28,7 +26,7 @@ Nearest on_triangle(const Vec3& point, const PlacedModel& model, std::uint32_t t
     return result;
 }
 
-/// Unsigned.
+/// The nearest point by unsigned distance.
 Nearest find_nearest(const PlacedModel& model, const Vec3& point, double upper_bound) {
     constexpr std::uint32_t kNone = ~std::uint32_t{0};
     double best_sq = upper_bound * upper_bound;
@@ -47,7 +45,7 @@ Nearest find_nearest(const PlacedModel& model, const Vec3& point, double upper_b
         return result;
     }
     result = on_triangle(point, model, best);
-    // Rounding leaves a gap where there is none, or none where there is one; by far less than this.
+    // Rounding may give a gap where there is none, or hide one, by far less than this.
     constexpr double kRounding = 0x1p-30;
     if (result.distance <= kRounding * (magnitude(point) + magnitude(result.point))) {
         if (const auto triangle = model.triangle_at(point)) {

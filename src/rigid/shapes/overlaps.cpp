@@ -16,10 +16,10 @@ namespace {
 
 using Triangles = std::vector<std::uint32_t>;
 
-/// Which triangles of a placed model meet a shape: all, or some one of them.
+/// How many of the triangles that meet a shape are wanted: one or all.
 enum class Wanted : std::uint8_t { one, all };
 
-/// Keeps the triangles that `meets` holds for. Not asked once there are enough.
+/// Collects the triangles for which `meets` holds, until there are enough.
 template <typename Meets>
 class Collector {
 public:
@@ -74,7 +74,7 @@ Triangles find(const PlacedModel& model, const Segment& segment, Wanted wanted) 
     return std::move(collect.found);
 }
 
-/// The twelve triangles of abut/shapes.h.
+/// The twelve triangles that abut/shapes.h describes.
 Mesh surface_of(const OrientedBox& box) {
     const Vec3 &low = box.box.lower, &high = box.box.upper;
     Mesh mesh;
@@ -101,7 +101,7 @@ Triangles find(const PlacedModel& model, const OrientedBox& box, Wanted wanted) 
     if (!require_box(box.box))
         return {};
     const Model surface(surface_of(box));
-    // Closed also where corners coincide: the parity of crossings does not mind.
+    // The box is closed also if corners coincide, which the parity of crossings allows.
     Solid solid;
     solid.closed = true;
     const PlacedSolid placed_box(surface, solid, {});
@@ -119,7 +119,7 @@ Triangles find(const PlacedModel& model, const OrientedBox& box, Wanted wanted) 
             meet = meet || triangle_triangle_intersect(placed_box.world_slot(slot), t) !=
                                TriangleContact::none;
         });
-        // Not through the surface: all inside, or all outside.
+        // The triangle does not cross the box's surface: it lies all inside or all outside.
         return meet || placed_box.contains_off_surface(t[0]);
     };
     Collector collect(model, wanted, meets);
@@ -182,7 +182,7 @@ Triangles overlapping_triangles(const Model& model, const Transform& world_from_
 Gap distance(const Model& model, const Transform& world_from_model, const Segment& segment,
              const DistanceOptions& options) {
     require_segment(segment);
-    // A segment is a model too: one triangle without an area.
+    // A segment as a model: one triangle without area.
     const Model as_model(Mesh{{segment.a, segment.b}, {{0, 1, 1}}});
     return distance(model, world_from_model, as_model, Transform(), options);
 }

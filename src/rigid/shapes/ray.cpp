@@ -15,13 +15,12 @@ namespace abut {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rays are cheap: this many are worth a task.
 
-/// The part of a ray that may meet a model, by the lengths at which it begins and ends.
+/// The part of a ray that may meet a model, by its lengths from the ray's origin.
 class RaySpan {
 public:
     RaySpan(const Ray& ray, const PlacedModel& model) {
-        // Lengths, not multiples of the direction: squares of the latter may be out of range.
+        // Lengths are used, since squares of multiples of the direction may be out of range.
         const Vec3& d = ray.direction;
         std::frexp(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}), &exponent_);
         const Vec3 scaled{std::ldexp(d.x, -exponent_), std::ldexp(d.y, -exponent_),
@@ -29,7 +28,7 @@ public:
         scaled_length_ = length(scaled);
         const Vec3 unit = (1 / scaled_length_) * scaled;
         const Vec3 to_middle = model.middle() - ray.origin;
-        // Of every length and of every point below.
+        // Bounds the error of every length and every point below.
         const double error =
             64 * 0x1p-53 * (magnitude(ray.origin) + magnitude(model.middle()) + model.reach());
         const double nearest = dot(to_middle, unit), reach = model.reach() + error;
@@ -45,13 +44,13 @@ public:
 
     [[nodiscard]] const std::optional<ClippedSegment>& clipped() const { return clipped_; }
 
-    /// A parameter of the clipped segment (middle + s half) not before the ray's t, which is as
-    /// precise as ray_triangle_intersect gives it.
+    /// A parameter of the clipped segment (middle + s half) that is not before the ray's t, which
+    /// is as precise as ray_triangle_intersect computes it.
     [[nodiscard]] float segment_parameter(double t) const {
         const double length = length_at(t) + 0x1p-39 * std::abs(length_at(t));
         const double fraction = (length - begin_) / (end_ - begin_);
         const double s = 2 * (fraction - clipped_->begin) / (clipped_->end - clipped_->begin) - 1;
-        // 1 also where a length is zero, and s not a number.
+        // Returns 1 also if a length is zero and s is not a number.
         return s < 1 ? round_up(std::max(s, -1.0)) : 1;
     }
 
@@ -71,7 +70,7 @@ struct Candidate {
     RayTriangleHit hit;
 };
 
-/// By t, then by index.
+/// Orders hits by t, then by triangle index.
 bool before(const Ray& ray, const Candidate& a, const Candidate& b) {
     const int order = compare_hits(ray, a.corners, a.hit, b.corners, b.hit);
     return order != 0 ? order < 0 : a.triangle < b.triangle;
@@ -158,7 +157,7 @@ std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_mod
     results.reserve(candidates.size());
     for (const Candidate& c : candidates) {
         results.push_back(describe(ray, c));
-        // In order also where rounding, within its bound, says otherwise.
+        // Keeps the order where rounding, within its bound, would break it.
         if (results.size() > 1)
             results.back().t = std::max(results.back().t, results[results.size() - 2].t);
     }

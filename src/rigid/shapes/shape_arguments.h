@@ -11,13 +11,13 @@
 #include <cstddef>
 #include <string>
 
-/// Checks of what queries with shapes are given. Errors: Error{bad_argument}.
+/// Checks of the arguments of queries with shapes. Errors: Error{bad_argument}.
 namespace abut {
 
-/// Of a list of points or rays, how many one thread takes at a time.
+/// How many points or rays of a list one task takes.
 inline constexpr std::size_t kShapesPerTask = 64;
 
-/// Coordinates in the range of a mesh's.
+/// Requires coordinates in the range that a mesh allows.
 inline void require_point(const Vec3& p, const char* what) {
     require(is_finite(p), std::string(what) + " has a coordinate that is not finite");
     require(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargestCoordinate,
@@ -46,7 +46,7 @@ inline void require_sphere(const Sphere& sphere) {
             "radius of the sphere must not be negative, nor beyond 1e18");
 }
 
-/// False if the box is empty.
+/// Returns false if the box is empty.
 inline bool require_box(const Box3& box) {
     if (box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z)
         return false;
