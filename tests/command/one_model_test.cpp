@@ -44,6 +44,7 @@ TEST_F(OneModelTest, NearestOfPointsFromTheLineAndAFile) {
 TEST_F(OneModelTest, RayFirstAndAll) {
     const std::vector<std::string> ray{"--origin", "0.25,0.5,3", "--direction", "-0,0,-2"};
     const auto first = answer("ray", ray);
+    EXPECT_EQ(first["meet"], true);
     EXPECT_EQ(first["hit"], true);
     ASSERT_EQ(first["hits"].size(), 1U);
     EXPECT_EQ(first["hits"][0]["t"], 1.0);

@@ -16,6 +16,7 @@ TEST_F(TimeOfImpactCommand, BoxesApproach) {
         "time-of-impact", {"--pose-b", "3,0.5,0,1,0,0,0", "--end-b", "-1,0.5,0,1,0,0,0", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto answer = outcome.json();
+    EXPECT_EQ(answer["meet"], true);
     EXPECT_EQ(answer["hit"], true);
     EXPECT_LE(answer["time"], 0.5);
     EXPECT_NEAR(answer["time"], 0.5, 1e-6);

@@ -191,6 +191,7 @@ TEST_F(TwoModelsTest, CollideSaysNoAndYes) {
 
     const Outcome touching = ask("collide", {"--pose-b", "1,0,0,1,0,0,0", "--json"});
     ASSERT_EQ(touching.status, 0) << touching.err;
+    EXPECT_EQ(touching.json()["meet"], true);
     EXPECT_EQ(touching.json()["contact"], true);
     EXPECT_EQ(touching.json()["triangle_pairs"].size(), 1U);
 
@@ -216,6 +217,7 @@ TEST_F(TwoModelsTest, PenetrationSaysHowDeepAndWhichWayIsOut) {
     const Outcome outcome = ask("penetration", {"--pose-b", "0.9,0.2,0.3,1,0,0,0", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto answer = outcome.json();
+    EXPECT_EQ(answer["meet"], true);
     EXPECT_EQ(answer["interpenetrate"], true);
     EXPECT_NEAR(answer["depth"], 0.1, 1e-3);
     EXPECT_NEAR(answer["separation"][0], 0.1, 1e-3);
@@ -239,6 +241,7 @@ TEST_F(TwoModelsTest, PenetrationSaysHowDeepAndWhichWayIsOut) {
 TEST_F(TwoModelsTest, PenetrationOfModelsApartAndTouching) {
     const Outcome apart = ask("penetration", {"--pose-b", "9,0,0,1,0,0,0", "--json"});
     ASSERT_EQ(apart.status, 0) << apart.err;
+    EXPECT_EQ(apart.json()["meet"], false);
     EXPECT_EQ(apart.json()["interpenetrate"], false);
     EXPECT_TRUE(apart.json()["regions"].empty());
     EXPECT_EQ(ask("penetration", {"--pose-b", "9,0,0,1,0,0,0"}).out, "apart\n");

@@ -44,7 +44,8 @@ struct CollideQuery : PairQuery {
         return collide(m.a, m.b, placements, options());
     }
     void add_answer(const Contacts& contacts, nlohmann::ordered_json& json) const {
-        json["contact"] = contacts.meet();
+        json["meet"] = contacts.meet();
+        json["contact"] = contacts.meet(); // the name before 0.1, kept for scripts
         json["all"] = all;
         json["triangle_pairs"] = to_json(contacts.pairs);
         if (segments) {

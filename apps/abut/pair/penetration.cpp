@@ -33,6 +33,7 @@ struct PenetrationQuery : PairQuery {
         return penetration(m.a, m.world_from_a, m.b, m.world_from_b, options);
     }
     void add_answer(const Depth& depth, nlohmann::ordered_json& json) const {
+        json["meet"] = depth.meet;
         json["interpenetrate"] = depth.interpenetrate;
         json["depth"] = depth.depth;
         json["depth_at_most"] = depth.depth_at_most;

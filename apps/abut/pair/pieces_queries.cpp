@@ -166,7 +166,8 @@ PiecesCollideQuery::ask(const TwoModels& m, const std::vector<Placement>& placem
 
 void PiecesCollideQuery::add_answer(const PiecesContacts& contacts,
                                     nlohmann::ordered_json& json) const {
-    json["contact"] = contacts.meet;
+    json["meet"] = contacts.meet;
+    json["contact"] = contacts.meet; // the name before 0.1, kept for scripts
     json["contained"] = contacts.contained;
     json["all"] = all;
     json["piece_pairs"] = nlohmann::ordered_json::array();

@@ -42,7 +42,8 @@ struct ImpactQuery : PairQuery {
             {.absolute_error = tolerance, .max_steps = max_steps, .progress = bar.progress()});
     }
     static void add_answer(const Impact& impact, nlohmann::ordered_json& json) {
-        json["hit"] = impact.meet;
+        json["meet"] = impact.meet;
+        json["hit"] = impact.meet; // the name before 0.1, kept for scripts
         json["time"] = impact.time;
         json["status"] = to_string(impact.status);
         json["out_of_steps"] = impact.out_of_steps;

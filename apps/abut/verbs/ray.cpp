@@ -47,7 +47,8 @@ int run(const RayArguments& arguments, const CommonOptions& common) {
                                       {"origin", to_json(ray.origin)},
                                       {"direction", to_json(ray.direction)},
                                       {"all", arguments.all},
-                                      {"hit", !hits.empty()},
+                                      {"meet", !hits.empty()},
+                                      {"hit", !hits.empty()}, // the name before 0.1, kept for scripts
                                       {"hits", nlohmann::ordered_json::array()}};
         for (const RayHit& hit : hits)
             answer["hits"].push_back({{"t", hit.t},

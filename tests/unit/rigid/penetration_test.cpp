@@ -173,6 +173,7 @@ TEST(Penetration, ABarRightThroughAWallHasTwoCurves) {
 
 TEST(Penetration, TouchingOnly) {
     const Depth face = ask(kUnitBox, box_mesh({0.2, 0.2, 1}, {0.8, 0.6, 2}));
+    EXPECT_TRUE(face.meet);
     EXPECT_FALSE(face.interpenetrate);
     EXPECT_EQ(face.depth, 0);
     EXPECT_EQ(face.status, Status::exact);
@@ -196,6 +197,7 @@ TEST(Penetration, TouchingOnly) {
 
 TEST(Penetration, ApartIsNothing) {
     const Depth d = ask(kUnitBox, box_mesh({2, 0, 0}, {3, 1, 1}));
+    EXPECT_FALSE(d.meet);
     EXPECT_FALSE(d.interpenetrate);
     EXPECT_TRUE(d.regions.empty());
     EXPECT_EQ(d.depth, 0);
