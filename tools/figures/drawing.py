@@ -165,6 +165,9 @@ class Drawing:
 
     def box(self, x, y, w, h, head, texts=(), color="ink"):
         """A box of a flow chart with a heading and lines of text."""
+        for text in [head, *texts]:  # other fonts are up to a tenth wider
+            if 1.1 * text_width(text, SIZES["label" if text == head else "small"]) > w - 8:
+                raise ValueError(f"'{text}' is too wide for its box")
         self.rect(x, y, w, h, color, radius=6, tint=color)
         top = y + h / 2 - 10 * len(texts) + 6
         self.text(x + w / 2, top, head, anchor="middle", size="label", bold=True)

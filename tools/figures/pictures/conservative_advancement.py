@@ -13,7 +13,7 @@ STILL = [(0.0, -1.0), (1.0, -1.1), (1.55, 0.1), (0.7, 1.05), (-0.35, 0.55)]
 BODY = [(-1.15, -0.3), (1.15, -0.22), (1.05, 0.26), (-1.05, 0.3)]
 START, VELOCITY, SPIN = (-4.3, 0.75), (3.6, -1.44), 2.88
 STEPS = 3
-LABELS = [(0.5, 0, -8), (0.5, 2, 20), (0.5, 0, -8)]  # along each gap, and aside
+LABELS = [(0.8, 0, 18), (0.5, 4, -8), (0.5, -4, -8)]  # along each gap, and aside
 
 
 def body_at(t):
@@ -52,6 +52,9 @@ def draw():
     for k in range(STEPS + 1):
         body = body_at(times[k])
         d.polygon(view.all(body), "blue", tint="blue", width="bold" if k == 0 else "line")
+        if k > 0:
+            x, y = max(view.all(body), key=lambda p: p[1])
+            d.text(x, y + 20, f"t_{k}", "blue", anchor="middle")
     for k in range(STEPS + 1):
         p, q, _ = free_time(times[k])
         d.line(view(p), view(q), "green", width="bold" if k == STEPS else "line")

@@ -65,11 +65,11 @@ def draw_step(d, step, axis, up):
 
 
 def draw():
-    d = Drawing(468, "The sorted ends of boxes on one axis, in two steps")
+    d = Drawing(474, "The sorted ends of boxes on one axis, in two steps")
     d.text(LEFT - 10, 20, "Last step", size="head")
     before = draw_step(d, 1, 122, True)
     after = draw_step(d, 2, 314, False)
-    d.text(LEFT - 10, 424, "This step", size="head")
+    d.text(LEFT - 10, 414, "This step", size="head")
     swapped = swaps()
     for first, second in swapped:
         for end in (first, second):
@@ -79,6 +79,8 @@ def draw():
         a, b = sorted((BOXES[first[1]][0], BOXES[second[1]][0]))
         d.text(x + (-34 if not begins else 34), 224, f"{a}{b} {'begins' if begins else 'ends'}",
                anchor="start" if begins else "end", bold=True)
-    d.text(300, 456, "Only pairs whose ends change places in the sorted list are tested.",
+    d.text(300, 444, "[ A and A ] are the lower and the upper end of box A.", anchor="middle",
+           color="muted", size="small")
+    d.text(300, 464, "Only pairs whose ends change places in the sorted list are tested.",
            anchor="middle", color="muted", size="small")
     return d

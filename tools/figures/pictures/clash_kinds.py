@@ -6,7 +6,7 @@ solid's surface inside the other to that one's surface, the larger of both ways.
 import math
 
 from drawing import Drawing, View
-from geometry import add, closest_points, contains, deepest_point, lerp, sub, turned, unit
+from geometry import add, closest_points, contains, deepest_point, lerp, turned
 
 CLEARANCE = 0.5
 WALL = [(-1.3, -0.9), (1.3, -0.9), (1.3, 0.0), (-1.3, 0.0)]
@@ -24,8 +24,8 @@ def disc(center, radius, sides=20):
 
 
 SCENES = [
-    ("hard", WALL, box((0.1, 0.35), (0.75, 0.5), 24), ["the surfaces go into", "each other"]),
-    ("touch", WALL, box((0.0, 0.45), (0.8, 0.45)), ["they share points,", "at depth 0"]),
+    ("hard", WALL, box((0.15, 0.35), (0.75, 0.5), 24), ["surfaces meet, deeper", "than the tolerance"]),
+    ("touch", WALL, box((0.0, 0.45), (0.8, 0.45)), ["surfaces meet, at most", "the tolerance deep"]),
     ("contained", box((0, 0), (1.3, 0.95)), disc((-0.35, 0.1), 0.42),
      ["inside a solid,", "no surfaces meet"]),
     ("duplicate", disc((0, 0), 0.9, 6), disc((0, 0), 0.9, 6),
@@ -37,9 +37,9 @@ SCENES = [
 
 
 def draw():
-    d = Drawing(486, "Kinds of clash: hard, touch, contained, duplicate, clearance, and none")
+    d = Drawing(500, "Kinds of clash: hard, touch, contained, duplicate, clearance, and none")
     for i, (name, a, b, texts) in enumerate(SCENES):
-        x, y = 100 + 200 * (i % 3), 112 + 242 * (i // 3)
+        x, y = 100 + 200 * (i % 3), 112 + 256 * (i // 3)
         view = View((x, y), 62)
         d.text(x, y - 92, name, "muted" if name == "no clash" else "ink", anchor="middle",
                size="head")
@@ -62,19 +62,16 @@ def draw():
         if ends:
             p, q = view.all(ends)
             d.line(p, q, "ink", width="bold")
-            d.dot(p, "ink", 4)
-            d.dot(q, "ink", 4)
-            d.text(*beside(p, q), label, size="small")
+            d.dot(p, "ink", 3.5)
+            d.dot(q, "ink", 3.5)
+            middle = lerp(p, q, 0.5)
+            at_left = name == "hard"
+            d.text(middle[0] + (-8 if at_left else 8), middle[1] + 5, label,
+                   anchor="end" if at_left else "start", size="small")
         if name == "touch":
             d.line(*view.all([(-0.8, 0.0), (0.8, 0.0)]), "ink", width="bold")
         d.lines(x, y + 82, texts, anchor="middle", size="small")
-        value = {"hard": "distance = - depth", "contained": "distance = - gap",
+        value = {"hard": "distance = − depth", "contained": "distance = − gap",
                  "clearance": "distance = gap", "no clash": "not reported"}
         d.text(x, y + 123, value.get(name, "distance = 0"), "muted", anchor="middle", size="small")
     return d
-
-
-def beside(p, q):
-    x, y = lerp(p, q, 0.5)
-    side = unit(sub(q, p))
-    return (x + 8, y + 5) if abs(side[1]) > abs(side[0]) else (x - 12, y - 8)

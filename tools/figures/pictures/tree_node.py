@@ -80,7 +80,7 @@ def draw():
     triangles = surface()
     children = children_of(triangles)
     own = axes_of(triangles)
-    query = [add((0.62, -0.32), turned(p, math.radians(-12)))
+    query = [add((0.8, -0.42), turned(p, math.radians(-12)))
              for p in ((-0.62, -0.4), (0.62, -0.4), (0.62, 0.4), (-0.62, 0.4))]
     query_axes = (unit(sub(query[1], query[0])), unit(sub(query[3], query[0])))
     sums = []

@@ -36,13 +36,14 @@ def draw():
         d.text(*view((-0.1, 1.3) if column else (0.26, 2.72)), "b", "orange", bold=True)
         d.text(*view((3.6, 1.35) if column else (3.25, 0.2)), "a", "blue", bold=True)
     left = View((0, 238), 60)
+    d.arrow((494, 240), (494, 46), "muted", width="thin")
     for end, x in ((0, 508), (1, 564)):
         for feature, color in ((A, "blue"), (B, "orange")):
             low, high = bounds(feature[end])
             d.rect(x, left(high)[1], 18, left(low)[1] - left(high)[1], color, tint=color)
         d.text(x + 9, 258, f"t = {end}", anchor="middle", size="small")
     d.text(118, 286, "They overlap:", anchor="middle")
-    d.text(118, 306, "the pair is left.", anchor="middle")
+    d.text(118, 306, "the pair must be tested.", anchor="middle")
     d.text(420, 286, "a lies below b at the start and at the end:", anchor="middle")
     d.text(420, 306, "moving in straight lines, they never meet.", anchor="middle")
     return d
