@@ -33,7 +33,7 @@ def draw():
                 d.line(view(feature[end][0]), view(feature[end][1]), color, width="bold")
             for k in (0, 1):
                 d.line(view(feature[0][k]), view(feature[1][k]), color, width="thin", dash=True)
-        d.text(*view((-0.1, 1.3) if column else (0.26, 2.72)), "b", "orange", bold=True)
+        d.text(*view((-0.1, 1.3) if column else (0.3, 2.68)), "b", "orange", bold=True)
         d.text(*view((3.6, 1.35) if column else (3.25, 0.2)), "a", "blue", bold=True)
     left = View((0, 238), 60)
     d.arrow((494, 240), (494, 46), "muted", width="thin")

@@ -24,8 +24,10 @@ def disc(center, radius, sides=20):
 
 
 SCENES = [
-    ("hard", WALL, box((0.15, 0.35), (0.75, 0.5), 24), ["surfaces meet, deeper", "than the tolerance"]),
-    ("touch", WALL, box((0.0, 0.45), (0.8, 0.45)), ["surfaces meet, at most", "the tolerance deep"]),
+    ("hard", WALL, box((0.15, 0.35), (0.75, 0.5), 24),
+     ["surfaces meet, deeper", "than the tolerance"]),
+    ("touch", WALL, box((0.0, 0.45), (0.8, 0.45)),
+     ["surfaces meet, at most", "the tolerance deep"]),
     ("contained", box((0, 0), (1.3, 0.95)), disc((-0.35, 0.1), 0.42),
      ["inside a solid,", "no surfaces meet"]),
     ("duplicate", disc((0, 0), 0.9, 6), disc((0, 0), 0.9, 6),

@@ -134,6 +134,6 @@ def draw():
     draw_meeting(d)
     d.lines(150, 466, ["1 to 4: the nearest points of", "ever nearer simplices, until no",
                        "corner is nearer."], anchor="middle", color="muted", size="small")
-    d.lines(450, 466, ["1 to 3: corners added beyond the", "nearest edge, until its distance", "is the depth."], anchor="middle", color="muted",
-            size="small")
+    d.lines(450, 466, ["1 to 3: corners added beyond the", "nearest edge, until its distance",
+                       "is the depth."], anchor="middle", color="muted", size="small")
     return d

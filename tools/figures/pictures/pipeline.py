@@ -24,7 +24,6 @@ def draw():
             d.box(x, y, W, H, head, texts, color)
         for x in X[:2]:
             d.arrow((x + W + 5, y + H / 2), (x + W + GAP - 5, y + H / 2))
-    labels = [["candidates"], ["what is", "left open"]]
     for k in (0, 1):
         middle = (Y[k] + H + Y[k + 1]) / 2
         start, end = X[2] + W / 2, X[0] + W / 2

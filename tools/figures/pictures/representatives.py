@@ -1,6 +1,7 @@
-"""Features given to triangles, and the tests that two triangles keep (docs/representative-triangles.md).
+"""Features given to triangles, and the tests that two triangles keep.
 
-The assignment is `greedy`: a feature goes to the first triangle that has it.
+See docs/representative-triangles.md. The assignment is `greedy`: a feature goes to the
+first triangle that has it.
 """
 from drawing import Drawing
 from geometry import Random, add, lerp, mul

@@ -64,8 +64,7 @@ def draw():
         d.text(x, y + 15, f"{time:.2f} s", anchor="middle", size="small")
     d.arrow((580, 76), (474, 76), "orange")
     d.text(528, 64, "taken next", "orange", anchor="middle", size="small")
-    d.text(300, 308, "Only pairs whose swept boxes overlap are in the heap. The first pair is tested",
-           anchor="middle", color="muted", size="small")
-    d.text(300, 328, "when its time has come, and goes back with a new bound.", anchor="middle",
-           color="muted", size="small")
+    d.lines(300, 308, ["Only pairs whose swept boxes overlap are in the heap. The first pair",
+                       "is tested when its time has come, and goes back with a new bound."],
+            anchor="middle", color="muted", size="small")
     return d

@@ -6,7 +6,8 @@ STAGES = [("Filter", ["directions,", "cubic's signs"], "eight pairs", "blue"),
           ("Intervals", ["any cubic"], "one pair", "violet"),
           ("Exact", ["integers"], "one pair", "orange")]
 # 3,324 queries of the benchmark of Wang et al. 2021.
-QUERIES = [("filter", 2791, "blue"), ("crossings and intervals", 257, "green"), ("exact", 276, "orange")]
+QUERIES = [("filter", 2791, "blue"), ("crossings and intervals", 257, "green"),
+           ("exact", 276, "orange")]
 # 403,553 pairs of cloth-ball that the filter leaves.
 CLOTH = [("crossings", 397662, "green"), ("later stages", 403553 - 397662, "orange")]
 

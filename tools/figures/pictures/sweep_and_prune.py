@@ -6,8 +6,10 @@ lower ends come first.
 from drawing import Drawing
 
 # Name, interval in the last step, interval in this step, height, colour.
-BOXES = [("A", (0.4, 3.0), (0.7, 3.3), 0.2, "blue"), ("B", (2.4, 5.1), (1.9, 4.6), 1.25, "orange"),
-         ("C", (4.8, 7.0), (5.0, 7.2), 0.2, "green"), ("D", (7.3, 10.0), (6.6, 9.3), 1.25, "violet")]
+BOXES = [("A", (0.4, 3.0), (0.7, 3.3), 0.2, "blue"),
+         ("B", (2.4, 5.1), (1.9, 4.6), 1.25, "orange"),
+         ("C", (4.8, 7.0), (5.0, 7.2), 0.2, "green"),
+         ("D", (7.3, 10.0), (6.6, 9.3), 1.25, "violet")]
 
 
 def ends(step):
@@ -16,7 +18,7 @@ def ends(step):
 
 
 def swaps():
-    """The pairs of ends that change places in the insertion sort, as (box, upper)."""
+    """The pairs of ends that change places in the insertion sort, as (upper, box)."""
     order = [(upper, k) for _, upper, k in ends(1)]
     found = []
     for i in range(1, len(order)):
