@@ -138,7 +138,7 @@ class Drawing:
         self.line(begin, end, stroke, width=width, dash=dash)
 
     def text(self, x, y, text, color="ink", anchor="start", size="label", bold=False):
-        """A line of text with the baseline y. An underscore makes the next character a subscript."""
+        """A line of text on the baseline y. An underscore makes the next character a subscript."""
         points = SIZES[size]
         bold = bold or size == "head"
         wide = text_width(text, points) * (1.07 if bold else 1)
