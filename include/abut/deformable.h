@@ -29,7 +29,7 @@ enum class Assignment : std::uint8_t {
 /// Decides how pairs of triangles that may meet become tests of features.
 enum class Scheme : std::uint8_t {
     representative, ///< the features that both triangles represent, if the features' boxes overlap
-    database, ///< all 15 tests whose features' boxes overlap, each once: a hash table remembers them
+    database, ///< all 15 tests whose features' boxes overlap; a hash table prevents repetitions
     markup,   ///< the features that both triangles represent, without boxes of features
     basic,    ///< all 15 tests
     features, ///< no triangle pairs: separate trees over vertices, edges and faces
