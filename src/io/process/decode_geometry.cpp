@@ -15,7 +15,7 @@ namespace abut {
 
 namespace {
 
-/// Decoders and filters work on whole words.
+/// Rounds up, because decoders and filters work on whole words.
 constexpr std::uint64_t aligned(std::uint64_t bytes) {
     return (bytes + 15) / 16 * 16;
 }

@@ -107,7 +107,7 @@ Part decode_part(Cursor& cursor, std::size_t meshes, const std::string& file) {
     return part;
 }
 
-/// Text of a reader on one line.
+/// Puts a reader's text on one line.
 std::string one_line(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < ' ')

@@ -113,8 +113,8 @@ std::vector<std::string> reader_command(const std::string& file, const ReadOptio
         if (!is_there(converter / "node_modules/web-ifc"))
             throw Error(ErrorCode::unsupported, file,
                         "IFC needs web-ifc: run `npm ci` in " + converter.string());
-        // No limit of address space: Node.js reserves far more than it uses. run_child watches what
-        // it uses.
+        // No limit of address space, because Node.js reserves far more than it uses. run_child
+        // watches the resident memory.
         return {find_reader(file),
                 parent,
                 "0",
