@@ -21,7 +21,7 @@ std::uint8_t base64_digit(char c) {
         for (const char digit :
              std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
             digits[static_cast<unsigned char>(digit)] = value++;
-        // The alphabet for URLs (RFC 4648, 5), which some writers use.
+        // The URL-safe alphabet (RFC 4648, 5), which some writers use.
         digits['-'] = 62, digits['_'] = 63;
         return digits;
     }();
@@ -60,8 +60,8 @@ std::optional<unsigned> hexadecimal(char c) {
     return std::nullopt;
 }
 
-/// Whether the text begins with a scheme: a letter, then letters, digits, "+-.", then a colon. A
-/// drive of Windows looks like one.
+/// Returns whether the text begins with a scheme: a letter, then letters, digits, "+-.", then a
+/// colon. A Windows drive looks like a scheme.
 bool has_scheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');
     return colon != std::string_view::npos && colon > 0 &&

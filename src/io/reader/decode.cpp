@@ -50,7 +50,7 @@ private:
     int descriptor_;
 };
 
-/// Bytes without a value: a count that a file promises touches no memory before it is kept.
+/// Uninitialised bytes: a count that a file states touches no memory before it is checked.
 class Bytes {
 public:
     explicit Bytes(std::uint64_t size)

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kEndBytes = 22, kRecordBytes = 46, kLocalBytes = 30;
 constexpr std::uint32_t kRecordMark = 0x02014b50, kLocalMark = 0x04034b50;
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
-// Text of models becomes 4 to 30 times smaller.
+// The text of models is compressed by a factor of 4 to 30.
 constexpr std::uint64_t kLargestRatio = 200, kSmallestBound = std::uint64_t{1} << 26;
 
 std::string in_lower_case(std::string_view text) {
