@@ -10,7 +10,7 @@ namespace abut {
 
 namespace {
 
-/// The next line with content, without its comment.
+/// Takes the next line with content, without its comment.
 bool next_content(LineScan& lines, std::string_view& rest) {
     while (lines.next(rest)) {
         rest = rest.substr(0, rest.find('#'));
@@ -21,7 +21,7 @@ bool next_content(LineScan& lines, std::string_view& rest) {
     return false;
 }
 
-/// The numbers of vertices and faces.
+/// Reads the numbers of vertices and faces.
 std::array<std::uint64_t, 2> read_header(LineScan& lines) {
     std::string_view rest;
     if (!next_content(lines, rest))
@@ -47,7 +47,7 @@ std::array<std::uint64_t, 2> read_header(LineScan& lines) {
     return counts;
 }
 
-/// In          rest: a face's line. In/out corners: all in range.
+/// In          rest: a face's line. Out corners: indices, all in range.
 void read_corners(std::string_view rest, std::uint64_t vertices, const LineScan& lines,
                   std::vector<std::uint64_t>& corners) {
     const auto count = to_number<std::uint64_t>(take_word(rest));
