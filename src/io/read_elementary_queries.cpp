@@ -134,12 +134,13 @@ private:
     [[nodiscard]] double number(std::string_view numerator, std::string_view denominator) const {
         const auto n = parse_integer(numerator), d = parse_integer(denominator);
         if (!n || !d)
-            fail("'" + std::string(n ? denominator : numerator) + "' is no integer");
+            fail("'" + std::string(n ? denominator : numerator) + "' is not an integer");
         if (d->is_zero())
             fail("a denominator is zero");
         const auto value = exact_double(*n, *d);
         if (!value)
-            fail(std::string(numerator) + "/" + std::string(denominator) + " is no double");
+            fail(std::string(numerator) + "/" + std::string(denominator) +
+                 " is not exactly a double");
         return *value;
     }
 
@@ -168,7 +169,7 @@ ElementaryQueries read_elementary_queries(const std::string& file,
         kind = kind_of_name(file);
     if (!kind)
         throw Error(ErrorCode::bad_argument, file,
-                    "its name says neither vertex-face nor edge-edge: give the kind");
+                    "its name contains neither vertex-face nor edge-edge: give the kind");
     return QueryReader(file, *kind).read();
 }
 

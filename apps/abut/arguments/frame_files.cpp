@@ -59,7 +59,7 @@ std::vector<std::string> frame_files(const std::vector<std::string>& arguments) 
     }
     if (files.size() < 2)
         throw Error(ErrorCode::bad_argument, files.front(),
-                    "is one frame only; a sequence has at least two");
+                    "is only one frame; a sequence needs at least two");
     return files;
 }
 

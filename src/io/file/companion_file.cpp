@@ -31,7 +31,7 @@ std::string companion_path(const std::string& model, const std::string& referenc
     if (error || !is_within(real, real_folder))
         throw Fault(ErrorCode::unsupported,
                     "refers to " + reference.substr(0, 200) +
-                        ", which lies outside of its folder (to be allowed explicitly)");
+                        ", which lies outside its folder and must be allowed explicitly");
     return real;
 }
 

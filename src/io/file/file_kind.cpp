@@ -91,7 +91,8 @@ void check_file_kind(const std::string& path, std::string_view extension) {
                        ? std::string()
                        : ", though its name ends in " + std::string(extension) + ": rename it"));
     if (std::all_of(bytes.begin(), bytes.end(), [](char c) { return c == '\0'; }))
-        malformed("begins with " + std::to_string(bytes.size()) + " zero bytes: it holds no model");
+        malformed("begins with " + std::to_string(bytes.size()) +
+                  " zero bytes: it contains no model");
 }
 
 } // namespace abut

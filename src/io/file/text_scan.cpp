@@ -15,7 +15,7 @@ constexpr std::size_t kLongestLine = std::size_t{64} << 20;
 constexpr std::size_t kFirstLine = std::size_t{64} << 10;
 
 [[noreturn]] void no_text(const std::string& place) {
-    malformed(place + ": holds zero bytes, so it is no text in UTF-8");
+    malformed(place + ": contains zero bytes, so it is not UTF-8 text");
 }
 
 } // namespace
@@ -24,7 +24,7 @@ void LineScan::begin() {
     (void)text_.has(4);
     const std::string_view first = text_.ahead();
     if (first.starts_with("\xff\xfe") || first.starts_with("\xfe\xff"))
-        malformed("is text in UTF-16: save it in UTF-8");
+        malformed("is UTF-16 text: save it as UTF-8");
     if (first.starts_with("\xef\xbb\xbf"))
         text_.take(3);
     // Files of old programs end their lines with a single \r.
@@ -80,9 +80,9 @@ std::string_view take_word(ByteStream& text) {
         // A word at the end of the bytes in memory may continue in the file.
         if (rest.empty()) {
             if (word.size() > kLongestLine)
-                malformed("holds a word of more than 64 MiB");
+                malformed("contains a word of more than 64 MiB");
             if (word.find('\0') != std::string_view::npos)
-                malformed("holds zero bytes among its numbers");
+                malformed("contains zero bytes among its numbers");
             if (text.more())
                 continue;
             word = text.ahead();

@@ -53,10 +53,10 @@ std::array<Chunk, 2> find_chunks(const RandomAccessFile& file) {
         malformed("is too short for a GLB file");
     const auto [magic, version, length] = file.value<std::array<std::uint32_t, 3>>(0);
     if (magic != kGlbMagic)
-        malformed("is no GLB file");
+        malformed("is not a GLB file");
     if (version != 2)
         throw Fault(ErrorCode::unsupported,
-                    "is glTF version " + std::to_string(version) + ", only 2 is read");
+                    "is glTF version " + std::to_string(version) + "; only version 2 is supported");
     if (length > file.size())
         malformed("is truncated: " + std::to_string(file.size()) + " of " + std::to_string(length) +
                   " bytes");
@@ -135,13 +135,13 @@ public:
     /// In          rest: the JSON that was kept.
     void finish(const json& rest) {
         if (!rest.is_object() || !rest.contains("asset"))
-            malformed("is no glTF file");
+            malformed("is not a glTF file");
         if (text_or_empty(rest["asset"], "version").rfind("2.", 0) != 0)
             throw Fault(ErrorCode::unsupported, "is not glTF 2");
         for (const char* list : {"nodes", "meshes", "accessors", "bufferViews", "buffers"})
             if (const auto found = rest.find(list);
                 found != rest.end() && (!found->is_array() || !found->empty()))
-                malformed(std::string("its JSON has ") + list + " that are no list of objects");
+                malformed(std::string("its JSON has ") + list + " that are not a list of objects");
         for (const json& extension : member_or_empty(rest, "extensionsRequired"))
             require(extension.get<std::string>());
         const json& scenes = member_or_empty(rest, "scenes");
@@ -347,11 +347,11 @@ void read_glb_document(const RandomAccessFile& file, bool is_text, GlbDocument& 
                         });
         reader.finish(rest);
     } catch (const json::parse_error& error) {
-        malformed("its JSON breaks off or is wrong at byte " + std::to_string(error.byte));
+        malformed("its JSON is truncated or malformed at byte " + std::to_string(error.byte));
     } catch (const json::exception& error) {
         // "[json.exception.type_error.302] type must be string, but is number"
         const std::string_view what = error.what();
-        malformed("its JSON is not that of glTF: " +
+        malformed("its JSON is not valid glTF: " +
                   std::string(what.substr(std::min(what.find("] ") + 2, what.size()))));
     }
 }

@@ -230,9 +230,8 @@ void check_codec(const DecodeJobs::Input& input) {
     std::byte header{};
     input(0, std::span(&header, 1));
     if (header == kVersionOne)
-        throw Fault(
-            ErrorCode::unsupported,
-            "is compressed by version 1 of meshoptimizer's vertex codec; version 0 is read");
+        throw Fault(ErrorCode::unsupported, "is compressed by version 1 of meshoptimizer's vertex "
+                                            "codec; only version 0 is supported");
 }
 
 } // namespace
@@ -365,7 +364,7 @@ GltfGeometry::Elements GltfGeometry::elements(const GlbDocument::Accessor& acces
         place(sparse.value_view, sparse.value_offset, accessor.component, accessor.components)};
     if (sparse.index_component != kUnsignedByte && sparse.index_component != kUnsignedShort &&
         sparse.index_component != kUnsignedInt)
-        malformed("the indices of a sparse accessor are no unsigned integers");
+        malformed("the indices of a sparse accessor are not unsigned integers");
     stored[1].is_normalized = accessor.is_normalized;
     check_sparse(stored[0], accessor.count);
     result.sparse = std::make_shared<const std::array<Elements, 2>>(std::move(stored));
@@ -375,8 +374,8 @@ GltfGeometry::Elements GltfGeometry::elements(const GlbDocument::Accessor& acces
 GltfGeometry::Elements GltfGeometry::values(std::uint32_t index, std::uint8_t components) const {
     const GlbDocument::Accessor& found = accessor(index);
     if (found.components != components)
-        malformed("accessor " + std::to_string(index) + " is not of " + std::to_string(components) +
-                  " components");
+        malformed("accessor " + std::to_string(index) + " does not have " +
+                  std::to_string(components) + " components");
     return elements(found);
 }
 
@@ -411,7 +410,7 @@ GltfGeometry::indices(const GlbDocument::Primitive& primitive) const {
         Elements result = elements(found);
         if (found.component != kUnsignedByte && found.component != kUnsignedShort &&
             found.component != kUnsignedInt)
-            malformed("indices are no unsigned integers");
+            malformed("indices are not unsigned integers");
         return result;
     }
     Elements result;

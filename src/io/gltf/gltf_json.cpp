@@ -20,7 +20,7 @@ std::array<double, count> numbers(const json& node, const char* key,
     if (found == node.end())
         return fallback;
     if (!found->is_array() || found->size() != count)
-        malformed(std::string("a node's ") + key + " has not " + std::to_string(count) +
+        malformed(std::string("a node's ") + key + " does not have " + std::to_string(count) +
                   " numbers");
     return found->get<std::array<double, count>>();
 }

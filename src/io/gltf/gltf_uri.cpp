@@ -32,7 +32,7 @@ std::vector<std::byte> from_base64(std::string_view text) {
     for (int padding = 0; padding < 2 && text.ends_with('='); ++padding)
         text.remove_suffix(1);
     if (text.size() % 4 == 1)
-        malformed("a data: URI breaks off");
+        malformed("a data: URI is truncated");
     std::vector<std::byte> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t word = 0;
@@ -106,7 +106,7 @@ std::string path_of_uri(std::string_view uri) {
             i += 2;
         }
         if (c == '\0')
-            malformed("a URI holds a zero byte");
+            malformed("a URI contains a zero byte");
         path += c;
     }
     return path;

@@ -244,7 +244,7 @@ class Converter {
         const about = this.products.about(product.expressID);
         this.#seen.add(product.expressID);
         if (about.isLeftOut)
-            return this.#note(about, SPACE, 'is a space or a zone: no part of what is built');
+            return this.#note(about, SPACE, 'is a space or a zone, which is not built');
         const placed = [];
         for (let i = 0; i < product.geometries.size(); ++i) {
             const {geometryExpressID, flatTransformation} = product.geometries.get(i);
@@ -271,7 +271,7 @@ class Converter {
             if (!this.#seen.has(expressID)) {
                 const about = this.products.about(expressID);
                 if (about.isLeftOut)
-                    this.#note(about, SPACE, 'is a space or a zone: no part of what is built');
+                    this.#note(about, SPACE, 'is a space or a zone, which is not built');
                 else
                     this.#missing(about);
             }
@@ -282,9 +282,9 @@ class Converter {
     #missing(about) {
         if (about.openings > 0)
             this.#note(about, CUT_AWAY,
-                       `${about.openings === 1 ? 'its opening leaves' : `its ${about.openings} openings leave`} nothing of it`);
+                       `${about.openings === 1 ? 'its opening removes' : `its ${about.openings} openings remove`} all of it`);
         else
-            this.#note(about, NOT_BUILT, 'has a body, of which no triangle could be built');
+            this.#note(about, NOT_BUILT, 'has a body, but none of its triangles could be built');
     }
 
     #checkClosed(about, placed) {
@@ -330,12 +330,12 @@ function checkFile(file) {
     const read = (length, position) => file.read(length, position).toString('latin1');
     const header = read(1 << 16, 0);
     if (!header.includes('ISO-10303-21;'))
-        throw new Fault(MALFORMED, 'is no IFC file (STEP text)');
+        throw new Fault(MALFORMED, 'is not an IFC file (STEP text)');
     if (!/END-ISO-10303-21\s*;\s*$/.test(read(1024, Math.max(0, file.size - 1024))))
         throw new Fault(MALFORMED, 'is truncated: it does not end with END-ISO-10303-21;');
     const schema = /FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'/i.exec(header)?.[1];
     if (schema !== undefined && !/^IFC(2X3|4)/i.test(schema))
-        throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
+        throw new Fault(UNSUPPORTED, `has the schema ${schema}; only IFC2X3 and IFC4 are supported`);
 }
 
 async function convert(path, withSpaces, withMap, output) {

@@ -28,7 +28,7 @@ function numberOf(value, name) {
         return undefined;
     const number = Number(value);
     if (!Number.isFinite(number))
-        throw new Fault(MALFORMED, `has a map conversion whose ${name} is no number`);
+        throw new Fault(MALFORMED, `has a map conversion whose ${name} is not a number`);
     return number;
 }
 
@@ -63,7 +63,7 @@ function unitAndScale(scale, mapUnit, projectUnit) {
         if (isScale(scale / projectUnit))
             return [1, scale / projectUnit]; // the scale implies that the map is in metres
     }
-    throw new Fault(MALFORMED, `has a map conversion whose scale, ${scale}, no units explain; it can be left out ` +
+    throw new Fault(MALFORMED, `has a map conversion with the scale ${scale}, which no units explain; the map can be ignored ` +
                                    '(ReadOptions::map, --no-map)');
 }
 
@@ -121,7 +121,7 @@ function fromPropertySets(api, model, file, projectUnit) {
     const name = propertiesOf(sets, PROPERTY_SETS.projection)?.('MapUnit');
     const unit = name === undefined ? undefined : metresOfName(String(name));
     if (name !== undefined && unit === undefined)
-        throw new Fault(MALFORMED, `has a map in units of '${name}', which is no known length`);
+        throw new Fault(MALFORMED, `has a map in units of '${name}', which is not a known length`);
     return matrixOf(conversion, unit, projectUnit);
 }
 

@@ -41,12 +41,12 @@ function directoryOf(archive, fail) {
     const tail = archive.read(END_BYTES + LARGEST_COMMENT, Math.max(0, archive.size - END_BYTES - LARGEST_COMMENT));
     const end = tail.lastIndexOf('PK\u0005\u0006', tail.length - END_BYTES, 'latin1');
     if (end < 0)
-        fail('is no ZIP archive, or is truncated');
+        fail('is not a ZIP archive, or is truncated');
     const count = tail.readUInt16LE(end + 10);
     const size = tail.readUInt32LE(end + 12);
     const at = tail.readUInt32LE(end + 16);
     if (count === 0xffff || size === 0xffffffff || at === 0xffffffff)
-        fail('is a ZIP64 archive, which is not read');
+        fail('is a ZIP64 archive, which is not supported');
     if (at + size > archive.size)
         fail('is truncated: its directory lies beyond its end');
     return {count, bytes: archive.read(size, at)};
@@ -96,12 +96,12 @@ export function zippedFile(path, fail) {
     const archive = plainFile(path);
     const entries = models(directoryOf(archive, fail), fail);
     if (entries.length !== 1)
-        fail(`holds ${entries.length} IFC files: one is needed`);
+        fail(`contains ${entries.length} IFC files instead of one`);
     const {encrypted, method, checksum, packed, size, at} = entries[0];
     if (encrypted || (method !== STORED && method !== DEFLATED))
-        fail('holds an IFC file that is encrypted, or compressed in a way that is not read');
+        fail('contains an IFC file that is encrypted, or has an unsupported compression');
     if (size > Math.max(SMALLEST_BOUND, LARGEST_RATIO * packed))
-        fail(`promises ${size} bytes from ${packed}, more than IFC can be compressed`);
+        fail(`claims ${size} bytes from ${packed}, more than IFC can be compressed`);
     const local = archive.read(LOCAL_BYTES, at);
     if (local.length < LOCAL_BYTES || local.readUInt32LE(0) !== 0x04034b50)
         fail('has a damaged directory');
@@ -111,9 +111,9 @@ export function zippedFile(path, fail) {
         if (method === DEFLATED)
             content = size === 0 ? Buffer.alloc(0) : zlib.inflateRawSync(bytes, {maxOutputLength: size});
     } catch {
-        fail('holds an IFC file that is damaged');
+        fail('contains a damaged IFC file');
     }
     if (bytes.length !== packed || content.length !== size || checksumOf(content) !== checksum)
-        fail('holds an IFC file that is damaged');
+        fail('contains a damaged IFC file');
     return fileOf(content);
 }

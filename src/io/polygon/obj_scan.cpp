@@ -43,7 +43,7 @@ public:
              corner = take_word(rest)) {
             const auto number = to_number<std::int64_t>(corner.substr(0, corner.find('/')));
             if (!number)
-                malformed(lines.place() + ": a face has the corner " + std::string(corner));
+                malformed(lines.place() + ": a face has the invalid corner " + std::string(corner));
             corners_.push_back(index_of(*number, vertices, lines));
         }
         if (corners_.size() < 3)

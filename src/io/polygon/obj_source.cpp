@@ -99,14 +99,14 @@ private:
             content,
             [&](const Vec3& p) {
                 if (vertices >= positions.size())
-                    throw Fault(ErrorCode::unreadable, "has changed while it was read");
+                    throw Fault(ErrorCode::unreadable, "changed while it was read");
                 positions.set(vertices++, {to_float(p.x), to_float(p.y), to_float(p.z)});
             },
             [&](auto corners) {
                 polygon.clear();
                 for (const std::uint64_t corner : corners) {
                     if (corner >= vertices)
-                        throw Fault(ErrorCode::unreadable, "has changed while it was read");
+                        throw Fault(ErrorCode::unreadable, "changed while it was read");
                     const FloatPosition p = positions.get(corner);
                     polygon.push_back({p.x, p.y, p.z});
                 }

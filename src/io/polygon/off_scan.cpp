@@ -25,12 +25,12 @@ bool next_content(LineScan& lines, std::string_view& rest) {
 std::array<std::uint64_t, 2> read_header(LineScan& lines) {
     std::string_view rest;
     if (!next_content(lines, rest))
-        malformed("is no OFF file");
+        malformed("is not an OFF file");
     const std::string keyword(take_word(rest));
     if (!keyword.ends_with("OFF"))
-        malformed("is no OFF file");
+        malformed("is not an OFF file");
     if (keyword.find_first_of("4n") != std::string::npos)
-        throw Fault(ErrorCode::unsupported, "is an OFF file of other than three dimensions");
+        throw Fault(ErrorCode::unsupported, "is an OFF file that is not three-dimensional");
     std::string_view copy = rest;
     if (take_word(copy) == "BINARY")
         throw Fault(ErrorCode::unsupported, "is a binary OFF file");

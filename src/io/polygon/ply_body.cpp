@@ -12,7 +12,7 @@ bool PlyBody::skip(const PlyType& type, std::uint64_t count) {
             if (word.empty())
                 return false;
             if (!to_real(word))
-                malformed("has " + std::string(word.substr(0, 40)) + " for a number");
+                malformed("has " + std::string(word.substr(0, 40)) + " in place of a number");
         }
         return true;
     }

@@ -117,14 +117,15 @@ bool PlyBody::take_word_as(Number& value) {
     }();
     if (!number)
         malformed("has " + std::string(word.substr(0, 40)) +
-                  (std::numeric_limits<Number>::is_integer ? " for an integer" : " for a number"));
+                  (std::numeric_limits<Number>::is_integer ? " in place of an integer"
+                                                           : " in place of a number"));
     value = *number;
     return true;
 }
 
 inline bool PlyBody::take(const PlyType& type, std::int64_t& value) {
     if (type.is_real)
-        throw Fault(ErrorCode::unsupported, "counts with real numbers");
+        throw Fault(ErrorCode::unsupported, "has a real number as a count or an index");
     if (is_text())
         return take_word_as(value);
     std::uint64_t bits = 0;

@@ -42,8 +42,9 @@ bool is_text_stl(const std::string& path) {
         return true;
     if (bytes.size() < kStlHeaderBytes)
         malformed("is truncated: too short for an STL file");
-    malformed("is no STL file, or truncated: its header promises " + std::to_string(triangles) +
-              " triangles in " + std::to_string(kStlHeaderBytes + triangles * kStlTriangleBytes) +
+    malformed("is not an STL file, or is truncated: its header states " +
+              std::to_string(triangles) + " triangles in " +
+              std::to_string(kStlHeaderBytes + triangles * kStlTriangleBytes) +
               " bytes, but it has " + std::to_string(content.left()));
 }
 
@@ -63,7 +64,7 @@ void scan_text_stl(ByteStream& content, const std::function<void(std::string_vie
             } else if (is_keyword(word, "facet")) {
                 if (!open_solid || vertices != 3 * facets)
                     malformed(lines.place() + (open_solid ? ": a facet needs three vertices"
-                                                          : ": a facet lies outside of a solid"));
+                                                          : ": a facet lies outside a solid"));
                 ++facets;
             } else if (is_keyword(word, "endfacet") && vertices != 3 * facets) {
                 malformed(lines.place() + ": a facet needs three vertices");
@@ -80,7 +81,7 @@ void scan_text_stl(ByteStream& content, const std::function<void(std::string_vie
         }
     }
     if (open_solid || vertices != 3 * facets)
-        malformed("is truncated: its solid is not closed by endsolid");
+        malformed("is truncated: its solid does not end with endsolid");
 }
 
 } // namespace abut

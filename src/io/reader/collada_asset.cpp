@@ -77,7 +77,7 @@ double metres(const std::string& meter) {
     char* end = nullptr;
     const double unit = std::strtod(meter.c_str(), &end);
     if (!trimmed(end).empty() || !std::isfinite(unit) || unit <= 0)
-        malformed("has a unit that is no positive number of metres: " + meter.substr(0, 40));
+        malformed("has a unit that is not a positive number of metres: " + meter.substr(0, 40));
     return unit;
 }
 

@@ -46,7 +46,7 @@ double metres_per_unit(const aiMetadata* settings) {
         settings->Get("UnitScaleFactor", single))
         centimetres = as_written(single);
     if (!std::isfinite(centimetres) || centimetres <= 0)
-        malformed("its settings have a unit that is no positive number");
+        malformed("its settings have a unit that is not a positive number");
     return centimetres / 100;
 }
 

@@ -159,7 +159,7 @@ private:
             return found->second;
         if (attributes.find("path") != std::string_view::npos)
             return 1;
-        malformed("refers to object " + std::string(id.substr(0, 40)) + " before it is there");
+        malformed("refers to object " + std::string(id.substr(0, 40)) + " before it is defined");
     }
 
     std::map<std::string_view, std::uint64_t> parts_; ///< by an object's id

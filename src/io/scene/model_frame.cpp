@@ -89,7 +89,7 @@ bool take_unit_or_axis(const std::string& word, const std::string& file, ModelPa
         return false;
     if (unit > 0 ? path.unit > 0 : path.up.has_value())
         throw Error(ErrorCode::bad_argument, file,
-                    "'" + word + "' says once more what its unit or its axis is");
+                    "'" + word + "' gives its unit or its axis a second time");
     if (unit > 0)
         path.unit = unit;
     else
@@ -137,10 +137,11 @@ ModelPath parse_model_path(const std::string& text) {
         if (!take_unit_or_axis(word, is_file ? text.substr(0, file_end) : text, result)) {
             if (!is_file)
                 break;
-            throw Error(ErrorCode::bad_argument, text.substr(0, file_end),
-                        "'" + word +
-                            "' is no unit (um, mm, cm, dm, m, km, in, ft, yd, metres as a number) "
-                            "and no axis (x-up, y-up, z-up)");
+            throw Error(
+                ErrorCode::bad_argument, text.substr(0, file_end),
+                "'" + word +
+                    "' is neither a unit (um, mm, cm, dm, m, km, in, ft, yd, metres as a number) "
+                    "nor an axis (x-up, y-up, z-up)");
         }
         result.path.resize(colon);
         if (is_file && colon == file_end)

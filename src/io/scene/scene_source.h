@@ -118,7 +118,7 @@ std::unique_ptr<SceneSource> open_own_source(const ModelPath& path, const Source
 /// describes what is wrong with it. After the file has been opened, it can only mean what its text
 /// says.
 struct NotStreamable : Fault {
-    NotStreamable() : Fault(ErrorCode::unreadable, "has changed while it was read") {}
+    NotStreamable() : Fault(ErrorCode::unreadable, "changed while it was read") {}
 };
 
 /// Open a file with a streaming reader. Null: the file has content that only the isolated reader
