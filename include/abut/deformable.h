@@ -74,8 +74,8 @@ struct TestCounts {
 /// The work of a query: the part of its cost that does not depend on the machine or on the number
 /// of threads.
 struct DeformableCounters {
-    /// Triangle pairs whose boxes overlap, each counted once. Pairs within flat regions, which
-    /// cannot meet, are not counted. 0 if the scheme uses no triangle pairs.
+    /// Triangle pairs whose boxes overlap, each counted once. Pairs within one flat region,
+    /// which cannot meet, are not counted. 0 if the scheme uses no triangle pairs.
     std::uint64_t triangle_pairs = 0;
     TestCounts candidates; ///< feature pairs that the scheme selects; adjacent pairs are left out
     /// Candidates whose roots were computed, because neither separating directions nor the signs of

@@ -25,8 +25,7 @@ struct ContactRegion {
     /// Where surfaces cross: the area inside the intersection curve, projected along the normal.
     /// Where they touch: the area that their faces have in common. 0 without pairs.
     double area = 0;
-    Vec3
-        normal; ///< unit vector from a to b, weighted by area; zero where the areas cancel or are 0
+    Vec3 normal; ///< unit vector from a to b, weighted by area; zero where the areas sum to zero
     /// The largest depth of a point of either surface inside the other, a solid, among the points
     /// that are nearer to this region than to any other. Between open shells: see Depth::depth.
     double depth = 0;

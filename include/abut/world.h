@@ -211,8 +211,9 @@ public:
     ///             answer.
     /// Cost        constant for each body, a distance for each pair that is due; from time to time,
     ///             a broad phase over boxes that enclose the bodies' possible places.
-    /// Source      a heap of pairs by a lower bound of their time to collision, t = (sqrt(v^2 + 2 a
-    ///             d) - v) / a [Lin 1993; Cohen, Lin, Manocha, Ponamgi 1995].
+    /// Source      a heap of pairs by a lower bound of their time to collision,
+    ///             t = (sqrt(v^2 + 2 a d) - v) / a
+    ///             [Lin 1993; Cohen, Lin, Manocha, Ponamgi 1995].
     std::vector<BodyPair> advance(double time, const Progress& progress = {});
     /// Returns a time from the last `advance`. Before it has passed, no pair that does not touch
     /// now can begin to touch, as long as the bodies keep to their bounds.
