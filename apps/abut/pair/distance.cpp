@@ -10,7 +10,7 @@ namespace abut::command {
 
 namespace {
 
-/// Whether the answer says only that the models are farther apart than --upper-bound.
+/// Returns whether the answer says only that the models are farther apart than --upper-bound.
 bool is_beyond_bound(const Gap& gap) {
     return gap.status == Status::bound_only && gap.distance >= 0 && !gap.out_of_steps;
 }
