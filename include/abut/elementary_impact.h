@@ -35,9 +35,9 @@ struct ElementaryOptions {
     /// thickness.
     double absolute_error = 0;
     /// Length. Above 0: a pair is an impact if the features come at most this far apart. No such
-    /// pair is missed. The features of a reported pair are that near at `time`, but for an excess
-    /// of at most max(1e-6 thickness, absolute_error, 6e-12 size). The size is the largest
-    /// coordinate of a vector between two of the vertices, at t = 0 or 1.
+    /// pair is missed. At `time`, the features of a reported pair are that near, with an excess of
+    /// at most max(1e-6 thickness, absolute_error, 6e-12 size). The size is the largest coordinate
+    /// of a vector between two of the vertices, at t = 0 or 1.
     double thickness = 0;
 };
 
