@@ -49,7 +49,7 @@ void check_mesh(StoreFile& file, const MeshRow& row) {
         hash_128(std::as_bytes(std::span<const std::array<std::uint32_t, 3>>(mesh.triangles))));
     if (hash != Hash128{row.hash_low, row.hash_high})
         throw Error(ErrorCode::malformed, file.path(),
-                    "is damaged: mesh " + std::to_string(row.mesh) + " is not what its hash says");
+                    "is damaged: mesh " + std::to_string(row.mesh) + " does not match its hash");
 }
 
 /// Checks that each hierarchy of the current format can be decoded and fits its block. Jobs rebuild
@@ -71,7 +71,7 @@ void check_hierarchies(StoreFile& file) {
         if (!kept || !decode_hierarchy(kept->data, read.row.triangles))
             throw Error(ErrorCode::malformed, file.path(),
                         "is damaged: the hierarchy of block " + std::to_string(block) +
-                            " is not what its checksum says");
+                            " does not match its checksum");
     }
 }
 
@@ -188,7 +188,7 @@ void verify(const Store& store, const Progress& progress) {
     file.for_each_part([&](const PartRow& part) {
         if (!known.contains(part.mesh))
             throw Error(ErrorCode::malformed, file.path(),
-                        "is damaged: part " + part.id + " shows a mesh that is missing");
+                        "is damaged: part " + part.id + " refers to a mesh that is missing");
     });
     meter.advance();
     check_boxes(file);

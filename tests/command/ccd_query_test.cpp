@@ -128,8 +128,9 @@ TEST_F(CcdQueryCommand, BadFilesAreRefusedByLine) {
     expect_file_refused(falling("-1.5,1", ",1"), {"line 5", "'-1.5'"});
     expect_file_refused(falling(",1", ",1"), {"line 5"});
     expect_file_refused(falling("1,3", ",1"), {"line 5", "1/3"});
-    expect_file_refused(falling("9007199254740993,1", ",1"), {"line 5", "no double"});
-    expect_file_refused(falling("1" + std::string(400, '0') + ",1", ",1"), {"line 5", "no double"});
+    expect_file_refused(falling("9007199254740993,1", ",1"), {"line 5", "not exactly a double"});
+    expect_file_refused(falling("1" + std::string(400, '0') + ",1", ",1"),
+                        {"line 5", "not exactly a double"});
     expect_file_refused(falling("-1,2", ",2"), {"line 1", "truth"});
     expect_file_refused(falling("-1,2", ",1") + falling("1,1"), {"line 9", "columns"});
     std::string differs = good;

@@ -103,8 +103,9 @@ TEST_F(FrameTest, ModelsThatShareNoSpaceAreNamed) {
 }
 
 TEST_F(FrameTest, WordsAfterAFileAreUnderstoodOrRefused) {
-    expect_refused(run_abut({"clash", site_, box_ + ":miles"}), {"box.obj", "'miles' is no unit"});
-    expect_refused(run_abut({"clash", site_, box_ + ":mm:cm"}), {"box.obj", "once more"});
+    expect_refused(run_abut({"clash", site_, box_ + ":miles"}),
+                   {"box.obj", "'miles' is neither a unit"});
+    expect_refused(run_abut({"clash", site_, box_ + ":mm:cm"}), {"box.obj", "a second time"});
     expect_refused(run_abut({"clash", box_ + ":mm", box_}), {"box.obj", "given twice"});
     expect_refused(run_abut({"info", folder_ / "none.obj:mm"}), {"none.obj: no such file"});
     const json info = run_abut({"info", box_ + ":mm:y-up", "--json"}).json()["files"][0];

@@ -122,12 +122,12 @@ TEST(Import, SaysWhatIsWrongWithAStore) {
         expect_refused(run_abut({"import", box, path}), words);
     };
     expect_both_refused(folder.write("text.abut", std::string(5000, 'x')),
-                        {"text.abut", "is no store"});
+                        {"text.abut", "is not an Abut store"});
     {
         Database other(folder / "other.abut", OpenMode::create);
         other.run("CREATE TABLE t(a)");
     }
-    expect_both_refused(folder / "other.abut", {"other.abut", "is no store of Abut"});
+    expect_both_refused(folder / "other.abut", {"other.abut", "is not an Abut store"});
     ASSERT_EQ(run_abut({"import", box, store}).status, 0);
     const std::string whole = read_file(store);
     (void)folder.write("short.abut", whole.substr(0, whole.size() / 2));
@@ -235,7 +235,7 @@ TEST(Import, SurvivesKillsAtAnyMoment) {
             ASSERT_TRUE(content.models.empty() || !content.complete || content.parts == 300U);
         } catch (const Error& error) {
             // Nothing was committed yet: not even the tables.
-            ASSERT_NE(std::string(error.what()).find("is no store"), std::string::npos)
+            ASSERT_NE(std::string(error.what()).find("is not an Abut store"), std::string::npos)
                 << error.what();
         }
     }

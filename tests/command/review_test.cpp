@@ -146,7 +146,7 @@ TEST_F(Review, ClashesOfAModelThatIsTakenOutAreResolved) {
 }
 
 TEST_F(Review, ListsWhatTheStoreKnows) {
-    EXPECT_NE(review({}).out.find("no clash job has ended"), std::string::npos);
+    EXPECT_NE(review({}).out.find("no clash job has finished"), std::string::npos);
     EXPECT_EQ(review({"--json"}).json()["questions"].size(), 0U);
     const std::string hard = id_of("h1");
     ASSERT_EQ(run_abut({"clash", store_, "--quiet"}).status, 0); // another question

@@ -57,7 +57,7 @@ TEST_F(FileKind, ABinaryStlFileMayBeginAsItLikes) {
 TEST_F(FileKind, TheSizeOfAnStlFileIsExplained) {
     std::string bytes = samples_.at("binary.stl");
     bytes.resize(bytes.size() - 10);
-    refuse(folder_.file("short.stl", bytes), "promises 4 triangles in 284 bytes, but it has 274",
+    refuse(folder_.file("short.stl", bytes), "states 4 triangles in 284 bytes, but it has 274",
            ErrorCode::malformed);
 }
 

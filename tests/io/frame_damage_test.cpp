@@ -50,7 +50,7 @@ TEST_F(DamagedFrame, Headers) {
                             const std::string& part) {
         refuse("a.ply", sample("text.ply", what, with), ErrorCode::malformed, part);
     };
-    change("ply", "pl", "is no PLY file");
+    change("ply", "pl", "is not a PLY file");
     change("ascii", "utf-8", "line 2: unknown format utf-8");
     change("format ascii 1.0", "comment", "names no format");
     change("vertex 4", "vertex -4", "line 3: an element lacks its count");

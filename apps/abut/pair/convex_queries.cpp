@@ -84,7 +84,7 @@ void ConvexPenetrationQuery::add_answer(const ConvexDepth& depth, nlohmann::orde
 std::string ConvexPenetrationQuery::in_words(const ConvexDepth& depth) {
     if (!depth.meet)
         return "apart\n";
-    return fmt::format("depth {}, out when B moves along {}\n", metres(depth.depth),
+    return fmt::format("depth {}, separated when B moves along {}\n", metres(depth.depth),
                        direction(depth.direction));
 }
 

@@ -116,25 +116,25 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
 
     if (arguments.no_hierarchies && !from_store)
         throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
-                    "is for a store: what was read of models is not kept");
+                    "applies only to a store: without one, nothing is kept");
     if (arguments.memory && !from_store)
         throw Error(ErrorCode::bad_argument, "--memory",
-                    "is for a store alone: bring the models into one with abut import");
+                    "applies only to a store: import the models with abut import");
     if (arguments.read.up != ReadOptions().up && from_store)
         throw Error(ErrorCode::bad_argument, "--up",
-                    "is for models alone: a store has the axes of its first import");
+                    "applies only to models: a store has the axes of its first import");
     if (arguments.read.spaces && from_store)
         throw Error(ErrorCode::bad_argument, "--spaces",
-                    "is for models alone: a store has those of its import");
+                    "applies only to models: a store has the spaces of its import");
     if (!arguments.read.map && from_store)
         throw Error(ErrorCode::bad_argument, "--no-map",
-                    "is for models alone: a store has the coordinates of its import");
+                    "applies only to models: a store has the coordinates of its import");
     if (arguments.read.unit != 0 && from_store)
         throw Error(ErrorCode::bad_argument, "--unit",
-                    "is for models alone: a store has the one of its import");
+                    "applies only to models: a store has the units of its import");
     if (crew && !from_store)
         throw Error(ErrorCode::bad_argument, arguments.files.front(),
-                    "is no store: several processes share the work on a store alone");
+                    "is not a store: several processes can work only on a store");
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
     std::vector<Scene> models;
@@ -200,33 +200,34 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
          {{"abut clash design.glb pipes.glb --clearance 50mm --out report",
            "between two models: report/report.html, report.json and report.csv"},
           {"abut clash model.glb --fail-on hard,contained",
-           "within one model; exit status 1 if anything goes into or is inside of another part"},
+           "within one model; exit status 1 if a part penetrates or contains another"},
           {"mpirun -n 2 abut clash site.abut --memory 1G",
-           "of a store, by two processes of at most a gigabyte each (as root, mpirun needs "
+           "on a store, with two processes of at most a gigabyte each (as root, mpirun needs "
            "--allow-run-as-root)"}},
-         "there is a clash that --fail-on names"});
+         "a clash that --fail-on names was found"});
     app->add_option("MODEL", arguments->files,
                     fmt::format("Models ({}), or a store of them (abut import)", kModelHelp))
         ->required();
     app->add_option("--memory", arguments->memory,
-                    "A store: bytes to keep to, with K, M or G (default 512M)")
+                    "For a store: limit of memory in bytes, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
     app->add_flag("--no-keep-hierarchies", arguments->no_hierarchies,
-                  "A store: do not keep there the hierarchies that are built");
+                  "For a store: do not keep the hierarchies that are built");
     add_length(*app, "--clearance", arguments->options.clearance,
                "Report parts that are nearer than this (default 0: off)");
     add_length(*app, "--touch", arguments->options.touch_tolerance,
                "Surfaces that meet no deeper than this only touch (default 0)");
     app->add_flag("--self", arguments->options.self,
-                  "With several models: also the pairs within each");
+                  "With several models: also test the pairs within each");
     app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")
         ->check(not_empty("FILE"));
     app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv")
         ->check(not_empty("FOLDER"));
-    app->add_option("--fail-on", arguments->fail_on,
-                    "Exit with status 1 if there is one of these kinds: hard, touch, contained, "
-                    "duplicate, clearance (comma-separated), or any; of a store one that is not "
-                    "approved, or one of these statuses: new, active, reviewed, approved")
+    app->add_option(
+           "--fail-on", arguments->fail_on,
+           "Exit with status 1 if there is a clash of these kinds: hard, touch, contained, "
+           "duplicate, clearance (comma-separated), or any; for a store, one that is not approved, "
+           "or has one of these statuses: new, active, reviewed, approved")
         ->check(not_empty("WORDS"));
     add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};

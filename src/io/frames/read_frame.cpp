@@ -38,7 +38,7 @@ void read_unchecked(const std::string& path, std::vector<Vec3>& positions, Frame
     }
 }
 
-/// Compares with the triangles of another frame.
+/// Compares faces with the triangles of another frame.
 class SameFaces : public FrameFaces {
 public:
     explicit SameFaces(std::span<const std::array<std::uint32_t, 3>> triangles)
@@ -50,7 +50,7 @@ public:
                 rest_ = rest_.subspan(1);
         });
     }
-    /// All of them, and no more.
+    /// Returns whether all triangles were equal and none is left.
     [[nodiscard]] bool same() const { return same_ && rest_.empty(); }
 
 private:
@@ -65,7 +65,7 @@ Mesh read_frame(const std::string& path) {
     CollectedFaces faces(mesh.triangles);
     read_unchecked(path, mesh.positions, faces);
     require_frame(mesh, path);
-    // Many frames may be held: no more of each than it needs.
+    // Many frames may be in memory at once, so spare capacity is freed.
     mesh.positions.shrink_to_fit();
     mesh.triangles.shrink_to_fit();
     return mesh;

@@ -21,7 +21,7 @@ void read_ply_frame(ByteStream& content, std::vector<Vec3>& positions, FrameFace
             skip_ply_elements(body, element);
         }
     }
-    // A header that contradicts its data shows in nothing else: bytes of any type are numbers.
+    // Only this reveals a header that contradicts its data: bytes of any type are valid numbers.
     if (!body.at_end())
         malformed("goes on after its last element");
 }

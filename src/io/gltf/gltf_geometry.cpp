@@ -2,6 +2,7 @@
 
 #include "io/file/companion_file.h"
 #include "io/file/fault.h"
+#include "io/gltf/gltf_json.h"
 #include "io/process/decode_geometry.h"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ void read_bytes(const GltfGeometry::Elements& elements, std::uint64_t at,
         std::fill(bytes.begin(), bytes.end(), std::byte{});
 }
 
-/// glTF 2.0, 3.6.2.2: how normalised integers become numbers.
+/// Converts a normalised integer to a number [glTF 2.0, 3.6.2.2].
 template <typename Component>
 double value_of(Component component, bool is_normalized) {
     if constexpr (std::is_integral_v<Component>)
@@ -87,7 +88,7 @@ void convert(const GltfGeometry::Elements& elements, std::span<const std::byte> 
     default:
         break;
     }
-    // Indices are never of these types.
+    // Indices never have these types.
     if constexpr (std::is_floating_point_v<Value>) {
         if (elements.component == kByte)
             convert_from<std::int8_t>(elements, bytes, to);
@@ -98,7 +99,7 @@ void convert(const GltfGeometry::Elements& elements, std::span<const std::byte> 
     }
 }
 
-/// Calls with the first of some elements, and their numbers' place in `to`.
+/// Calls `take` for portions of the elements: the first element, and its numbers' place in `to`.
 template <typename Value, typename Take>
 void in_pieces(const GltfGeometry::Elements& elements, std::uint64_t first, std::span<Value> to,
                const Take& take) {
@@ -128,12 +129,12 @@ std::uint32_t index_at(const GltfGeometry::Elements& indices, std::uint64_t numb
     return index;
 }
 
-/// Overwrites what sparse storage says of elements [first, first + count of `to`).
+/// Overwrites elements [first, first + count of `to`) with those in sparse storage.
 template <typename Value>
 void read_sparse(const GltfGeometry::Elements& elements, std::uint64_t first, std::span<Value> to) {
     const auto& [indices, values] = *elements.sparse;
     const std::uint64_t end = first + to.size() / elements.components;
-    // The indices ascend: check_sparse saw to it.
+    // The indices ascend; check_sparse ensures it.
     std::uint64_t low = 0;
     for (std::uint64_t high = indices.count; low < high;) {
         const std::uint64_t middle = low + (high - low) / 2;
@@ -184,11 +185,11 @@ void check_sparse(const GltfGeometry::Elements& indices, std::uint64_t elements)
     }
 }
 
-/// The fewest bytes that some elements can be compressed to, less a few for the stream's frame. A
-/// count beyond it is refused before memory is taken for it.
+/// Returns a lower bound of the compressed size of some elements, less a few bytes for the stream's
+/// frame. A larger count is refused before memory is allocated for it.
 ///
-/// Source      EXT_meshopt_compression: two bits for 16 equal bytes; a byte for a triangle; one for
-///             an index.
+/// Source      EXT_meshopt_compression: two bits for 16 equal bytes, one byte for a triangle, one
+///             byte for an index.
 std::uint64_t least_bytes(const GlbDocument::Compressed& compressed) {
     using Mode = GlbDocument::Compressed::Mode;
     return compressed.mode == Mode::attributes  ? compressed.count * compressed.stride / 64
@@ -206,7 +207,7 @@ decode_request::Job job_of(const GlbDocument::Compressed& compressed) {
         compressed.filter == Filter::none ||
         (!is_index && (compressed.filter == Filter::octahedral   ? stride == 4 || stride == 8
                        : compressed.filter == Filter::quaternion ? stride == 8
-                       : compressed.filter == Filter::color      ? false // of no position
+                       : compressed.filter == Filter::color      ? false // never a position
                                                                  : true));
     if (!fits || !filter_fits || compressed.count > kLargest ||
         least_bytes(compressed) > compressed.bytes ||
@@ -222,22 +223,21 @@ decode_request::Job job_of(const GlbDocument::Compressed& compressed) {
     return job;
 }
 
-/// Refuses attributes in the codec's version 1. Only KHR_meshopt_compression allows it.
+/// Refuses attributes in version 1 of the codec, which only KHR_meshopt_compression allows.
 ///
-/// In          input: the compressed bytes, of which there is one at least.
+/// In          input: the compressed bytes, at least one.
 void check_codec(const DecodeJobs::Input& input) {
     constexpr std::byte kVersionOne{0xa1};
     std::byte header{};
     input(0, std::span(&header, 1));
     if (header == kVersionOne)
-        throw Fault(
-            ErrorCode::unsupported,
-            "is compressed by version 1 of meshoptimizer's vertex codec; version 0 is read");
+        throw Fault(ErrorCode::unsupported, "is compressed by version 1 of meshoptimizer's vertex "
+                                            "codec; only version 0 is supported");
 }
 
 } // namespace
 
-/// Bytes somewhere.
+/// A place of bytes: in a file or in a temporary file.
 struct GltfGeometry::Place {
     const RandomAccessFile* file = nullptr;
     const TemporaryFile* temporary = nullptr;
@@ -266,7 +266,7 @@ GltfGeometry::GltfGeometry(const std::string& path, const RandomAccessFile& file
 }
 
 bool GltfGeometry::is_decoded_view(const GlbDocument::View& view) const {
-    // A view may have an uncompressed form for readers that know none other.
+    // A view may also have an uncompressed form, for readers without the extension.
     return view.compressed != kNone &&
            (document_.requires_meshopt || view.buffer >= document_.buffers.size() ||
             document_.buffers[view.buffer].place == GlbDocument::Buffer::Place::none);
@@ -365,7 +365,7 @@ GltfGeometry::Elements GltfGeometry::elements(const GlbDocument::Accessor& acces
         place(sparse.value_view, sparse.value_offset, accessor.component, accessor.components)};
     if (sparse.index_component != kUnsignedByte && sparse.index_component != kUnsignedShort &&
         sparse.index_component != kUnsignedInt)
-        malformed("the indices of a sparse accessor are no unsigned integers");
+        malformed("the indices of a sparse accessor are not unsigned integers");
     stored[1].is_normalized = accessor.is_normalized;
     check_sparse(stored[0], accessor.count);
     result.sparse = std::make_shared<const std::array<Elements, 2>>(std::move(stored));
@@ -375,8 +375,8 @@ GltfGeometry::Elements GltfGeometry::elements(const GlbDocument::Accessor& acces
 GltfGeometry::Elements GltfGeometry::values(std::uint32_t index, std::uint8_t components) const {
     const GlbDocument::Accessor& found = accessor(index);
     if (found.components != components)
-        malformed("accessor " + std::to_string(index) + " is not of " + std::to_string(components) +
-                  " components");
+        malformed("accessor " + std::to_string(index) + " does not have " +
+                  std::to_string(components) + " components");
     return elements(found);
 }
 
@@ -411,7 +411,7 @@ GltfGeometry::indices(const GlbDocument::Primitive& primitive) const {
         Elements result = elements(found);
         if (found.component != kUnsignedByte && found.component != kUnsignedShort &&
             found.component != kUnsignedInt)
-            malformed("indices are no unsigned integers");
+            malformed("indices are not unsigned integers");
         return result;
     }
     Elements result;

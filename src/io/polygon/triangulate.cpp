@@ -17,21 +17,21 @@ struct Point {
     bool operator==(const Point&) const = default;
 };
 
-/// Twice the signed area. Its sign is exact for points that were floats of like size.
+/// Twice the signed area. Its sign is exact for points that were floats of similar magnitude.
 double turn(const Point& a, const Point& b, const Point& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// A triangle that turns left, for questions about what lies in it.
+/// A counter-clockwise triangle, for tests of points and boxes against it.
 struct Ear {
     std::array<Point, 3> corner;
 
-    /// On the inner side of edge i, which begins at corner i; 0 on its line.
+    /// Positive on the inner side of edge i, which begins at corner i; 0 on its line.
     [[nodiscard]] double side(std::size_t i, const Point& p) const {
         return turn(corner.at(i), corner.at((i + 1) % 3), p);
     }
-    /// Whether a box lies wholly on the outer side of an edge, or beyond the triangle's own box: a
-    /// thin triangle's edges nearly lie on one line, and that is long.
+    /// Returns whether a box lies wholly on the outer side of an edge, or outside the triangle's
+    /// own box. A thin triangle needs the second test: its edges lie almost on one long line.
     [[nodiscard]] bool misses(const Point& low, const Point& high) const {
         const auto& [p, q, r] = corner;
         if (std::max({p.x, q.x, r.x}) < low.x || std::min({p.x, q.x, r.x}) > high.x ||
@@ -40,7 +40,7 @@ struct Ear {
         for (std::size_t i = 0; i < 3; ++i) {
             const Point& a = corner.at(i);
             const Point& b = corner.at((i + 1) % 3);
-            // The box's corner that lies farthest on the inner side.
+            // The corner of the box that lies farthest towards the inner side.
             const Point far{b.y > a.y ? low.x : high.x, b.x > a.x ? high.y : low.y};
             if (turn(a, b, far) < 0)
                 return true;
@@ -49,7 +49,7 @@ struct Ear {
     }
 };
 
-/// The corners that are left, as a k-d tree over where they lie.
+/// The remaining corners, in a k-d tree over their positions.
 class CornerTree {
 public:
     explicit CornerTree(const std::vector<Point>& points) : points_(points), order_(points.size()) {
@@ -64,7 +64,7 @@ public:
             --nodes_[node].left;
     }
 
-    /// The first corner in or on the ear for which `blocks` says yes; kNoCorner if there is none.
+    /// Returns the first corner in or on the ear for which `blocks` is true; kNoCorner if none is.
     template <typename Blocks>
     std::uint32_t find(const Ear& ear, std::uint64_t& visits, const Blocks& blocks) const {
         std::array<std::uint32_t, 64> open{};
@@ -94,11 +94,11 @@ private:
 
     struct Node {
         Point low, high;
-        std::uint32_t begin = 0, end = 0; ///< in order_
-        std::uint32_t left = 0;           ///< corners that have not been removed
+        std::uint32_t begin = 0, end = 0; ///< range in order_
+        std::uint32_t left = 0;           ///< number of corners not yet removed
         std::uint32_t parent = kNoCorner;
         std::uint32_t second =
-            kNoCorner; ///< child; the first one is the next node. kNoCorner: a leaf
+            kNoCorner; ///< second child; the first one is the next node. kNoCorner: a leaf
     };
 
     void build(std::uint32_t begin, std::uint32_t end, std::uint32_t parent) {
@@ -122,7 +122,7 @@ private:
         }
         const bool wide = node.high.x - node.low.x >= node.high.y - node.low.y;
         const std::uint32_t middle = begin + (end - begin) / 2;
-        // Equal coordinates in the polygon's order, so that halves are neighbours there too.
+        // Equal coordinates keep the polygon's order, so that halves stay neighbours along it.
         std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                          [&](std::uint32_t a, std::uint32_t b) {
                              const double p = wide ? points_[a].x : points_[a].y;
@@ -182,15 +182,15 @@ public:
     }
 
 private:
-    /// In the order in which candidates are cut. Flat ones lose no area, but a triangle that has
-    /// one is better; blocked and turned ones are cut only where the polygon crosses itself.
+    /// The order in which candidates are cut. A flat ear loses no area, but an ear with an area is
+    /// preferred. Blocked and turned ears are cut only where the polygon crosses itself.
     enum class Rank : std::uint8_t { untested, flat, blocked, turned };
 
     struct Link {
         std::uint32_t before = 0, after = 0;
-        std::uint32_t version = 0; ///< candidates of another one are out of date
+        std::uint32_t version = 0; ///< candidates with another version are out of date
         bool is_cut = false;
-        /// Lists in waiting_: candidates that this corner blocks, from inside and by touching.
+        /// Lists in waiting_: candidates that this corner blocks from inside, and by touching.
         std::uint32_t first_waiting = kNoCorner, first_touched = kNoCorner;
     };
 
@@ -202,7 +202,7 @@ private:
         Rank rank = Rank::untested;
         double length = 0; ///< of the diagonal, squared
         std::uint32_t corner = 0, version = 0;
-        bool operator<(const Candidate& other) const { // the top of a queue is its greatest
+        bool operator<(const Candidate& other) const { // a queue's top is its greatest element
             return std::tie(other.rank, other.length, other.corner) <
                    std::tie(rank, length, corner);
         }
@@ -225,8 +225,8 @@ private:
         const auto& [a, b, c] = ear.corner;
         const double area = turn(a, b, c);
         const double dx = c.x - a.x, dy = c.y - a.y;
-        // A corner where the outline turns back on itself, or repeats, can go at once; left alone, it
-        // would let an ear be cut off that the outline covers once there and once back.
+        // A corner where the outline turns back on itself, or repeats, can be removed at once.
+        // Otherwise an ear could be cut off that the outline covers once in each direction.
         const bool turns_back =
             area == 0 && (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
         const Rank rank = turns_back || area > 0 ? Rank::untested
@@ -235,11 +235,13 @@ private:
         candidates_.push({rank, turns_back ? 0 : dx * dx + dy * dy, tip, links_[tip].version});
     }
 
-    /// A corner that keeps an ear from being cut; kNoCorner if it is free.
+    /// Returns a corner that prevents an ear from being cut; kNoCorner if there is none.
     ///
-    /// A corner inside does. One on the ear's boundary, be it at a corner of the ear, does if an
-    /// edge leads from it into the ear's interior: else the polygon only touches the ear there.
-    /// Out         touches: the corner lies on the ear's boundary.
+    /// A corner inside the ear does. A corner on the ear's boundary, even at one of its corners,
+    /// does if an edge leads from it into the ear's interior; otherwise the polygon only touches
+    /// the ear there.
+    ///
+    /// Out         touches: whether the corner lies on the ear's boundary.
     std::uint32_t blocker_of(std::uint32_t tip, bool& touches) {
         ++work_.tests;
         const Ear ear = ear_of(tip);
@@ -289,7 +291,7 @@ private:
         }
     }
 
-    /// The candidates of a list may be free now.
+    /// Tests the candidates of a list again, because they may be free now.
     void release(std::uint32_t& first) {
         for (std::uint32_t entry = std::exchange(first, kNoCorner); entry != kNoCorner;) {
             const Waiting waiting = waiting_[entry];
@@ -312,8 +314,8 @@ private:
     std::priority_queue<Candidate> candidates_;
 };
 
-/// Cuts a quadrilateral along the diagonal that lies inside, the one from its first corner if both
-/// do. False if none does, strictly.
+/// Cuts a quadrilateral along the diagonal that lies inside it; if both do, along the one from its
+/// first corner. False if no diagonal lies strictly inside.
 bool cut_quadrilateral(std::span<const PlaneCorner> q,
                        std::vector<std::array<std::uint32_t, 3>>& triangles) {
     for (std::size_t i = 0; i < 2; ++i) {

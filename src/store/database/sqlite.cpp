@@ -22,7 +22,7 @@ Verdict verdict_of(int status) {
     case SQLITE_CORRUPT:
         return {ErrorCode::malformed, "is damaged"};
     case SQLITE_NOTADB:
-        return {ErrorCode::malformed, "is no store of Abut, or its first page is damaged"};
+        return {ErrorCode::malformed, "is not an Abut store, or its first page is damaged"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return {ErrorCode::unreadable, "is in use by another process"};
@@ -49,7 +49,7 @@ Verdict verdict_of(int status) {
             return {ErrorCode::malformed, "is truncated"};
         return {ErrorCode::unreadable, "cannot be read"};
     default:
-        return {ErrorCode::malformed, "is damaged, or no store of Abut"};
+        return {ErrorCode::malformed, "is damaged, or is not an Abut store"};
     }
 }
 

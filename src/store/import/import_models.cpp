@@ -233,7 +233,7 @@ private:
         import_geometry(*source, file, memory * 3 / 4, options_.progress, writer_, geometry);
         const ModelFile after = look_at(file);
         if (after.bytes != model.bytes || after.modified != model.modified)
-            throw Error(ErrorCode::unreadable, file, "has changed while it was read");
+            throw Error(ErrorCode::unreadable, file, "changed while it was read");
         const PartChanges changes = merge_parts(*source, geometry, generation_, options_.progress,
                                                 model, writer_.database());
         may_have_unused_ = may_have_unused_ || changes.changed + changes.removed > 0;
