@@ -14,7 +14,7 @@ namespace abut {
 
 /// The clashes of one question, as its last job that ended left them.
 struct ClashReview {
-    double clearance = 0, touch = 0; ///< metres; as asked for
+    double clearance = 0, touch_tolerance = 0; ///< metres; as asked for
     bool self = false;
     std::uint64_t rules = 0;                 ///< how many
     std::int64_t finished = 0;               ///< when the job ended, in seconds since 1970

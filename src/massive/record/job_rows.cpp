@@ -101,7 +101,7 @@ std::uint64_t QuestionRow::checksum() const {
         .add(question)
         .add(hash)
         .add(clearance + 0.0)
-        .add(touch + 0.0)
+        .add(touch_tolerance + 0.0)
         .add(self)
         .add(rules)
         .value();

@@ -73,21 +73,19 @@ struct Candidate {
 
 /// By t, then by index.
 bool before(const Ray& ray, const Candidate& a, const Candidate& b) {
-    const int order = compare_hits(ray, a.corners, a.meet, b.corners, b.meet);
+    const int order = compare_hits(ray, a.corners, a.hit, b.corners, b.hit);
     return order != 0 ? order < 0 : a.triangle < b.triangle;
 }
 
 RayHit describe(const Ray& ray, const Candidate& c) {
-    const auto w = hit_weights(ray, c.corners, c.meet);
+    const auto w = hit_weights(ray, c.corners, c.hit);
     RayHit result;
     result.meet = true;
-    result.t = c.meet.t;
+    result.t = c.hit.t;
     result.point = w[0] * c.corners[0] + w[1] * c.corners[1] + w[2] * c.corners[2];
     result.triangle = c.triangle;
     result.barycentric = w;
-    result.side = c.meet.side > 0   ? HitSide::front
-                  : c.meet.side < 0 ? HitSide::back
-                                    : HitSide::along;
+    result.side = c.hit.side > 0 ? HitSide::front : c.hit.side < 0 ? HitSide::back : HitSide::along;
     return result;
 }
 

@@ -246,7 +246,7 @@ TEST(ConvexProof, ShallowOverlapsAreFound) {
         const bool meets = left > 0;
         for (ConvexWarmStart* w : {static_cast<ConvexWarmStart*>(nullptr), &warm_start}) {
             const ConvexGap gap = distance(a, world_a, b, world_b, {.warm_start = w});
-            const ConvexDepth depth = penetration(a, world_a, b, world_b, w);
+            const ConvexDepth depth = penetration(a, world_a, b, world_b, {.warm_start = w});
             ASSERT_EQ(gap.distance == 0, meets) << i << ' ' << left << ' ' << gap.distance;
             ASSERT_EQ(depth.meet, meets) << i << ' ' << left;
             ASSERT_EQ(gap.status, Status::exact);

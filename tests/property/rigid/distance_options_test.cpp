@@ -262,9 +262,9 @@ TEST(DistanceOptions, AWarmStartChangesNoAnswer) {
                 const Contacts first = collide(s.a, s.world_a, s.b, s.world_b),
                                first_with = collide(s.a, s.world_a, s.b, s.world_b,
                                                     {.warm_start = &of_collide});
-                ASSERT_EQ(first.any(), first_with.any());
-                ASSERT_EQ(first.any(), plain.distance == 0);
-                if (first_with.any()) {
+                ASSERT_EQ(first.meet(), first_with.meet());
+                ASSERT_EQ(first.meet(), plain.distance == 0);
+                if (first_with.meet()) {
                     const TrianglePair& pair = first_with.pairs.at(0);
                     ASSERT_EQ(triangle_triangle_distance(s.triangle_a(pair.a), s.triangle_b(pair.b))
                                       .distance_sq < 1e-25,

@@ -214,7 +214,7 @@ TEST(Penetration, RegionsAgainstTheCurve) {
         std::size_t i = 0;
         for (const auto& [least, region] : expected)
             ASSERT_EQ(got[i++], region);
-        pairs += c.any() ? 1 : 0, several += expected.size() > 1 ? 1 : 0;
+        pairs += c.meet() ? 1 : 0, several += expected.size() > 1 ? 1 : 0;
     });
     EXPECT_GT(pairs, 50);
     EXPECT_GT(several, 20);

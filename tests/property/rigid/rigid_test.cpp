@@ -71,7 +71,7 @@ bool check(const Case& c) {
     EXPECT_EQ(all.pairs, pairs);
     const Contacts first = collide(c.a, c.world_a, c.b, c.world_b);
     EXPECT_EQ(first.pairs.size(), pairs.empty() ? 0U : 1U);
-    if (first.any()) {
+    if (first.meet()) {
         EXPECT_TRUE(std::binary_search(pairs.begin(), pairs.end(), first.pairs[0]));
     }
     std::vector<TrianglePair> swapped;

@@ -173,7 +173,7 @@ bool check(const Case& c, int& undecided) {
         EXPECT_LE(impact.contact_time, 1);
         EXPECT_TRUE(
             collide(c.a, c.world_a(impact.contact_time), c.b, c.world_b(impact.contact_time))
-                .any());
+                .meet());
     }
     // Either way round, the same to what is proven.
     const Impact swapped =
@@ -240,7 +240,7 @@ TEST(Batch, EqualsSingleQueries) {
         ASSERT_EQ(gaps[i].status, gap.status);
         expect_same(gaps[i].counters, gap.counters);
         ASSERT_EQ(near[i], within(a, world_a, b, world_b, 0.1));
-        meet += contact.any() ? 1 : 0;
+        meet += contact.meet() ? 1 : 0;
     }
     EXPECT_GT(meet, 90);
     EXPECT_LT(meet, 210);

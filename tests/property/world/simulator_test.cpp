@@ -53,7 +53,7 @@ TEST(Simulator, CollisionsConserveMomentum) {
             const Momentum end = momentum(simulator);
             EXPECT_NEAR(length(end.angular - start.angular), 0, 1e-9);
             simulator.step(1.0 / 240);
-            collisions += static_cast<int>(simulator.world().touching().size());
+            collisions += static_cast<int>(simulator.world().collide().size());
         }
         const Vec3 after = momentum(simulator).linear;
         EXPECT_NEAR(length(after - before), 0, 1e-9);
@@ -69,7 +69,7 @@ void expect_all_inside(int bodies, double seconds) {
         simulator.step(1.0 / 120);
     const double w = drop::half_width(bodies);
     double deepest = 0, fastest = 0;
-    for (const BodyGap& gap : simulator.world().contacts())
+    for (const BodyGap& gap : simulator.world().penetration())
         deepest = std::max(deepest, -gap.distance);
     for (std::size_t i = 5; i < simulator.bodies().size(); ++i) {
         const drop::RigidBody& body = simulator.bodies()[i];
