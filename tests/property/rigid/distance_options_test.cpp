@@ -275,7 +275,8 @@ TEST(DistanceOptions, AWarmStartChangesNoAnswer) {
                 }
                 for (const double tolerance :
                      {0.0, 0.1, plain.distance + kRounding, plain.distance / 2}) {
-                    ASSERT_EQ(within(s.a, s.world_a, s.b, s.world_b, tolerance, &of_within),
+                    ASSERT_EQ(within(s.a, s.world_a, s.b, s.world_b, tolerance,
+                                     {.warm_start = &of_within}),
                               within(s.a, s.world_a, s.b, s.world_b, tolerance))
                         << tolerance << ' ' << plain.distance;
                 }
