@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -125,6 +126,27 @@ std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, doubl
         return std::nullopt;
     WholePair pair(a, b);
     return classify(pair, clearance, touch);
+}
+
+std::optional<Clash> classify_by_id(const ClashPart& a, std::string_view id_a, const ClashPart& b,
+                                    std::string_view id_b, double clearance, double touch) {
+    const bool exchanged = id_b < id_a;
+    std::optional<Clash> clash =
+        exchanged ? classify_pair(b, a, clearance, touch) : classify_pair(a, b, clearance, touch);
+    if (!clash)
+        return clash;
+    // Negative zeros become positive, so that exchanging twice changes no bit.
+    Vec3& d = clash->direction;
+    d = {d.x + 0.0, d.y + 0.0, d.z + 0.0};
+    if (exchanged)
+        exchange_sides(*clash);
+    return clash;
+}
+
+void exchange_sides(Clash& clash) {
+    std::swap(clash.point_a, clash.point_b);
+    Vec3& d = clash.direction;
+    d = {0.0 - d.x, 0.0 - d.y, 0.0 - d.z};
 }
 
 } // namespace abut
