@@ -1,6 +1,5 @@
 // Rules asked of a table of parts against their definition, word for word.
 
-#include "clash/glob_match.h"
 #include "clash/rule_table.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"

@@ -251,7 +251,7 @@ TEST(Penetration, RegionDepthsAgainstSampling) {
         std::vector<double> deepest(d.regions.size());
         const auto sample = [&](const PlacedSolid& surface, const PlacedSolid& solid) {
             for (std::uint32_t v = 0; v < surface.model().mesh().positions.size(); ++v) {
-                const Vec3 x = surface.world_vertex(v);
+                const Vec3 x = surface.model().world_vertex(v);
                 if (random.chance(0.5) && solid.contains(x)) {
                     double& region = deepest[nearest_region(x)];
                     region = std::max(region, solid.nearest(x, HUGE_VAL).distance);

@@ -4,7 +4,7 @@
 #include <abut/store_clash.h>
 
 #include "clash/clash_identity.h"
-#include "clash/classify_by_id.h"
+#include "clash/classify_pair.h"
 #include "massive/record/job_tables.h"
 #include "store/database/sqlite.h"
 #include "tests/support/folder.h"

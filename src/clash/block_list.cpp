@@ -1,6 +1,5 @@
-#include "clash/same_triangles.h"
-
 #include "clash/block_list.h"
+
 #include "core/hash.h"
 
 #include <algorithm>
@@ -39,11 +38,9 @@ Hash128 hash_of(const BlockList& part) {
 
 } // namespace
 
-bool same_triangles(const ClashPart& a, const ClashPart& b) {
-    if (!(a.box == b.box))
-        return false;
-    const BlockList of_a(a), of_b(b);
-    return of_a.triangles() == of_b.triangles() && hash_of(of_a) == hash_of(of_b);
+bool same_triangles(const BlockList& a, const BlockList& b) {
+    return a.part().box == b.part().box && a.triangles() == b.triangles() &&
+           hash_of(a) == hash_of(b);
 }
 
 } // namespace abut
