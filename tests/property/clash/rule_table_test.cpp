@@ -1,4 +1,4 @@
-// Rules asked of a table of parts against their definition, word for word.
+// The rule table against a direct implementation of the rules' definition.
 
 #include "clash/glob_match.h"
 #include "clash/rule_table.h"
@@ -30,7 +30,8 @@ bool selects(const PartSelector& side, const NamedPart& part) {
            (side.type.empty() || matches(side.type, part.type));
 }
 
-/// The first rule that selects the pair; -1: none, -2: that rule ignores it.
+/// Index of the first rule that selects the pair; -1 if none does, -2 if that rule ignores the
+/// pair.
 int deciding(const std::vector<ClashRule>& rules, const NamedPart& a, const NamedPart& b) {
     for (std::size_t r = 0; r < rules.size(); ++r) {
         const ClashRule& rule = rules[r];

@@ -1,5 +1,5 @@
-// Distances of rounded boxes against what is known by other ways: points sampled on both, meshes of
-// boxes, and translations that must part or join them.
+// Distances of rounded boxes, checked independently: by points sampled on both, by meshes of boxes,
+// and by translations that must separate or join them.
 
 #include "geometry/rounded_box_distance.h"
 #include "geometry/triangle_triangle_distance.h"
@@ -91,7 +91,7 @@ TEST(RoundedBox, IsTheSameTurnedRound) {
     }
 }
 
-/// The points of a box's grid {-1, 1}^3: some coincide where it has no extent.
+/// The corners of the box without its rounding; some coincide if the box is flat.
 std::vector<Vec3> corners(const RoundedBox& box) {
     std::vector<Vec3> points;
     for (int i = 0; i < 8; ++i) {
@@ -111,7 +111,7 @@ double distance_to(const RoundedBox& box, const Vec3& p) {
     return std::sqrt(sq);
 }
 
-/// Of boxes that are apart, by all pairs of features.
+/// Distance of two separate boxes, by all pairs of features.
 double by_all_features(const RoundedBox& a, const RoundedBox& b) {
     const std::vector<Vec3> p = corners(a), q = corners(b);
     double sq = HUGE_VAL;
@@ -143,7 +143,7 @@ TEST(RoundedBox, IsTheDistanceOfAllFeatures) {
         const double far = random.chance(0.2) ? 1e7 : 0;
         a = moved(a, {far, -far, far}), b = moved(b, {far, -far, far});
         const SolidGap first = rounded_box_distance(a, b);
-        // As far apart as one likes: the nearest features stay or become others.
+        // The gap becomes anything from 1e-9 to 1; the nearest features stay or change.
         if (random.chance(0.5))
             b = moved(b, (std::pow(10, random.uniform(-9, 0)) - first.distance) * first.normal);
         const SolidGap gap = rounded_box_distance(a, b);

@@ -22,7 +22,8 @@ TEST(TrianglePenetration, SeparatesAndNoShorterMoveDoes) {
         const auto [depth, direction] = triangle_triangle_penetration(a, b);
         ASSERT_GT(depth, 0);
         ASSERT_NEAR(length(direction), 1, 1e-14);
-        // A part in 10^12 farther: apart. A percent less: together still.
+        // Moved by a part in 10^12 more than the depth, they are apart; by one percent less, they
+        // still meet.
         ASSERT_EQ(
             triangle_triangle_intersect(a, moved(b, (depth * (1 + 1e-12) + 1e-14) * direction)),
             TriangleContact::none);

@@ -1,5 +1,5 @@
-// Penetration of solids as unions of convex pieces: against each pair of pieces, and translations of the
-// triangles. Batches of queries of pieces.
+// Penetration of solids as unions of convex pieces, against each pair of pieces and against
+// translations of the triangles. Batches of queries of pieces.
 
 #include <abut/batch.h>
 #include <abut/convex_pieces.h>
@@ -15,7 +15,7 @@
 namespace abut::test {
 namespace {
 
-/// Of all pairs of pieces the deepest.
+/// The largest depth over all pairs of pieces.
 double deepest_pair(const ConvexPieces& a, const Transform& world_a, const ConvexPieces& b,
                     const Transform& world_b) {
     double deepest = 0;
@@ -94,7 +94,7 @@ TEST(PiecesPenetration, OfConvexSolidsIsExact) {
     EXPECT_GE(meet, many(5));
 }
 
-/// No piece of the cube reaches its middle: what is there is out of reach by a distance.
+/// No convex piece of the cube reaches its middle, so the small box may have no contact there.
 TEST(PiecesPenetration, OfOneDeepInsideOfTheOther) {
     const Model cube(pitted_cube_mesh()), small(box_mesh({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}));
     const TwoSolids s{cube, small, {}, translation(3.4, 3.5, 3.5)};
@@ -112,7 +112,7 @@ TEST(PiecesPenetration, OfFlattenedSolids) {
     const ConvexPieces pieces(cube);
     const PiecesDepth found = penetration(pieces, {}, pieces, scaling(1, 1, 0));
     ASSERT_TRUE(found.meet);
-    EXPECT_NEAR(found.depth, 1, 1e-12); // out through the top
+    EXPECT_NEAR(found.depth, 1, 1e-12); // the shortest translation is through the top
     EXPECT_FALSE(collide(pieces, {}, pieces, translated(scaling(1, 1, 0), found.separation)).meet);
     EXPECT_THROW(penetration(pieces, {}, pieces, scaling(HUGE_VAL, 1, 1)), Error);
 }
