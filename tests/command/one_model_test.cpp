@@ -1,4 +1,4 @@
-/// nearest, ray, overlap and contains: the unit box, answers by hand.
+/// nearest, ray, overlap and contains on the unit box, with answers by hand.
 #include "tests/command/box_test.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST_F(OneModelTest, Contains) {
     EXPECT_EQ(json["points"][0]["side"], "inside");
     EXPECT_EQ(json["points"][1]["side"], "on_surface");
     EXPECT_EQ(json["points"][2]["side"], "outside");
-    // Without its last triangle.
+    // The box without its last triangle is open.
     std::string text = box_obj();
     text.erase(text.rfind("f "));
     const Outcome open = run_abut(

@@ -1,4 +1,4 @@
-// Files that appear together or not at all, by several writers too.
+// Files that appear together or not at all, with several writers too.
 #include <abut/error.h>
 
 #include "apps/abut/arguments/output_files.h"

@@ -1,4 +1,4 @@
-/// `abut scene` of surfaces that deform: a file a frame.
+/// `abut scene` of deforming surfaces writes one file per frame.
 #include <abut/frame.h>
 
 #include "scenes/deforming/deforming.h"

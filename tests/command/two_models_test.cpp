@@ -1,4 +1,4 @@
-/// collide, distance and within: two unit boxes under poses, answers by hand.
+/// collide, distance and within: two placed unit boxes, answers by hand.
 #include "tests/command/box_test.h"
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST_F(TwoModelsTest, ConvexHulls) {
 }
 
 TEST_F(TwoModelsTest, DistanceNamesWhatThePointsLieOn) {
-    // The corner (1, 1, 1) of A, the corner (2, 2, 2) of B.
+    // The corner (1, 1, 1) of A and the corner (2, 2, 2) of B.
     const auto answer = ask("distance", {"--pose-b", "2,2,2,1,0,0,0", "--json"}).json();
     EXPECT_LT(answer["at_least"], answer["distance"]);
     EXPECT_NEAR(answer["at_least"], answer["distance"], 1e-12);
@@ -175,8 +175,8 @@ TEST_F(TwoModelsTest, TheVolumeChangesTheWorkAndNotTheAnswer) {
 }
 
 TEST_F(TwoModelsTest, DistanceUnderARotation) {
-    // A quarter turn about z maps B to x in [-1, 0]; the quaternion is not of unit length. A starts
-    // at x = 2.
+    // A quarter turn about z maps B to x in [-1, 0]; the quaternion does not have unit length. A
+    // begins at x = 2.
     const Outcome outcome =
         ask("distance", {"--pose-a", "2,0,0,1,0,0,0", "--pose-b", "0,0,0,5,0,0,5", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -230,7 +230,7 @@ TEST_F(TwoModelsTest, PenetrationSaysHowDeepAndWhichWayIsOut) {
                             "point_b", "triangle_pairs"})
         EXPECT_TRUE(answer["regions"][0].contains(key)) << key;
 
-    // Where it says, the command finds no contact.
+    // Moved by the separation, B is not in contact.
     const auto& s = answer["separation"];
     const std::string pose = std::to_string(0.9 + s[0].get<double>()) + "," +
                              std::to_string(0.2 + s[1].get<double>()) + "," +

@@ -1,5 +1,5 @@
-// Steps of simulations whose colliding pairs of features are all known: through the library, and
-// through the command.
+// Steps of simulations with all colliding pairs of features known, through the library and the
+// command.
 
 #include <abut/deformable.h>
 #include <abut/frame.h>

@@ -1,4 +1,4 @@
-// Frames of simulations: as another reader has them, and unchanged by writing.
+// Frames of simulations equal those of another reader, and are unchanged by writing.
 
 #include <abut/frame.h>
 #include <abut/scene.h>

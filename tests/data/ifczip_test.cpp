@@ -1,4 +1,4 @@
-// A building's steel as an archive, against the same model as a file.
+// The steel of a building as an archive gives the same model as the file.
 
 #include <abut/error.h>
 #include <abut/scene.h>
