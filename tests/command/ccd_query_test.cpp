@@ -83,7 +83,7 @@ TEST_F(CcdQueryCommand, TruthInAFileOfItsOwn) {
     expect_refused(run_abut(arguments), {"truth.json"});
 }
 
-TEST_F(CcdQueryCommand, ConservativeReportsWhatIsNear) {
+TEST_F(CcdQueryCommand, ConservativeModeReportsNearPairs) {
     // The end of an edge passes another edge at a distance of about 2^-60.
     const std::string moving = "1,1152921504606846976,0,1,HEIGHT,1\n1,1,3,1,HEIGHT,1\n",
                       fixed = "-3,1,1,1,0,1\n3,1,-1,1,0,1\n";
@@ -102,7 +102,7 @@ TEST_F(CcdQueryCommand, ConservativeReportsWhatIsNear) {
     EXPECT_EQ(conservative.json()["delta"], 1e-9);
 }
 
-TEST_F(CcdQueryCommand, ThicknessTakesThePlaceOfTheTruth) {
+TEST_F(CcdQueryCommand, AThicknessReplacesTheTruth) {
     const std::string queries =
         folder_.write("vf.csv", falling("1,8", ",0") + falling("1,2", ",0"));
     const auto thick = run_abut({"ccd-query", queries, "--thickness", "0.25", "--json"});

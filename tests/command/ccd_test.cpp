@@ -210,7 +210,7 @@ TEST_F(CcdCommand, WritesWhatTheLibraryFinds) {
     }
 }
 
-TEST_F(CcdCommand, ConservativeReportsWhatIsNear) {
+TEST_F(CcdCommand, ConservativeModeReportsNearPairs) {
     // A vertex passes the edge x + y = 4 of the large triangle at a distance of about 2^-51.
     const auto falling = [](double height) {
         return Mesh{{{0, 0, 0},
@@ -234,7 +234,7 @@ TEST_F(CcdCommand, ConservativeReportsWhatIsNear) {
         EXPECT_EQ(each.impact.status, Status::bound_only);
 }
 
-TEST_F(CcdCommand, AThicknessReportsWhatComesSoNear) {
+TEST_F(CcdCommand, AThicknessReportsNearPairs) {
     // The lowest vertex stops at 1/8 above the face, and the edges 1/16 apart.
     const auto falling = frames({small_above_large(2), small_above_large(0.125)});
     EXPECT_EQ(answer(falling)["total"]["vertex_face"], 0);
@@ -304,7 +304,7 @@ TEST_F(CcdCommand, HasTheKeysThatTheGuidePromises) {
     EXPECT_GT(total["bytes"], 0);
 }
 
-TEST_F(CcdCommand, TheTableHasALineAStep) {
+TEST_F(CcdCommand, TheTableHasALineForEachStep) {
     const Outcome outcome =
         ccd(frames({small_above_large(5), small_above_large(1), small_above_large(-2)}), {});
     ASSERT_EQ(outcome.status, 0) << outcome.err;

@@ -105,7 +105,7 @@ private:
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
-TEST_F(CrewClash, AnswersAsOneProcess) {
+TEST_F(CrewClash, EqualsOneProcess) {
     make(crowd(150, 8));
     const Outcome one = alone({"--memory", "1M", "--json", "--out", folder_ / "one"});
     ASSERT_EQ(one.status, 0) << one.err;
@@ -266,7 +266,7 @@ TEST_F(CrewClash, AFullDiskIsAnErrorAndTheJobGoesOn) {
     EXPECT_EQ(crew(2, {"--json"}).json()["clashes"], alone({"--json"}).json()["clashes"]);
 }
 
-TEST_F(CrewClash, OfAStoreThatCannotBeWrittenIsDoneAndNotKept) {
+TEST_F(CrewClash, AReadOnlyStoreIsAnsweredButNotKept) {
     make(crowd(60, 8));
     const auto truth = clashes_of(run_abut({"clash", model_, "--clearance", "0.05", "--json"}));
     const ReadOnly read_only(folder_);

@@ -88,7 +88,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(Examples, OfEveryHelpRun) {
+TEST_F(Examples, EveryExampleOfTheHelpRuns) {
     const bool has_mpi =
         std::filesystem::exists(std::string(ABUT_BINARY_DIR) + "/bin/abut-mpi.so") &&
         shell("command -v mpirun >mpirun.txt").status == 0;
@@ -141,7 +141,7 @@ TEST(Help, FitsEightyColumns) {
     }
 }
 
-TEST(Help, AloneIsTheListOfVerbsInGroups) {
+TEST(Help, WithoutAVerbListsTheVerbsInGroups) {
     const Outcome alone = run_abut({});
     EXPECT_EQ(alone.status, 0);
     EXPECT_EQ(alone.err, "");
@@ -229,7 +229,7 @@ TEST_F(Documents, CompletionKnowsEveryOptionOfTheHelp) {
     }
 }
 
-TEST_F(Documents, ZshTakesItsCompletion) {
+TEST_F(Documents, ZshAcceptsTheCompletion) {
     if (run_program({"sh", "-c", "command -v zsh"}).status != 0)
         GTEST_SKIP() << "zsh is not installed";
     EXPECT_EQ(run_program({"zsh", "-n", folder_ / "zsh/_abut"}).err, "");

@@ -269,7 +269,7 @@ TEST(Import, AnInterruptedImportGoesOn) {
     expect_stored(store, read_scene(model));
 }
 
-TEST(Import, KeepsToItsMemory) {
+TEST(Import, StaysWithinItsMemory) {
     const TemporaryFolder folder;
     constexpr std::uint32_t kTriangles = 1'200'000;
     {

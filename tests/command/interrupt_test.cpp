@@ -38,7 +38,7 @@ TEST(Interrupt, AClashJobLeavesNothing) {
         }
 }
 
-TEST(Interrupt, ASceneInTheMakingLeavesNothing) {
+TEST(Interrupt, AnUnfinishedSceneLeavesNothing) {
     const TemporaryFolder folder;
     expect_interrupted(run_abut_and_signal(
         {"scene", "plant", "--triangles", "20000000", "--out", folder / "plant.glb", "--progress"},

@@ -100,7 +100,7 @@ TEST_F(OneModelTest, FailOnTurnsAYesIntoStatusOne) {
     EXPECT_EQ(ask("overlap", {"--sphere", "9,0,0,1", "--fail-on", "overlap"}).status, 0);
 }
 
-TEST_F(OneModelTest, PeopleGetSentences) {
+TEST_F(OneModelTest, TextAnswersAreSentences) {
     EXPECT_EQ(ask("nearest", {"--point", "3,0.5,0.5"})
                   .out.rfind("distance 2 m, point (1, 0.5, 0.5) m", 0),
               0U);

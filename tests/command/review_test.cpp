@@ -129,7 +129,7 @@ TEST_F(Review, StatusesOverTheLifeOfASite) {
     EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
 }
 
-TEST_F(Review, ClashesOfAModelThatIsTakenOutAreResolved) {
+TEST_F(Review, ClashesOfARemovedModelAreResolved) {
     const std::string other = folder_ / "other.glb";
     write_glb(one_of_each_kind(), other);
     ASSERT_EQ(run_abut({"import", other, store_, "--quiet"}).status, 0);
@@ -177,7 +177,7 @@ TEST_F(Review, ListsWhatTheStoreKnows) {
     EXPECT_NE(text.find("\"as built\""), std::string::npos) << text;
 }
 
-TEST_F(Review, IsInEveryReport) {
+TEST_F(Review, StatusesAreInEveryReport) {
     ASSERT_EQ(review({"--approve", id_of("h1"), "--note", "=1+1, \"so\""}).status, 0);
     ASSERT_EQ(clash(store_, {"--quiet", "--out", folder_ / "store"}).status, 0);
     ASSERT_EQ(clash(model_, {"--quiet", "--out", folder_ / "model"}).status, 0);
@@ -222,7 +222,7 @@ TEST_F(Review, RefusesWhatItCannotDo) {
     EXPECT_EQ(review({"--clear", hard}).status, 0);
 }
 
-TEST_F(Review, OfAReadOnlyStoreIsReadAndNotWritten) {
+TEST_F(Review, AReadOnlyStoreIsReadAndNotWritten) {
     ASSERT_EQ(review({"--approve", id_of("h1")}).status, 0);
     const auto words_before = words(report());
     const ReadOnly read_only(folder_);
@@ -234,7 +234,7 @@ TEST_F(Review, OfAReadOnlyStoreIsReadAndNotWritten) {
     expect_refused(review({"--clear", id_of("h1")}), {store_, "read-only"});
 }
 
-TEST_F(Review, AnswersTheQuestionsOfItsPage) {
+TEST_F(Review, QueriesOfItsPageWork) {
     ASSERT_EQ(review({"--approve", id_of("h1")}).status, 0);
     // Two statuses, four new clashes, none resolved, one mark.
     EXPECT_EQ(rows_of_page_queries("clash-status.md", store_), (std::vector<int>{2, 4, 0, 1}));

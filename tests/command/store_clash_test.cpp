@@ -39,7 +39,7 @@ protected:
     std::string model_ = folder_ / "site.glb", store_ = folder_ / "site.abut";
 };
 
-TEST_F(StoreClash, AnswersAsOfTheModels) {
+TEST_F(StoreClash, EqualsTheJobOnModelFiles) {
     make(one_of_each_kind());
     const Outcome in_core = clash(model_, {"--json"}), out = clash(store_, {"--json"});
     ASSERT_EQ(in_core.status, 0) << in_core.err;
@@ -95,7 +95,7 @@ TEST_F(StoreClash, RefusesWhatItCannotDo) {
     expect_refused(run_abut({"clash", store_, model_}), {store_});
 }
 
-TEST_F(StoreClash, OfAStoreThatCannotBeWrittenIsDoneAndNotKept) {
+TEST_F(StoreClash, AReadOnlyStoreIsAnsweredButNotKept) {
     make(crowd(30, 8));
     const auto truth = clashes_of(clash(model_, {"--json"}));
     const ReadOnly read_only(folder_);

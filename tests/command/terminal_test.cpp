@@ -91,7 +91,7 @@ TEST_F(Terminal, NamesAreEscapedInErrors) {
     }
 }
 
-TEST_F(Terminal, JsonEscapesThemAndMeansTheSame) {
+TEST_F(Terminal, JsonEscapesNamesWithoutLoss) {
     for (const std::string verb : {"info", "clash"}) {
         const Outcome outcome =
             run_abut(verb == "info" ? std::vector<std::string>{verb, model_, "--parts", "--json"}

@@ -38,7 +38,7 @@ TEST_F(TimeOfImpactCommand, TheToleranceBoundsTheGap) {
     EXPECT_NEAR(outcome.json()["time"], 1.0 / 6, 1e-9);
 }
 
-TEST_F(TimeOfImpactCommand, AScrewGoesAnotherWay) {
+TEST_F(TimeOfImpactCommand, AScrewTakesAnotherPath) {
     // B makes half a turn about z while its origin moves from (3, 0) to (-1.5, 0). In a straight
     // line B would pass through A; on the screw it circles around A.
     const std::vector<std::string> motion{"--pose-b", "3,0,0,1,0,0,0", "--end-b",
@@ -51,7 +51,7 @@ TEST_F(TimeOfImpactCommand, AScrewGoesAnotherWay) {
     EXPECT_EQ(answer["time"], 1);
 }
 
-TEST_F(TimeOfImpactCommand, ALimitOnStepsTellsTheTimeThatIsFree) {
+TEST_F(TimeOfImpactCommand, ALimitOnStepsLeavesAProvenTime) {
     const std::vector<std::string> motion{"--pose-b", "3,0.5,0,1,0,0,0", "--end-b",
                                           "-1,0.5,0,1,0,0.3,0"};
     const auto with = [&](const std::vector<std::string>& more) {

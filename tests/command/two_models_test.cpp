@@ -40,7 +40,7 @@ TEST_F(TwoModelsTest, ConvexHulls) {
     EXPECT_EQ(ask("distance", {"--convex", "--signed"}).status, 2);
 }
 
-TEST_F(TwoModelsTest, DistanceNamesWhatThePointsLieOn) {
+TEST_F(TwoModelsTest, DistanceNamesTheFeaturesOfThePoints) {
     // The corner (1, 1, 1) of A and the corner (2, 2, 2) of B.
     const auto answer = ask("distance", {"--pose-b", "2,2,2,1,0,0,0", "--json"}).json();
     EXPECT_LT(answer["at_least"], answer["distance"]);
@@ -89,7 +89,7 @@ TEST_F(TwoModelsTest, DistanceBeyondItsBoundHasNoPoints) {
         EXPECT_FALSE(answer.contains(key)) << key;
 }
 
-TEST_F(TwoModelsTest, ALimitOnStepsTellsWhatIsProven) {
+TEST_F(TwoModelsTest, ALimitOnStepsLeavesProvenBounds) {
     const std::vector<std::string> apart{"--pose-b", "3,0.25,0.5,1,0,0,0"},
         inside{"--pose-b", "0.5,0.25,0.5,1,0,0,0"};
     const auto with = [&](const std::string& verb, std::vector<std::string> arguments,
@@ -213,7 +213,7 @@ TEST_F(TwoModelsTest, CollideListsWhereEachPairMeets) {
     EXPECT_FALSE(ask("collide", {"--json"}).json().contains("segments"));
 }
 
-TEST_F(TwoModelsTest, PenetrationSaysHowDeepAndWhichWayIsOut) {
+TEST_F(TwoModelsTest, PenetrationGivesDepthAndSeparatingMotion) {
     const Outcome outcome = ask("penetration", {"--pose-b", "0.9,0.2,0.3,1,0,0,0", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto answer = outcome.json();
@@ -336,7 +336,7 @@ TEST_F(TwoModelsTest, FailOnTurnsAYesIntoStatusOne) {
         0);
 }
 
-TEST_F(TwoModelsTest, PeopleGetSentences) {
+TEST_F(TwoModelsTest, TextAnswersAreSentences) {
     EXPECT_EQ(ask("collide", {"--pose-b", "9,0,0,1,0,0,0"}).out, "no contact\n");
     EXPECT_EQ(ask("collide", {}).out.rfind("contact: triangle ", 0), 0U);
     EXPECT_EQ(ask("distance", {"--pose-b", "3,0,0,1,0,0,0"}).out.rfind("distance 2 m\n", 0), 0U);

@@ -45,7 +45,7 @@ TEST_F(Usage, AValueThatIsAVerbIsAValue) {
               2); // the file is read, and has no points
 }
 
-TEST_F(Usage, NamesThatAreMistyped) {
+TEST_F(Usage, MistypedNamesGetSuggestions) {
     struct Case {
         std::vector<std::string> arguments;
         std::string meant;
@@ -204,7 +204,7 @@ TEST_F(Usage, JsonGivesEveryDigit) {
     EXPECT_EQ(answer.json()["distance"].get<double>(), std::sqrt(2.0));
 }
 
-TEST_F(Usage, SegmentsAreSaidInText) {
+TEST_F(Usage, SegmentsAreInTheText) {
     const Outcome crossing =
         ask("collide", {"--pose-b", "0.5,0.21,0.34,1,0,0,0", "--all", "--segments"});
     ASSERT_EQ(crossing.status, 0) << crossing.err;

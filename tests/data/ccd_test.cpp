@@ -50,7 +50,7 @@ TEST_F(Queries, ConservativeMissesNone) {
     }
 }
 
-TEST_F(Queries, MutatedOnesAgainstTheOracle) {
+TEST_F(Queries, MutatedQueriesAgainstTheOracle) {
     Random random(721);
     int hits = 0, exact = 0;
     for (const ElementaryPair& original : pairs_) {

@@ -30,7 +30,7 @@ Convex hull_of(const std::string& file) {
     return Convex(mesh.positions);
 }
 
-TEST_P(ShallowOverlaps, OfHullsOfMeshesAreFound) {
+TEST_P(ShallowOverlaps, AreFoundForHullsOfMeshes) {
     const std::string file = std::string(ABUT_SHARED_DATA) + "/meshes/" + GetParam();
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << file << " is not there";

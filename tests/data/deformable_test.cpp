@@ -72,7 +72,7 @@ TEST_P(Deforming, EverySchemeFindsEveryTruePairAndNoOther) {
     }
 }
 
-TEST_P(Deforming, TheCommandWritesThem) {
+TEST_P(Deforming, TheCommandWritesTheTruePairs) {
     const TemporaryFolder folder;
     const std::string out = folder / "impacts.bin";
     const Outcome outcome = run_abut({"ccd", start_, end_, "--json", "--out", out});

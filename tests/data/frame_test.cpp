@@ -45,7 +45,7 @@ TEST_P(SimulatedFrame, HasTheTrianglesThatAssimpReads) {
                 << i << ' ' << k;
 }
 
-TEST_P(SimulatedFrame, IsTheSameOnceWritten) {
+TEST_P(SimulatedFrame, SurvivesWriting) {
     const Mesh frame = read_frame(path_);
     const Folder folder;
     write_frame(frame, folder / "frame.ply");

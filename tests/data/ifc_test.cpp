@@ -228,7 +228,7 @@ Scene read_or_skip(const std::string& path) {
     }
 }
 
-TEST(IfcMap, FilesWithAMapConversionLieThere) {
+TEST(IfcMap, FilesWithAMapConversionArePlacedOnTheMap) {
     const std::string file = kFolder + "pcert/Building-Structural.ifc";
     const Scene scene = read_or_skip(file);
     if (scene.parts.empty())
@@ -290,7 +290,7 @@ Box3 box_of(const Scene& scene, const Part& part) {
 }
 
 /// A building as GLB (y up) and as IFC (z up): the frames agree after a quarter turn.
-TEST(IfcFrame, IsThatOfTheSameBuildingInAnotherFormat) {
+TEST(IfcFrame, EqualsThatOfTheBuildingAsGlb) {
     std::vector<Scene> scenes{
         read_or_skip(std::string(ABUT_SHARED_DATA) + "/bim/duplex_design.glb"),
         read_or_skip(kFolder + "duplex/Duplex_A_20110907.ifc")};

@@ -12,7 +12,7 @@
 namespace abut::test {
 namespace {
 
-TEST(IfcZipData, IsTheFileWithinIt) {
+TEST(IfcZipData, EqualsTheFileInTheArchive) {
     const std::string folder = std::string(ABUT_SHARED_DATA) + "/ifc/schependomlaan/";
     if (!std::filesystem::exists(folder + "ROOT-staal.ifczip"))
         GTEST_SKIP() << "no test data: " << folder;

@@ -36,7 +36,7 @@ Value value_at(const std::string& bytes, std::size_t offset) {
     return value;
 }
 
-TEST_P(Import, EqualsARawLookAtTheFile) {
+TEST_P(Import, EqualsAScanOfTheFile) {
     const Building& building = GetParam();
     const std::string path = std::string(ABUT_SHARED_DATA) + "/bim/" + building.file;
     if (!std::filesystem::exists(path))

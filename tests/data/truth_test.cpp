@@ -65,7 +65,7 @@ protected:
     std::vector<Scene> models_;
 };
 
-TEST_P(Truth, PairForPair) {
+TEST_P(Truth, EveryPairAgrees) {
     const ClashReport report =
         find_clashes(models_, {.clearance = truth_["clearance"].get<double>()});
     EXPECT_EQ(report.candidates, truth_["box_pairs"].get<std::uint64_t>());

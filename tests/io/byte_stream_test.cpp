@@ -45,7 +45,7 @@ std::vector<std::string> lines(ByteStream stream) {
     return all;
 }
 
-TEST(ByteStreams, AFileInPiecesIsTheFileInOne) {
+TEST(ByteStreams, ChunksGiveTheWholeFile) {
     Random random(1);
     const TemporaryFolder folder;
     std::size_t long_words = 0;

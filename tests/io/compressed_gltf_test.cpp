@@ -238,7 +238,7 @@ TEST_F(CompressedGltf, DracoQuantisesWithinItsStep) {
     EXPECT_GT(largest, 0); // the positions were quantised
 }
 
-TEST_F(CompressedGltf, DracoIsLeftAloneWhereThePlainFormIsThere) {
+TEST_F(CompressedGltf, ThePlainFormIsPreferredToDraco) {
     Random random(3);
     const Sheet plain = sheet(random, 8, 8);
     GltfBuilder builder = draco_file(plain, draco_of(plain, draco::MESH_EDGEBREAKER_ENCODING, 6));
@@ -510,7 +510,7 @@ TEST_F(CompressedGltf, AFilterOfColoursDoesNotMatter) {
     EXPECT_EQ(triangles_of(read(builder)), triangles_of(plain.positions, plain.corners));
 }
 
-TEST_F(CompressedGltf, WithoutTheDecodersProgramTheErrorSaysSo) {
+TEST_F(CompressedGltf, AMissingDecoderIsNamed) {
     Random random(10);
     const Sheet plain = sheet(random, 4, 4);
     const GltfBuilder builder =

@@ -25,7 +25,7 @@ protected:
     std::map<std::string, std::string> samples_ = sample_files();
 };
 
-TEST_F(FileKind, IsSaidWhereTheNameSaysAnother) {
+TEST_F(FileKind, IsNamedIfItDiffersFromTheExtension) {
     const std::vector<std::pair<std::string, std::string>> kinds{
         {"sample.glb", "a GLB file"},  {"little.ply", "a PLY file"},
         {"text.ply", "a PLY file"},    {"sample.off", "an OFF file"},

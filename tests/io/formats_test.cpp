@@ -29,7 +29,7 @@ TEST_P(Format, GivesTheStoredPositions) {
     EXPECT_EQ(scene.parts[0].name, scene.parts[0].id);
 }
 
-TEST_P(Format, RefusesAFileThatIsCutShort) {
+TEST_P(Format, RefusesATruncatedFile) {
     // A text file without its last line end is complete.
     std::size_t end = content_.find_last_not_of(" \n\r\t") + 1;
     if (GetParam() == "text.stl")
@@ -197,7 +197,7 @@ TEST(Formats, ColladaComesInItsOwnUnitAndAxes) {
     EXPECT_EQ(world_triangles(other)[0][1], (Vec3{0, 5, 0}));
 }
 
-TEST(Formats, ColladaWithAUnitOrAxesThatAreNoneIsRefused) {
+TEST(Formats, ColladaWithAnInvalidUnitOrAxesIsRefused) {
     const TemporaryFolder folder;
     const std::string sample = sample_files().at("sample.dae");
     for (const char* const meter : {"0", "-1", "0,01", "nan", "inf", "1e999", "mm"}) {

@@ -90,7 +90,7 @@ TEST_F(DamagedFrame, IndicesOutOfRange) {
                std::string("line 10: a face refers to vertex ") + number + " of 4");
 }
 
-TEST_F(DamagedFrame, WhatIsNoNumber) {
+TEST_F(DamagedFrame, InvalidNumbers) {
     for (const char* const word : {"1.25x", "x", "0x1", "1,25", "--1", "1..2"}) {
         refuse("a.ply", sample("text.ply", "1.25", word), ErrorCode::malformed, word);
         refuse("a.obj", sample("sample.obj", "1.25", word), ErrorCode::malformed,

@@ -48,7 +48,7 @@ TEST_F(Frames, TheTetrahedronInEveryFormat) {
     }
 }
 
-TEST_F(Frames, PositionsAloneWhereTheTrianglesAreTheSame) {
+TEST_F(Frames, OnlyPositionsIfTheTrianglesAreTheSame) {
     const auto samples = sample_files();
     for (const char* const name : {"text.ply", "little.ply", "big.ply", "sample.obj"}) {
         SCOPED_TRACE(name);
@@ -277,7 +277,7 @@ TEST_F(Frames, EveryLayoutOfPly) {
     }
 }
 
-TEST_F(Frames, WhatIsWrittenIsReadBack) {
+TEST_F(Frames, WritingAndReadingGivesTheSameFrame) {
     Random random(4712);
     for (int round = 0; round < 100; ++round) {
         Mesh mesh = random_mesh(random);
@@ -313,7 +313,7 @@ TEST_F(Frames, TheBytesOfAWrittenFrame) {
     EXPECT_EQ(read_bytes(path), expected);
 }
 
-TEST_F(Frames, WhatCannotBeReadIsNotWritten) {
+TEST_F(Frames, UnreadableMeshesAreNotWritten) {
     const Mesh good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     const auto refuse = [&](const Mesh& mesh, const std::string& name, ErrorCode code) {
         const std::string path = folder_.path(name);

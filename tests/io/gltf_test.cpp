@@ -122,7 +122,7 @@ Scene sample_scene() {
     return scene;
 }
 
-TEST_F(Gltf, WhatIsWrittenIsReadBackEqual) {
+TEST_F(Gltf, WritingAndReadingGivesTheSameScene) {
     const Scene scene = sample_scene();
     const std::string path = folder_.path("written.glb");
     write_glb(scene, path);

@@ -249,7 +249,7 @@ TEST_F(Hostile, DamagedFilesAreReadOrRefused) {
     EXPECT_GT(refused, (read + refused) / 10);
 }
 
-TEST_F(Hostile, OfSeveralFilesTheFirstFaultCounts) {
+TEST_F(Hostile, TheFirstFaultOfSeveralFilesIsReported) {
     const std::string good = folder_.file("good.obj", samples_.at("sample.obj"));
     const std::string bad = folder_.file("bad.obj", "v 1 2\n");
     const std::string missing = folder_.path("missing.obj");

@@ -129,7 +129,7 @@ TEST_F(Ifc, House4InMillimetresWithPartsOfTwoSolids) {
     expect_box(bounds_of(scene, two), {2.7, 1.5, 1}, {3.3, 2.5, 1.75});
 }
 
-TEST_F(Ifc, ItsUnitAndAxesAreOverruledByThePathAlone) {
+TEST_F(Ifc, OnlyAPathOverridesUnitAndAxes) {
     const char* const wall = "1WallOfTheTests0000001";
     ReadOptions options;
     options.unit = 1000;
@@ -229,7 +229,7 @@ TEST_F(Ifc, SpacesAndZonesAreLeftOutUnlessAskedFor) {
     expect_box(bounds_of(all, parts.at("4TableOfTheTests000001")), {0.5, 1.7, 0}, {1.5, 2.3, 0.75});
 }
 
-TEST_F(Ifc, TrianglesOfNoAreaCloseTheSurfaceThatTheyAreIn) {
+TEST_F(Ifc, ZeroAreaTrianglesCloseSurfaces) {
     // A box of 2 x 1 x 1 m. Its lower front edge has a vertex (9) in the middle on one side only; a
     // zero-area triangle (1 9 2) closes the gap.
     const std::string set =
@@ -342,7 +342,7 @@ TEST_F(Ifc, AProjectLiesOnItsMap) {
                                }));
 }
 
-TEST_F(Ifc, UnitsAndScalesOfAMapAreTakenAsTheyAreMeant) {
+TEST_F(Ifc, UnitsAndScalesOfAMapAreApplied) {
     const std::string foot = "IFCCONVERSIONBASEDUNIT(#910,.LENGTHUNIT.,'FOOT',#911);\n"
                              "#910=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);\n"
                              "#911=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#912);\n#912=" +
@@ -479,7 +479,7 @@ TEST_F(Ifc, ItsReaderIsIsolatedToo) {
     EXPECT_TRUE(contains(error_of(file, ErrorCode::reader_failed, options), "memory"));
 }
 
-TEST(IfcWithout, NodeOrWebIfcTheErrorSaysWhatToDo) {
+TEST(IfcConverter, AMissingConverterIsExplained) {
     const TemporaryFolder folder;
     const std::string file = kFolder + "house_4.ifc";
     std::filesystem::create_directories(folder.path("converter/node_modules/web-ifc"));

@@ -56,7 +56,7 @@ TEST_F(Isolation, AHangIsStopped) {
     fail_with("exec 3>&- 4>&-\nsleep 1000\n", ErrorCode::reader_failed, options);
 }
 
-TEST_F(Isolation, WhatAReaderLeavesBehindIsGone) {
+TEST_F(Isolation, ChildrenOfAReaderAreKilled) {
     const std::string note = folder_.path("pid");
     fail_with("sleep 1000 & echo $! > '" + note + "'\nexit 0\n", ErrorCode::reader_failed);
     const int left = std::stoi(read_bytes(note));
@@ -70,7 +70,7 @@ TEST_F(Isolation, WhatAReaderLeavesBehindIsGone) {
     EXPECT_TRUE(gone);
 }
 
-TEST_F(Isolation, AStopIsHeeded) {
+TEST_F(Isolation, AStopFlagEndsReading) {
     std::atomic<bool> stop = false;
     ReadOptions options;
     options.progress.stop = &stop;
@@ -101,7 +101,7 @@ std::string sound_stream(const TemporaryFolder& folder, const std::string& model
     return read_bytes(copy);
 }
 
-TEST_F(Isolation, NoPrefixAndNoSuffixOfAStreamIsTaken) {
+TEST_F(Isolation, PrefixesAndSuffixesOfAStreamAreRefused) {
     const std::string stream = sound_stream(folder_, model_);
     ASSERT_GT(stream.size(), 200U);
     for (std::size_t size = 0; size < stream.size(); size += 7)

@@ -42,7 +42,7 @@ TEST(ModelPath, MayEndWithAUnitAndAxes) {
     expect_path(parse_model_path(":mm"), ":mm", 0, std::nullopt);
 }
 
-TEST(ModelPath, IsAFileThatIsThereWhateverItsName) {
+TEST(ModelPath, IsAnExistingFileWhateverItsName) {
     const TemporaryFolder folder;
     const std::string odd = folder.file("odd:mm", "x"), plain = folder.file("plain.stl", "x");
     expect_path(parse_model_path(odd), odd, 0, std::nullopt);
@@ -123,7 +123,7 @@ TEST(ModelFrame, ScenesComeIntoTheFrameOfTheFirst) {
     EXPECT_EQ(to_mesh(other[1]).positions.size(), 4U);
 }
 
-TEST(ModelFrame, WhatIsWrittenAsGlbIsReadBackIntoTheSameTransforms) {
+TEST(ModelFrame, WritingAsGlbKeepsTransforms) {
     const TemporaryFolder folder;
     for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
         Scene scene;

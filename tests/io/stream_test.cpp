@@ -86,7 +86,7 @@ TEST_F(Stream, NodesOfAGlbFile) {
                tetrahedron_bytes(), Way::streamed);
 }
 
-TEST_F(Stream, WhatAGlbFileMayHold) {
+TEST_F(Stream, ContentsOfAGlbFile) {
     const json plain = tetrahedron_document({{{"name", "a"}, {"mesh", 0}}}, {0});
     const auto change = [&](const auto& how) {
         json document = plain;

@@ -43,7 +43,7 @@ protected:
     const std::vector<std::string> texts_{"sample.obj", "sample.off", "text.stl", "text.ply"};
 };
 
-TEST_F(Text, AByteOrderMarkIsPassedOver) {
+TEST_F(Text, AByteOrderMarkIsSkipped) {
     for (const std::string& name : texts_)
         expect_read(name, kMark + samples_.at(name));
     expect_read("little.ply", kMark + samples_.at("little.ply"));
@@ -66,7 +66,7 @@ TEST_F(Text, LinesEndAsOnAnySystem) {
                                           replaced_all(obj.substr(middle), "\n", second));
 }
 
-TEST_F(Text, BlanksOfAllKindsPartWords) {
+TEST_F(Text, BlanksOfAllKindsSeparateWords) {
     for (const std::string& name : {std::string("sample.off"), std::string("text.ply")}) {
         const std::size_t body = samples_.at(name).find("0 0 0");
         for (const char* const blank : {"\t", "  ", "\f", " \v "})
@@ -102,7 +102,7 @@ TEST_F(Text, OtherEncodingsAreRefused) {
     refuse("sample.obj", utf_16(samples_.at("sample.obj")).substr(2), "zero bytes");
 }
 
-TEST_F(Text, NumbersThatAreNoneAreRefusedWithTheirLine) {
+TEST_F(Text, InvalidNumbersAreRefusedWithTheirLine) {
     for (const char* const word :
          {"1,25", "1.25D0", "1.25d+0", "1.2.5", "0x1", "1.25f", "1e", "--1"}) {
         refuse("sample.obj", replaced_all(samples_.at("sample.obj"), "1.25", word), "line 3");

@@ -153,7 +153,7 @@ TEST_F(Zip, A3mfFileThatIsDamaged) {
     }
 }
 
-TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrTurnInACircle) {
+TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrFormACycle) {
     const auto model = [](const std::string& components, const std::string& item) {
         std::string text = model_3mf("");
         text.insert(text.find("</resources>"), components);
@@ -195,7 +195,7 @@ protected:
     std::string text_ = read_bytes(std::string(ABUT_SOURCE_DIR) + "/tests/io/house_4.ifc");
 };
 
-TEST_F(IfcZip, IsTheFileWithinIt) {
+TEST_F(IfcZip, EqualsTheFileInTheArchive) {
     for (const bool packs : {true, false}) {
         const Scene scene = read_scene(folder_.file(
             "house.ifczip",
@@ -209,7 +209,7 @@ TEST_F(IfcZip, IsTheFileWithinIt) {
     }
 }
 
-TEST_F(IfcZip, ThatIsDamagedIsRefused) {
+TEST_F(IfcZip, DamagedArchivesAreRefused) {
     const std::string whole = zip({{"house.ifc", text_}});
     const auto refuse = [&](const std::string& bytes) {
         return error_of(folder_.file("bad.ifczip", bytes), ErrorCode::malformed);

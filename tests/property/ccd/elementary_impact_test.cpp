@@ -109,7 +109,7 @@ TEST(ElementaryImpact, PairsInGeneralPositionAgainstTheOracle) {
     EXPECT_GT(tally.share(tally.intervals), 0.4);
 }
 
-TEST(ElementaryImpact, WhatFilterAndIntervalsDecideIsExact) {
+TEST(ElementaryImpact, AnswersByFilterAndIntervalsAreExact) {
     Random random(703);
     Tally tally;
     int exact_hits = 0;
@@ -240,7 +240,7 @@ TEST(ElementaryImpact, CrossingsOnEverySimdTarget) {
     });
 }
 
-TEST(ElementaryImpact, ManyAtOnceAreAsOneByOne) {
+TEST(ElementaryImpact, BatchesEqualSingleTests) {
     Random random(706);
     std::vector<ElementaryPair> pairs(5003);
     std::generate(pairs.begin(), pairs.end(), [&] { return any_pair(random); });

@@ -115,7 +115,7 @@ ElementaryPair moved_off(Random& random, ElementaryPair pair, double length) {
     return pair;
 }
 
-TEST(ElementaryThickness, AsPromised) {
+TEST(ElementaryThickness, ImpactsAreAsNearAsPromised) {
     Random random(801);
     Tally tally;
     for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {
@@ -135,7 +135,7 @@ TEST(ElementaryThickness, AsPromised) {
     EXPECT_GT(tally.bound_only, 0);
 }
 
-TEST(ElementaryThickness, NoneIsMissed) {
+TEST(ElementaryThickness, NoContactIsMissed) {
     Random random(802);
     Tally tally;
     for (int i = 0; i < many(3000) && !HasFatalFailure(); ++i) {
@@ -352,7 +352,7 @@ TEST(ElementaryThickness, TheFilterOnEverySimdTarget) {
     });
 }
 
-TEST(ElementaryThickness, ManyAtOnceAreAsOneByOne) {
+TEST(ElementaryThickness, BatchesEqualSingleTests) {
     Random random(808);
     std::vector<ElementaryPair> pairs(3001);
     std::generate(pairs.begin(), pairs.end(), [&] { return any_pair(random); });
@@ -404,7 +404,7 @@ TEST(FeatureDistance, BoundsHoldAndAreTight) {
     EXPECT_GT(apart, cases / 2);
 }
 
-TEST(FeatureDistance, WhetherAreWithinIsExact) {
+TEST(FeatureDistance, AreWithinIsExact) {
     Random random(810);
     int within = 0, beyond = 0, open = 0;
     for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {

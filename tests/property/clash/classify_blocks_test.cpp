@@ -106,7 +106,7 @@ Transform some_place(Random& random) {
     return world;
 }
 
-TEST(ClassifyBlocks, IsTheVerdictOfTheWhole) {
+TEST(ClassifyBlocks, EqualsTheClassificationOfWholeMeshes) {
     Random random(6201);
     std::array<std::size_t, 5> kinds{};
     std::size_t pairs = 0, deeper = 0, far_off = 0;
@@ -159,7 +159,7 @@ TEST(ClassifyBlocks, IsTheVerdictOfTheWhole) {
 }
 
 /// Translations are multiples of the grid, so they move every vertex exactly.
-TEST(ClassifyBlocks, DepthsAreTheSameWhereverTheModelsAre) {
+TEST(ClassifyBlocks, DepthsAreInvariantUnderTranslation) {
     Random random(6204);
     constexpr double kGrid = 0x1p-12;
     const auto on_grid = [](const Vec3& p) {
@@ -201,7 +201,7 @@ TEST(ClassifyBlocks, DepthsAreTheSameWhereverTheModelsAre) {
 }
 
 /// The solid found from blocks equals that of the whole mesh.
-TEST(ClassifyBlocks, TheSolidIsThatOfTheWhole) {
+TEST(ClassifyBlocks, TheSolidEqualsThatOfTheWholeMesh) {
     Random random(6202);
     std::size_t closed = 0, solid = 0, on_disk = 0;
     for (int round = 0; round < many(900); ++round) {
@@ -232,7 +232,7 @@ TEST(ClassifyBlocks, TheSolidIsThatOfTheWhole) {
 }
 
 /// Queries of points, in blocks and on the whole mesh, agree.
-TEST(ClassifyBlocks, InsideAndNearestAreThoseOfTheWhole) {
+TEST(ClassifyBlocks, InsideAndNearestEqualThoseOfTheWholeMesh) {
     Random random(6203);
     std::size_t inside = 0, asked = 0;
     for (int round = 0; round < many(900); ++round) {

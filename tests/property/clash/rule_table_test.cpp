@@ -61,7 +61,7 @@ std::vector<std::string> globs(Random& random) {
     return result;
 }
 
-TEST(RuleTable, SaysOfPairsWhatTheRulesMean) {
+TEST(RuleTable, AgreesWithTheDefinitionOfTheRules) {
     Random random(6301);
     std::array<int, 3> seen{}; // a rule, none, ignored
     for (int round = 0; round < many(300); ++round) {
@@ -105,7 +105,7 @@ TEST(RuleTable, SaysOfPairsWhatTheRulesMean) {
         EXPECT_GT(count, many(300) * 144 / 20);
 }
 
-TEST(RuleTable, WithoutRulesAllPairsHaveTheTermsOfTheOptions) {
+TEST(RuleTable, WithoutRulesAllPairsUseTheOptions) {
     ClashOptions options;
     options.clearance = 0.5, options.touch_tolerance = 0.25;
     RuleTable table(options);

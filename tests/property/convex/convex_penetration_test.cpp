@@ -69,7 +69,7 @@ std::vector<Vec3> make_points(Random& random, int kind) {
     }
 }
 
-TEST(ConvexPenetration, IsTheLeastOverAllPlanes) {
+TEST(ConvexPenetration, EqualsTheMinimumOverAllPlanes) {
     Random random(7101);
     int deep = 0, apart = 0;
     for (int i = 0; i < many(400); ++i) {

@@ -110,7 +110,7 @@ TEST(ConvexSearch, FindsTheFarthestVerticesOnEverySimdTarget) {
     EXPECT_GT(mixed, rounds / 10);
 }
 
-TEST(ConvexSearch, HighestNeighboursAreThoseOfTheRing) {
+TEST(ConvexSearch, HighestNeighboursEqualThoseOfTheRing) {
     Random random(7302);
     int higher = 0, rounds = 0;
     for (int i = 0; i < many(60); ++i) {

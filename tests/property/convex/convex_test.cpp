@@ -207,7 +207,7 @@ TEST(ConvexDistanceOfNeedles, IsProven) {
     EXPECT_GT(apart, many(4000) / 20);
 }
 
-TEST_P(ConvexDistance, IsThatOfTheTriangles) {
+TEST_P(ConvexDistance, EqualsTheDistanceOfTheTriangles) {
     const Placement placement = GetParam();
     Random random(7010 + static_cast<std::uint64_t>(placement));
     int meet = 0, cases = 0;
@@ -296,7 +296,7 @@ TEST(ConvexPath, AWarmStartChangesNothing) {
     EXPECT_GT(far_jumps, 20);
 }
 
-TEST(ConvexLevels, ErrorsAllowedAreBounds) {
+TEST(ConvexLevels, AllowedErrorsAreRespected) {
     Random random(7030);
     const Convex a(ellipsoid(random, 3000)), b(ellipsoid(random, 700));
     int coarse = 0, cases = 0;

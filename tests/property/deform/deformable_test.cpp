@@ -74,7 +74,7 @@ TEST(Deformable, EveryPairAgainstExactArithmetic) {
     EXPECT_LT(hits, cases / 2);
 }
 
-TEST(Deformable, EqualsSingleTestsHoweverItIsDone) {
+TEST(Deformable, EveryOptionEqualsSingleTests) {
     Random random(41);
     std::size_t pairs = 0, hits = 0;
     for (int round = 0; round < many(60); ++round) {
@@ -119,7 +119,7 @@ TEST(Deformable, TwoSurfacesEqualSingleTests) {
     EXPECT_GT(face_first, hits / 10);
 }
 
-TEST(Deformable, LargerSurfacesOfAllSchemesAgree) {
+TEST(Deformable, AllSchemesAgreeOnLargerSurfaces) {
     Random random(11);
     std::size_t hits = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -250,7 +250,7 @@ double area_of_boxes(const Deformable& surface, double largest) {
 
 /// Triangles that scatter from one surface must not leave boxes that span them all, even beside
 /// much larger triangles at rest.
-TEST(Deformable, HierarchyFollowsWhatScatters) {
+TEST(Deformable, HierarchyFollowsScatteringTriangles) {
     Random random(13);
     MovingMesh moving;
     for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -308,7 +308,7 @@ TEST(Deformable, ChangedTopologyEqualsNewSurfaces) {
 }
 
 /// A conservative answer contains the whole exact answer.
-TEST(Deformable, ConservativeMissesNone) {
+TEST(Deformable, ConservativeModeMissesNoImpact) {
     Random random(67);
     std::size_t hits = 0;
     for (int round = 0; round < many(60); ++round) {

@@ -96,14 +96,14 @@ std::vector<std::uint32_t> boundary(const Triangles& triangles) {
     return disc_boundary({kVertices, triangles, features}, all);
 }
 
-TEST(DiscBoundary, OfWhatIsADisc) {
+TEST(DiscBoundary, DiscsHaveABoundaryLoop) {
     const auto loop = boundary(Triangles{{5, 6, 7}, {7, 6, 8}});
     EXPECT_EQ(loop, (std::vector<std::uint32_t>{5, 6, 8, 7}));
     const Mesh sheet = grid_mesh(4, 3, false, false, [](double, double) { return Vec3{}; });
     EXPECT_EQ(boundary(sheet.triangles).size(), 14U);
 }
 
-TEST(DiscBoundary, NoneOfWhatIsNot) {
+TEST(DiscBoundary, OtherSurfacesHaveNone) {
     const auto mesh = [](bool u, bool v) {
         return grid_mesh(5, 5, u, v, [](double, double) { return Vec3{}; }).triangles;
     };

@@ -81,7 +81,7 @@ TEST(PointLeafDistance, IsALowerBoundAndMostlyTight) {
     });
 }
 
-TEST(PointLeafDistance, ExtremeCoordinatesGiveNoBoundThatIsTooLarge) {
+TEST(PointLeafDistance, BoundsHoldForExtremeCoordinates) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(512);

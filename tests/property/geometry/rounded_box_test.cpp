@@ -40,7 +40,7 @@ RoundedBox moved(RoundedBox box, const Vec3& by) {
     return box;
 }
 
-TEST(RoundedBox, NoPointsAreNearerThanTheDistanceAndTheWitnessesAreThatFar) {
+TEST(RoundedBox, NoSampledPointsAreNearerThanTheDistance) {
     Random random(5101);
     int apart = 0, meeting = 0, near = 0;
     for (int round = 0; round < many(4000); ++round) {
@@ -62,7 +62,7 @@ TEST(RoundedBox, NoPointsAreNearerThanTheDistanceAndTheWitnessesAreThatFar) {
     EXPECT_GT(near, many(4000) / 10);
 }
 
-TEST(RoundedBox, TheTranslationPartsThemAndNoShorterOneDoes) {
+TEST(RoundedBox, TheSeparatingMotionIsTheShortest) {
     Random random(5102);
     int deep = 0;
     for (int round = 0; round < many(2000); ++round) {
@@ -83,7 +83,7 @@ TEST(RoundedBox, TheTranslationPartsThemAndNoShorterOneDoes) {
     EXPECT_GT(deep, many(2000) / 8);
 }
 
-TEST(RoundedBox, IsTheSameTurnedRound) {
+TEST(RoundedBox, IsSymmetric) {
     Random random(5103);
     for (int round = 0; round < many(2000); ++round) {
         const RoundedBox a = random_box(random, 1), b = random_box(random, 1);
@@ -130,7 +130,7 @@ double by_all_features(const RoundedBox& a, const RoundedBox& b) {
     return std::sqrt(sq);
 }
 
-TEST(RoundedBox, IsTheDistanceOfAllFeatures) {
+TEST(RoundedBox, EqualsTheMinimumOverAllFeatures) {
     Random random(5104);
     int apart = 0, edges = 0;
     for (int round = 0; round < many(6000); ++round) {
@@ -165,7 +165,7 @@ TEST(RoundedBox, IsTheDistanceOfAllFeatures) {
     EXPECT_GT(edges, many(6000) / 40);
 }
 
-TEST(RoundedBox, SpheresAndCoincidentOnes) {
+TEST(RoundedBox, SpheresAndCoincidentBoxes) {
     RoundedBox a, b;
     a.radius = 1, b.radius = 2, b.centre = {5, 0, 0};
     EXPECT_DOUBLE_EQ(rounded_box_distance(a, b).distance, 2);

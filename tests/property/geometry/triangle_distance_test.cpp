@@ -72,7 +72,7 @@ std::pair<Triangle, Triangle> pair_of(Random& random, Shape shape) {
 
 class TriangleDistance : public testing::TestWithParam<Shape> {};
 
-TEST_P(TriangleDistance, ToRounding) {
+TEST_P(TriangleDistance, IsExactToRounding) {
     Random random(400 + static_cast<std::uint64_t>(GetParam()));
     double worst = 0, worst_points = 0;
     int apart = 0;
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, TriangleDistance,
                                          Shape::lattice, Shape::collapsed, Shape::near,
                                          Shape::far));
 
-TEST(SegmentDistance, ToRoundingAtEveryAngle) {
+TEST(SegmentDistance, IsExactToRoundingAtEveryAngle) {
     Random random(420);
     double worst = 0;
     for (int i = 0; i < 6000; ++i) {
@@ -150,7 +150,7 @@ TEST(SegmentDistance, ToRoundingAtEveryAngle) {
     std::cout << "worst " << worst << " roundings\n";
 }
 
-TEST(PointTriangleDistance, ToRounding) {
+TEST(PointTriangleDistance, IsExactToRounding) {
     Random random(421);
     double worst = 0;
     int inside = 0;

@@ -66,7 +66,7 @@ bool has(std::uint32_t pairs, std::size_t i, std::size_t j) {
     return (pairs >> (4 * i + j) & 1U) != 0;
 }
 
-TEST(TriangleLeaf, WhatIsCertainIsTrue) {
+TEST(TriangleLeaf, CertainAnswersAreTrue) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(501);
@@ -108,7 +108,7 @@ TEST(TriangleLeaf, WhatIsCertainIsTrue) {
     });
 }
 
-TEST(TriangleLeaf, NearPairsLoseNothingWithinTheBound) {
+TEST(TriangleLeaf, NearPairsIncludeAllWithinTheBound) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(505);
@@ -157,7 +157,7 @@ TEST(TriangleLeaf, NearPairsLoseNothingWithinTheBound) {
     });
 }
 
-TEST(TriangleLeaf, ExtremeCoordinatesLeaveNothingCertainThatIsNot) {
+TEST(TriangleLeaf, CertainAnswersAreTrueForExtremeCoordinates) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(502);

@@ -45,7 +45,7 @@ double sizes(const Triangle& a, const Triangle& b) {
     return r + u + v;
 }
 
-TEST(TrianglePairBatch, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
+TEST(TrianglePairBatch, DistanceEqualsTheReferenceAndTheScalarFunction) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(503);

@@ -11,7 +11,7 @@ Triangle moved(const Triangle& t, const Vec3& by) {
     return {t[0] + by, t[1] + by, t[2] + by};
 }
 
-TEST(TrianglePenetration, SeparatesAndNoShorterMoveDoes) {
+TEST(TrianglePenetration, TheSeparatingMotionIsTheShortest) {
     Random random(601);
     int crossing = 0, sharp = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -40,7 +40,7 @@ TEST(TrianglePenetration, SeparatesAndNoShorterMoveDoes) {
     EXPECT_EQ(sharp, crossing);
 }
 
-TEST(TrianglePenetration, TouchingOnesHaveNoDepth) {
+TEST(TrianglePenetration, TouchingTrianglesHaveNoDepth) {
     Random random(602);
     int touching = 0;
     for (int i = 0; i < 50000; ++i) {

@@ -50,7 +50,7 @@ StoreClashReport find_together(const std::string& store, const ClashOptions& opt
     return find_clashes(open_store(store), options, out_of_core);
 }
 
-TEST(CrewClashes, AreThoseOfOneProcess) {
+TEST(CrewClashes, EqualThoseOfOneProcess) {
     Random random(6201);
     std::size_t clashes = 0, runs = 0, shared = 0;
     for (int round = 0; round < many(6); ++round) {
@@ -87,7 +87,7 @@ TEST(CrewClashes, AreThoseOfOneProcess) {
 }
 
 /// The leader or a helper is stopped again and again, each time after some more pairs.
-TEST(CrewClashes, GoOnWhereTheyWereStopped) {
+TEST(CrewClashes, ResumeAfterAStop) {
     Random random(6202);
     std::size_t stops = 0, recalled = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -131,7 +131,7 @@ TEST(CrewClashes, GoOnWhereTheyWereStopped) {
     EXPECT_GT(recalled, 0U);
 }
 
-TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
+TEST(CrewClashes, FailWithTheErrorOfAHelper) {
     Random random(6203);
     const StoredJob job(random, 100);
     const std::string other = job.folder / "other.abut", missing = job.folder / "missing.abut";
@@ -174,7 +174,7 @@ TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
     job.expect(find_together(job.store, job.options, {}, 3));
 }
 
-TEST(CrewClashes, EndWithWhatWentWrongInTheLeader) {
+TEST(CrewClashes, FailWithTheErrorOfTheLeader) {
     Random random(6204);
     const StoredJob job(random, 100);
     EXPECT_THROW((void)find_together(job.store, job.options, {.memory = 1000}, 3), Error);
@@ -184,7 +184,7 @@ TEST(CrewClashes, EndWithWhatWentWrongInTheLeader) {
 }
 
 /// An import while the job runs would mix two states of the store, so the job must fail.
-TEST(CrewClashes, AreRefusedIfAnImportCameInBetween) {
+TEST(CrewClashes, FailIfAnImportComesInBetween) {
     Random random(6205);
     for (const std::size_t size : {std::size_t{1}, std::size_t{3}}) {
         const StoredJob job(random, 150);

@@ -324,7 +324,7 @@ TEST(Plant, ClashJobFindsExactlyThePlanted) {
     expect_found(plant_of(50'000, 40, 6, 0.2));
 }
 
-TEST(Plant, SurvivesAFile) {
+TEST(Plant, SurvivesWritingAndReading) {
     Plant plant = plant_of(40'000, 50, 12);
     const test::Folder folder;
     write_glb(plant.scene, folder / "plant.glb");

@@ -27,7 +27,7 @@
 namespace abut::test {
 namespace {
 
-TEST(OutOfCore, FindsWhatIsFoundInCore) {
+TEST(OutOfCore, EqualsTheJobInCore) {
     Random random(6101);
     std::size_t clashes = 0, cut_up = 0, loaded_again = 0, runs = 0;
     for (int round = 0; round < many(3); ++round) {
@@ -82,7 +82,7 @@ Mesh some_large_body(Random& random) {
     }
 }
 
-TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
+TEST(OutOfCore, LargeMeshesInBlocksEqualTheJobInCore) {
     Random random(6106);
     std::size_t clashes = 0, of_large = 0, runs = 0, again = 0;
     for (int round = 0; round < many(2); ++round) {
@@ -137,7 +137,7 @@ TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
 
 /// A job that is stopped again and again, each time after some more pairs, ends with the same
 /// result.
-TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
+TEST(OutOfCore, AStoppedJobResumes) {
     Random random(6104);
     std::size_t stops = 0, recalled = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -326,7 +326,7 @@ TEST(OverlapGraph, IsKeptForSqlAndCountsLargeMeshes) {
     }
 }
 
-TEST(OverlapGraph, TablesOfOthersAreNotTouched) {
+TEST(OverlapGraph, ForeignTablesAreNotTouched) {
     Random random(6108);
     const Folder folder;
     write_glb(some_scene(random, 20, 4), folder / "a.glb");

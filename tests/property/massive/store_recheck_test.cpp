@@ -114,7 +114,7 @@ ClashOptions some_question(Random& random) {
     return options;
 }
 
-TEST(Recheck, TestsWhatHasChangedAndFindsAll) {
+TEST(Recheck, TestsOnlyChangedPairsAndFindsAllClashes) {
     Random random(6201);
     std::uint64_t tested = 0, recalled = 0, clashes = 0;
     for (int round = 0; round < many(8); ++round) {
@@ -145,7 +145,7 @@ TEST(Recheck, TestsWhatHasChangedAndFindsAll) {
 }
 
 /// Pairs that a stopped job tested are recalled too, even after imports.
-TEST(Recheck, GoesOnWithAStoppedJobAfterAnImport) {
+TEST(Recheck, ResumesAStoppedJobAfterAnImport) {
     Random random(6202);
     std::uint64_t recalled = 0, tested = 0;
     int stops = 0;
@@ -171,7 +171,7 @@ TEST(Recheck, GoesOnWithAStoppedJobAfterAnImport) {
 }
 
 /// A job that runs during an import fails, because its further results would be of other parts.
-TEST(Recheck, AnImportEndsTheJobThatIsUnderWay) {
+TEST(Recheck, AnImportEndsARunningJob) {
     Random random(6203);
     for (int round = 0; round < many(3); ++round) {
         ChangingSite site(random, 1, 150);

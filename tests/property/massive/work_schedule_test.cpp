@@ -167,7 +167,7 @@ TaskResult some_result(Random& random) {
     return result;
 }
 
-TEST(CrewMessages, ComeOutAsTheyWentIn) {
+TEST(CrewMessages, SurviveEncodingAndDecoding) {
     Random random(6303);
     std::size_t cut_short = 0;
     for (int round = 0; round < many(100); ++round) {

@@ -68,7 +68,7 @@ std::array<int, 7> loads(const std::vector<Represented>& represented, Represente
     return result;
 }
 
-TEST(Representatives, SchemesDoWhatTheyAreNamedFor) {
+TEST(Representatives, AssignmentsSpreadFeaturesAsNamed) {
     Random random(2);
     const Mesh mesh = crumpled_sheet(random, 30).mesh; // 1,800 triangles, 961 vertices
     const SurfaceFeatures features = make_surface_features(mesh.positions.size(), mesh.triangles);
@@ -86,7 +86,7 @@ TEST(Representatives, SchemesDoWhatTheyAreNamedFor) {
     EXPECT_LT(all[4] + all[5] + all[6], 20); // 3,721 features: most triangles have two or three
 }
 
-TEST(Representatives, AdaptiveLeavesTrianglesThatCollide) {
+TEST(Representatives, AdaptiveMovesFeaturesOffCollidingTriangles) {
     const Triangles triangles{{0, 1, 2}, {2, 1, 3}};
     const SurfaceFeatures features = make_surface_features(4, triangles);
     const SurfaceView surface{4, triangles, features};

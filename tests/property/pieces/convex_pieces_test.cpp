@@ -49,7 +49,7 @@ bool check(const TwoSolids& s, const PiecesGap& gap) {
     return true;
 }
 
-TEST(ConvexPiecesDistance, IsThatOfTheTriangles) {
+TEST(ConvexPiecesDistance, EqualsTheDistanceOfTheTriangles) {
     Random random(8102);
     int apart = 0, meet = 0;
     for (int i = 0; i < many(60); ++i) {
@@ -90,7 +90,7 @@ TEST(ConvexPiecesDistance, IsThatOfTheTriangles) {
 }
 
 /// No convex piece of the cube reaches its middle.
-TEST(ConvexPiecesDistance, OfOneDeepInsideOfTheOther) {
+TEST(ConvexPiecesDistance, OneSolidDeepInsideTheOther) {
     Random random(8107);
     const Model a(pitted_cube_mesh());
     const ConvexPieces pieces_a(a);
@@ -118,7 +118,7 @@ TEST(ConvexPiecesDistance, OfOneDeepInsideOfTheOther) {
 }
 
 /// Places b next to a, with a tiny gap or a tiny overlap.
-TEST(ConvexPiecesDistance, OfSolidsThatAlmostTouch) {
+TEST(ConvexPiecesDistance, SolidsThatAlmostTouch) {
     Random random(8103);
     int apart = 0, meet = 0;
     for (int i = 0; i < many(60); ++i) {

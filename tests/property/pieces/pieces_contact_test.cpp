@@ -136,7 +136,7 @@ TEST(PiecesContact, BulgedCubes) {
 }
 
 /// Contacts at a point, along an edge or on a face, exactly on a lattice and rotated.
-TEST(PiecesContact, OfSolidsThatTouch) {
+TEST(PiecesContact, SolidsThatTouch) {
     Random random(8132);
     int touch = 0, meet = 0, apart = 0;
     for (int i = 0; i < many(30); ++i) {

@@ -12,7 +12,7 @@
 namespace abut::test {
 namespace {
 
-TEST(RelativeMotion, NoTwoPointsComeNearerThanItSays) {
+TEST(RelativeMotion, NoTwoPointsApproachMoreThanTheBound) {
     Random random(8109);
     int tight = 0;
     for (int i = 0; i < many(3000); ++i) {
@@ -49,7 +49,7 @@ TEST(RelativeMotion, NoTwoPointsComeNearerThanItSays) {
 }
 
 /// A matrix that is a rotation only up to rounding stretches, which moves points too.
-TEST(RelativeMotion, RotationsToRoundingStretch) {
+TEST(RelativeMotion, RotationsStretchByRounding) {
     Random random(8111);
     for (int i = 0; i < many(1000); ++i) {
         const BodyBall ball{{}, 1};

@@ -81,7 +81,7 @@ Depths depths_of(const Mesh& a, const Mesh& b, const Transform& world, double to
     return result;
 }
 
-TEST(DepthTranslation, DepthsAreTheSameWhereverTheModelsAre) {
+TEST(DepthTranslation, DepthsAreInvariantUnderTranslation) {
     Random random(5401);
     int deep = 0, in_mesh = 0, known = 0, close = 0;
     for (int round = 0; round < many(300); ++round) {
@@ -145,7 +145,7 @@ Mesh turned_diagonals(Mesh box) {
     return box;
 }
 
-TEST(DepthTranslation, SolidsThatCoincideAreAsDeepForEveryQuery) {
+TEST(DepthTranslation, EveryQueryGivesCoincidentSolidsTheSameDepth) {
     const Mesh box = box_mesh({0, 0, 0}, {1, 1, 1}), other = turned_diagonals(box);
     ASSERT_NE(box.triangles, other.triangles);
     double last = 0;

@@ -355,7 +355,7 @@ double off_feature(const Vec3& p, const Triangle& t, Feature feature, std::uint8
     }
 }
 
-TEST(DistanceOptions, FeaturesSayWhereThePointsLie) {
+TEST(DistanceOptions, WitnessPointsLieOnTheNamedFeatures) {
     Random random(4204);
     std::array<std::array<int, 3>, 3> count{}; // counts by feature of a and feature of b
     for (int round = 0; round < 200; ++round) {
@@ -417,7 +417,7 @@ TEST(DistanceOptions, FeaturesByHand) {
     }
 }
 
-TEST(DistanceOptions, SignedApartAndInside) {
+TEST(DistanceOptions, SignedDistanceApartAndInside) {
     Random random(4205);
     int inside = 0, apart = 0, across = 0;
     for (int round = 0; round < 40; ++round) {
@@ -463,7 +463,7 @@ TEST(DistanceOptions, SignedApartAndInside) {
     EXPECT_GT(apart, 5);
 }
 
-TEST(DistanceOptions, SignedOfModelsWithoutAnInside) {
+TEST(DistanceOptions, SignedDistanceOfModelsWithoutAnInside) {
     const Model none(Mesh{}), box(box_mesh({0, 0, 0}, {1, 1, 1})),
         sheet(Mesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}}, {{0, 1, 2}}});
     const DistanceOptions options{.signed_distance = true};

@@ -162,7 +162,7 @@ TEST(LongMotions, TrianglesOfUnlikeSizesStayApart) {
     EXPECT_GT(tight, kCases / 20);
 }
 
-TEST(LongMotions, AreAnsweredInTimeAndInFewSteps) {
+TEST(LongMotions, AreNeverLateAndTakeFewSteps) {
     Random random(3302);
     constexpr int kCases = 1500;
     int hits = 0, undecided = 0;
@@ -369,7 +369,7 @@ TEST(LongMotions, AGapAboveTheToleranceIsNotExact) {
     EXPECT_LT(of_status[2], kCases / 20);
 }
 
-TEST(LongMotions, ALimitOnStepsTellsTheTimeThatIsProvenFree) {
+TEST(LongMotions, ALimitOnStepsLeavesAProvenTime) {
     Random random(3303);
     int limited = 0, misses = 0;
     for (int i = 0; i < 60; ++i) {
@@ -409,7 +409,7 @@ TEST(LongMotions, ALimitOnStepsTellsTheTimeThatIsProvenFree) {
     EXPECT_GT(misses, 5);
 }
 
-TEST(LongMotions, AreStoppedAndReport) {
+TEST(LongMotions, StopAndReportProgress) {
     const Case c{Model(torus_mesh(0.6, 0.2, 40, 20)), Model(torus_mesh(0.6, 0.2, 40, 20)),
                  Motion{{{-2, 0, 0}, {1, 0, 0, 0}}, {-2, 0, 0}, {1.5, 0, 0}, {1, 2, 3}},
                  Motion::fixed({})};

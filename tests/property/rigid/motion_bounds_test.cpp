@@ -155,7 +155,7 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
     return v + std::sin(angle) * cross(n, v) + (1 - std::cos(angle)) * cross(n, cross(n, v));
 }
 
-TEST(MotionBounds, WaysOfPointsInNodes) {
+TEST(MotionBounds, PathsOfPointsInNodes) {
     Random random(2204);
     constexpr int kCases = 40000;
     int close = 0;

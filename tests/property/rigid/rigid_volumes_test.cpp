@@ -97,7 +97,7 @@ void expect_truth(const Truth& truth, const Model& a, const Transform& world_a, 
 
 class RigidVolumes : public testing::TestWithParam<Volume> {};
 
-TEST_P(RigidVolumes, AnswerAsAllPairsDo) {
+TEST_P(RigidVolumes, EqualBruteForce) {
     const Volume volume = GetParam();
     Random random(4100);
     int meet = 0, rounds = 0;
@@ -131,7 +131,7 @@ TEST_P(RigidVolumes, AnswerAsAllPairsDo) {
 }
 INSTANTIATE_TEST_SUITE_P(Volumes, RigidVolumes, testing::ValuesIn(kVolumes));
 
-TEST(RigidVolumes, OfDifferentKindsTheBoxesAnswer) {
+TEST(RigidVolumes, BoxesAnswerForModelsOfDifferentKinds) {
     Random random(4101);
     const Mesh mesh_a = any_mesh(random, 1), mesh_b = any_mesh(random, 3);
     const Model boxes_a(mesh_a), boxes_b(mesh_b);
@@ -223,7 +223,7 @@ Transform singular_transform(Random& random, double reach) {
     return t;
 }
 
-TEST(RigidVolumes, FlattenedModelsAnswerAsThoseOfBoxes) {
+TEST(RigidVolumes, FlattenedModelsEqualModelsOfBoxes) {
     Random random(5309);
     int deep = 0, apart = 0;
     for (int round = 0; round < many(20); ++round) {
@@ -290,7 +290,7 @@ TEST(RigidVolumes, EmptyModelsMeetNothing) {
 }
 
 /// The extra memory is the size of one volume in each of a node's eight lanes, in floats.
-TEST(RigidVolumes, BytesAreThoseOfTheBoxesAndTheVolumes) {
+TEST(RigidVolumes, BytesAreTheSumOfBoxesAndVolumes) {
     const Mesh mesh = scenes::boulder(500, 2);
     const Model boxes(mesh);
     const std::size_t lanes = boxes.data().tree().nodes.size() * Node::kWidth * sizeof(float);

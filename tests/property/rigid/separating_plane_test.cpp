@@ -67,7 +67,7 @@ TEST(SupportBound, NoPointReachesFarther) {
     EXPECT_GT(tight, cases * 9 / 10);
 }
 
-TEST(SupportBound, AlongItsNormalsItIsTheHeight) {
+TEST(SupportBound, IsExactAlongItsNormals) {
     Random random(2302);
     for (int i = 0; i < many(500); ++i) {
         const std::vector<Vec3> points = cloud(random);
@@ -127,7 +127,7 @@ Transform any_transform(Random& random, double reach) {
     return t;
 }
 
-TEST(SeparatingPlane, WhatItTellsApartIsApart) {
+TEST(SeparatingPlane, ModelsReportedApartAreApart) {
     Random random(2303);
     int apart = 0, told = 0, near = 0;
     for (int i = 0; i < many(20000); ++i) {
@@ -157,7 +157,7 @@ TEST(SeparatingPlane, WhatItTellsApartIsApart) {
     EXPECT_GT(near, many(20000) / 40);
 }
 
-TEST(SeparatingPlane, BetweenBoxesItIsExactToSinglePrecision) {
+TEST(SeparatingPlane, IsExactForBoxesToSinglePrecision) {
     const Model box(box_mesh({-1, -1, -1}, {1, 1, 1}));
     for (const double gap : {1e-3, 0.5, 1e3}) {
         const Transform there = Pose{{0, 2 + gap, 0}};
@@ -168,7 +168,7 @@ TEST(SeparatingPlane, BetweenBoxesItIsExactToSinglePrecision) {
     EXPECT_FALSE(far_apart(box.data(), {}, box.data(), Pose{{2, 2, 0}}, 0));
 }
 
-TEST(SeparatingPlane, SaysNothingWhereNumbersEnd) {
+TEST(SeparatingPlane, SaysNothingForExtremeNumbers) {
     const Model box(box_mesh({-1, -1, -1}, {1, 1, 1})), none(Mesh{});
     const Transform away = Pose{{10, 0, 0}};
     ASSERT_TRUE(far_apart(box.data(), {}, box.data(), away, 1));

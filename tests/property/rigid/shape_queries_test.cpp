@@ -136,7 +136,7 @@ double roundings(const Scene& s, const Vec3& p) {
             length(s.box.upper));
 }
 
-TEST_P(ShapeQueries, NearestIsThatOfAllTriangles) {
+TEST_P(ShapeQueries, NearestEqualsBruteForce) {
     int on = 0, cases = 0;
     std::array<int, 3> features{};
     for (int k = 0; k < kScenes; ++k) {
@@ -192,7 +192,7 @@ TEST_P(ShapeQueries, NearestIsThatOfAllTriangles) {
         EXPECT_GT(count, cases / 30);
 }
 
-TEST_P(ShapeQueries, RaysMeetWhatAllTrianglesSay) {
+TEST_P(ShapeQueries, RaysEqualBruteForce) {
     int hits = 0, cases = 0;
     for (int k = 0; k < kScenes; ++k) {
         Scene s(random_, GetParam());
@@ -248,7 +248,7 @@ TEST_P(ShapeQueries, RaysMeetWhatAllTrianglesSay) {
 }
 
 /// All four kinds of overlap, often with the smallest shape that meets, or a slightly smaller one.
-TEST_P(ShapeQueries, OverlapsAreThoseOfAllTriangles) {
+TEST_P(ShapeQueries, OverlapsEqualBruteForce) {
     int meet = 0, cases = 0;
     const auto check = [&](const Scene& s, const auto& shape, const auto& meets) {
         const std::vector<std::uint32_t> expected = s.brute(meets);
@@ -372,7 +372,7 @@ TEST(Rays, NoneSlipsThroughAClosedSurface) {
     }
 }
 
-TEST(ManyShapes, GiveWhatOneGives) {
+TEST(ManyShapes, EqualSingleQueries) {
     Random random(2122);
     const Model model(torus_mesh(1, 0.35, 30, 20));
     const Transform world = random.pose(1);
@@ -402,7 +402,7 @@ TEST(ManyShapes, GiveWhatOneGives) {
 }
 
 /// The winding number decides for a surface with a missing triangle too, away from the hole.
-TEST(Containment, OfAnOpenSurfaceByWindingNumber) {
+TEST(Containment, OpenSurfacesByWindingNumber) {
     Random random(2123);
     Mesh open = sphere_mesh(1, 24, 16);
     const Model closed(open);

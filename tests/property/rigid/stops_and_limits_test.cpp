@@ -235,7 +235,7 @@ TEST(Stops, AReportEndsABatch) {
 }
 
 // The next call asks again for the pairs that were due.
-TEST(Stops, AScheduleThatWasStoppedForgetsNoPair) {
+TEST(Stops, AStoppedScheduleForgetsNoPair) {
     Random random(3);
     const auto fill = [&random](World& world, World& twin) {
         std::vector<BodyId> bodies;
@@ -266,7 +266,7 @@ TEST(Stops, AScheduleThatWasStoppedForgetsNoPair) {
 }
 
 // A stopped search leaves nothing in a warm start that could mislead a later one.
-TEST(Stops, AWarmStartSurvives) {
+TEST(Stops, AWarmStartSurvivesAStop) {
     Random random(4);
     const Model a(torus_mesh(1, 0.4, 24, 12)), b(torus_mesh(1, 0.3, 20, 10));
     const ConvexPieces solid_a(a), solid_b(b);
@@ -385,7 +385,7 @@ private:
     const PlacedPair& pair_;
 };
 
-TEST_F(Limits, HoldWhereTheQueueIsFull) {
+TEST_F(Limits, BoundsHoldIfTheQueueIsFull) {
     int limited = 0, decisive = 0;
     for (int i = 0; i < 1000; ++i) {
         const Model a = model(), b = model();

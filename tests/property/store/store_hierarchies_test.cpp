@@ -105,7 +105,7 @@ private:
     std::vector<Scene> scenes_;
 };
 
-TEST(KeptHierarchies, LaterJobsReadThemAndFindTheSame) {
+TEST(KeptHierarchies, LaterJobsReadThemAndFindTheSameClashes) {
     Random random(8401);
     std::uint64_t kept = 0, found = 0, of_blocks = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -138,7 +138,7 @@ TEST(KeptHierarchies, LaterJobsReadThemAndFindTheSame) {
     EXPECT_GT(of_blocks, static_cast<std::uint64_t>(many(4)) / 2);
 }
 
-TEST(KeptHierarchies, AreKeptWhereThatIsWantedAlone) {
+TEST(KeptHierarchies, AreKeptOnlyIfRequested) {
     Random random(8402);
     const StoredModel model(random);
     EXPECT_EQ(model.expect_equal_job(0.05, {.keep_hierarchies = false}).counters.hierarchies_kept,
@@ -149,7 +149,7 @@ TEST(KeptHierarchies, AreKeptWhereThatIsWantedAlone) {
 }
 
 /// In little memory only some hierarchies can wait to be kept; later jobs keep more.
-TEST(KeptHierarchies, ComeWithTime) {
+TEST(KeptHierarchies, AreKeptByLaterJobsInLittleMemory) {
     Random random(8403);
     const StoredModel model(random);
     std::uint64_t kept = 0;
@@ -237,7 +237,7 @@ void change_rows(Random& random, const std::string& store, int rows, const Chang
     transaction.commit();
 }
 
-TEST(KeptHierarchies, DamagedOnesAreBuiltAndKeptAnew) {
+TEST(KeptHierarchies, DamagedRowsAreBuiltAndKeptAnew) {
     Random random(8404);
     std::uint64_t again = 0, damaged = 0;
     for (int round = 0; round < many(6); ++round) {
@@ -265,7 +265,7 @@ TEST(KeptHierarchies, DamagedOnesAreBuiltAndKeptAnew) {
     EXPECT_LE(again, damaged);
 }
 
-TEST(KeptHierarchies, ForgedOnesAreRefusedOrDoNotMatter) {
+TEST(KeptHierarchies, ForgedRowsAreRefusedOrHarmless) {
     Random random(8408);
     std::uint64_t again = 0;
     for (int round = 0; round < many(6); ++round) {
@@ -289,7 +289,7 @@ TEST(KeptHierarchies, ForgedOnesAreRefusedOrDoNotMatter) {
     EXPECT_GT(again, static_cast<std::uint64_t>(many(6)));
 }
 
-TEST(KeptHierarchies, ATableOfAnotherKindIsLeftAlone) {
+TEST(KeptHierarchies, AForeignTableIsLeftAlone) {
     Random random(8405);
     const StoredModel model(random);
     Database(model.store(), OpenMode::read_write)
@@ -317,7 +317,7 @@ TEST(KeptHierarchies, VerifyFindsDamage) {
 
 /// Hierarchies are removed with their blocks. Imports change and remove meshes, and numbers of
 /// blocks may be used again.
-TEST(KeptHierarchies, GoWithTheirBlocks) {
+TEST(KeptHierarchies, AreRemovedWithTheirBlocks) {
     Random random(8407);
     std::uint64_t found = 0, kept = 0;
     for (int round = 0; round < many(4); ++round) {

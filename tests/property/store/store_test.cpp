@@ -196,7 +196,7 @@ TEST(Store, OutOfCoreEqualsInCore) {
     EXPECT_GT(pieces, 4U * 2) << "meshes were not cut";
 }
 
-TEST(Store, ReimportTouchesWhatChanged) {
+TEST(Store, ReimportTouchesOnlyChanges) {
     Random random(3);
     std::size_t kept = 0, changed = 0;
     for (int round = 0; round < many(25); ++round) {
@@ -273,7 +273,7 @@ TEST(Store, ReimportTouchesWhatChanged) {
     EXPECT_GT(changed, 20U);
 }
 
-TEST(Store, GivesUpAModelWhole) {
+TEST(Store, RemovesModelsCompletely) {
     Random random(6);
     std::size_t meshes = 0;
     for (int round = 0; round < many(10); ++round) {
@@ -407,7 +407,7 @@ TEST(MeshCodec, IsLossless) {
     EXPECT_GT(doubles, 0U);
 }
 
-TEST(MeshDraft, ClosednessIsThatOfTheTopology) {
+TEST(MeshDraft, ClosednessEqualsThatOfTheTopology) {
     Random random(6);
     std::size_t closed = 0;
     const int rounds = many(400);
@@ -430,7 +430,7 @@ TEST(MeshDraft, ClosednessIsThatOfTheTopology) {
     EXPECT_LT(closed, static_cast<std::size_t>(rounds) / 10 * 9);
 }
 
-TEST(ExternalSort, IsASort) {
+TEST(ExternalSort, EqualsSortingInMemory) {
     Random random(7);
     for (int round = 0; round < many(10); ++round) {
         const Folder folder;
@@ -448,7 +448,7 @@ TEST(ExternalSort, IsASort) {
     }
 }
 
-TEST(PagedArray, IsAnArray) {
+TEST(PagedArray, EqualsAnArrayInMemory) {
     Random random(8);
     const Folder folder;
     constexpr int kCount = 200000;

@@ -89,7 +89,7 @@ TEST(Outline, MakesTheTreeThatWasBuilt) {
         EXPECT_GT(count, static_cast<std::size_t>(many(200)) / 20);
 }
 
-TEST(Outline, OfNoTriangles) {
+TEST(Outline, NoTriangles) {
     const Mesh none{{{1, 2, 3}}, {}};
     const ModelOutline outline = Model(none).data().outline();
     EXPECT_TRUE(is_outline(outline.tree, 0));
@@ -129,7 +129,7 @@ void spoil(Random& random, TreeOutline& outline) {
     }
 }
 
-TEST(Outline, OfAnythingMakesASoundTreeOrIsRefused) {
+TEST(Outline, AnyContentsMakeASoundTreeOrAreRefused) {
     Random random(8302);
     std::size_t refused = 0, other = 0;
     for (int round = 0; round < many(1600); ++round) {
@@ -169,7 +169,7 @@ TEST(Outline, ChainsAreRefused) {
 
 /// Guards the format. If this test fails, the builder has changed: increase TreeOutline::kFormat,
 /// so that stored outlines of the old builder are not used, and update the hash here.
-TEST(Outline, OfAFixedMeshIsThatOfTheFormat) {
+TEST(Outline, AFixedMeshGivesTheBytesOfTheFormat) {
     Mesh mesh; // whole numbers give the same tree on every machine
     constexpr int kSide = 60;
     for (int i = 0; i <= kSide; ++i)

@@ -122,7 +122,7 @@ TEST(TraverseVolumes, FindsTheNearestPair) {
     }
 }
 
-TEST(TraverseVolumes, AcceptsOnlyWhatIsWithinTheBound) {
+TEST(TraverseVolumes, AcceptsOnlyPairsWithinTheBound) {
     Random random(1303);
     int accepted = 0, done = 0;
     for (int round = 0; round < 60; ++round) {
@@ -151,7 +151,7 @@ TEST(TraverseVolumes, AcceptsOnlyWhatIsWithinTheBound) {
     EXPECT_GT(done, 40);
 }
 
-TEST(TraverseVolumes, WhatHasNoVolumes) {
+TEST(TraverseVolumes, TreesWithoutVolumes) {
     Random random(1304);
     const Primitives a(random, 20, {}, 1);
     EXPECT_EQ(volumes_of(a, Volume::aabb), nullptr);

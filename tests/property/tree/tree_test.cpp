@@ -43,13 +43,13 @@ void expect_valid(const Boxes& boxes) {
     EXPECT_LE(tree.nodes.size(), 1 + boxes.size() / 12);
 }
 
-TEST(Tree, OfEverySize) {
+TEST(Tree, TreesOfEverySizeAreValid) {
     Random random(801);
     for (const int count : {0, 1, 2, 3, 4, 5, 8, 9, 33, 1000, 100000})
         expect_valid(random_boxes(random, count));
 }
 
-TEST(Tree, OfSpecialBoxes) {
+TEST(Tree, TreesOfSpecialBoxesAreValid) {
     expect_valid(boxes_of(1000, [](int) { return Box3{{1, 2, 3}, {4, 5, 6}}; }));
     expect_valid(boxes_of(1000, [](int) { return Box3{{1, 1, 1}, {1, 1, 1}}; }));
     expect_valid(boxes_of(1000, [](int i) { return box_at({double(i), 0, 0}, {}); })); // on a line
@@ -114,7 +114,7 @@ struct Soup {
     [[nodiscard]] TreeMesh mesh() const { return {positions, triangles}; }
 };
 
-TEST(Tree, OfTrianglesEnclosesThemInEveryNodesFrame) {
+TEST(Tree, EnclosesItsTrianglesInEveryNodesFrame) {
     Random random(810);
     std::size_t turned = 0, nodes = 0;
     for (int kind = 0; kind < 60; ++kind) {

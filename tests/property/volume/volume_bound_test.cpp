@@ -123,7 +123,7 @@ TYPED_TEST(VolumeBound, IsBelowTheDistanceOfTheContents) {
     EXPECT_GT(ratio_sum, 0.3 * apart);
 }
 
-TYPED_TEST(VolumeBound, EightAtATimeAsOneByOne) {
+TYPED_TEST(VolumeBound, EightAtATimeEqualsOneByOne) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(1202);
@@ -227,7 +227,7 @@ Rss any_rss(Random& random, double thin) {
     return rss;
 }
 
-TEST(VolumeBound, OfRectanglesIsTheirDistance) {
+TEST(VolumeBound, EqualsTheDistanceOfRectangles) {
     Random random(1204);
     double worst = 0;
     int apart = 0, near = 0, loose = 0;
@@ -260,7 +260,7 @@ TEST(VolumeBound, OfRectanglesIsTheirDistance) {
     EXPECT_LT(loose, 10);
 }
 
-TEST(VolumeBound, OfThinRectanglesThatAlmostTouch) {
+TEST(VolumeBound, ThinRectanglesThatAlmostTouch) {
     Random random(1205);
     int apart = 0, tight = 0;
     for (int i = 0; i < 6000; ++i) {
@@ -293,7 +293,7 @@ TEST(VolumeBound, OfThinRectanglesThatAlmostTouch) {
     EXPECT_GT(tight, 0.9 * apart);
 }
 
-TEST(VolumeBound, OfSegmentsAndPointsIsTheirDistance) {
+TEST(VolumeBound, EqualsTheDistanceOfSegmentsAndPoints) {
     Random random(1206);
     int apart = 0;
     for (int i = 0; i < 5000; ++i) {

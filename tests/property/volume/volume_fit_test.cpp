@@ -44,7 +44,7 @@ TYPED_TEST(VolumeFit, EnclosesTrianglesOfExtremeSize) {
         }
 }
 
-TYPED_TEST(VolumeFit, EnclosesWhatTheMarginAllows) {
+TYPED_TEST(VolumeFit, EnclosesPointsMovedByTheMargin) {
     Random random(1103);
     for (int i = 0; i < 100; ++i) {
         const auto triangles = any_triangles(random, i);

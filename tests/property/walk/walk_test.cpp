@@ -319,7 +319,7 @@ std::uint64_t some_memory(Random& random, const Store& store) {
     return (memory << random.integer(0, 3)) + kForChanges;
 }
 
-TEST(Walk, AnswersWhatAllPartsInMemoryWould) {
+TEST(Walk, EqualsQueriesWithAllPartsInMemory) {
     Random random(6301);
     std::size_t asked = 0, touched = 0, incomplete = 0, changes = 0;
     std::uint64_t lookups = 0, misses = 0, evicted = 0, read_ahead = 0;
@@ -352,7 +352,7 @@ TEST(Walk, AnswersWhatAllPartsInMemoryWould) {
     EXPECT_GT(read_ahead, 20U);
 }
 
-TEST(Walk, ASolidTakesNoMoreThanIsCounted) {
+TEST(Walk, ASolidTakesNoMoreMemoryThanCounted) {
     Random random(6302);
     for (int round = 0; round < many(200); ++round) {
         const Mesh mesh = random.chance(0.1) ? soup_mesh(random, 500, 1, 0.2) : some_body(random);

@@ -90,7 +90,7 @@ TEST_P(BroadPhases, FindTheSameWithEverySimdTarget) {
 INSTANTIATE_TEST_SUITE_P(Kinds, BroadPhases, testing::ValuesIn(kBoxSceneKinds),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-TEST(BroadPhase, DriftsLongEnoughToWearTheTreeAndToTryTheAxes) {
+TEST(BroadPhase, LongDriftsKeepAllPairs) {
     Random random(5003);
     for (const BroadPhaseMethod method : kMethods) {
         SCOPED_TRACE(to_string(method));
@@ -211,7 +211,7 @@ TEST(BroadPhase, DecidesAGapExactly) {
     EXPECT_GT(rounded, many(20000) / 100);
 }
 
-TEST(BroadPhase, RefusesWhatIsNotANumberAndStaysAsItWas) {
+TEST(BroadPhase, RefusesNaNAndStaysUnchanged) {
     std::vector<Box3> boxes(5, Box3{{0, 0, 0}, {1, 1, 1}});
     for (const BroadPhaseMethod method : kMethods) {
         BroadPhase phase({method, {}});
@@ -254,7 +254,7 @@ TEST(BroadPhase, TakesAMillionAddsAndRemoves) {
     EXPECT_GT(pairs, changes / 20);
 }
 
-TEST(BroadPhase, ForgetsWhatWasWanted) {
+TEST(BroadPhase, ForgetAsksTheFilterAgain) {
     const std::vector<Box3> boxes(4, Box3{{0, 0, 0}, {1, 1, 1}});
     for (const BroadPhaseMethod method : kMethods) {
         bool none = false;

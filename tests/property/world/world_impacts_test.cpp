@@ -90,7 +90,7 @@ private:
     int turned_ = 0; ///< normals that point the wrong way
 };
 
-TEST(WorldImpacts, ComeNoLaterThanAnyContactOfFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineSteps) {
     Random random(5204);
     ImpactTally tally;
     for (int round = 0; round < many(900); ++round) {
@@ -129,7 +129,7 @@ MovingSurface random_surface(Random& random, const DeformableOptions& options = 
     return moving;
 }
 
-TEST(WorldImpacts, OfDeformablesAndRigidBodiesComeNoLaterThanFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineStepsForDeformablesAndRigidBodies) {
     Random random(5205);
     ImpactTally tally;
     for (int round = 0; round < many(900); ++round) {
@@ -151,7 +151,7 @@ TEST(WorldImpacts, OfDeformablesAndRigidBodiesComeNoLaterThanFineSteps) {
     tally.expect_both(40);
 }
 
-TEST(WorldImpacts, OfTwoDeformablesComeNoLaterThanFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineStepsForTwoDeformables) {
     Random random(5206);
     ImpactTally tally;
     for (int round = 0; round < many(600); ++round) {
@@ -172,7 +172,7 @@ TEST(WorldImpacts, OfTwoDeformablesComeNoLaterThanFineSteps) {
     tally.expect_both(40);
 }
 
-TEST(WorldImpacts, OfSurfacesFarFromTheOriginComeNoLaterThanFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineStepsFarFromTheOrigin) {
     Random random(5207);
     int hits = 0;
     for (int round = 0; round < many(400); ++round) {
@@ -268,7 +268,7 @@ TEST(WorldImpacts, AFallingSheetMeetsATurningBlade) {
     EXPECT_TRUE(turn(0.5 * std::numbers::pi).empty());
 }
 
-TEST(WorldImpacts, ASheetThatSlidesJustAboveOthersIsNone) {
+TEST(WorldImpacts, ASheetThatSlidesJustAboveOthersHasNoImpact) {
     // The gap is a thousandth of the motion.
     Mesh flat = grid_mesh(20, 20, false, false, [](double u, double v) {
         return Vec3{2 * u - 1, 2 * v - 1, 1e-3};
@@ -287,7 +287,7 @@ TEST(WorldImpacts, ASheetThatSlidesJustAboveOthersIsNone) {
     EXPECT_TRUE(world.time_of_impact({}).empty());
 }
 
-TEST(WorldImpacts, ADeformableWithinASolidMeetsItAtOnceAndOneAtRestMovesNothing) {
+TEST(WorldImpacts, ADeformableInASolidMeetsItAtTheStartIfItMoves) {
     MovingSurface inner(tetrahedron(0.1));
     World world;
     world.add(Box3{{-1, -1, -1}, {1, 1, 1}}, {});
@@ -338,7 +338,7 @@ TEST(WorldImpacts, ADeformableThatOverlapsABodyAtRestMeetsItAtTheStartIfItMoves)
         }
 }
 
-TEST(WorldImpacts, ALimitOnStepsTellsTheTimeThatIsProvenFreeAndAFlagStopsThem) {
+TEST(WorldImpacts, ALimitOnStepsLeavesAProvenTimeAndAFlagStops) {
     Random random(5208);
     int limited = 0;
     for (int round = 0; round < many(60); ++round) {

@@ -130,7 +130,7 @@ std::optional<bool> touch_by_hand(const Known& a, const Known& b) {
     return std::abs(gap) < 1e-12 ? std::nullopt : std::optional(gap <= 0);
 }
 
-TEST(World, TouchingPairsAreThoseOfAllPairs) {
+TEST(World, CollideEqualsAllPairs) {
     Random random(5202);
     std::size_t met = 0, apart = 0;
     for (int round = 0; round < many(10); ++round) {
@@ -162,7 +162,7 @@ TEST(World, TouchingPairsAreThoseOfAllPairs) {
     EXPECT_GT(apart, 200U);
 }
 
-TEST(World, ClosePairsAreThoseOfAllPairs) {
+TEST(World, WithinEqualsAllPairs) {
     Random random(5203);
     std::size_t near = 0, far = 0;
     for (int round = 0; round < many(10); ++round) {
@@ -191,7 +191,7 @@ TEST(World, ClosePairsAreThoseOfAllPairs) {
     EXPECT_GT(far, 100U);
 }
 
-TEST(World, RefusesBadBodiesByTheirIdAndStaysAsItWas) {
+TEST(World, RefusesBadBodiesByTheirIdAndStaysUnchanged) {
     World world;
     const BodyId first = world.add(Sphere{{}, 1}, {});
     const auto message = [&](const auto& work) -> std::string {
@@ -217,7 +217,7 @@ TEST(World, RefusesBadBodiesByTheirIdAndStaysAsItWas) {
     EXPECT_EQ(message([&] { world.within(-1); }), "distance must be a length, not negative");
 }
 
-TEST(World, IdsAreNeverGivenAgainAndBodiesMayGoWhilePairsAreLookedAt) {
+TEST(World, IdsAreNeverReusedAndBodiesMayBeRemovedWhileIterating) {
     World world;
     std::vector<BodyId> ids;
     ids.reserve(12);
