@@ -1,5 +1,5 @@
-// The out-of-core clash job finds what the in-core one finds, in any memory. Its tasks hold every
-// pair once and fit into memory.
+// The out-of-core clash job finds what the in-core one finds, in any memory. Its work units hold
+// every pair once and fit into memory.
 
 #include <abut/clash.h>
 #include <abut/error.h>
@@ -253,8 +253,8 @@ TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
         ASSERT_EQ(blocks.size(), large.blocks);
         for (const StoredBlock& block : blocks) {
             ASSERT_LE(block.bytes, large.largest_block);
-            const ModelBlock task = make_model_block(store.file().read_block(block.row));
-            const std::uint64_t bytes = task.model.bytes() + 4 * task.numbers.size();
+            const ModelBlock made = make_model_block(store.file().read_block(block.row));
+            const std::uint64_t bytes = made.model.bytes() + 4 * made.numbers.size();
             ASSERT_LE(bytes, block.bytes);
             ASSERT_GE(2 * bytes, block.bytes);
         }

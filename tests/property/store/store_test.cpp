@@ -159,7 +159,7 @@ std::vector<std::uint64_t> block_checksums(const std::string& store) {
 
 TEST(Store, OutOfCoreEqualsInCore) {
     Random random(2);
-    std::size_t pieces = 0;
+    std::size_t blocks = 0;
     for (int round = 0; round < many(4); ++round) {
         const Folder folder;
         Scene scene;
@@ -180,7 +180,7 @@ TEST(Store, OutOfCoreEqualsInCore) {
         ASSERT_TRUE(!out.closed && in.closed) << "one of the two ways was not taken";
         EXPECT_EQ(out.hash_low, in.hash_low);
         EXPECT_EQ(out.box, in.box);
-        pieces += out.blocks;
+        blocks += out.blocks;
         Box3 box;
         std::uint64_t triangles = 0;
         for (const BlockRow& block : little.blocks(out)) {
@@ -193,7 +193,7 @@ TEST(Store, OutOfCoreEqualsInCore) {
         EXPECT_EQ(box, out.box);
         EXPECT_EQ(triangles, out.triangles);
     }
-    EXPECT_GT(pieces, 4U * 2) << "meshes were not cut";
+    EXPECT_GT(blocks, 4U * 2) << "meshes were not cut";
 }
 
 TEST(Store, ReimportTouchesOnlyChanges) {
