@@ -113,7 +113,7 @@ inline std::string error_of(const std::string& path, ErrorCode code,
     return "";
 }
 
-/// The same for reading a scene.
+/// Expects read_scene to throw an error with this code. Returns the message.
 inline std::string error_of(const std::string& path, ErrorCode code,
                             const ReadOptions& options = {}) {
     return error_of(path, code, [&] { (void)read_scene(path, options); });

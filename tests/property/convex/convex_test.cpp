@@ -123,7 +123,7 @@ double extent_from(const Convex& c, const Transform& world, const Vec3& point) {
     return most;
 }
 
-/// The largest distance of a point beyond a plane of the body; at most 0 inside. The map must not
+/// The largest distance of a point beyond a plane of the body; 0 inside. The map must not
 /// mirror. Planes of needles are rounded by a thousand times as much as points.
 double outside(const Convex& c, const Transform& world, const Vec3& point) {
     const auto at = [&](std::uint32_t v) { return apply(world, c.vertices()[v]); };

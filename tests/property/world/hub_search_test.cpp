@@ -24,7 +24,7 @@ std::size_t empty_boxes(std::span<const Box3> boxes) {
         std::count_if(boxes.begin(), boxes.end(), [](const Box3& b) { return b == Box3(); }));
 }
 
-/// What the inner search, of all boxes but hubs, was given.
+/// Input of the inner search, which takes all boxes but hubs.
 struct Seen {
     std::size_t empty = 0;    ///< boxes in the last step
     std::size_t restarts = 0; ///< one for each new set of hubs
