@@ -22,7 +22,7 @@ namespace abut::bench {
 
 namespace {
 
-constexpr std::size_t kBlock = 2048; ///< candidates that one side processes before the other's turn
+constexpr std::size_t kBatch = 2048; ///< candidates that one side processes before the other's turn
 constexpr std::size_t kListed = 10;  ///< number of disagreements listed in the notes
 
 /// Sets a flag after some seconds, unless it is destroyed before.
@@ -103,7 +103,7 @@ private:
     Row& compare(const std::string& name, const Work& ours, const Work& theirs,
                  const std::string& peer) {
         const double microseconds = 1e6 / pairs();
-        const Turns turns = take_turns(scene_.candidates.size(), kBlock, options_.rounds, ours,
+        const Turns turns = take_turns(scene_.candidates.size(), kBatch, options_.rounds, ours,
                                        fcl_ ? theirs : Work{});
         Row row{name, turns.ours * microseconds, {}, {}, "us/pair", 1, {}};
         if (fcl_)

@@ -160,10 +160,10 @@ private:
         std::vector<double> their_answers(poses.size());
         // Takes turns, some poses each. Either side then has its own data in the caches, as a user
         // would.
-        constexpr std::size_t kBlock = kPathSteps;
+        constexpr std::size_t kBatch = kPathSteps;
         for (int round = 0; round < options_.rounds; ++round)
-            for (std::size_t first = 0; first < poses.size(); first += kBlock) {
-                const std::size_t end = std::min(first + kBlock, poses.size());
+            for (std::size_t first = 0; first < poses.size(); first += kBatch) {
+                const std::size_t end = std::min(first + kBatch, poses.size());
                 WarmStart warm_start;
                 for (std::size_t i = first; i < end; ++i) {
                     const double start = wall_seconds();

@@ -1,4 +1,4 @@
-// Models in ZIP archives: 3MF, and IFC as ifcZIP. And archives that promise what they do not hold.
+// Models in ZIP archives: 3MF and ifcZIP, and archives with false sizes.
 
 #include "tests/io/support.h"
 #include "tests/support/paths.h"
@@ -38,7 +38,7 @@ std::string zip(const std::vector<Entry>& entries, bool packs = true) {
             crc32(0, reinterpret_cast<const Bytef*>(entry.content.data()),
                   static_cast<uInt>(entry.content.size())));
         const auto at = static_cast<std::uint32_t>(bytes.size());
-        std::string facts; // the same in both records
+        std::string facts; // equal in both records
         append(facts, std::array<std::uint16_t, 5>{20, 0, std::uint16_t(packs ? 8 : 0), 0, 0});
         append(facts, checksum);
         append(facts, static_cast<std::uint32_t>(packed.size()));
@@ -116,7 +116,7 @@ TEST_F(Zip, A3mfFileHasAUnitComponentsAndBuildItems) {
         EXPECT_NE(scene.parts[0].id, scene.parts[1].id);
         const auto triangles = world_triangles(scene);
         ASSERT_EQ(triangles.size(), 12U);
-        // Corner 1, (1.25, 0, 0): the pair is turned by x to y, y to -x, then moved.
+        // Corner 1, (1.25, 0, 0): the pair is rotated by x to y and y to -x, then moved.
         const auto expect_near = [unit = metres](const Vec3& found, const Vec3& expected) {
             EXPECT_NEAR(found.x, expected.x * unit, 1e-6 * unit);
             EXPECT_NEAR(found.y, expected.y * unit, 1e-6 * unit);
@@ -153,7 +153,7 @@ TEST_F(Zip, A3mfFileThatIsDamaged) {
     }
 }
 
-TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrTurnInACircle) {
+TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrFormACycle) {
     const auto model = [](const std::string& components, const std::string& item) {
         std::string text = model_3mf("");
         text.insert(text.find("</resources>"), components);
@@ -162,7 +162,7 @@ TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrTurnInACircle) {
     const auto refuse = [&](const std::string& text) {
         return error_of(folder_.file("bad.3mf", file_3mf(text)), ErrorCode::malformed);
     };
-    // Ten of each object in the next one: two thousand millions of parts.
+    // Each object contains the one before ten times: 2 * 10^9 parts in all.
     std::string tower;
     for (int id = 3; id <= 11; ++id) {
         tower += "<object id=\"" + std::to_string(id) + "\"><components>";
@@ -195,7 +195,7 @@ protected:
     std::string text_ = read_bytes(std::string(ABUT_SOURCE_DIR) + "/tests/io/house_4.ifc");
 };
 
-TEST_F(IfcZip, IsTheFileWithinIt) {
+TEST_F(IfcZip, EqualsTheFileInTheArchive) {
     for (const bool packs : {true, false}) {
         const Scene scene = read_scene(folder_.file(
             "house.ifczip",
@@ -209,7 +209,7 @@ TEST_F(IfcZip, IsTheFileWithinIt) {
     }
 }
 
-TEST_F(IfcZip, ThatIsDamagedIsRefused) {
+TEST_F(IfcZip, DamagedArchivesAreRefused) {
     const std::string whole = zip({{"house.ifc", text_}});
     const auto refuse = [&](const std::string& bytes) {
         return error_of(folder_.file("bad.ifczip", bytes), ErrorCode::malformed);

@@ -1,5 +1,5 @@
-// Answers of convex bodies at the edge of what floating point can tell, against integers: thin hulls,
-// needles, shallow overlaps, bodies that touch. `exact` must be right, whatever the shape.
+// Answers for convex bodies at the limit of floating point, against exact integers: thin hulls,
+// needles, shallow overlaps, touching bodies. Status `exact` must be right for every shape.
 
 #include <abut/convex.h>
 #include <abut/rigid.h>
@@ -16,7 +16,7 @@
 namespace abut::test {
 namespace {
 
-/// All points of a body, placed: those too that its polytope does without.
+/// All points of a body, placed, including those that its polytope leaves out.
 std::vector<Vec3> placed(const Convex& body, const Transform& world) {
     std::vector<Vec3> points;
     for (const Vec3& p : body.vertices())
@@ -51,7 +51,7 @@ struct Counts {
     int meet = 0, apart = 0, touch = 0, measured = 0;
 };
 
-/// Every claim of both queries, with a warm start and without, against the oracle.
+/// Checks every claim of both queries, with and without a warm start, against the oracle.
 void check(const Convex& a, const Transform& world_a, const Convex& b, const Transform& world_b,
            ConvexWarmStart* warm_start, bool measure, Counts& counts) {
     const std::vector<Vec3> pa = placed(a, world_a), pb = placed(b, world_b);
@@ -109,7 +109,7 @@ void expect_both(const Counts& counts, int cases) {
     EXPECT_GT(counts.measured, cases / 200);
 }
 
-/// By its half-thickness, as a power of ten.
+/// The parameter is the exponent of the half-thickness, to base 10.
 class ThinHulls : public testing::TestWithParam<int> {};
 
 TEST_P(ThinHulls, AreToldApart) {
@@ -127,7 +127,7 @@ TEST_P(ThinHulls, AreToldApart) {
         if (i % 4 != 0) {
             const double angle = random.uniform(0, 3.1);
             world_b = Pose{{}, {std::cos(angle), 0, 0, std::sin(angle)}};
-            // Tilted by about as much as they are thick.
+            // The tilt is about as large as the thickness.
             world_b = compose(
                 Pose{{}, {1, h * random.uniform(-1, 1), h * random.uniform(-1, 1), 0}}, world_b);
         }
@@ -159,7 +159,7 @@ TEST(ConvexProof, NeedlesAreToldApart) {
         const std::vector<Vec3> points_a = needle(), points_b = needle();
         const Convex a(points_a), b(points_b);
         const Transform world_a = random.pose(1);
-        // A point inside of each at about the same place.
+        // An inner point of each body; the two points nearly coincide.
         const auto inside = [&](const std::vector<Vec3>& points, const Transform& world) {
             const auto pick = [&] {
                 return apply(world, points[static_cast<std::size_t>(random.integer(0, 7))]);
@@ -178,8 +178,8 @@ TEST(ConvexProof, NeedlesAreToldApart) {
     expect_both(counts, cases);
 }
 
-/// Bodies whose coordinates are small multiples of 1/8, moved so that a vertex, an edge or a face of
-/// one is met by the other exactly; and the same a bit away.
+/// Bodies with small multiples of 1/8 as coordinates. They are moved so that a vertex, an edge or a
+/// face of one exactly meets the other, or by a few units in the last place beside that.
 TEST(ConvexProof, BodiesThatTouchAreToldApart) {
     Random random(7330);
     const int cases = many(1200);

@@ -13,7 +13,8 @@ Transform any_placement(Random& random) {
                               0.1, 0, 0, random.uniform(0.3, 3), 0, 0, 0}));
 }
 
-/// `depth_of` is positive inside the smooth solid; within `band` of its surface nothing is asked.
+/// Checks contains() at random points. `depth_of` is positive inside the smooth solid; points
+/// within `band` of its surface are skipped.
 template <typename DepthOf>
 void check_contains(Random& random, const Mesh& mesh, double half, double band,
                     const DepthOf& depth_of) {
@@ -75,7 +76,7 @@ TEST(PlacedSolid, NearestEqualsAllTriangles) {
     }
 }
 
-/// Boxes on a grid: whether interiors overlap is plain.
+/// Boxes on a grid, where it is obvious whether interiors overlap.
 TEST(Interpenetrate, BoxesOnAGrid) {
     Random random(1104);
     int meet = 0, go_in = 0, shared_faces = 0;

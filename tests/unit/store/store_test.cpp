@@ -22,7 +22,7 @@
 namespace abut::test {
 namespace {
 
-class StoreOf : public testing::Test {
+class StoreByHand : public testing::Test {
 protected:
     /// Two tetrahedra, one of them moved up by 10, and an open triangle.
     void import() {
@@ -41,7 +41,7 @@ protected:
     std::string store_ = folder_ / "s.abut";
 };
 
-TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
+TEST_F(StoreByHand, ThreePartsAreListed) {
     import();
     const Store store = open_store(store_);
     const StoreSummary found = summary(store);
@@ -73,7 +73,7 @@ TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
     EXPECT_THROW(file.part(4), Error);
 }
 
-TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
+TEST_F(StoreByHand, QueriesOfItsPageWork) {
     import();
     // Rows of the queries: none in the box, two types, two meshes, three parts of the last import,
     // one open shell, none.
@@ -81,7 +81,7 @@ TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
 }
 
 /// An import that fails empties the file that it found empty, also while others read it.
-TEST_F(StoreOf, AFileThatIsEmptiedMeanwhileIsToldEmpty) {
+TEST_F(StoreByHand, AFileEmptiedMeanwhileIsReportedEmpty) {
     const auto message = [](const auto& read) -> std::string {
         try {
             read();
@@ -112,7 +112,7 @@ std::size_t descriptors_of(const std::string& path) {
 
 /// A writer that waited for a store that is undone must leave the next store's journal alone: only
 /// the journal can mend that store if its import is killed.
-TEST_F(StoreOf, AWriterThatWaitsTakesNoJournalOfANewStore) {
+TEST_F(StoreByHand, AWriterThatWaitsTakesNoJournalOfANewStore) {
     constexpr auto kCreate = ExclusiveStore::IfMissing::create;
     constexpr std::uint64_t kCache = 1 << 20;
     std::size_t refused = 0;
@@ -147,7 +147,7 @@ TEST_F(StoreOf, AWriterThatWaitsTakesNoJournalOfANewStore) {
     EXPECT_GT(refused, 0U);
 }
 
-TEST_F(StoreOf, NothingIsRefused) {
+TEST_F(StoreByHand, AMissingOrEmptyFileIsRefused) {
     EXPECT_THROW(open_store(store_), Error);
     std::ofstream(store_).close();
     EXPECT_THROW(open_store(store_), Error);
@@ -169,7 +169,7 @@ TEST(MeshCodec, ASheetInOrderCostsNothingForItsCorners) {
     EXPECT_LT(encoded.data.size(), 64U);
 }
 
-TEST(MeshCodec, RefusesWhatIsNoBlock) {
+TEST(MeshCodec, RefusesInvalidBlocks) {
     MeshBlock block;
     block.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     const EncodedBlock encoded = encode_block(block);
@@ -205,7 +205,7 @@ TEST(CutMesh, SmallMeshesStayWholeAndLargeOnesAreCut) {
     });
 }
 
-TEST(UniqueIds, AsInAScene) {
+TEST(UniqueIds, EqualThoseOfAScene) {
     UniqueIds ids;
     const std::vector<std::string> given{"a", "a", "a#2", "a", "b", "b"};
     for (const std::string& id : given)
