@@ -1,10 +1,10 @@
 #include "core/parallel.h"
+#include "core/set_bits.h"
 #include "world/broad_phase/moving_box_tree.h"
 #include "world/broad_phase/pair_search.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 
 namespace abut {
@@ -38,15 +38,12 @@ public:
                                     const Visit& visit) {
         BoxNodeMeetings meetings;
         find(tree, level, pair, meetings);
-        for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
-            const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
+        for (const std::uint32_t row : SetBits(meetings.rows)) {
             std::uint32_t meet = meetings.meet[row] & marked_partners(tree, level, pair, row);
             if (pair.a == pair.b)
                 meet &= BoxNode::kAllLanes << row;
-            for (; meet != 0; meet &= meet - 1)
-                visit(BoxNodePair{pair.a * kWidth + row,
-                                  pair.b * kWidth +
-                                      static_cast<std::uint32_t>(std::countr_zero(meet))});
+            for (const std::uint32_t lane : SetBits(meet))
+                visit(BoxNodePair{pair.a * kWidth + row, pair.b * kWidth + lane});
         }
     }
 
@@ -75,13 +72,11 @@ private:
         BoxNodeMeetings meetings;
         find(tree_, 0, pair, meetings);
         std::size_t count = 0;
-        for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
-            const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
+        for (const std::uint32_t row : SetBits(meetings.rows)) {
             std::uint32_t meet = meetings.meet[row] & marked_partners(tree_, 0, pair, row);
             if (pair.a == pair.b)
                 meet &= BoxNode::kAllLanes << row << 1;
-            for (; meet != 0; meet &= meet - 1) {
-                const auto lane = static_cast<std::uint32_t>(std::countr_zero(meet));
+            for (const std::uint32_t lane : SetBits(meet)) {
                 const std::uint32_t i = tree_.box_at(pair.a, row), k = tree_.box_at(pair.b, lane);
                 const bool certain = (meetings.touch[row] >> lane & 1) == 0;
                 if (certain || meet_exactly(i, k))
