@@ -86,8 +86,8 @@ public:
     template <typename Visit>
     void for_each_on_segment(const Vec3& from, const Vec3& to, const Visit& visit) const;
 
-    /// Calls visit(slot) for triangles, nearest box to the point first; visit returns the squared
-    /// distance beyond which nothing matters any more; a negative one ends it.
+    /// Calls visit(slot) for triangles, nearest box to the point first. `visit` returns the
+    /// squared distance beyond which no triangle matters any more, or kStopTraversal.
     template <typename Visit>
     void for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const;
 
@@ -160,7 +160,7 @@ template <typename Visit>
 void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const {
     const auto tree_bound_sq = [&](double world_sq) {
         if (world_sq < 0)
-            return -1.0F;
+            return static_cast<float>(kStopTraversal);
         const double d = std::sqrt(world_sq) / least_stretch_;
         return round_up(d * d * (1 + 0x1p-20));
     };
