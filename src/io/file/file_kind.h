@@ -16,7 +16,4 @@ namespace abut {
 /// Cost        reads one block.
 void check_file_kind(const std::string& path, std::string_view extension);
 
-/// The format that a file's first bytes are the mark of, such as "a GLB file"; empty if none.
-std::string_view kind_of_bytes(std::string_view first_bytes);
-
 } // namespace abut
