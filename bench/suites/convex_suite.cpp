@@ -5,18 +5,31 @@
 #include "measure.h"
 #include "peers/peer_convex.h"
 #include "placement.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct ConvexSuiteOptions {
+    std::vector<std::string> files;                    ///< models whose hulls are measured too
+    std::vector<std::size_t> vertices{100, 500, 2000}; ///< of the ellipsoids
+    std::size_t poses = 2000;                          ///< in each case
+    bool alone = false;                                ///< without peers
+    std::string only; ///< runs only the cases whose name contains this
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
 
 using Quaternion = std::array<double, 4>;
 
@@ -213,10 +226,27 @@ private:
     Report report_;
 };
 
-} // namespace
-
+/// Measures pairs of convex bodies against FCL and Bullet.
+///
+/// Errors      as read_mesh.
 Report run_convex_suite(const ConvexSuiteOptions& options) {
     return ConvexSuite(options).run();
 }
+
+const Suite kConvexSuite("convex", "Pairs of convex bodies, against FCL and Bullet",
+                         [](CLI::App& suite) -> RunSuite {
+                             const auto options = std::make_shared<ConvexSuiteOptions>();
+                             suite.add_option("files", options->files,
+                                              "Model files whose hulls are taken too");
+                             suite.add_option("--vertices", options->vertices, "Of the ellipsoids");
+                             suite.add_option("--poses", options->poses, "In each case");
+                             suite.add_flag("--alone", options->alone, "Without peers");
+                             add_only(suite, options->only);
+                             add_rounds(suite, options->rounds);
+                             suite.add_option("--seed", options->seed, "Of bodies and poses");
+                             return [options] { return run_convex_suite(*options); };
+                         });
+
+} // namespace
 
 } // namespace abut::bench

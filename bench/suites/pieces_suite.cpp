@@ -10,7 +10,7 @@
 #include "peers/peer_rigid.h"
 #include "placement.h"
 #include "scenes/bodies.h"
-#include "suites.h"
+#include "suite.h"
 #include "suites/machine_parts.h"
 
 #include <algorithm>
@@ -19,12 +19,26 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <numeric>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct PiecesSuiteOptions {
+    std::vector<std::string> files; ///< two for each pair; closed
+    std::size_t poses = 500;        ///< in each regime
+    std::string part;               ///< runs only the machine parts whose name contains this
+    std::string only;               ///< runs only the cases whose name contains this
+    std::uint32_t curved = 0;       ///< if not 0: only builds of generated bodies with this many
+                                    ///< triangles are measured
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
 
 enum class Ask : std::uint8_t { distance, within, first_contact, penetration };
 
@@ -262,8 +276,10 @@ private:
     std::vector<PosedPair> steps_;
 };
 
-} // namespace
-
+/// Measures solids as unions of convex pieces against the triangle trees and FCL: machine parts,
+/// each with itself, and pairs of files.
+///
+/// Errors      as read_mesh and ConvexPieces; Error{bad_argument} for an odd number of files.
 Report run_pieces_suite(const PiecesSuiteOptions& options) {
     if (options.files.size() % 2 != 0)
         throw Error(ErrorCode::bad_argument, "an odd number of files: they come in pairs");
@@ -294,5 +310,23 @@ Report run_pieces_suite(const PiecesSuiteOptions& options) {
             read_mesh(options.files[i]), read_mesh(options.files[i + 1]));
     return report;
 }
+
+const Suite kPiecesSuite("pieces", "Solids of convex pieces, against the triangle trees and FCL",
+                         [](CLI::App& suite) -> RunSuite {
+                             const auto options = std::make_shared<PiecesSuiteOptions>();
+                             suite.add_option("files", options->files, "Closed models, two a pair");
+                             suite.add_option("--poses", options->poses, "In each regime");
+                             suite.add_option(
+                                 "--curved", options->curved,
+                                 "Instead: builds of curved bodies of so many triangles");
+                             suite.add_option("--part", options->part,
+                                              "Machine parts whose name has this in it");
+                             add_only(suite, options->only);
+                             add_rounds(suite, options->rounds);
+                             suite.add_option("--seed", options->seed, "Of the poses");
+                             return [options] { return run_pieces_suite(*options); };
+                         });
+
+} // namespace
 
 } // namespace abut::bench
