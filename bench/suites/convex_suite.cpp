@@ -203,7 +203,7 @@ private:
         measure("distance, coherent", path_poses(2.1), warm);
         const std::vector<PosedPair> apart = random_poses(a, b, true);
         measure("distance, random", apart, cold);
-        measure("distance, random, old warm_start", apart, warm);
+        measure("distance, random, old warm start", apart, warm);
         const std::vector<PosedPair> meeting = random_poses(a, b, false);
         measure("distance, random, meeting", meeting, cold);
         compare(name + ", penetration, random", a, b, meeting,

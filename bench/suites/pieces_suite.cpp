@@ -180,7 +180,8 @@ private:
         };
         const Query trees = [&](const PosedPair& p) {
             if (c.ask == Ask::within)
-                return within(model_a_, p.a, model_b_, p.b, kTolerance, tw) ? 1.0 : 0.0;
+                return within(model_a_, p.a, model_b_, p.b, kTolerance, {.warm_start = tw}) ? 1.0
+                                                                                            : 0.0;
             if (c.ask == Ask::first_contact)
                 return collide(model_a_, p.a, model_b_, p.b, {.warm_start = tw}).meet() ? 1.0 : 0.0;
             if (c.ask == Ask::penetration)

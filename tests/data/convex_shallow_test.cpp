@@ -53,7 +53,7 @@ TEST_P(ShallowOverlaps, OfHullsOfMeshesAreFound) {
         ASSERT_EQ(collide(surface, world_a, surface, world_b).meet(), meets) << i;
         for (ConvexWarmStart* w : {static_cast<ConvexWarmStart*>(nullptr), &warm_start}) {
             const ConvexGap gap = distance(body, world_a, body, world_b, {.warm_start = w});
-            const ConvexDepth depth = penetration(body, world_a, body, world_b, w);
+            const ConvexDepth depth = penetration(body, world_a, body, world_b, {.warm_start = w});
             ASSERT_EQ(gap.distance == 0, meets) << i << ' ' << left;
             ASSERT_EQ(depth.meet, meets) << i << ' ' << left;
             ASSERT_EQ(gap.status, Status::exact);

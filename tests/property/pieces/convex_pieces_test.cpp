@@ -201,7 +201,7 @@ TEST_P(ConvexPiecesPath, AWarmStartChangesNoAnswer) {
             if (k % 7 == 3) {
                 const double tolerance = cold.distance + (k % 2 == 0 ? 0.01 : -0.01);
                 ASSERT_EQ(within(pieces_a, s.world_a, pieces_b, s.world_b, std::max(0.0, tolerance),
-                                 &warm_start),
+                                 {.warm_start = &warm_start}),
                           tolerance >= cold.distance || cold.distance == 0);
             }
             if (k % 7 == 5) {

@@ -283,7 +283,7 @@ TEST(DistanceOptions, AWarmStartChangesNoAnswer) {
             }
         }
         std::cout << (jump ? "jumps: " : "path: ") << meet << " of " << steps
-                  << " meet; volume tests " << tests << ", with warm_start " << tests_with
+                  << " meet; volume tests " << tests << ", with a warm start " << tests_with
                   << "; first contact " << first_tests << ", " << first_tests_with << '\n';
         EXPECT_GT(meet, steps / 10);
         EXPECT_LT(meet, steps * 9 / 10);

@@ -398,7 +398,7 @@ TEST_F(ClashWriters, HtmlHoldsThePagesSources) {
     write_clash_html(sample.report, sample.models, path("report.html"));
     const std::string page = read("report.html");
     for (const char* source : {"report.css", "data.js", "table.js", "page.js"}) {
-        std::ifstream file(std::string(ABUT_SOURCE_DIR "/src/massive/report/") + source);
+        std::ifstream file(std::string(ABUT_SOURCE_DIR "/src/clash/report/page/") + source);
         std::ostringstream text;
         text << file.rdbuf();
         ASSERT_GT(text.str().size(), 1000U) << source;

@@ -515,8 +515,8 @@ TEST_F(ReadRules, Faults) {
     expect_fault(R"({"rules": [{"name": 1}]})", "rules[0].name");
     expect_fault(R"({"rules": [{"name": "x"}, {"name": "y", "clearance": -1}]})",
                  "rules[1].clearance");
-    expect_fault(R"({"rules": [{"name": "x", "touch": "1"}]})", "rules[0].touch_tolerance");
-    expect_fault(R"({"rules": [{"name": "x", "touch": null}]})", "rules[0].touch_tolerance");
+    expect_fault(R"({"rules": [{"name": "x", "touch": "1"}]})", "rules[0].touch");
+    expect_fault(R"({"rules": [{"name": "x", "touch": null}]})", "rules[0].touch");
     expect_fault(R"({"rules": [{"name": "x", "clearance": 1e999}]})", "number");
     expect_fault(R"({"rules": [{"name": "x", "a": []}]})", "rules[0].a");
     expect_fault(R"({"rules": [{"name": "x", "a": {"file": 1}}]})", "rules[0].a.file");
