@@ -69,7 +69,7 @@ private:
     };
 
     void filter() {
-        for (const std::uint32_t lane :
+        for (const std::size_t lane :
              SetBits(possible_impacts(candidates_.batch, kind_, options_.thickness) &
                      candidates_.used()))
             pass(candidates_.items[lane]);
@@ -85,7 +85,7 @@ private:
     void cross() {
         decide_crossings(possible_.batch, kind_, crossings_);
         const std::uint32_t decided = crossings_.apart | crossings_.meet;
-        for (const std::uint32_t lane : SetBits(possible_.used())) {
+        for (const std::size_t lane : SetBits(possible_.used())) {
             const Item& item = possible_.items[lane];
             const ElementaryPair& pair = source_.pair(item);
             source_.take(item, (decided >> lane & 1) != 0

@@ -2,21 +2,20 @@
 
 #include <bit>
 #include <concepts>
-#include <cstdint>
 #include <iterator>
 
 namespace abut {
 
-/// The set bits of a word, lowest first: `for (const std::uint32_t lane : SetBits(lanes))`.
+/// The set bits of a word, lowest first: `for (const std::size_t lane : SetBits(lanes))`. An index
+/// is an int, as of std::countr_zero. The loop chooses the type that its body needs: converted once,
+/// it costs nothing.
 template <std::unsigned_integral Word>
 class SetBits {
 public:
     class Iterator {
     public:
         constexpr explicit Iterator(Word left) : left_(left) {}
-        constexpr std::uint32_t operator*() const {
-            return static_cast<std::uint32_t>(std::countr_zero(left_));
-        }
+        constexpr int operator*() const { return std::countr_zero(left_); }
         constexpr Iterator& operator++() {
             left_ &= left_ - 1;
             return *this;

@@ -147,15 +147,15 @@ void find_meeting_children(const TimeSpan& span, const NodeChildren& a, const No
     const std::uint32_t lanes_a = a.lanes & p.boxes.used, lanes_b = b.lanes & q.boxes.used;
     // The fewer children one by one, each against all of the others.
     if (std::popcount(lanes_a) <= std::popcount(lanes_b)) {
-        for (const std::uint32_t i : SetBits(lanes_a)) {
+        for (const std::size_t i : SetBits(lanes_a)) {
             const std::uint64_t row = meet_row(p, i, q, begin, result.share[i]) & lanes_b;
             result.pairs |= row << (Node::kWidth * i);
         }
         return;
     }
-    for (const std::uint32_t j : SetBits(lanes_b)) {
+    for (const std::size_t j : SetBits(lanes_b)) {
         HWY_ALIGN float column[Node::kWidth];
-        for (const std::uint32_t i : SetBits(meet_row(q, j, p, begin, column) & lanes_a)) {
+        for (const std::size_t i : SetBits(meet_row(q, j, p, begin, column) & lanes_a)) {
             result.share[i][j] = column[i];
             result.pairs |= std::uint64_t{1} << (Node::kWidth * i + j);
         }
