@@ -5,6 +5,7 @@
 
 #include "measure.h"
 #include "peers/peer_elementary.h"
+#include "placement.h"
 #include "suite.h"
 #include "suites/ccd_step_rows.h"
 
@@ -90,12 +91,8 @@ bool swept_boxes_overlap(const ElementaryPair& pair) {
     const auto box_of = [&](std::size_t begin, std::size_t end) {
         Box3 box;
         for (std::size_t i = begin; i < end; ++i)
-            for (const Vec3& p : {pair.start.at(i), pair.end.at(i)}) {
-                box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y),
-                             std::min(box.lower.z, p.z)};
-                box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y),
-                             std::max(box.upper.z, p.z)};
-            }
+            for (const Vec3& p : {pair.start.at(i), pair.end.at(i)})
+                extend(box, p);
         return box;
     };
     const std::size_t second = pair.kind == ElementaryKind::vertex_face ? 1 : 2;

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,19 +30,8 @@ struct ConvexSuiteOptions {
     std::uint64_t seed = 1;
 };
 
-using Quaternion = std::array<double, 4>;
-
 Vec3 combined(double s, const Vec3& a, double t, const Vec3& b) {
     return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
-}
-
-/// Rotates q by one degree about an axis.
-Quaternion turned(const Quaternion& q, const Vec3& axis) {
-    const double half = 0.5 * std::numbers::pi / 180, c = std::cos(half), s = std::sin(half);
-    return {c * q[0] - s * (axis.x * q[1] + axis.y * q[2] + axis.z * q[3]),
-            c * q[1] + s * (axis.x * q[0] + axis.y * q[3] - axis.z * q[2]),
-            c * q[2] + s * (axis.y * q[0] + axis.z * q[1] - axis.x * q[3]),
-            c * q[3] + s * (axis.z * q[0] + axis.x * q[2] - axis.y * q[1])};
 }
 
 /// The hull of random points on an ellipsoid with half axes 1, 0.7, 0.5.
@@ -119,7 +107,7 @@ private:
                 world_b.translation = combined(radius * std::cos(angle), u,
                                                radius * std::sin(angle) / length, across);
                 poses.push_back({world_a, world_b});
-                world_b.rotation = turned(world_b.rotation, axis);
+                world_b.rotation = turned(world_b.rotation, axis, 1);
             }
         }
         poses.resize(options_.poses);

@@ -20,7 +20,6 @@
 #include <fmt/format.h>
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -64,15 +63,6 @@ constexpr std::array kCases{
 };
 constexpr double kTolerance = 0.1;
 
-/// Rotates q by a tenth of a degree about an axis.
-std::array<double, 4> turned(const std::array<double, 4>& q, const Vec3& axis) {
-    const double half = 0.05 * std::numbers::pi / 180, c = std::cos(half), s = std::sin(half);
-    return {c * q[0] - s * (axis.x * q[1] + axis.y * q[2] + axis.z * q[3]),
-            c * q[1] + s * (axis.x * q[0] + axis.y * q[3] - axis.z * q[2]),
-            c * q[2] + s * (axis.y * q[0] + axis.z * q[1] - axis.x * q[3]),
-            c * q[3] + s * (axis.z * q[0] + axis.x * q[2] - axis.y * q[1])};
-}
-
 /// Paths as in a simulation: 50 steps of 0.1 degrees and 0.0005. They start at the separated poses,
 /// where b is 0.05 to 0.5 farther away than at its first touch.
 std::vector<PosedPair> small_steps(const RigidScene& scene, std::size_t count,
@@ -95,7 +85,7 @@ std::vector<PosedPair> small_steps(const RigidScene& scene, std::size_t count,
                     b.m[3 * c + r] = sum;
                 }
             poses.push_back({start.a, b});
-            moved.rotation = turned(moved.rotation, axis);
+            moved.rotation = turned(moved.rotation, axis, 0.1);
             moved.translation = {moved.translation.x + 0.0005 * step.x,
                                  moved.translation.y + 0.0005 * step.y,
                                  moved.translation.z + 0.0005 * step.z};
