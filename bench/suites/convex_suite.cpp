@@ -5,32 +5,33 @@
 #include "measure.h"
 #include "peers/peer_convex.h"
 #include "placement.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
-#include <numbers>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
 
-using Quaternion = std::array<double, 4>;
+struct ConvexSuiteOptions {
+    std::vector<std::string> files;                    ///< models whose hulls are measured too
+    std::vector<std::size_t> vertices{100, 500, 2000}; ///< of the ellipsoids
+    std::size_t poses = 2000;                          ///< in each case
+    bool alone = false;                                ///< without peers
+    std::string only; ///< runs only the cases whose name contains this
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
 
 Vec3 combined(double s, const Vec3& a, double t, const Vec3& b) {
     return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
-}
-
-/// Rotates q by one degree about an axis.
-Quaternion turned(const Quaternion& q, const Vec3& axis) {
-    const double half = 0.5 * std::numbers::pi / 180, c = std::cos(half), s = std::sin(half);
-    return {c * q[0] - s * (axis.x * q[1] + axis.y * q[2] + axis.z * q[3]),
-            c * q[1] + s * (axis.x * q[0] + axis.y * q[3] - axis.z * q[2]),
-            c * q[2] + s * (axis.y * q[0] + axis.z * q[1] - axis.x * q[3]),
-            c * q[3] + s * (axis.z * q[0] + axis.x * q[2] - axis.y * q[1])};
 }
 
 /// The hull of random points on an ellipsoid with half axes 1, 0.7, 0.5.
@@ -106,7 +107,7 @@ private:
                 world_b.translation = combined(radius * std::cos(angle), u,
                                                radius * std::sin(angle) / length, across);
                 poses.push_back({world_a, world_b});
-                world_b.rotation = turned(world_b.rotation, axis);
+                world_b.rotation = turned(world_b.rotation, axis, 1);
             }
         }
         poses.resize(options_.poses);
@@ -213,10 +214,27 @@ private:
     Report report_;
 };
 
-} // namespace
-
+/// Measures pairs of convex bodies against FCL and Bullet.
+///
+/// Errors      as read_mesh.
 Report run_convex_suite(const ConvexSuiteOptions& options) {
     return ConvexSuite(options).run();
 }
+
+const Suite kConvexSuite("convex", "Pairs of convex bodies, against FCL and Bullet",
+                         [](CLI::App& suite) -> RunSuite {
+                             const auto options = std::make_shared<ConvexSuiteOptions>();
+                             suite.add_option("files", options->files,
+                                              "Model files whose hulls are taken too");
+                             suite.add_option("--vertices", options->vertices, "Of the ellipsoids");
+                             suite.add_option("--poses", options->poses, "In each case");
+                             suite.add_flag("--alone", options->alone, "Without peers");
+                             add_only(suite, options->only);
+                             add_rounds(suite, options->rounds);
+                             suite.add_option("--seed", options->seed, "Of bodies and poses");
+                             return [options] { return run_convex_suite(*options); };
+                         });
+
+} // namespace
 
 } // namespace abut::bench

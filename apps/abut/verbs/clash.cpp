@@ -86,12 +86,64 @@ std::string out_of_core_summary(const OutOfCoreCounters& c) {
         grouped(c.bytes_needed));
 }
 
+std::string json_of(const ClashReport& report, const std::vector<Scene>& models,
+                    const std::optional<OutOfCoreCounters>& out_of_core) {
+    std::string text = abut::to_json(report, models);
+    if (text.empty() || text.back() != '\n')
+        text += '\n';
+    if (out_of_core)
+        text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
+    return text;
+}
+
+std::string text_of(const ClashReport& report, const std::vector<Scene>& models,
+                    const std::optional<OutOfCoreCounters>& out_of_core,
+                    const std::optional<OutputFiles>& outputs) {
+    std::string text = summary(report, models);
+    if (out_of_core)
+        text += out_of_core_summary(*out_of_core);
+    if (outputs)
+        text += fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
+    return text;
+}
+
 /// Runs a helper, that is a process other than the first one that mpirun started. It works and
 /// prints nothing.
 int help(const ClashArguments& arguments, Crew& crew) {
     const InterruptScope scope(OnInterrupt::ask);
     help_find_clashes(arguments.files.front(), crew, {.report = {}, .stop = &interrupt_flag()});
     return kExitDone;
+}
+
+/// Refuses options that are only for a store, or only for models.
+void refuse_misplaced(const ClashArguments& arguments, bool from_store) {
+    if (arguments.no_hierarchies && !from_store)
+        throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
+                    "is for a store: what was read of models is not kept");
+    if (arguments.memory && !from_store)
+        throw Error(ErrorCode::bad_argument, "--memory",
+                    "is for a store alone: bring the models into one with abut import");
+    if (arguments.read.up != ReadOptions().up && from_store)
+        throw Error(ErrorCode::bad_argument, "--up",
+                    "is for models alone: a store has the axes of its first import");
+    if (arguments.read.spaces && from_store)
+        throw Error(ErrorCode::bad_argument, "--spaces",
+                    "is for models alone: a store has those of its import");
+    if (!arguments.read.map && from_store)
+        throw Error(ErrorCode::bad_argument, "--no-map",
+                    "is for models alone: a store has the coordinates of its import");
+    if (arguments.read.unit != 0 && from_store)
+        throw Error(ErrorCode::bad_argument, "--unit",
+                    "is for models alone: a store has the one of its import");
+}
+
+OutOfCoreOptions limits_of(const ClashArguments& arguments, Crew* crew) {
+    OutOfCoreOptions limits;
+    if (arguments.memory)
+        limits.memory = parse_bytes("--memory", *arguments.memory);
+    limits.keep_hierarchies = !arguments.no_hierarchies;
+    limits.crew = crew;
+    return limits;
 }
 
 int run(const ClashArguments& arguments, const CommonOptions& common) {
@@ -113,25 +165,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (!arguments.out.empty())
         outputs.emplace(arguments.out,
                         std::vector<std::string>{"report.html", "report.json", "report.csv"});
-
-    if (arguments.no_hierarchies && !from_store)
-        throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
-                    "applies only to a store: without one, nothing is kept");
-    if (arguments.memory && !from_store)
-        throw Error(ErrorCode::bad_argument, "--memory",
-                    "applies only to a store: import the models with abut import");
-    if (arguments.read.up != ReadOptions().up && from_store)
-        throw Error(ErrorCode::bad_argument, "--up",
-                    "applies only to models: a store has the axes of its first import");
-    if (arguments.read.spaces && from_store)
-        throw Error(ErrorCode::bad_argument, "--spaces",
-                    "applies only to models: a store has the spaces of its import");
-    if (!arguments.read.map && from_store)
-        throw Error(ErrorCode::bad_argument, "--no-map",
-                    "applies only to models: a store has the coordinates of its import");
-    if (arguments.read.unit != 0 && from_store)
-        throw Error(ErrorCode::bad_argument, "--unit",
-                    "applies only to models: a store has the units of its import");
+    refuse_misplaced(arguments, from_store);
     if (crew && !from_store)
         throw Error(ErrorCode::bad_argument, arguments.files.front(),
                     "is not a store: several processes can work only on a store");
@@ -143,13 +177,8 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     {
         const InterruptScope scope(OnInterrupt::ask);
         if (from_store) {
-            OutOfCoreOptions limits;
-            if (arguments.memory)
-                limits.memory = parse_bytes("--memory", *arguments.memory);
-            limits.keep_hierarchies = !arguments.no_hierarchies;
-            limits.crew = crew.get();
-            StoreClashReport found =
-                find_clashes(open_store(arguments.files.front()), options, limits);
+            StoreClashReport found = find_clashes(open_store(arguments.files.front()), options,
+                                                  limits_of(arguments, crew.get()));
             report = std::move(found.report);
             models = std::move(found.models);
             out_of_core = std::move(found.counters);
@@ -169,22 +198,10 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
 
     if (outputs)
         write_reports(*outputs, report, models);
-    if (common.json) {
-        std::string text = abut::to_json(report, models);
-        if (text.empty() || text.back() != '\n')
-            text += '\n';
-        if (out_of_core)
-            text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
-        print_json(text);
-    } else if (!common.quiet) {
-        std::string text = summary(report, models);
-        if (out_of_core)
-            text += out_of_core_summary(*out_of_core);
-        if (outputs)
-            text +=
-                fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
-        print_text(text);
-    }
+    if (common.json)
+        print_json(json_of(report, models, out_of_core));
+    else if (!common.quiet)
+        print_text(text_of(report, models, out_of_core, outputs));
     return fail_on.is_problem(report) ? kExitProblem : kExitDone;
 }
 

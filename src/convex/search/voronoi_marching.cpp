@@ -81,6 +81,21 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
             is_face ? h.least : h.most};
 }
 
+/// Replaces a feature by its growth with the larger excess that has not been tried yet. Returns
+/// false if both have been tried.
+HWY_INLINE bool take_larger(Growth& grown_a, Growth& grown_b, HullFeature& a, HullFeature& b) {
+    if (grown_a.possible && !(grown_b.possible && grown_b.excess > grown_a.excess)) {
+        a = grown_a.feature;
+        grown_a.possible = false;
+        return true;
+    }
+    if (!grown_b.possible)
+        return false;
+    b = grown_b.feature;
+    grown_b.possible = false;
+    return true;
+}
+
 /// Returns whether the features' neighbours lie behind them by more than rounding explains
 /// (docs/convex.md, "Proofs"). `most` as in Growth.
 HWY_INLINE bool is_proof(double most, double spread_sq, double distance_sq, double rounding_sq) {
@@ -125,15 +140,8 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
             end = WalkEnd::limit;
             break;
         }
-        // Try the larger excess first. A growth that was tried is not possible again.
         next_a = a, next_b = b;
-        if (grown_a.possible && !(grown_b.possible && grown_b.excess > grown_a.excess)) {
-            next_a = grown_a.feature;
-            grown_a.possible = false;
-        } else if (grown_b.possible) {
-            next_b = grown_b.feature;
-            grown_b.possible = false;
-        } else {
+        if (!take_larger(grown_a, grown_b, next_a, next_b)) {
             end = WalkEnd::stuck;
             break;
         }

@@ -64,11 +64,6 @@ bool is_known(std::string_view extension) {
 
 } // namespace
 
-std::string_view kind_of_bytes(std::string_view first_bytes) {
-    const Mark* const mark = mark_of(first_bytes);
-    return mark == nullptr ? std::string_view() : mark->kind;
-}
-
 void check_file_kind(const std::string& path, std::string_view extension) {
     if (!is_known(extension))
         return;

@@ -16,8 +16,4 @@ namespace abut {
 /// Cost        reads one block of the file.
 void check_file_kind(const std::string& path, std::string_view extension);
 
-/// Returns the format that the first bytes of a file identify, such as "a GLB file", or an empty
-/// text.
-std::string_view kind_of_bytes(std::string_view first_bytes);
-
 } // namespace abut

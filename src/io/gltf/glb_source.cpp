@@ -99,14 +99,14 @@ public:
     }
 
 private:
-    using Values = std::optional<GltfGeometry::Elements>;
+    using Values = std::optional<GltfElements>;
 
     static void read(const Values& values, std::uint64_t first, std::uint64_t count,
                      std::vector<double>& to) {
         if (!values)
             return;
         to.resize(count * values->components);
-        GltfGeometry::read(*values, first, std::span(to));
+        read_elements(*values, first, std::span(to));
     }
     template <std::size_t size>
     static std::array<double, size> values_at(const std::vector<double>& from, std::uint64_t i) {
@@ -227,14 +227,14 @@ private:
         return static_cast<std::uint32_t>(sizes_.size() - 1);
     }
 
-    static void read_positions(const GltfGeometry::Elements& elements, MeshSink& sink) {
+    static void read_positions(const GltfElements& elements, MeshSink& sink) {
         constexpr std::uint64_t kPiece = 16384;
         std::vector<float> numbers;
         std::vector<Vec3> piece;
         for (std::uint64_t i = 0; i < elements.count; i += kPiece) {
             piece.resize(std::min(kPiece, elements.count - i));
             numbers.resize(3 * piece.size());
-            GltfGeometry::read(elements, i, std::span(numbers));
+            read_elements(elements, i, std::span(numbers));
             for (std::size_t k = 0; k < piece.size(); ++k)
                 piece[k] = {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
             sink.vertices(piece);
@@ -243,13 +243,13 @@ private:
 
     /// The corners of a primitive, as vertex indices of the whole mesh.
     struct Corners {
-        std::optional<GltfGeometry::Elements> indices;
+        std::optional<GltfElements> indices;
         std::uint32_t first = 0, vertices = 0;
 
         [[nodiscard]] std::uint64_t count() const { return indices ? indices->count : vertices; }
         void read(std::uint64_t from, std::span<std::uint32_t> to) const {
             if (indices)
-                GltfGeometry::read(*indices, from, to);
+                read_elements(*indices, from, to);
             else
                 std::iota(to.begin(), to.end(), static_cast<std::uint32_t>(from));
             for (std::uint32_t& corner : to) {

@@ -85,7 +85,7 @@ public:
     void for_each_on_segment(const Vec3& from, const Vec3& to, const Visit& visit) const;
 
     /// Calls visit(slot) for triangles, the nearest box first. visit returns the squared distance
-    /// beyond which triangles do not matter; a negative value ends the search.
+    /// beyond which triangles do not matter, or kStopTraversal.
     template <typename Visit>
     void for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const;
 
@@ -159,7 +159,7 @@ template <typename Visit>
 void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const {
     const auto tree_bound_sq = [&](double world_sq) {
         if (world_sq < 0)
-            return -1.0F;
+            return static_cast<float>(kStopTraversal);
         const double d = std::sqrt(world_sq) / least_stretch_;
         return round_up(d * d * (1 + 0x1p-20));
     };

@@ -49,7 +49,7 @@ Triangles find(const PlacedModel& model, const Sphere& sphere, Wanted wanted) {
     const double bound_sq = sphere.radius * sphere.radius;
     model.for_each_near(sphere.centre, bound_sq, [&](std::uint32_t slot) {
         collect(slot);
-        return collect.enough() ? -1 : bound_sq;
+        return collect.enough() ? kStopTraversal : bound_sq;
     });
     return std::move(collect.found);
 }

@@ -112,10 +112,6 @@ std::int64_t Database::number(const char* sql) {
     return statement.step() ? statement.integer(0) : 0;
 }
 
-std::int64_t Database::last_row() const {
-    return sqlite3_last_insert_rowid(handle_);
-}
-
 void Database::require_pages() const {
     // Not through number(): what fails there asks for the pages again.
     sqlite3_stmt* count = nullptr;

@@ -48,7 +48,6 @@ public:
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] sqlite3* handle() const noexcept { return handle_; }
-    [[nodiscard]] std::int64_t last_row() const;
     [[noreturn]] void fail(int status) const;
 
 private:

@@ -174,7 +174,6 @@ StoredBlockData StoreFile::decode(const Statement& row) {
     const BlockRow block = read_block_row(row, path_);
     const std::span<const std::byte> data = read_block_data(row, block, path_);
     bytes_read_ += data.size();
-    ++blocks_read_;
     try {
         MeshBlock result = decode_block(data, block.raw_bytes);
         if (result.mesh.positions.size() != block.vertices ||

@@ -75,7 +75,7 @@ public:
                     best_sq,
                     triangle_triangle_distance(s_.placed_a[i], s_.placed_b[j]).distance_sq);
             });
-        return stop_ ? -1 : best_sq;
+        return stop_ ? kStopTraversal : best_sq;
     }
     double best_sq = HUGE_VAL;
     int visits = 0;

@@ -107,7 +107,6 @@ TYPED_TEST(VolumeBound, IsBelowTheDistanceOfTheContents) {
         const double truth = distance_of(pair.a, moved(pair.b, pair.a_from_b));
         const double bound = distance_lower_bound(a, b, map);
         ASSERT_LE(bound, truth) << i;
-        ASSERT_EQ(may_overlap(a, b, map), bound == 0) << i;
         meeting += truth == 0 ? 1 : 0;
         if (truth > 0.1 * scale && !affine) {
             ++apart;
