@@ -51,7 +51,7 @@ void connect_around(const Triangle& triangle, const PlacedSolid& other,
     std::vector<ContactFeature> features;
     const auto& vertex_of = other.solid().topology.vertex_of;
     for (const std::uint32_t c : group) {
-        const auto& t = other.model().mesh().triangles[contacts[c].pair.*side];
+        const auto& t = other.model().data().mesh().triangles[contacts[c].pair.*side];
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [v, w] = std::minmax({vertex_of[t[k]], vertex_of[t[(k + 1) % 3]]});
             features.push_back({v, w, c});
@@ -63,7 +63,7 @@ void connect_around(const Triangle& triangle, const PlacedSolid& other,
         const ContactFeature &f = features[i - 1], &g = features[i];
         if (!f.same(g) || sets.root(f.contact) == sets.root(g.contact))
             continue;
-        const Vec3 p = other.world_vertex(f.v), q = other.world_vertex(f.w);
+        const Vec3 p = other.model().world_vertex(f.v), q = other.model().world_vertex(f.w);
         if (triangle_triangle_intersect(triangle, {p, q, q}) != TriangleContact::none)
             sets.unite(f.contact, g.contact);
     }

@@ -129,7 +129,7 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
         const auto block = placed(i);
         const Mesh& mesh = block->block->model.mesh();
         block->placed.for_each_overlap({at, at}, [&](std::uint32_t slot) {
-            const auto& t = mesh.triangles[block->placed.model().triangle_at(slot)];
+            const auto& t = mesh.triangles[block->placed.data().triangle_at(slot)];
             const Triangle v{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
             if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
                 return;
@@ -187,7 +187,7 @@ Triangle PlacedBlocks::world_slot(std::uint32_t slot) const {
 
 std::uint32_t PlacedBlocks::triangle_at(std::uint32_t slot) const {
     const auto block = placed(block_of(slot));
-    return block->block->numbers[block->placed.model().triangle_at(slot & kLocalMask)];
+    return block->block->numbers[block->placed.data().triangle_at(slot & kLocalMask)];
 }
 
 WorldSolid::Bounds PlacedBlocks::bounds() const {

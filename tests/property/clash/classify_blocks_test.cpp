@@ -242,7 +242,7 @@ TEST(ClassifyBlocks, InsideAndNearestAreThoseOfTheWhole) {
         const PlacedBlocks cut(*body.blocks, body.world_from_mesh);
         for (int i = 0; i < 20; ++i) {
             const Vec3 p = random.chance(0.1)
-                               ? whole.world_vertex(mesh.triangles[0][0])
+                               ? whole.model().world_vertex(mesh.triangles[0][0])
                                : whole.middle() + whole.reach() * random.in_cube(0.6);
             ASSERT_EQ(cut.on_surface(p), whole.on_surface(p));
             ASSERT_EQ(cut.nearest(p, HUGE_VAL).distance, whole.nearest(p, HUGE_VAL).distance);

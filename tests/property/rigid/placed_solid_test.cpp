@@ -26,7 +26,7 @@ void check_contains(Random& random, const Mesh& mesh, double half, double band,
             const double depth = depth_of(p);
             if (std::abs(depth) < band)
                 continue;
-            const Vec3 world = apply(body.placed.world(), p);
+            const Vec3 world = apply(body.placed.model().world(), p);
             ASSERT_EQ(body.placed.contains(world), depth > 0);
             ASSERT_EQ(body.placed.winds_around(world), depth > 0);
             ++asked, inside += depth > 0 ? 1 : 0;
@@ -34,8 +34,8 @@ void check_contains(Random& random, const Mesh& mesh, double half, double band,
         for (int i = 0; i < 50; ++i) {
             const auto v =
                 static_cast<std::uint32_t>(random.integer(0, int(mesh.positions.size()) - 1));
-            ASSERT_TRUE(body.placed.on_surface(body.placed.world_vertex(v)));
-            ASSERT_FALSE(body.placed.contains(body.placed.world_vertex(v)));
+            ASSERT_TRUE(body.placed.on_surface(body.placed.model().world_vertex(v)));
+            ASSERT_FALSE(body.placed.contains(body.placed.model().world_vertex(v)));
         }
     }
     EXPECT_GT(inside, asked / 10);
@@ -61,7 +61,7 @@ TEST(PlacedSolid, NearestEqualsAllTriangles) {
     for (int i = 0; i < 200; ++i) {
         const Mesh mesh = torus_mesh(1, 0.5, 14, 9);
         const Body body(mesh, any_placement(random));
-        const Vec3 p = apply(body.placed.world(), random.in_cube(2));
+        const Vec3 p = apply(body.placed.model().world(), random.in_cube(2));
         double expected = HUGE_VAL;
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
             expected = std::min(
