@@ -74,6 +74,10 @@ struct StoreClashReport {
     OutOfCoreCounters counters;
 };
 
+/// One JSON object: that of the report, with a last member `out_of_core` of the counters
+/// (docs/massive.md).
+std::string to_json(const StoreClashReport& found);
+
 /// As find_clashes of the models in memory, in the order in which they were first imported: the same
 /// clashes, to the last bit.
 ///

@@ -58,26 +58,6 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
     outputs.commit();
 }
 
-/// Returns the JSON member about the out-of-core job, to be appended to those of the report.
-std::string out_of_core_member(const OutOfCoreCounters& c) {
-    std::string workers;
-    for (const OutOfCoreCounters::Worker& w : c.workers)
-        workers +=
-            fmt::format("{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
-                        "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"waiting_seconds\": "
-                        "{}, \"peak_rss_mib\": {}}}",
-                        workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
-                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mib);
-    return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
-                       "\"blocks\": {}, \"block_loads\": {}, \"hierarchies_found\": {}, "
-                       "\"hierarchies_kept\": {}, \"bytes_needed\": {}, \"bytes_read\": "
-                       "{}, \"peak_model_bytes\": {}, \"kept\": {}, "
-                       "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
-                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads,
-                       c.hierarchies_found, c.hierarchies_kept, c.bytes_needed, c.bytes_read,
-                       c.peak_bytes, c.kept, c.recalled_pairs, workers);
-}
-
 std::string out_of_core_summary(const OutOfCoreCounters& c) {
     return fmt::format(
         "out of core {} units, {} meshes loaded for {} that are needed, {} bytes read "
@@ -137,9 +117,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
                     "is no store: several processes share the work on a store alone");
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
-    std::vector<Scene> models;
-    ClashReport report;
-    std::optional<OutOfCoreCounters> out_of_core;
+    StoreClashReport found; // `counters` is filled in for a store only
+    ClashReport& report = found.report;
+    std::vector<Scene>& models = found.models;
     {
         const InterruptScope scope(OnInterrupt::ask);
         if (from_store) {
@@ -148,11 +128,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
                 limits.memory = parse_bytes("--memory", *arguments.memory);
             limits.keep_hierarchies = !arguments.no_hierarchies;
             limits.crew = crew.get();
-            StoreClashReport found =
-                find_clashes(open_store(arguments.files.front()), options, limits);
-            report = std::move(found.report);
-            models = std::move(found.models);
-            out_of_core = std::move(found.counters);
+            found = find_clashes(open_store(arguments.files.front()), options, limits);
             crew.reset(); // the helpers need not wait for the reports
         } else {
             ReadOptions read = arguments.read;
@@ -170,16 +146,11 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (outputs)
         write_reports(*outputs, report, models);
     if (common.json) {
-        std::string text = abut::to_json(report, models);
-        if (text.empty() || text.back() != '\n')
-            text += '\n';
-        if (out_of_core)
-            text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
-        print_json(text);
+        print_json(from_store ? abut::to_json(found) : abut::to_json(report, models));
     } else if (!common.quiet) {
         std::string text = summary(report, models);
-        if (out_of_core)
-            text += out_of_core_summary(*out_of_core);
+        if (from_store)
+            text += out_of_core_summary(found.counters);
         if (outputs)
             text +=
                 fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
