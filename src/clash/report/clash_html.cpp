@@ -133,9 +133,9 @@ private:
 };
 
 /// Appends the template up to the marker, then removes that text and the marker from `html`.
-void append_until(TextBuffer& out, std::string_view& html, std::string_view marker) {
+void append_until(std::string& out, std::string_view& html, std::string_view marker) {
     const std::size_t at = html.find(marker);
-    append(out, html.substr(0, at));
+    out += html.substr(0, at);
     html.remove_prefix(at + marker.size());
 }
 
@@ -143,16 +143,16 @@ void append_until(TextBuffer& out, std::string_view& html, std::string_view mark
 
 void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
                       const std::string& path) {
-    TextBuffer out;
+    std::string out;
     std::string_view html = report_page::html;
     append_until(out, html, "@STYLE@");
-    append(out, report_page::style);
+    out += report_page::style;
     append_until(out, html, "@DATA@");
-    append(out, PageData(report, models).json());
+    out += PageData(report, models).json();
     append_until(out, html, "@SCRIPT@");
-    append(out, report_page::script);
-    append(out, html);
-    write_file_atomically(path, {out.data(), out.size()});
+    out += report_page::script;
+    out += html;
+    write_file_atomically(path, out);
 }
 
 } // namespace abut
