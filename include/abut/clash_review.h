@@ -29,6 +29,8 @@ std::vector<ClashReview> review_clashes(const Store& store);
 
 /// Returns one JSON object; docs/clash-status.md lists the keys.
 std::string to_json(const ClashReview& review);
+/// One JSON object with the path of a store and its reviews, as `abut review --json` prints it.
+std::string to_json(const std::vector<ClashReview>& reviews, const std::string& store);
 
 /// Marks to set and to clear, by clash ids.
 struct MarkChanges {

@@ -76,6 +76,10 @@ struct StoreClashReport {
     OutOfCoreCounters counters;
 };
 
+/// Returns one JSON object: that of the report, with a last member `out_of_core` for the counters
+/// (docs/massive.md).
+std::string to_json(const StoreClashReport& found);
+
 /// Finds the same clashes, to the last bit, as find_clashes of the models in memory, in the order
 /// in which they were first imported.
 ///

@@ -185,7 +185,7 @@ TEST_F(Review, StatusesAreInEveryReport) {
     EXPECT_NE(csv.find(",rule,status,note\r\n"), std::string::npos);
     EXPECT_NE(csv.find(",,approved,\"'=1+1, \"\"so\"\"\"\r\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find(",,new,\r\n"), std::string::npos);
-    EXPECT_NE(read_file(folder_ / "store/report.html").find("\"statuses\": {\"new\": 4"),
+    EXPECT_NE(read_file(folder_ / "store/report.html").find("\"statuses\":{\"new\":4"),
               std::string::npos);
     EXPECT_NE(clash(store_).out.find("new 4, active 0, reviewed 0, approved 1, resolved 0"),
               std::string::npos);

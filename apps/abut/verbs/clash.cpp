@@ -58,26 +58,6 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
     outputs.commit();
 }
 
-/// Returns the JSON member about the out-of-core job, to be appended to those of the report.
-std::string out_of_core_member(const OutOfCoreCounters& c) {
-    std::string workers;
-    for (const OutOfCoreCounters::Worker& w : c.workers)
-        workers +=
-            fmt::format("{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
-                        "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"waiting_seconds\": "
-                        "{}, \"peak_rss_mib\": {}}}",
-                        workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
-                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mib);
-    return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
-                       "\"blocks\": {}, \"block_loads\": {}, \"hierarchies_found\": {}, "
-                       "\"hierarchies_kept\": {}, \"bytes_needed\": {}, \"bytes_read\": "
-                       "{}, \"peak_model_bytes\": {}, \"kept\": {}, "
-                       "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
-                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads,
-                       c.hierarchies_found, c.hierarchies_kept, c.bytes_needed, c.bytes_read,
-                       c.peak_bytes, c.kept, c.recalled_pairs, workers);
-}
-
 std::string out_of_core_summary(const OutOfCoreCounters& c) {
     return fmt::format(
         "out of core {} units, {} meshes loaded for {} that are needed, {} bytes read "
@@ -86,22 +66,11 @@ std::string out_of_core_summary(const OutOfCoreCounters& c) {
         grouped(c.bytes_needed));
 }
 
-std::string json_of(const ClashReport& report, const std::vector<Scene>& models,
-                    const std::optional<OutOfCoreCounters>& out_of_core) {
-    std::string text = abut::to_json(report, models);
-    if (text.empty() || text.back() != '\n')
-        text += '\n';
-    if (out_of_core)
-        text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
-    return text;
-}
-
-std::string text_of(const ClashReport& report, const std::vector<Scene>& models,
-                    const std::optional<OutOfCoreCounters>& out_of_core,
+std::string text_of(const StoreClashReport& found, bool from_store,
                     const std::optional<OutputFiles>& outputs) {
-    std::string text = summary(report, models);
-    if (out_of_core)
-        text += out_of_core_summary(*out_of_core);
+    std::string text = summary(found.report, found.models);
+    if (from_store)
+        text += out_of_core_summary(found.counters);
     if (outputs)
         text += fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
     return text;
@@ -119,22 +88,22 @@ int help(const ClashArguments& arguments, Crew& crew) {
 void refuse_misplaced(const ClashArguments& arguments, bool from_store) {
     if (arguments.no_hierarchies && !from_store)
         throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
-                    "is for a store: what was read of models is not kept");
+                    "applies only to a store: without one, nothing is kept");
     if (arguments.memory && !from_store)
         throw Error(ErrorCode::bad_argument, "--memory",
-                    "is for a store alone: bring the models into one with abut import");
+                    "applies only to a store: import the models with abut import");
     if (arguments.read.up != ReadOptions().up && from_store)
         throw Error(ErrorCode::bad_argument, "--up",
-                    "is for models alone: a store has the axes of its first import");
+                    "applies only to models: a store has the axes of its first import");
     if (arguments.read.spaces && from_store)
         throw Error(ErrorCode::bad_argument, "--spaces",
-                    "is for models alone: a store has those of its import");
+                    "applies only to models: a store has the spaces of its import");
     if (!arguments.read.map && from_store)
         throw Error(ErrorCode::bad_argument, "--no-map",
-                    "is for models alone: a store has the coordinates of its import");
+                    "applies only to models: a store has the coordinates of its import");
     if (arguments.read.unit != 0 && from_store)
         throw Error(ErrorCode::bad_argument, "--unit",
-                    "is for models alone: a store has the one of its import");
+                    "applies only to models: a store has the units of its import");
 }
 
 OutOfCoreOptions limits_of(const ClashArguments& arguments, Crew* crew) {
@@ -171,17 +140,14 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
                     "is not a store: several processes can work only on a store");
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
-    std::vector<Scene> models;
-    ClashReport report;
-    std::optional<OutOfCoreCounters> out_of_core;
+    StoreClashReport found; // `counters` is filled in for a store only
+    ClashReport& report = found.report;
+    std::vector<Scene>& models = found.models;
     {
         const InterruptScope scope(OnInterrupt::ask);
         if (from_store) {
-            StoreClashReport found = find_clashes(open_store(arguments.files.front()), options,
-                                                  limits_of(arguments, crew.get()));
-            report = std::move(found.report);
-            models = std::move(found.models);
-            out_of_core = std::move(found.counters);
+            found = find_clashes(open_store(arguments.files.front()), options,
+                                 limits_of(arguments, crew.get()));
             crew.reset(); // the helpers need not wait for the reports
         } else {
             ReadOptions read = arguments.read;
@@ -199,9 +165,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (outputs)
         write_reports(*outputs, report, models);
     if (common.json)
-        print_json(json_of(report, models, out_of_core));
+        print_json(from_store ? abut::to_json(found) : abut::to_json(report, models));
     else if (!common.quiet)
-        print_text(text_of(report, models, out_of_core, outputs));
+        print_text(text_of(found, from_store, outputs));
     return fail_on.is_problem(report) ? kExitProblem : kExitDone;
 }
 

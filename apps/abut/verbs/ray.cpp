@@ -42,14 +42,15 @@ int run(const RayArguments& arguments, const CommonOptions& common) {
     const double seconds = watch.seconds();
 
     if (common.json) {
-        nlohmann::ordered_json answer{{"model", arguments.model.file},
-                                      {"frame", model.frame},
-                                      {"origin", to_json(ray.origin)},
-                                      {"direction", to_json(ray.direction)},
-                                      {"all", arguments.all},
-                                      {"meet", !hits.empty()},
-                                      {"hit", !hits.empty()}, // the name before 0.1, kept for scripts
-                                      {"hits", nlohmann::ordered_json::array()}};
+        nlohmann::ordered_json answer{
+            {"model", arguments.model.file},
+            {"frame", model.frame},
+            {"origin", to_json(ray.origin)},
+            {"direction", to_json(ray.direction)},
+            {"all", arguments.all},
+            {"meet", !hits.empty()},
+            {"hit", !hits.empty()}, // the name before 0.1, kept for scripts
+            {"hits", nlohmann::ordered_json::array()}};
         for (const RayHit& hit : hits)
             answer["hits"].push_back({{"t", hit.t},
                                       {"point", to_json(hit.point)},

@@ -86,20 +86,18 @@ std::string table(const ClashReview& review) {
 void print_list(const std::string& path, const std::vector<ClashStatus>& wanted,
                 const CommonOptions& common) {
     std::vector<ClashReview> reviews = review_clashes(open_store(path));
-    std::string json, text;
-    for (ClashReview& review : reviews) {
+    for (ClashReview& review : reviews)
         std::erase_if(review.clashes, [&](const ListedClash& clash) {
             return std::find(wanted.begin(), wanted.end(), clash.status) == wanted.end();
         });
-        json += (json.empty() ? "" : ",\n") + abut::to_json(review);
-        text += (text.empty() ? "" : "\n") + table(review);
+    if (common.json) {
+        print_json(abut::to_json(reviews, path));
+        return;
     }
-    if (common.json)
-        print_json(
-            "{\"store\": " +
-            nlohmann::json(path).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
-            ",\n\"questions\": [" + json + "]}\n");
-    else if (!common.quiet)
+    std::string text;
+    for (const ClashReview& review : reviews)
+        text += (text.empty() ? "" : "\n") + table(review);
+    if (!common.quiet)
         print_text(text.empty() ? shown(path) + ": no clash job has finished\n" : text);
 }
 

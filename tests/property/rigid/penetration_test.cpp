@@ -152,7 +152,7 @@ TEST(Penetration, DepthAgainstSampling) {
         const PlacedSolid a(p.a.model, p.a.solid, p.world_a), b(p.b.model, p.b.solid, p.world_b);
         double deepest = 0;
         const auto sample = [&](const PlacedSolid& surface, const PlacedSolid& solid) {
-            for (std::uint32_t t = 0; t < surface.model().mesh().triangles.size(); ++t) {
+            for (std::uint32_t t = 0; t < surface.model().data().mesh().triangles.size(); ++t) {
                 const Triangle c = surface.world_triangle(t);
                 for (int i = 0; i < 12; ++i) {
                     double u = random.uniform(0, 1), v = random.uniform(0, 1);
@@ -253,7 +253,7 @@ TEST(Penetration, RegionDepthsAgainstSampling) {
         const PlacedSolid a(p.a.model, p.a.solid, p.world_a), b(p.b.model, p.b.solid, p.world_b);
         std::vector<double> deepest(d.regions.size());
         const auto sample = [&](const PlacedSolid& surface, const PlacedSolid& solid) {
-            for (std::uint32_t v = 0; v < surface.model().mesh().positions.size(); ++v) {
+            for (std::uint32_t v = 0; v < surface.model().data().mesh().positions.size(); ++v) {
                 const Vec3 x = surface.model().world_vertex(v);
                 if (random.chance(0.5) && solid.contains(x)) {
                     double& region = deepest[nearest_region(x)];
