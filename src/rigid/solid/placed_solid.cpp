@@ -39,7 +39,7 @@ Box3 PlacedSolid::world_box() const {
         extend(box, apply(model_.world_from_tree(),
                           {i & 1U ? b.upper[0] : b.lower[0], i & 2U ? b.upper[1] : b.lower[1],
                            i & 4U ? b.upper[2] : b.lower[2]}));
-    // The tree's frame is off by rounding.
+    // The tree's frame is inexact by rounding.
     return grown(box, 0x1p-40 * (reach() + max_abs(middle())));
 }
 

@@ -21,7 +21,7 @@ public:
 
     [[nodiscard]] const PlacedModel& model() const { return model_; }
     [[nodiscard]] const Solid& solid() const { return solid_; }
-    /// Whether the transform turns left hands into right ones.
+    /// Returns whether the transform mirrors.
     [[nodiscard]] bool mirrored() const { return mirrored_; }
 
     [[nodiscard]] std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const override {
@@ -29,7 +29,7 @@ public:
     }
     [[nodiscard]] bool closed() const override { return solid_.closed; }
     [[nodiscard]] bool bounds_solid() const override { return solid_.solid; }
-    /// solid().outward as seen in the world: a mirroring transform turns it round.
+    /// Returns solid().outward in the world: a mirroring transform reverses it.
     [[nodiscard]] int outward() const override {
         return mirrored_ ? -solid_.outward : solid_.outward;
     }
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] Nearest nearest(const Vec3& point, const NearestSearch& search) const override {
         return nearest_point(model_, point, search);
     }
-    /// Slots are those of the tree.
+    /// A slot is that of the tree.
     [[nodiscard]] Triangle world_slot(std::uint32_t slot) const override {
         return model_.world_slot(slot);
     }
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] Bounds bounds() const override {
         return {model_.tree_from_world(), model_.world_from_tree(), model_.data().tree().bounds};
     }
-    /// Visits the model, wherever it is.
+    /// Visits the model, whatever the region.
     void for_each_block(const Box3& region,
                         const std::function<bool(const Block&)>& visit) const override;
 
