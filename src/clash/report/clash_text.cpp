@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <fmt/format.h>
 
 namespace abut {
 

@@ -3,20 +3,12 @@
 #include <abut/clash.h>
 
 #include <cstdint>
-#include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <string_view>
 
-/// Shared code of the clash report writers: untrusted text, numbers, and the parts of a clash.
+/// Shared code of the clash report writers: untrusted text, kinds, and the parts of a clash.
 namespace abut {
-
-/// Text under construction; fmt::format_to appends to it.
-using TextBuffer = fmt::memory_buffer;
-
-inline void append(TextBuffer& out, std::string_view text) {
-    out.append(text.data(), text.data() + text.size());
-}
 
 /// Returns the text with every ill-formed sequence replaced by U+FFFD, one for each maximal subpart
 /// of a character [Unicode 15, table 3-8].

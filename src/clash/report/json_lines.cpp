@@ -32,14 +32,14 @@ void JsonLines::key(std::string_view name) {
     after_key_ = true;
 }
 
-void JsonLines::value(const ordered_json& value) {
+void JsonLines::value(const ordered_json& json) {
     begin_item();
-    append(value);
+    append(json);
 }
 
 void JsonLines::members(const ordered_json& object) {
-    for (const auto& [name, value] : object.items())
-        member(name, value);
+    for (const auto& [name, json] : object.items())
+        member(name, json);
 }
 
 void JsonLines::begin_item() {
@@ -61,8 +61,8 @@ void JsonLines::close(char bracket) {
     is_first_ = false;
 }
 
-void JsonLines::append(const ordered_json& value) {
-    const std::string text = value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+void JsonLines::append(const ordered_json& json) {
+    const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
     std::size_t done = 0;
     for (std::size_t at = 0; (at = text.find('<', done)) != std::string::npos; done = at + 1) {
         text_.append(text, done, at - done);

@@ -36,10 +36,10 @@ public:
     /// Begins a member of the open object. Its value comes next.
     void key(std::string_view name);
     /// Appends an element of the open array, or the value of the member just begun.
-    void value(const nlohmann::ordered_json& value);
-    void member(std::string_view name, const nlohmann::ordered_json& value) {
+    void value(const nlohmann::ordered_json& json);
+    void member(std::string_view name, const nlohmann::ordered_json& json) {
         key(name);
-        this->value(value);
+        value(json);
     }
     /// Appends all members of an object.
     void members(const nlohmann::ordered_json& object);
@@ -50,7 +50,7 @@ private:
     void begin_item();
     void open(char bracket);
     void close(char bracket);
-    void append(const nlohmann::ordered_json& value);
+    void append(const nlohmann::ordered_json& json);
 
     std::string text_;
     bool is_first_ = true;   ///< nothing was written yet into what is open

@@ -120,6 +120,24 @@ protected:
     std::string store_ = folder_ / "a.abut";
 };
 
+TEST_F(JobTables, JsonOfAStoreIsThatOfItsReportAndReviews) {
+    const StoreClashReport found = ask();
+    auto root = nlohmann::ordered_json::parse(to_json(found));
+    EXPECT_EQ(std::prev(root.end()).key(), "out_of_core");
+    EXPECT_EQ(root["out_of_core"]["processes"].size(), found.counters.workers.size());
+    EXPECT_EQ(root["out_of_core"]["kept"], true);
+    root.erase("out_of_core");
+    EXPECT_EQ(root, nlohmann::ordered_json::parse(to_json(found.report, found.models)));
+
+    const std::vector<ClashReview> reviews = review_clashes(open_store(store_));
+    ASSERT_EQ(reviews.size(), 1U);
+    ASSERT_FALSE(reviews[0].clashes.empty());
+    const auto list = nlohmann::ordered_json::parse(to_json(reviews, "a \"<store>\""));
+    EXPECT_EQ(list["store"], "a \"<store>\"");
+    ASSERT_EQ(list["questions"].size(), 1U);
+    EXPECT_EQ(list["questions"][0], nlohmann::ordered_json::parse(to_json(reviews[0])));
+}
+
 /// The tables that the first version of jobs made: none for questions, statuses and row sums.
 constexpr const char* kFirstTables = R"(
 CREATE TABLE job(job INTEGER PRIMARY KEY AUTOINCREMENT, key BLOB NOT NULL UNIQUE,
