@@ -32,7 +32,7 @@ TEST_F(TimeOfImpactCommand, BoxesApproach) {
 TEST_F(TimeOfImpactCommand, TheToleranceBoundsTheGap) {
     const Outcome outcome =
         ask("time-of-impact", {"--pose-a", "-3,0.5,0,1,0,0,0", "--end-a", "9,0.5,0,1,0,0,0",
-                               "--tolerance", "1e-9", "--json"});
+                               "--absolute-error", "1e-9", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_LE(outcome.json()["gap"], 1e-9);
     EXPECT_NEAR(outcome.json()["time"], 1.0 / 6, 1e-9);
@@ -111,7 +111,7 @@ TEST_F(TimeOfImpactCommand, BadUsageIsRefused) {
     for (const auto& [option, value, word] : {std::array{"--end-a", "0,0,0", "7 numbers"},
                                               {"--end-b", "0,0,0,0,0,0,0", "zero length"},
                                               {"--end-b", "x,0,0,1,0,0,0", "--end-b"},
-                                              {"--tolerance", "-1", "--tolerance"},
+                                              {"--tolerance", "-1", "--absolute-error"},
                                               {"--tolerance", "nan", "nan"},
                                               {"--max-steps", "-1", "--max-steps"},
                                               {"--max-steps", "few", "--max-steps"},
