@@ -62,9 +62,10 @@ double PiecePairSearch::measure(const HullPair& hulls, const ClosestPointSearch&
 }
 
 /// The lower bound of a distance that the end of a walk proves; 0 if it proves nothing.
-double PiecePairSearch::bound_by_walk(const HullPair& hulls, const WalkState& at,
-                                      double distance) const {
-    return at.proven && is_measurable(at.distance_sq, placed_.rounding)
+double PiecePairSearch::bound_by_walk(const HullPair& hulls, const PolytopePair& pair,
+                                      const WalkState& at, double distance) const {
+    return (at.proven && is_measurable(at.distance_sq, placed_.rounding)) ||
+                   is_proven_across(pair, placed_.rounding, at)
                ? std::max(0.0, distance - 8 * placed_.rounding - placed_.margin(hulls))
                : 0;
 }
@@ -82,7 +83,7 @@ double PiecePairSearch::take(const HullPair& hulls, const PolytopePair& pair,
     const double distance = std::sqrt(search.at.distance_sq);
     const double enough =
         std::min(distance, best_.distance) - kTolerance * placed_.rounding - placed_.margin(hulls);
-    double at_least = bound_by_walk(hulls, search.at, distance);
+    double at_least = bound_by_walk(hulls, pair, search.at, distance);
     if (at_least < enough) {
         at_least =
             std::max(at_least, proven_room_at(pair, search.at, placed_.a.reach, placed_.b.reach,
@@ -126,7 +127,7 @@ void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
     pair.along = {};
     if (state.end == WalkEnd::closest) {
         const double distance = std::sqrt(state.distance_sq);
-        double bound = bound_by_walk(pair.hulls, state, distance);
+        double bound = bound_by_walk(pair.hulls, hulls, state, distance);
         if (bound == 0)
             bound = proven_room(hulls, state.gap, placed_.a.reach, placed_.b.reach,
                                 placed_.margin(pair.hulls));
