@@ -29,17 +29,18 @@ bool is_root(const BoundedPair& pair) {
     return pair.hulls == HullPair{};
 }
 
-bool later(const BoundedPair& p, const BoundedPair& q) {
-    return p.bound > q.bound;
-}
+/// A type, not a function, so that the heap's operations have it inlined.
+struct Later {
+    bool operator()(const BoundedPair& p, const BoundedPair& q) const { return p.bound > q.bound; }
+};
 
 void push(std::vector<BoundedPair>& heap, const BoundedPair& pair) {
     heap.push_back(pair);
-    std::push_heap(heap.begin(), heap.end(), later);
+    std::push_heap(heap.begin(), heap.end(), Later());
 }
 
 BoundedPair pop(std::vector<BoundedPair>& heap) {
-    std::pop_heap(heap.begin(), heap.end(), later);
+    std::pop_heap(heap.begin(), heap.end(), Later());
     const BoundedPair pair = heap.back();
     heap.pop_back();
     return pair;
@@ -182,14 +183,19 @@ void PiecePairSearch::jump(const BoundedPair& roots) {
     measure_pieces(pair);
 }
 
-void PiecePairSearch::open(const BoundedPair& pair, PairFront& front) {
+void PiecePairSearch::open(const BoundedPair& pair, PairFront& front, bool keep) {
     placed_.for_each_child(pair.hulls, [&](const HullPair& hulls) {
         ++counters_.sphere_pairs;
+        const double gap = placed_.sphere_gap(hulls);
+        const double bound = pair.bound > 0 ? std::max(pair.bound, gap) : gap;
+        if (!keep && !matters(bound)) {
+            at_least_ = std::min(at_least_, bound);
+            return;
+        }
         BoundedPair child;
         child.hulls = hulls;
         child.along = pair.along;
-        const double gap = placed_.sphere_gap(hulls);
-        child.bound = front.drift + (pair.bound > 0 ? std::max(pair.bound, gap) : gap);
+        child.bound = front.drift + bound;
         push(front.heap, child);
     });
 }
@@ -229,7 +235,7 @@ void PiecePairSearch::run(PairFront& front, bool keep) {
         }
         const bool open_it = matters(pair.bound) && !placed_.are_pieces(pair.hulls);
         if (open_it && !ends()) {
-            open(pair, front);
+            open(pair, front, keep);
             continue;
         }
         at_least_ = std::min(at_least_, pair.bound);

@@ -176,8 +176,8 @@ inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, 
         nearest_edges = edges, on_edge = m.a;
     }
     if (nearest.spread_sq == kOfEdges)
-        nearest.spread_sq = spread_of_edges(nearest_edges, nearest.gap, nearest.distance_sq,
-                                            on_edge, nearest.b);
+        nearest.spread_sq =
+            spread_of_edges(nearest_edges, nearest.gap, nearest.distance_sq, on_edge, nearest.b);
 }
 
 HWY_INLINE Xyz corner0(const PlacedXyz& side, const HullFeature& f) {
