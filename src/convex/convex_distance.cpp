@@ -140,8 +140,8 @@ void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, 
 /// large.
 constexpr std::uint32_t kSmallStep = 4;
 /// A walk goes on if no two points are nearer than its distance less this many roundings, which is
-/// about a hundredth of the bodies' size. Bodies that slide on each other need that: at a short gap
-/// the next walk is shorter than a search that begins anew.
+/// about a hundredth of the bodies' size, and if the distance is not above four times that. Bodies
+/// that slide on each other need it: where they are near, a search that begins anew is longer.
 constexpr double kNearEnd = 0x1p43;
 
 /// Continues from where the last query ended, or begins anew if that takes long. Returns as
@@ -159,7 +159,7 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& l
     recall(*pair.b.polytope, pairs[0].b, pairs[1].b, pairs[2].b, search.at.b);
     walk(pair, rounding, kSmallStep, search.at);
     const double near_end = kNearEnd * rounding;
-    if (search.at.end == WalkEnd::limit &&
+    if (search.at.end == WalkEnd::limit && search.at.distance_sq <= 16 * near_end * near_end &&
         search.at.excess * search.at.excess <= near_end * near_end * search.at.distance_sq)
         walk(pair, rounding, 3 * kSmallStep, search.at);
     const bool ended = search.at.end == WalkEnd::closest || search.at.end == WalkEnd::meeting;
