@@ -114,6 +114,37 @@ private:
         return poses;
     }
 
+    /// Paths of 250 steps: b rotates by half a degree per step, slides as far around a, and keeps
+    /// the gap.
+    std::vector<PosedPair> sliding_poses(const Convex& a, const Convex& b, double gap) {
+        std::vector<PosedPair> poses;
+        while (poses.size() < options_.poses) {
+            const Pose world_a{{}, random_rotation(random_)};
+            Pose world_b{{}, random_rotation(random_)};
+            const Vec3 axis = random_direction(random_), u = random_direction(random_);
+            const Vec3 other = random_direction(random_);
+            const double along = u.x * other.x + u.y * other.y + u.z * other.z;
+            const Vec3 across = combined(1, other, -along, u);
+            const double length = std::hypot(across.x, across.y, across.z);
+            for (std::size_t i = 0; i < kSteps; ++i) {
+                const double angle = 0.5 * std::numbers::pi / 180 * static_cast<double>(i);
+                world_b.translation =
+                    combined(3 * std::cos(angle), u, 3 * std::sin(angle) / length, across);
+                // Twice, since the first translation is long and rounds accordingly.
+                for (const double to : {0.2, gap}) {
+                    const ConvexGap now = abut::distance(a, world_a, b, world_b);
+                    const Vec3 way = combined(1, now.point_b, -1, now.point_a);
+                    world_b.translation =
+                        combined(1, world_b.translation, to / now.distance - 1, way);
+                }
+                poses.push_back({world_a, world_b});
+                world_b.rotation = turned(world_b.rotation, axis, 0.5);
+            }
+        }
+        poses.resize(options_.poses);
+        return poses;
+    }
+
     using Query = std::function<double(const PosedPair& poses, std::size_t index)>;
     using PeerQuery = double (ConvexPeer::*)(std::size_t);
 
@@ -189,6 +220,8 @@ private:
                     largest_error(a, b, poses));
         };
         measure("distance, coherent", path_poses(2.1), warm);
+        for (const double gap : {1e-3, 1e-6, 1e-9})
+            measure(fmt::format("distance, sliding at {:g}", gap), sliding_poses(a, b, gap), warm);
         const std::vector<PosedPair> apart = random_poses(a, b, true);
         measure("distance, random", apart, cold);
         measure("distance, random, old warm start", apart, warm);

@@ -11,7 +11,9 @@
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace abut::test {
 namespace {
@@ -267,6 +269,64 @@ TEST(ConvexProof, ShallowOverlapsAreFound) {
     }
     EXPECT_GT(shallow, cases / 2);
     EXPECT_GT(apart, cases / 8);
+}
+
+/// Curved bodies that slide on each other at a gap, however short: proven by the features that the
+/// last step ended with, without a search that begins anew.
+TEST(ConvexProof, BodiesThatSlideAreMeasured) {
+    Random random(7350);
+    const int paths = many(20), steps = 20;
+    std::uint32_t pairs = 0, simplices = 0, walked = 0;
+    int measured = 0;
+    for (int path = 0; path < paths; ++path) {
+        const bool small = path % 2 == 0;
+        const auto curved = [&] {
+            std::vector<Vec3> points;
+            for (int k = small ? random.integer(8, 16) : 300; k > 0; --k) {
+                const Vec3 d = random.direction();
+                points.push_back({d.x, 0.7 * d.y, 0.5 * d.z});
+            }
+            return Convex(points);
+        };
+        const Convex a = curved(), b = curved();
+        const Transform world_a = random.pose(1);
+        const double left = std::pow(10, random.uniform(-12, -2));
+        const Vec3 axis = random.direction(), shift = 3 * random.direction();
+        ConvexWarmStart warm_start;
+        for (int step = 0; step < steps; ++step) {
+            const double half = 0.5 * std::numbers::pi / 360 * step;
+            const Vec3 q = std::sin(half) * axis;
+            Transform world_b =
+                Pose{{world_a.m[9] + shift.x, world_a.m[10] + shift.y, world_a.m[11] + shift.z},
+                     {std::cos(half), q.x, q.y, q.z}};
+            for (const double to : {0.2, left}) {
+                const ConvexGap far = distance(a, world_a, b, world_b);
+                const Vec3 by = (1 - to / far.distance) * (far.point_a - far.point_b);
+                world_b.m[9] += by.x, world_b.m[10] += by.y, world_b.m[11] += by.z;
+            }
+            const ConvexGap cold = distance(a, world_a, b, world_b);
+            const ConvexGap gap = distance(a, world_a, b, world_b, {.warm_start = &warm_start});
+            ASSERT_NEAR(gap.distance, left, 1e-14);
+            ASSERT_NEAR(cold.distance, gap.distance, 1e-14);
+            ASSERT_EQ(gap.status, Status::exact);
+            ASSERT_LE(gap.at_least, gap.distance);
+            ASSERT_GE(gap.at_least, gap.distance * (1 - 1e-12) - 1e-13);
+            if (step > 0 && !small) {
+                pairs += gap.counters.feature_pairs, simplices += gap.counters.simplices;
+                ++walked;
+            }
+            if (!small || step != 10)
+                continue;
+            const Precise truth = precise_distance_of_hulls(placed(a, world_a), placed(b, world_b));
+            ASSERT_LE(gap.at_least, truth);
+            ASSERT_LE(cold.at_least, truth);
+            ASSERT_LE(abs(truth - gap.distance), 1e-12 * gap.distance + 1e-14);
+            ++measured;
+        }
+    }
+    EXPECT_EQ(measured, paths / 2);
+    EXPECT_LT(pairs, 3 * walked);
+    EXPECT_LT(simplices, walked / 5);
 }
 
 } // namespace
