@@ -71,6 +71,9 @@ std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const V
                   side_to = orient3d(t[0], t[1], t[2], to);
         if (side_from * side_to > 0)
             return;
+        // A triangle without an area separates nothing, and no sign tells where the segment passes.
+        if (side_from == 0 && side_to == 0 && collinear(t[0], t[1], t[2]))
+            return;
         const int u = orient3d(from, to, t[0], t[1]), v = orient3d(from, to, t[1], t[2]),
                   w = orient3d(from, to, t[2], t[0]);
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))

@@ -246,6 +246,21 @@ TEST(Contains, ClosedSurfacesByCrossings) {
               ContainmentMethod::crossings);
 }
 
+/// Triangles without an area lie in leaves whose boxes hold the points, so that each ray meets them.
+TEST(Contains, TrianglesWithoutAnAreaChangeNothing) {
+    Mesh box = box_mesh({0, 0, 0}, {1, 1, 1});
+    for (std::uint32_t v = 0; v < 8; ++v)
+        box.triangles.push_back({v, v, v});
+    const Model model(box);
+    for (const Vec3& point : {Vec3{0.5, 0.5, 0.5}, Vec3{0.1, 0.2, 0.3}, Vec3{0.9, 0.05, 0.6}}) {
+        const Containment answer = contains(model, {}, point);
+        EXPECT_EQ(answer.side, Side::inside) << point.x;
+        EXPECT_EQ(answer.method, ContainmentMethod::crossings);
+    }
+    EXPECT_EQ(contains(model, {}, Vec3{1.1, 0.5, 0.5}).side, Side::outside);
+    EXPECT_EQ(contains(model, {}, Vec3{1, 0.5, 0.5}).side, Side::on_surface);
+}
+
 TEST(Contains, OpenSurfacesByWindingNumber) {
     const Model open(open_box_mesh({0, 0, 0}, {1, 1, 1}));
     const Containment low = contains(open, Pose{}, {0.5, 0.5, 0.25});
