@@ -2,6 +2,7 @@
 
 #include "io/file/companion_file.h"
 #include "io/file/fault.h"
+#include "io/gltf/gltf_json.h"
 
 #include <algorithm>
 #include <array>
