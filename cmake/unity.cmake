@@ -2,7 +2,7 @@
 #
 # A full build then takes less than half of the processor time, because headers are read once for
 # each batch. Rebuilding after a change of one source takes longer. All sources of a batch are in
-# one folder, because names in anonymous namespaces are unique only within a folder.
+# one folder or its sub-folders: names in anonymous namespaces are unique within these only.
 function(abut_compile_in_batches target)
     if(NOT ABUT_UNITY)
         return()
@@ -19,7 +19,8 @@ function(abut_compile_in_batches target)
         if(alone)
             continue()
         endif()
-        cmake_path(GET source PARENT_PATH folder)
+        cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE folder)
+        string(REGEX REPLACE "/.*" "" folder "${folder}")
         string(MAKE_C_IDENTIFIER "${folder}" folder)
         math(EXPR batch "0${count_${folder}}")
         math(EXPR count_${folder} "${batch} + 1")
