@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/mesh.h>
+#include <abut/progress.h>
 #include <abut/types.h>
 #include <abut/volume.h>
 
@@ -14,6 +15,8 @@ struct ModelOptions {
     /// The bounding volume of the hierarchy. A query of two models uses it if both models have the
     /// same one. Otherwise, and for a single model, queries use the boxes that every model has.
     Volume volume = Volume::automatic;
+    /// For building the hierarchy: only its stop flag is used.
+    Progress progress{};
 };
 
 /// A mesh with the bounding-volume hierarchy that queries need. Immutable once built: copies share
@@ -25,7 +28,7 @@ public:
     /// Degenerate  zero-area triangles are kept and count as segments or points. A mesh without
     ///             triangles is a valid model that meets nothing.
     /// Errors      Error{bad_mesh} if an index is out of range or a coordinate is not finite or
-    ///             beyond 1e18.
+    ///             beyond 1e18; Error{interrupted}.
     /// Cost        O(n log n); parallel over subtrees.
     explicit Model(Mesh mesh, const ModelOptions& options = {});
     /// For use by the library only.

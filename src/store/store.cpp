@@ -2,8 +2,6 @@
 #include <abut/store.h>
 
 #include "core/progress.h"
-#include "io/file/byte_stream.h"
-#include "io/file/fault.h"
 #include "math/vector.h"
 #include "store/codec/hierarchy_codec.h"
 #include "store/database/store_file.h"
@@ -115,13 +113,7 @@ void require_regular_file(const std::string& path) {
 } // namespace
 
 bool is_store(const std::string& path) {
-    try {
-        // ByteStream opens without blocking: a plain open() of a named pipe waits for a writer.
-        ByteStream content = ByteStream::open(path);
-        return content.has(kMagic.size()) && content.ahead().starts_with(kMagic);
-    } catch (const Fault&) {
-        return false; // the attempt to read it as a model reports why
-    }
+    return first_bytes(path, kMagic.size()) == kMagic;
 }
 
 Store open_store(const std::string& path, const StoreOptions& options) {

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
+#include <memory>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
@@ -71,6 +74,36 @@ std::string immutable_uri(const std::string& path) {
 }
 
 } // namespace
+
+std::string first_bytes(const std::string& path, std::size_t count) {
+    struct stat status {};
+    // Opening a named pipe would wait for a writer.
+    if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
+        return {};
+    count = std::min<std::size_t>(count, static_cast<std::size_t>(status.st_size));
+    sqlite3_initialize();
+    sqlite3_vfs& files = *sqlite3_vfs_find(nullptr);
+    std::string full(static_cast<std::size_t>(files.mxPathname) + 1, '\0');
+    if (files.xFullPathname(&files, path.c_str(), files.mxPathname + 1, full.data()) != SQLITE_OK)
+        return {};
+    const std::unique_ptr<char, void (*)(char*)> name(
+        sqlite3_create_filename(full.c_str(), "", "", 0, nullptr), sqlite3_free_filename);
+    const std::unique_ptr<void, void (*)(void*)> memory(sqlite3_malloc(files.szOsFile),
+                                                        sqlite3_free);
+    if (name == nullptr || memory == nullptr)
+        return {};
+    auto* const file = static_cast<sqlite3_file*>(memory.get());
+    std::memset(memory.get(), 0, static_cast<std::size_t>(files.szOsFile));
+    const int opened =
+        files.xOpen(&files, name.get(), file, SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr);
+    std::string bytes(count, '\0');
+    const bool is_read =
+        opened == SQLITE_OK &&
+        file->pMethods->xRead(file, bytes.data(), static_cast<int>(count), 0) == SQLITE_OK;
+    if (file->pMethods != nullptr)
+        file->pMethods->xClose(file);
+    return is_read ? bytes : std::string();
+}
 
 std::string one_line(std::string text) {
     std::replace_if(

@@ -43,10 +43,10 @@ std::vector<ModelFile> check_files(const std::vector<ModelPath>& files, const st
     for (const auto& [file, unit, up] : files) {
         if (!std::isfinite(unit) || unit < 0)
             throw Error(ErrorCode::bad_argument, file, "unit must be a positive number of metres");
-        found.push_back(look_at(file));
         if (std::filesystem::equivalent(file, store, missing) || is_store(file))
             throw Error(ErrorCode::bad_argument, file,
                         "is a store: models are imported from their files");
+        found.push_back(look_at(file));
         for (std::size_t i = 0; i + 1 < found.size(); ++i)
             if (found[i].path == found.back().path)
                 throw Error(ErrorCode::bad_argument, file, "is given twice");

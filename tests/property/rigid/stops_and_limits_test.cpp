@@ -84,6 +84,7 @@ TEST(Stops, AFlagThatIsSetEndsEveryQuery) {
     std::atomic<bool> stop = false;
     const Progress progress{{}, &stop};
     const std::vector<std::pair<std::string, std::function<void()>>> queries{
+        {"model", [&] { const Model built(a.mesh(), {.progress = progress}); }},
         {"collide", [&] { collide(a, here, b, there, {.progress = progress}); }},
         {"distance", [&] { distance(a, here, b, there, {.progress = progress}); }},
         {"signed distance",
@@ -178,7 +179,9 @@ TEST(Stops, AFlagSetByAnotherThreadEndsLongQueries) {
 
     std::atomic<bool> stop = false;
     const Progress progress{{}, &stop};
+    const Mesh many = needles_mesh(random, 1'000'000);
     const std::vector<std::pair<std::string, std::function<void()>>> queries{
+        {"model", [&] { const Model built(many, {.progress = progress}); }},
         {"collide",
          [&] { collide(a, {}, b, {}, {.mode = ContactMode::all, .progress = progress}); }},
         {"signed distance",

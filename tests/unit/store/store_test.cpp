@@ -13,11 +13,14 @@
 #include "tests/support/page_queries.h"
 
 #include <chrono>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <gtest/gtest.h>
 #include <memory>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace abut::test {
 namespace {
@@ -215,6 +218,34 @@ TEST(UniqueIds, EqualThoseOfAScene) {
     for (const std::string& id : given)
         unique.push_back(ids.unique(id));
     EXPECT_EQ(unique, (std::vector<std::string>{"a", "a#3", "a#2", "a#4", "b", "b#2"}));
+}
+
+/// Whether another process sees a lock on a file.
+bool is_locked_for_others(const std::string& path) {
+    const pid_t child = fork();
+    if (child == 0) {
+        const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        struct flock lock {};
+        lock.l_type = F_RDLCK;
+        const bool is_locked = fcntl(file, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+        _exit(is_locked ? 1 : 0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 1;
+}
+
+// The system releases a process's locks on a file when the process closes any descriptor of it.
+TEST_F(StoreByHand, AskingWhetherAFileIsAStoreReleasesNoLock) {
+    import();
+    Database database(store_, OpenMode::read_write);
+    database.run("BEGIN EXCLUSIVE");
+    ASSERT_TRUE(is_locked_for_others(store_));
+    EXPECT_TRUE(is_store(store_));
+    EXPECT_THROW(import_models({store_}, folder_ / "other.abut"), Error);
+    EXPECT_TRUE(is_locked_for_others(store_));
+    database.run("COMMIT");
+    EXPECT_FALSE(is_locked_for_others(store_));
 }
 
 } // namespace
