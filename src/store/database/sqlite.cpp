@@ -86,8 +86,9 @@ std::string first_bytes(const std::string& path, std::size_t count) {
     std::string full(static_cast<std::size_t>(files.mxPathname) + 1, '\0');
     if (files.xFullPathname(&files, path.c_str(), files.mxPathname + 1, full.data()) != SQLITE_OK)
         return {};
-    const std::unique_ptr<char, void (*)(char*)> name(
-        sqlite3_create_filename(full.c_str(), "", "", 0, nullptr), sqlite3_free_filename);
+    const auto free_name = [](const char* name) { sqlite3_free_filename(name); };
+    const std::unique_ptr<const char, decltype(free_name)> name(
+        sqlite3_create_filename(full.c_str(), "", "", 0, nullptr), free_name);
     const std::unique_ptr<void, void (*)(void*)> memory(sqlite3_malloc(files.szOsFile),
                                                         sqlite3_free);
     if (name == nullptr || memory == nullptr)
