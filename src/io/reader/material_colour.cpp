@@ -14,6 +14,9 @@ std::optional<Colour> colour_of_material(const aiMaterial& material) {
     aiColor4D diffuse;
     if (material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) != aiReturn_SUCCESS)
         return std::nullopt;
+    // Assimp 5.2 gives 0 where a colour of 3MF has no alpha.
+    if (diffuse.a == 0)
+        diffuse.a = 1;
     float opacity = 1;
     if (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS)
         diffuse.a = opacity;

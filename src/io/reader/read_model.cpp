@@ -149,12 +149,15 @@ void write_mesh(const aiScene& scene, const MeshList& list, const Sizes& sizes,
     }
 }
 
-/// Assimp names a node "Object_" followed by the object's id.
-std::string name_in_3mf(const ThreemfModel& model, const std::string& node) {
+/// Adds what Assimp does not tell: the name, and whether the object has a material. Assimp names a
+/// node "Object_" followed by the object's id.
+void complete_3mf_part(const ThreemfModel& model, NodePart& part) {
     constexpr std::string_view kPrefix = "Object_";
-    const auto name = node.starts_with(kPrefix) ? model.names.find(node.substr(kPrefix.size()))
-                                                : model.names.end();
-    return name == model.names.end() ? std::string() : name->second;
+    const std::string object =
+        part.id.starts_with(kPrefix) ? part.id.substr(kPrefix.size()) : std::string();
+    const auto name = model.names.find(object);
+    part.name = name == model.names.end() ? std::string() : name->second;
+    part.has_material = model.with_material.contains(object);
 }
 
 } // namespace
@@ -183,7 +186,7 @@ void read_model(const std::string& file, StreamWriter& writer) {
         frame = model_of_3mf.frame;
         applied = frame.unit;
         for (NodePart& part : parts)
-            part.name = name_in_3mf(model_of_3mf, part.id);
+            complete_3mf_part(model_of_3mf, part);
     }
     std::map<MeshList, std::uint32_t> number_of;
     std::vector<const MeshList*> lists;
@@ -203,7 +206,8 @@ void read_model(const std::string& file, StreamWriter& writer) {
         write_mesh(scene, *lists[i], sizes[i], writer);
     for (const NodePart& part : parts) {
         const std::uint32_t mesh = number_of.at(part.meshes);
-        writer.part(part.world_from_node, mesh, part.id, part.name, part.type, colours[mesh]);
+        writer.part(part.world_from_node, mesh, part.id, part.name, part.type,
+                    part.has_material ? colours[mesh] : std::nullopt);
     }
     writer.end();
 }
