@@ -29,8 +29,8 @@ namespace {
 
 constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
 
-/// Lets Assimp open the model and no other file. Otherwise it would follow any path to materials,
-/// which are not needed.
+/// Lets Assimp open the model and no other file. Otherwise it would follow any path to textures and
+/// other files, which are not needed.
 class OnlyTheModel : public Assimp::DefaultIOSystem {
 public:
     explicit OnlyTheModel(std::string model) : model_(std::move(model)) {}
