@@ -36,6 +36,8 @@ Capsule upright_capsule(const Vec3& up, double height, double radius) {
     return {{r * up, (height - r) * up}, r};
 }
 
+/// A body goes back from a contact by at most this many skins along its way.
+constexpr double kSkinsAhead = 4;
 /// Radius of the ball that feels for a floor behind an edge, and how far behind and above the edge
 /// it starts, in skins.
 constexpr double kToeRadius = 0.5, kToeBehind = 1, kToeAbove = 3;
@@ -72,19 +74,22 @@ Advance Person::advance(const Probe& body, Vec3& feet, const Vec3& way) {
     const double size = length(way);
     if (!(size > 0))
         return result;
-    const FirstContact contact = walk_.sweep(body, Pose{feet}, way, query());
-    const double skin = options_.skin / size;
+    // Looks ahead, so that the skin is kept also where the way ends just before a contact.
+    const double ahead = kSkinsAhead * options_.skin, seen = size + ahead;
+    const FirstContact contact = walk_.sweep(body, Pose{feet}, (seen / size) * way, query());
     if (contact.meet && contact.complete) {
-        result.hit = true;
         result.impact = contact.impact;
+        result.distance = contact.time_free * seen;
         result.overlaps = contact.impact.time == 0 && contact.impact.gap == 0;
-        // Stops short by the skin, measured across the contact, but goes back only some skins.
-        const double closing = -dot(way, contact.impact.normal);
-        const double back = closing > 0 ? std::min(options_.skin / closing, 4 * skin) : 4 * skin;
-        result.share = std::max(0.0, contact.time_free - back);
+        // The skin is measured across the contact.
+        const double slope = -dot(way, contact.impact.normal) / size;
+        const double back = slope > 0 ? std::min(options_.skin / slope, ahead) : ahead;
+        result.hit = result.distance - back < size;
+        result.share = std::clamp((result.distance - back) / size, 0.0, 1.0);
     } else if (!contact.complete) {
-        result.waits = true;
-        result.share = std::max(0.0, contact.time_free - skin);
+        result.distance = contact.time_free * seen;
+        result.waits = result.distance - options_.skin < size;
+        result.share = std::clamp((result.distance - options_.skin) / size, 0.0, 1.0);
     }
     feet = feet + result.share * way;
     return result;

@@ -11,6 +11,7 @@ namespace abut {
 /// How far a body went on a way, and what stopped it.
 struct Advance {
     double share = 1;      ///< of the way
+    double distance = 0;   ///< along the way to what stopped it
     bool hit = false;      ///< a part stopped it: `impact`
     bool waits = false;    ///< something that is not in memory stopped it
     bool overlaps = false; ///< it overlapped a part at the start

@@ -188,9 +188,8 @@ bool WalkerData::stand() {
     state_.on_ground = true;
     ground_normal_ = person_.is_flat(step.impact.normal) ? step.impact.normal : person_.up();
     ground_height_ = dot(step.impact.point_part, person_.up());
-    const double gap = step.impact.time * down;
-    if (gap < 0.9 * o.skin) // restores the skin
-        (void)advance((o.skin - gap) * person_.up());
+    if (step.distance < 0.9 * o.skin) // restores the skin
+        (void)advance((o.skin - step.distance) * person_.up());
     return true;
 }
 

@@ -184,18 +184,15 @@ TEST_F(WalkerSite, FramesOfAnyLengthLeadToTheSamePlace) {
     const auto end_of = [&](double frame) {
         Walker walker = at({-2, 0.5, 0});
         go(walker, {1.4, -0.5, 0}, 3, frame);
-std::cout<<frame<<" A "<<walker.state().feet.x<<" "<<walker.state().feet.y<<" "<<walker.state().feet.z<<"\n";
         go(walker, {0.5, 1.2, 0}, 2, frame);
-std::cout<<frame<<" B "<<walker.state().feet.x<<" "<<walker.state().feet.y<<" "<<walker.state().feet.z<<"\n";
+        EXPECT_GT(walker.state().feet.z, 1);
         go(walker, {1.2, 0.7, 0}, 3, frame);
-std::cout<<frame<<" C "<<walker.state().feet.x<<" "<<walker.state().feet.y<<" "<<walker.state().feet.z<<"\n";
         return walker.state().feet;
     };
     const Vec3 slow = end_of(0.1), fast = end_of(0.01), usual = end_of(1.0 / 60);
     EXPECT_LT(length(slow - fast), 0.02);
     EXPECT_LT(length(usual - fast), 0.02);
     EXPECT_EQ(end_of(0.01), fast); // and each time
-    EXPECT_GT(fast.z, 1);
 }
 
 TEST_F(WalkerSite, PartsThatMoveAreInTheWay) {
