@@ -35,11 +35,11 @@ MovingProbe::MovingProbe(const Probe& probe, const Motion& motion)
     : data_(probe.data()), start_(checked(motion).start), placed_(probe, start_),
       trajectory_(motion) {}
 
-std::vector<MovingBox> MovingProbe::boxes(const PartTable& table) const {
+std::vector<BoxMotion> MovingProbe::boxes(const PartTable& table) const {
     // A box per window covers the rotation within it.
     constexpr double kWindowTurn = 0.25;
     constexpr int kMostWindows = 32;
-    std::vector<MovingBox> boxes;
+    std::vector<BoxMotion> boxes;
     if (is_empty(placed_.box()))
         return boxes;
     const double rate = trajectory_.speed_of_rotation();

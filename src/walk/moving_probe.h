@@ -3,7 +3,7 @@
 #include <abut/walk.h>
 
 #include "rigid/motion/trajectory.h"
-#include "walk/moving_boxes.h"
+#include "walk/box_motion.h"
 #include "walk/near_entry.h"
 #include "walk/part_table.h"
 #include "walk/probe.h"
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] const PlacedProbe& placed() const { return placed_; } ///< at the start
     /// Boxes relative to the table that enclose the probe throughout its motion; none for an empty
     /// model.
-    [[nodiscard]] std::vector<MovingBox> boxes(const PartTable& table) const;
+    [[nodiscard]] std::vector<BoxMotion> boxes(const PartTable& table) const;
     /// The first contact with an entry up to a time; `time` of the result is 1 if there is none.
     [[nodiscard]] PartImpact contact(const NearEntry& entry, double until, bool may_touch_at_start,
                                      const WalkQuery& query, bool& meets) const;

@@ -4,8 +4,8 @@
 
 #include "core/stop_watch.h"
 #include "store/database/store_file.h"
+#include "walk/box_motion.h"
 #include "walk/loose_boxes.h"
-#include "walk/moving_boxes.h"
 #include "walk/part_cache.h"
 #include "walk/part_table.h"
 #include "walk/prefetcher.h"
@@ -62,7 +62,7 @@ public:
     /// `until`, first met first. The boxes are relative to the table (PartTable::narrow). The key is
     /// a lower bound of the time. visit returns the new `until`.
     template <typename Visit>
-    void for_each_met(std::span<const MovingBox> moving, double until, const Visit& visit);
+    void for_each_met(std::span<const BoxMotion> moving, double until, const Visit& visit);
     [[nodiscard]] const PartTable& table() const { return table_; }
     /// The reach that ends the traversal.
     static constexpr double kEnough = -HUGE_VAL;
@@ -150,7 +150,7 @@ void WalkData::for_each_near(const Box3& box, double reach, const Visit& visit) 
 }
 
 template <typename Visit>
-void WalkData::for_each_met(std::span<const MovingBox> moving, double until, const Visit& visit) {
+void WalkData::for_each_met(std::span<const BoxMotion> moving, double until, const Visit& visit) {
     for_each_lane(EntryTimes{moving}, round_up(until),
                   [&](std::uint32_t entry, float key) { return round_up(visit(entry, key)); });
 }

@@ -26,7 +26,7 @@ public:
     /// which further contacts matter.
     template <typename Take>
     void visit(const Take& take) {
-        const std::vector<MovingBox> boxes = probe_.boxes(walk_.table());
+        const std::vector<BoxMotion> boxes = probe_.boxes(walk_.table());
         double until = 1;
         walk_.for_each_met(boxes, until, [&](std::uint32_t entry, float key) {
             until = visit_entry_(

@@ -76,7 +76,7 @@ HitPart Walk::first_hit(const Ray& ray, const WalkQuery& query) {
     if (!(ray.t_min <= ray.t_max))
         return answer;
     const RayLengths lengths(ray);
-    const MovingBox moving{data_->table().narrow(Box3{ray.origin, ray.origin}), lengths.unit(),
+    const BoxMotion moving{data_->table().narrow(Box3{ray.origin, ray.origin}), lengths.unit(),
                            lengths.length_before(ray.t_min), lengths.length_beyond(ray.t_max)};
     std::optional<PartCandidate> first;
     Ray rest = ray;

@@ -86,7 +86,8 @@ TEST(MaintenancePath, AgreesWithDenseSampling) {
             ASSERT_LE(report.clearance.at_least, truth.least);
             found += report.clearance.found ? 1 : 0;
             if (!report.clearance.found) {
-                EXPECT_EQ(report.clearance.at_least, options.largest_clearance);
+                EXPECT_GE(report.clearance.at_least,
+                          options.largest_clearance - options.clearance_error);
                 continue;
             }
             // Attained, and no farther from the least than allowed.

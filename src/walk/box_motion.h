@@ -15,7 +15,7 @@
 namespace abut {
 
 /// A box that moves in a straight line: at t in [begin, end] it is `box` + t velocity.
-struct MovingBox {
+struct BoxMotion {
     Aabb box;
     Vec3 velocity;
     double begin = 0, end = 1; ///< either may be infinite
@@ -24,12 +24,12 @@ struct MovingBox {
 /// Computes, for a batch of boxes, lower bounds of the first t at which one of some moving boxes
 /// meets them; infinite for boxes that are not met. A ray is a box without extent.
 struct EntryTimes {
-    std::span<const MovingBox> moving;
+    std::span<const BoxMotion> moving;
 
     LaneKeys operator()(const BoxNode& block) const {
         LaneKeys keys{};
         keys.fill(std::numeric_limits<float>::infinity());
-        for (const MovingBox& one : moving)
+        for (const BoxMotion& one : moving)
             take(one, block, keys);
         return keys;
     }
@@ -39,7 +39,7 @@ private:
     static constexpr double kRounding = 0x1p-40;
     using Lanes = std::array<double, BoxNode::kWidth>;
 
-    static void take(const MovingBox& one, const BoxNode& block, LaneKeys& keys) {
+    static void take(const BoxMotion& one, const BoxNode& block, LaneKeys& keys) {
         Lanes enter{}, leave{};
         enter.fill(one.begin), leave.fill(one.end);
         for (int axis = 0; axis < 3; ++axis)
@@ -53,7 +53,7 @@ private:
         }
     }
 
-    static void clip(const MovingBox& one, const BoxNode& block, int axis, Lanes& enter,
+    static void clip(const BoxMotion& one, const BoxNode& block, int axis, Lanes& enter,
                      Lanes& leave) {
         const auto k = static_cast<std::size_t>(axis);
         const double speed = component(one.velocity, axis);
