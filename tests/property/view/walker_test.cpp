@@ -81,6 +81,42 @@ TEST_F(WalkerInPlant, NothingIsPassedAtAnySpeed) {
     EXPECT_GT(blocked, thrown / 4);
 }
 
+/// A person who walks about for long gets around, and never ends up in a part.
+TEST_F(WalkerInPlant, WalksAboutForLong) {
+    Random random(6513);
+    int walkers = 0, grounded = 0, blocked = 0, frames = 0;
+    double gone = 0;
+    for (int round = 0; walkers < many(20) && round < many(1000); ++round) {
+        const HitPart floor = walk_->first_hit({some_point(random), {0, -1, 0}});
+        if (!floor.meet)
+            continue;
+        Walker walker(*walk_, floor.point + Vec3{0, 0.05, 0}, in_plant(WalkerMode::walk));
+        if (walker.step({}, 0.1).squeezed || overlaps(walker))
+            continue;
+        ++walkers;
+        Vec3 wish;
+        for (int i = 0; i < 300; ++i, ++frames) {
+            if (i % 40 == 0)
+                wish = random.uniform(0.5, 4) * random.direction();
+            const Vec3 before = walker.state().feet;
+            const WalkerState& state = walker.step(wish, random.uniform(0.001, 0.05),
+                                                   random.chance(0.1), random.chance(0.02));
+            ASSERT_FALSE(state.squeezed) << walkers << ", " << i;
+            ASSERT_FALSE(passes(state)) << walkers << ", " << i;
+            ASSERT_FALSE(overlaps(walker)) << walkers << ", " << i;
+            gone += length(state.feet - before);
+            grounded += state.on_ground ? 1 : 0;
+            blocked += state.blocked ? 1 : 0;
+        }
+    }
+    std::cout << walkers << " walkers, " << gone << " m, " << grounded << " frames of " << frames
+              << " on the ground, " << blocked << " blocked\n";
+    EXPECT_EQ(walkers, many(20));
+    EXPECT_GT(grounded, frames / 2);
+    EXPECT_GT(blocked, 20);
+    EXPECT_GT(gone, 5 * walkers);
+}
+
 /// Wherever a person is put, the answer is a place; and where it has no room, it does not pass.
 TEST_F(WalkerInPlant, StartsAnywhere) {
     Random random(6512);
