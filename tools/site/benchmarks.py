@@ -66,7 +66,7 @@ def plot(rows, title):
     ratios = [row.ratio for row in rows]
     low = math.floor(min(0.0, math.log10(max(min(ratios), 1e-3))))
     high = math.ceil(max(1.0, math.log10(max(ratios))))
-    left, width, top = 10, 400, 26
+    left, width, top = 10, 270, 26
 
     def x(ratio):
         place = (math.log10(max(ratio, 1e-3)) - low) / (high - low)
@@ -92,8 +92,8 @@ def plot(rows, title):
         place, kind = x(10.0 ** power), "one" if power == 0 else "line"
         grid.append(f'<path d="M{place:.1f},{top} V{height - 4}" class="{kind}"/>'
                     f'<text x="{place:.1f}" y="{top - 7}" class="axis">{10.0 ** power:g}</text>')
-    return (f'<figure class="plot"><svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 600 {height}" role="img" '
-            f'aria-label="{html.escape(title)}"><text x="{left + width + 24}" y="{top - 7}" class="value">theirs / ours</text>'
+    return (f'<figure class="plot"><svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 480 {height}" role="img" '
+            f'aria-label="{html.escape(title)}"><text x="{left + width + 30}" y="{top - 7}" class="value">theirs / ours</text>'
             + "".join(grid + body) + "</svg></figure>\n")
 
 

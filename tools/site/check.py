@@ -1,22 +1,36 @@
-"""Checks a built site: every link leads to a page and an anchor of it, and nothing is fetched from
-another host."""
+"""Checks a built site: every link leads to a page and an anchor of it, nothing is fetched from another
+host, and no Markdown is left over in the text."""
 import html.parser
 import re
 import urllib.parse
 
+SILENT = {"pre", "code", "script", "style", "svg", "nav"}
 HOST = re.compile(r"https?://")
 FETCHED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src"), ("video", "src")}
 
 
+LEFT_OVER = re.compile(r"^(?:\s*[-*] \S|\s*\|.*\|\s*$|#+ )|```|\]\([\w./#-]+\)", re.M)
+
+
 class Page(html.parser.HTMLParser):
-    """The anchors and links of a page."""
+    """The anchors, links and left-over Markdown of a page."""
 
     def __init__(self, text):
         super().__init__()
-        self.anchors, self.links, self.fetched = set(), [], []
+        self.anchors, self.links, self.fetched, self.left_over = set(), [], [], []
+        self.silent = 0  # how many elements around the text are not prose
         self.feed(text)
 
+    def handle_endtag(self, tag):
+        self.silent -= tag in SILENT
+
+    def handle_data(self, text):
+        found = not self.silent and LEFT_OVER.search(text)
+        if found:
+            self.left_over.append(found[0].strip())
+
     def handle_starttag(self, tag, attributes):
+        self.silent += tag in SILENT
         for name, value in attributes:
             if name in ("id", "name") and value:
                 self.anchors.add(value)
@@ -26,16 +40,6 @@ class Page(html.parser.HTMLParser):
                 self.links.append(value)
 
 
-def remove_hosts(out):
-    """The theme can draw diagrams with a script from another host. No page has such diagrams."""
-    for script in out.rglob("*.js"):
-        text = script.read_text(errors="surrogateescape")
-        if "https://unpkg.com" in text:
-            script.write_text(re.sub(r"https://unpkg\.com/[\w./@-]+", "about:blank", text), errors="surrogateescape")
-    for maps in out.rglob("*.map"):
-        maps.unlink()
-
-
 def faults(out):
     """What is wrong, one line each."""
     pages = {path: Page(path.read_text()) for path in out.rglob("*.html")}
@@ -43,6 +47,7 @@ def faults(out):
     for path, page in pages.items():
         name = path.relative_to(out)
         found += [f"{name}: fetches {value}" for value in page.fetched if HOST.match(value) or value.startswith("//")]
+        found += [f"{name}: Markdown that was not understood: {each}" for each in page.left_over]
         for link in page.links:
             parts = urllib.parse.urlsplit(link)
             if parts.scheme or parts.netloc or name.name == "404.html":

@@ -27,19 +27,25 @@ def split_code(text):
 
 
 def for_python_markdown(text):
-    """GitHub's Markdown as Python-Markdown reads it: a list needs an empty line before it, and what
-    belongs to an item four spaces; a bar in a code span of a table needs no backslash."""
+    """GitHub's Markdown as Python-Markdown reads it: a list, a table and a fence need an empty line before
+    them, and what belongs to an item four spaces; a bar in a code span of a table needs no backslash."""
     out, item, fence_margin = [], False, 0
     for code, lines in split_code(text):
         for i, line in enumerate(lines):
+            if not code and i == 0 and line.strip() and out:
+                out.append("")  # after a fence
             begun = ITEM.match(line)
             margin = len(line) - len(line.lstrip(" "))
             if code:
                 if i == 0:
                     fence_margin = margin if item else 0
+                    if out and out[-1].strip():
+                        out.append("")
                 out.append(" " * (4 * ((fence_margin + 3) // 4)) + line[fence_margin:] if fence_margin else line)
                 continue
             if begun and not item and out and out[-1].strip() and not out[-1].startswith("#"):
+                out.append("")
+            if line.startswith("|") and out and out[-1].strip() and not out[-1].startswith("|"):
                 out.append("")
             if line.strip():
                 item = bool(begun) or (item and (margin > 0 or bool(out and out[-1].strip())))
@@ -60,6 +66,7 @@ class Site:
         self.files = {name for name in listed.splitlines() if (root / name).is_file()}
         self.done = set()
         self.faults = []
+        self.sources = []  # the pages that show a source
 
     def add(self, names, edit=lambda name, text: text):
         """Adds pages and all that they lead to."""
@@ -127,7 +134,8 @@ class Site:
         path = pathlib.PurePath(name)
         text = (self.root / name).read_text(errors="replace").rstrip("\n")
         lexer = LEXERS.get(path.suffix, "bash" if text.startswith("#!/usr/bin/env bash") else "text")
-        self.write(name + ".md", f"---\nsearch:\n  exclude: true\n---\n# {path.name}\n\n`{name}`\n\n````{lexer}\n{text}\n````\n")
+        self.sources.append(name)
+        self.write(name + ".md", f"# {path.name}\n\n`{name}`\n\n````{lexer}\n{text}\n````\n")
 
     def write(self, name, text):
         (self.out / name).parent.mkdir(parents=True, exist_ok=True)

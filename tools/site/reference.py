@@ -155,7 +155,7 @@ class Reference:
             elif child.tag == "ref":
                 text += self.link(child.get("refid"), self.inline(child))
             elif child.tag == "verbatim":
-                text += f"</p><pre>{html.escape(child.text.strip(chr(10)))}</pre><p>"
+                text += f"</p><pre><code>{html.escape(child.text.strip(chr(10)))}</code></pre><p>"
             elif child.tag != "simplesect":
                 text += self.inline(child)
             text += html.escape(child.tail or "", quote=False)
