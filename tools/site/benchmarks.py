@@ -66,7 +66,7 @@ def plot(rows, title):
     ratios = [row.ratio for row in rows]
     low = math.floor(min(0.0, math.log10(max(min(ratios), 1e-3))))
     high = math.ceil(max(1.0, math.log10(max(ratios))))
-    left, width, top = 10, 270, 26
+    left, width, top = 16, 264, 26
 
     def x(ratio):
         place = (math.log10(max(ratio, 1e-3)) - low) / (high - low)

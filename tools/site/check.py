@@ -7,8 +7,6 @@ import urllib.parse
 SILENT = {"pre", "code", "script", "style", "svg", "nav"}
 HOST = re.compile(r"https?://")
 FETCHED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src"), ("video", "src")}
-
-
 LEFT_OVER = re.compile(r"^(?:\s*[-*] \S|\s*\|.*\|\s*$|#+ )|```|\]\([\w./#-]+\)", re.M)
 
 

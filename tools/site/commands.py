@@ -80,7 +80,7 @@ def write_commands(program, out):
              "`--json` and the exit statuses.\n"]
     pages = ["reference/command/README.md"]
     for title, rows in verbs(program):
-        index += [f"## {title}\n", "| verb | |", "| --- | --- |"]
+        index += [f"## {title}\n", "| verb | what it does |", "| --- | --- |"]
         for verb, sentence in rows:
             (folder / f"{verb}.md").write_text(page(program, verb))
             index.append(f"| [{verb}]({verb}.md) | {html.escape(sentence, quote=False)} |")
