@@ -123,6 +123,11 @@ def representative(suite, rows):
     return max((name for name in counts if full and counts[name] * 2 >= full), default=None)
 
 
+def page_of(name):
+    """The page of a file: JSON is shown as a source."""
+    return name if name.endswith(".md") else name + ".md"
+
+
 def overview(files):
     """The page of all measurements. `files` maps names to texts; newer names come later."""
     rows = {name: rows_of(name, text) for name, text in files.items()}
@@ -137,7 +142,7 @@ def overview(files):
         drawn = compared(rows[name], suite)
         most = f" The first {MOST_ROWS} of {len(drawn)} rows are drawn." if len(drawn) > MOST_ROWS else ""
         text += [f"## {suite}: {subject}\n",
-                 f"From [{name.rsplit('.', 1)[0]}]({name}), the newest full run beside other libraries.{most}\n",
+                 f"From [{name.rsplit('.', 1)[0]}]({page_of(name)}), the newest full run beside other libraries.{most}\n",
                  plot(drawn[:MOST_ROWS], f"Ratios of the suite {suite}"), folded("As a table", table(drawn))]
     text += ["## All files\n", "Each with the median ratio to each library, and the number of rows in brackets. Files "
              "without a ratio compare Abut with itself or have tables of their own.\n", "| file | median ratios |",
@@ -146,5 +151,5 @@ def overview(files):
         heading = re.search(r"^# (.*)$", files[name], re.M)
         ratios = {peer: [row.ratio for row in rows[name] if library(row.peer) == peer] for peer in LIBRARIES}
         medians = ", ".join(f"{peer} {statistics.median(each):.1f} ({len(each)})" for peer, each in ratios.items() if each)
-        text.append(f"| {f'[{heading[1]}]({name})' if heading else name} | {medians} |")
+        text.append(f"| [{heading[1] if heading else name}]({page_of(name)}) | {medians} |")
     return "\n".join(text) + "\n"
