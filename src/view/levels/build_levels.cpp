@@ -10,7 +10,6 @@
 #include "store/database/exclusive_store.h"
 #include "store/database/level_table.h"
 #include "store/database/row_hash.h"
-#include "view/levels/chunk_codec.h"
 #include "view/levels/chunk_maker.h"
 #include "view/levels/level_items.h"
 #include "view/levels/tree_writer.h"
@@ -217,7 +216,7 @@ private:
             const std::scoped_lock lock(mutex_);
             data = chunks_->read(row);
         }
-        return {surface_of(decode_chunk(data)), row.error, row.box};
+        return chunk_surface(row, data);
     }
 
     void store(Job& job) {
