@@ -111,10 +111,14 @@ private:
         for (const auto& jobs : heights)
             total += jobs.size();
         ProgressMeter meter(options_.progress, "levels", std::max<std::size_t>(total, 1));
-        for (auto& jobs : heights) {
-            make(jobs, meter);
-            commit();
+        try {
+            for (auto& jobs : heights)
+                make(jobs, meter);
+        } catch (const Error&) {
+            keep_made();
+            throw;
         }
+        commit();
     }
 
     [[nodiscard]] bool is_instance(const PlannedNode& node) const {
@@ -249,6 +253,14 @@ private:
     void commit() {
         const std::scoped_lock lock(mutex_);
         commit_now();
+    }
+    /// Keeps the chunks for the next call, if the store can still be written.
+    void keep_made() noexcept {
+        try {
+            commit();
+        } catch (const Error&) { // NOLINT: the caller tells the first error
+            transaction_.reset();
+        }
     }
     void commit_now() {
         if (transaction_)

@@ -19,8 +19,7 @@ namespace {
 struct JoinedSurface {
     std::vector<std::uint32_t> first;   ///< by joined vertex: its first in `members`; one more
     std::vector<std::uint32_t> members; ///< vertices of the surface, sorted by joined vertex
-    std::vector<std::array<unsigned int, 3>> triangles; ///< of joined vertices
-    std::vector<unsigned int> indices;                  ///< of those that have three vertices
+    std::vector<unsigned int> indices;  ///< three joined vertices for each triangle
 };
 
 JoinedSurface join(const LevelSurface& surface) {
@@ -43,10 +42,8 @@ JoinedSurface join(const LevelSurface& surface) {
     }
     joined.first.push_back(static_cast<std::uint32_t>(joined.members.size()));
     for (const auto& t : surface.triangles) {
-        const std::array<unsigned int, 3> c{number_of[t[0]], number_of[t[1]], number_of[t[2]]};
-        joined.triangles.push_back(c);
-        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
-            joined.indices.insert(joined.indices.end(), c.begin(), c.end());
+        for (const std::uint32_t v : t)
+            joined.indices.push_back(number_of[v]);
     }
     return joined;
 }
@@ -142,14 +139,22 @@ private:
     [[nodiscard]] std::uint32_t piece_of(unsigned int vertex) const {
         return pieces_.of_vertex[vertex];
     }
+    [[nodiscard]] Triangle triangle(const std::vector<unsigned int>& indices, std::size_t i) const {
+        return {positions_[indices[i]], positions_[indices[i + 1]], positions_[indices[i + 2]]};
+    }
+    /// For each vertex, the least one that triangles connect it with.
+    [[nodiscard]] std::vector<std::uint32_t>
+    connected(const std::vector<unsigned int>& indices) const {
+        DisjointSets sets(positions_.size());
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            sets.unite(indices[i], indices[i + 1]);
+            sets.unite(indices[i], indices[i + 2]);
+        }
+        return std::move(sets).roots();
+    }
 
     void find_pieces() {
-        DisjointSets sets(positions_.size());
-        for (const auto& t : joined_.triangles) {
-            sets.unite(t[0], t[1]);
-            sets.unite(t[0], t[2]);
-        }
-        const std::vector<std::uint32_t> roots = std::move(sets).roots();
+        const std::vector<std::uint32_t> roots = connected(joined_.indices);
         std::vector<Box3> boxes;
         pieces_.of_vertex.resize(roots.size());
         for (std::uint32_t v = 0; v < roots.size(); ++v) {
@@ -163,11 +168,12 @@ private:
         pieces_.all.resize(boxes.size());
         for (std::size_t p = 0; p < boxes.size(); ++p)
             pieces_.all[p].size = length(boxes[p].upper - boxes[p].lower);
-        for (const auto& t : joined_.triangles) {
-            Piece& piece = pieces_.all[piece_of(t[0])];
-            piece.part = surface_.vertices[joined_.members[joined_.first[t[0]]]].part;
+        for (std::size_t i = 0; i < joined_.indices.size(); i += 3) {
+            const unsigned int vertex = joined_.indices[i];
+            Piece& piece = pieces_.all[piece_of(vertex)];
+            piece.part = surface_.vertices[joined_.members[joined_.first[vertex]]].part;
             piece.error = surface_.errors[piece.part];
-            piece.triangles.push_back({positions_[t[0]], positions_[t[1]], positions_[t[2]]});
+            piece.triangles.push_back(triangle(joined_.indices, i));
         }
     }
 
@@ -185,10 +191,21 @@ private:
         }
     }
 
+    static std::vector<unsigned int> without_flat(const std::vector<unsigned int>& indices) {
+        std::vector<unsigned int> rest;
+        rest.reserve(indices.size());
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const unsigned int a = indices[i], b = indices[i + 1], c = indices[i + 2];
+            if (a != b && b != c && c != a)
+                rest.insert(rest.end(), {a, b, c});
+        }
+        return rest;
+    }
+
     /// Returns false if few triangles can be removed.
     bool simplify_again() {
         poll_stop();
-        const std::vector<unsigned int>& last = passes_.back();
+        const std::vector<unsigned int> last = without_flat(passes_.back());
         std::vector<unsigned int> fewer(last.size());
         const std::size_t target = last.size() / 6 * 3;
         fewer.resize(meshopt_simplify(fewer.data(), last.data(), last.size(), scaled_.data(),
@@ -199,16 +216,25 @@ private:
     }
 
     void add_options(int pass) {
-        std::vector<std::vector<Triangle>> triangles(pieces_.all.size());
         const std::vector<unsigned int>& indices = passes_[static_cast<std::size_t>(pass)];
-        for (std::size_t i = 0; i < indices.size(); i += 3)
-            triangles[piece_of(indices[i])].push_back(
-                {positions_[indices[i]], positions_[indices[i + 1]], positions_[indices[i + 2]]});
+        const std::vector<std::uint32_t> roots = connected(indices);
+        constexpr std::uint32_t kNone = 0xffffffff;
+        std::vector<std::vector<Triangle>> triangles(pieces_.all.size());
+        std::vector<std::uint32_t> root_of(pieces_.all.size(), kNone);
+        std::vector<bool> is_split(pieces_.all.size());
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const std::uint32_t piece = piece_of(indices[i]);
+            triangles[piece].push_back(triangle(indices, i));
+            if (root_of[piece] == kNone)
+                root_of[piece] = roots[indices[i]];
+            if (root_of[piece] != roots[indices[i]])
+                is_split[piece] = true;
+        }
         for (std::size_t p = 0; p < triangles.size(); ++p) {
             const auto count = static_cast<std::uint32_t>(triangles[p].size());
             std::vector<Option>& options = options_[p];
-            // A piece that is smaller than its error would be left out.
-            if (count == 0 || options.back().triangles <= count)
+            // A piece stays connected, so that it is left out as a whole.
+            if (count == 0 || is_split[p] || options.back().triangles <= count)
                 continue;
             const TriangleSearch fine(pieces_.all[p].triangles), coarse(triangles[p]);
             const Piece& piece = pieces_.all[p];
