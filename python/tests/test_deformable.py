@@ -26,7 +26,7 @@ def test_impacts_against_elementary_tests(rng):
     hits = []
     for _ in range(10):
         a, b = soup(rng, 6, 0.5), soup(rng, 5, 0.5)
-        ends = a[0] + rng.uniform(-0.5, 0.5, a[0].shape), b[0] + rng.uniform(-0.5, 0.5, b[0].shape)
+        ends = a[0] + rng.uniform(-2, 2, a[0].shape), b[0] + rng.uniform(-2, 2, b[0].shape)
         da, db = abut.Deformable(*a), abut.Deformable(*b)
         da.set_motion(a[0], ends[0])
         db.set_motion(b[0], ends[1])
@@ -37,10 +37,11 @@ def test_impacts_against_elementary_tests(rng):
         tests = abut.elementary_impacts("vertex_face", gather(a[0], b[0]), gather(*ends))
         assert np.array_equal(np.stack([listed.a, listed.b], 1), np.stack([v, f], 1)[tests.meet])
         assert np.allclose(listed.time, tests.time[tests.meet], atol=1e-8)
-        hits.append(tests.meet.mean())
+        hits += tests.meet.tolist()
         edges = found[found.kind == abut.ElementaryKind.edge_edge]
         assert edges.a.max(initial=0) < len(da.edges) and edges.b.max(initial=0) < len(db.edges)
-    guard(hits, 0.005)
+    guard(hits, 0.002)
+    assert sum(hits) > 10
 
 
 def test_self_queries():
@@ -68,7 +69,7 @@ def test_errors():
         cloth.advance(vertices[:-1])
     assert error.value.code is abut.ErrorCode.bad_argument
     with pytest.raises(abut.Error):
-        cloth.advance(vertices * np.inf)
+        cloth.advance(vertices + np.inf)
     with pytest.raises(ValueError):
         cloth.advance(vertices[:, :2])
     with pytest.raises(abut.Error):

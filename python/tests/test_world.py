@@ -45,13 +45,13 @@ def test_bodies_end():
     world.remove(a)
     assert not world.is_valid(a) and world.is_valid(b)
     again = world.add(abut.Box3((0, 0, 0), (1, 1, 1)))
-    assert again != a and again % 2**32 == a
+    assert again != a
     for use in (lambda: world.move(a, np.eye(4)), lambda: world.remove(a), lambda: world.box(a), lambda: world.box(-1)):
         with pytest.raises(abut.Error) as error:
             use()
         assert error.value.code is abut.ErrorCode.bad_argument
     with pytest.raises(ValueError, match="rotation"):
-        world.move(b, 2 * np.eye(4))
+        world.move(b, np.diag((2, 2, 2, 1)))
     with pytest.raises(TypeError):
         world.add("shape", None)
 
@@ -108,7 +108,7 @@ def test_time_of_impact_and_schedule():
     assert world.time_of_impact([(a, motion)]).time[0] == impacts.time[0]
     world.set_speed(a, velocity=(1, 0, 0))
     assert world.advance(0).tolist() == []
-    assert 7 < world.next_event() <= 8.1
+    assert 5 < world.next_event() <= 8.01
     world.move(a, matrix((4, 0, 0)))
     assert world.advance(9).tolist() == [[a, b]]
     assert world.schedule_counters().steps >= 2

@@ -114,12 +114,11 @@ Pose rigid(const Transform& transform, const char* name) {
 bool is_array(py::handle object) { return py::isinstance<py::array>(object); }
 
 py::array_t<double> double_array(py::handle object, const char* name) {
-    auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
-    if (!array || (is_array(object) && py::reinterpret_borrow<py::array>(object).dtype().kind() == 'c')) {
-        PyErr_Clear();
-        throw py::type_error(std::string(name) + ": an array of numbers is wanted");
-    }
-    return array;
+    if (!is_array(object) || py::reinterpret_borrow<py::array>(object).dtype().kind() != 'c')
+        if (auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object))
+            return array;
+    PyErr_Clear();
+    throw py::type_error(std::string(name) + ": an array of numbers is wanted");
 }
 
 double to_double(py::handle object, const char* name) {
