@@ -48,13 +48,13 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-Turns take_turns(std::size_t items, std::size_t block, int rounds, const Work& ours,
+Turns take_turns(std::size_t items, std::size_t batch, int rounds, const Work& ours,
                  const Work& theirs) {
     std::vector<double> our_seconds, their_seconds;
     for (int round = 0; round < rounds; ++round) {
         double our_sum = 0, their_sum = 0;
-        for (std::size_t begin = 0; begin < items; begin += block) {
-            const std::size_t end = std::min(items, begin + block);
+        for (std::size_t begin = 0; begin < items; begin += batch) {
+            const std::size_t end = std::min(items, begin + batch);
             const double start = thread_seconds();
             ours(begin, end);
             const double between = thread_seconds();
@@ -86,12 +86,12 @@ Turns take_turns(int rounds, const std::function<void()>& ours,
     return {median(our_seconds), median(their_seconds)};
 }
 
-void on_threads(int threads, std::size_t items, std::size_t block, const Work& work) {
+void on_threads(int threads, std::size_t items, std::size_t batch, const Work& work) {
     std::atomic<std::size_t> next{0};
     const auto take = [&] {
-        for (std::size_t begin = next.fetch_add(block); begin < items;
-             begin = next.fetch_add(block))
-            work(begin, std::min(items, begin + block));
+        for (std::size_t begin = next.fetch_add(batch); begin < items;
+             begin = next.fetch_add(batch))
+            work(begin, std::min(items, begin + batch));
     };
     std::vector<std::jthread> helpers;
     for (int i = 1; i < threads; ++i)

@@ -26,16 +26,16 @@ struct Turns {
     double ours = 0, theirs = 0;
 };
 
-/// Runs both on all items on this thread, in alternating blocks, so that changes of the machine's
+/// Runs both on all items on this thread, in alternating batches, so that changes of the machine's
 /// load or clock affect both alike. `theirs` may be empty. Measures thread time.
-Turns take_turns(std::size_t items, std::size_t block, int rounds, const Work& ours,
+Turns take_turns(std::size_t items, std::size_t batch, int rounds, const Work& ours,
                  const Work& theirs);
 
 /// Runs both as a whole, in turn. Measures wall time.
 Turns take_turns(int rounds, const std::function<void()>& ours,
                  const std::function<void()>& theirs);
 
-/// Processes all items on some threads, block by block.
-void on_threads(int threads, std::size_t items, std::size_t block, const Work& work);
+/// Processes all items on some threads, batch by batch.
+void on_threads(int threads, std::size_t items, std::size_t batch, const Work& work);
 
 } // namespace abut::bench

@@ -1,4 +1,4 @@
-# How every target of this project is compiled.
+# Compile options of every target of this project.
 find_program(CCACHE ccache)
 if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
@@ -7,7 +7,7 @@ find_package(Threads REQUIRED)
 
 add_library(abut_compile INTERFACE)
 target_compile_features(abut_compile INTERFACE cxx_std_20)
-# Exactness: no fused operations but the explicit ones (docs/architecture.md, numerics).
+# Exactness: no fused operations except explicit ones (docs/architecture.md, numerics).
 target_compile_options(abut_compile INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wno-psabi)
 if(ABUT_WERROR)
     target_compile_options(abut_compile INTERFACE -Werror)

@@ -1,4 +1,4 @@
-# find_package(Abut) after `cmake --install`.
+# Supports find_package(Abut) after `cmake --install`.
 include(CMakePackageConfigHelpers)
 install(TARGETS abut EXPORT AbutTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS abut_command DESTINATION ${CMAKE_INSTALL_BINDIR})
@@ -12,7 +12,8 @@ if(TARGET abut_mpi)
 endif()
 install(DIRECTORY src/io/ifc/ DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc
         FILES_MATCHING PATTERN "*.mjs" PATTERN "package*.json" PATTERN "node_modules" EXCLUDE)
-# What it runs on, where tools/install_dependencies has brought it: looked for when installing, not here.
+# The run-time modules, if tools/install_dependencies has installed them. This is checked when
+# installing, not when configuring.
 install(DIRECTORY src/io/ifc/node_modules DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/abut/ifc OPTIONAL)
 install(CODE "if(NOT EXISTS \"${PROJECT_SOURCE_DIR}/src/io/ifc/node_modules/web-ifc\")
     message(STATUS \"Without web-ifc: IFC files will be refused. tools/install_dependencies build gets it.\")

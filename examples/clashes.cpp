@@ -1,4 +1,4 @@
-// Every clash between the parts of models, and a page that shows them.
+// Finds every clash between the parts of models, and writes a page that shows them.
 //
 //     abut-clashes REPORT.html MODEL...
 

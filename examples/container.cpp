@@ -8,7 +8,7 @@ namespace drop {
 namespace {
 
 constexpr double kSpacing = 0.35; ///< of the lattice
-constexpr double kDensity = 500;  ///< kilograms a cubic metre
+constexpr double kDensity = 500;  ///< kg/m^3
 
 int bodies_of_row(int bodies) {
     return std::max(2, static_cast<int>(std::cbrt(static_cast<double>(bodies))));

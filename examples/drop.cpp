@@ -1,6 +1,6 @@
 // Drops bodies of three kinds into a container and writes frames (PLY) of the fall.
 //
-//     abut-drop [BODIES] [SECONDS] [FOLDER]      1000, 5 and none: no frames
+//     abut-drop [BODIES] [SECONDS] [FOLDER]      default: 1000 bodies, 5 seconds, no frames
 
 #include <abut/frame.h>
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-/// Runs run(argc, argv) as a program: what it throws is one line on standard error, and status 2.
+/// Runs run(argc, argv) as a program. An exception becomes one line on standard error and status 2.
 template <typename Run>
 int run_program(const char* name, const Run& run, int argc, char** argv) {
     try {

@@ -1,4 +1,4 @@
-// Models from the arrays of another program: no file is read.
+// Makes models from the arrays of another program, without reading a file.
 //
 //     abut-raw-arrays
 

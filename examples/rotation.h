@@ -4,15 +4,15 @@
 
 #include <array>
 
-/// How a simulator turns bodies.
+/// Rotations, as a simulator needs them.
 namespace drop {
 
-using namespace vectors; // their operators are no members of abut
+using namespace vectors; // for the operators on Vec3, which abut does not define
 using abut::Transform;
 using abut::Vec3;
 using Quaternion = std::array<double, 4>; ///< w, x, y, z
 
-/// R v, and its inverse.
+/// R v, and below R^-1 v.
 inline Vec3 turned(const Transform& t, const Vec3& v) {
     const auto& m = t.m;
     return {m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
@@ -27,7 +27,7 @@ inline Vec3 origin(const Transform& t) {
     return {t.m[9], t.m[10], t.m[11]};
 }
 
-/// First `q`, then the rotation by |w| about w.
+/// Applies `q`, then the rotation by |w| about w.
 inline Quaternion rotated(const Quaternion& q, const Vec3& w) {
     const double angle = length(w), s = angle > 0 ? std::sin(0.5 * angle) / angle : 0.5;
     const double c = std::cos(0.5 * angle);

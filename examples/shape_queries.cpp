@@ -1,4 +1,4 @@
-// One model and simple shapes: a point, a ray, a ball.
+// Queries one model with simple shapes: a point, a ray, a ball.
 //
 //     abut-shape-queries MODEL
 
@@ -16,7 +16,7 @@ int run(int argc, char** argv) {
         return 2;
     }
     const abut::Model model(abut::read_mesh(argv[1]));
-    const abut::Transform world_from_model; // where it is
+    const abut::Transform world_from_model; // identity
     const abut::Vec3 point{0.5, 0.5, 3};
 
     const abut::Nearest nearest = abut::nearest(model, world_from_model, point);

@@ -7,7 +7,7 @@ namespace drop {
 
 namespace {
 
-/// I^-1 of an angular impulse.
+/// Returns the change of spin by an angular impulse, I^-1 times the impulse.
 Vec3 spin_from(const RigidBody& body, const Vec3& angular_impulse) {
     const auto& column = body.inverse_inertia;
     return angular_impulse.x * column[0] + angular_impulse.y * column[1] +
@@ -26,7 +26,7 @@ Inertia inertia_of(const abut::Capsule& capsule, double density) {
     const double r = capsule.radius, l = length(capsule.axis.b - capsule.axis.a);
     const double rod = density * std::numbers::pi * r * r * l,
                  ends = density * 4 / 3 * std::numbers::pi * r * r * r;
-    // A cylinder, and two half balls whose centres of mass lie 3/8 r beyond its ends.
+    // A cylinder and two half balls, whose centres of mass lie 3/8 r beyond its ends.
     const double along = rod * r * r / 2 + 0.4 * ends * r * r;
     const double across =
         rod * (3 * r * r + l * l) / 12 + ends * (0.4 * r * r + l * l / 4 + 3 * r * l / 8);
@@ -79,7 +79,7 @@ void Simulator::find_contacts() {
             contact = std::move(*kept);
         contact.pair = pair;
         contact.a = number_.at(gap.a), contact.b = number_.at(gap.b);
-        // What was kept along another direction is of no use along this one.
+        // Impulses remembered along another direction are useless along this one.
         if (dot(contact.normal, gap.normal) < 0.97)
             contact.points.clear();
         contact.normal = gap.normal;
@@ -89,7 +89,7 @@ void Simulator::find_contacts() {
     contacts_ = std::move(found);
 }
 
-/// Forgets points that have come apart or slid away from each other.
+/// Drops contact points that have separated or slid apart.
 void Simulator::keep_contacts() {
     for (Contact& contact : contacts_) {
         for (ContactPoint& point : contact.points)
@@ -114,7 +114,7 @@ void Simulator::add_point(Contact& contact, const abut::BodyGap& gap) {
     const auto near = std::min_element(
         contact.points.begin(), contact.points.end(),
         [&](const ContactPoint& p, const ContactPoint& q) { return nearness(p) < nearness(q); });
-    // The same place again, or one too many: the new point takes over what the old one has pushed.
+    // The point is known, or there are too many: the new point takes over the old one's impulses.
     if (near != contact.points.end() &&
         (nearness(*near) < settings_.contact_drift || contact.points.size() == kMostPoints)) {
         point.push = near->push, point.drag = near->drag;
@@ -129,15 +129,15 @@ void Simulator::refresh(const Contact& contact, ContactPoint& point) const {
                     &world_b = world_.world_from_body(bodies_[contact.b].id);
     const Vec3 a = origin(world_a) + turned(world_a, point.on_a),
                b = origin(world_b) + turned(world_b, point.on_b);
-    // One point for both, so that impulses conserve angular momentum.
+    // Both bodies use one point, so that impulses conserve angular momentum.
     const Vec3 between = 0.5 * (a + b);
     point.arm_a = between - origin(world_a), point.arm_b = between - origin(world_b);
     point.apart = b - a;
     point.depth = -dot(point.apart, contact.normal);
 }
 
-/// Impulses one contact after the other, again and again, until they agree. Source: sequential
-/// impulses [Catto 2005].
+/// Applies impulses to one contact after the other, repeatedly, until they converge. Source:
+/// sequential impulses [Catto 2005].
 void Simulator::solve(double dt) {
     for (Contact& contact : contacts_)
         for (ContactPoint& point : contact.points) {
@@ -155,7 +155,7 @@ void Simulator::solve_point(const Contact& contact, ContactPoint& point, double 
     const auto approach = [&] {
         return b.velocity + cross(b.spin, point.arm_b) - a.velocity - cross(a.spin, point.arm_a);
     };
-    // Points that have opened may close within the step; deep ones are pushed out.
+    // Points that have opened may close within the step; deep ones are pushed apart.
     const double depth = point.depth - settings_.allowed_depth;
     double target = 0;
     if (depth > 0)
@@ -188,7 +188,7 @@ void Simulator::apply(const Contact& contact, const ContactPoint& point, const V
     b.spin = b.spin + spin_from(b, cross(point.arm_b, impulse));
 }
 
-/// How fast the bodies part at the point for a unit impulse along a direction.
+/// Returns the relative speed at the point that a unit impulse along a direction causes.
 double Simulator::yield(const Contact& contact, const ContactPoint& point,
                         const Vec3& along) const {
     const RigidBody &a = bodies_[contact.a], &b = bodies_[contact.b];
@@ -210,7 +210,8 @@ void Simulator::move(double dt) {
     }
 }
 
-/// How much of its way each body may go: what goes far in a step stops where it first meets another.
+/// Returns the fraction of its motion that each body may make. A body that moves far in a step
+/// stops where it first meets another.
 std::vector<double> Simulator::free_shares(double dt) {
     std::vector<double> free(bodies_.size(), 1);
     std::vector<abut::BodyMotion> motions;
@@ -226,8 +227,8 @@ std::vector<double> Simulator::free_shares(double dt) {
     for (const abut::BodyImpact& each : world_.time_of_impact(motions))
         for (const abut::BodyId id : {each.a, each.b}) {
             const std::size_t i = number_.at(id);
-            // Bodies in contact already are the impulses' business; a little beyond the impact, the
-            // next step finds a contact.
+            // Impulses handle bodies that are already in contact. The body goes slightly beyond the
+            // impact, so that the next step finds a contact.
             if (each.impact.time > 0 && length(bodies_[i].velocity) * dt > bodies_[i].size)
                 free[i] =
                     std::min(free[i], each.impact.time + settings_.allowed_depth /

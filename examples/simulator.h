@@ -8,14 +8,15 @@
 #include <map>
 #include <vector>
 
-/// A small impulse-based simulator of rigid bodies: the loop of a simulation closed with Abut.
+/// A small impulse-based simulator of rigid bodies, as an example of a simulation loop with Abut.
 ///
-/// Each step: forces, contacts (`World::penetration`), impulses that end approach and hold friction, motion,
-/// and for what moves fast, the first impact on its way (`World::time_of_impact`).
+/// Each step applies forces, finds contacts (`World::penetration`), applies impulses that end
+/// approach and cause friction, and moves the bodies. For fast bodies it finds the first impact on
+/// their path (`World::time_of_impact`).
 namespace drop {
 
-/// Mass and principal moments of inertia about the body's origin, which is its centre of mass; a
-/// mass of 0 is a body that nothing moves.
+/// Mass and principal moments of inertia about the body's origin, which is its centre of mass. A
+/// body with mass 0 is never moved.
 struct Inertia {
     double mass = 0;
     Vec3 moments;
@@ -27,10 +28,10 @@ Inertia inertia_of(const abut::Box3& box, double density);
 struct Settings {
     Vec3 gravity{0, 0, -9.81};
     double friction = 0.5;
-    int iterations = 8;            ///< of the impulses, a step
-    double allowed_depth = 0.0005; ///< length that contacts may keep
-    double correction = 0.2;       ///< share of the rest that a step takes away
-    double most_correction = 1;    ///< speed at which it does so, at most
+    int iterations = 8;            ///< of the impulses, per step
+    double allowed_depth = 0.0005; ///< penetration that is not corrected; a length
+    double correction = 0.2;       ///< fraction of the remaining depth that a step corrects
+    double most_correction = 1;    ///< maximum speed of this correction
     double contact_drift = 0.01;   ///< length by which a kept contact point may open or slide
 };
 
@@ -38,9 +39,9 @@ struct RigidBody {
     abut::BodyId id;
     abut::Pose pose;
     Inertia inertia;
-    double size = 0; ///< a length that it may move in a step without being watched
+    double size = 0; ///< length that it may move in a step without a test for impacts
     Vec3 velocity, spin;
-    /// World frame, of this step: columns of the inverse tensor of inertia; and 1 / mass.
+    /// World frame, for this step: columns of the inverse inertia tensor; and 1 / mass.
     std::array<Vec3, 3> inverse_inertia{};
     double inverse_mass = 0;
 };
@@ -49,8 +50,8 @@ class Simulator {
 public:
     explicit Simulator(const Settings& settings = {}) : settings_(settings) {}
 
-    /// Adds a body whose shape is about its centre of mass. Density 0: nothing moves it. Returns its
-    /// number.
+    /// Adds a body whose shape is centred at its centre of mass. Density 0: the body is never
+    /// moved. Returns the body's number.
     template <typename Shape>
     std::size_t add(const Shape& shape, const abut::Pose& pose, double density);
     void step(double dt);
@@ -59,20 +60,20 @@ public:
     [[nodiscard]] abut::World& world() { return world_; }
 
 private:
-    /// A point in which two bodies touch, kept as long as it stays together: a body that rests on a
-    /// face needs several, and a step finds one.
+    /// A point where two bodies touch, kept as long as it stays together. A body that rests on a
+    /// face needs several, and each step finds one.
     struct ContactPoint {
         Vec3 on_a, on_b;   ///< in the frames of both bodies
-        Vec3 arm_a, arm_b; ///< from the centres to the point between, world frame
+        Vec3 arm_a, arm_b; ///< from the centres to the common point, world frame
         Vec3 apart;        ///< from the point on a to that on b, world frame
-        double depth = 0;  ///< that much along the normal, the other way
-        double yield = 0;  ///< approach that a unit impulse along the normal ends
-        double push = 0;   ///< impulse along the normal, so far
-        Vec3 drag;         ///< of friction, so far
+        double depth = 0;  ///< minus the component of `apart` along the normal
+        double yield = 0;  ///< approach speed that a unit impulse along the normal ends
+        double push = 0;   ///< accumulated impulse along the normal
+        Vec3 drag;         ///< accumulated impulse of friction
     };
     struct Contact {
         abut::BodyPair pair;
-        std::size_t a = 0, b = 0; ///< their numbers
+        std::size_t a = 0, b = 0; ///< body numbers
         Vec3 normal;              ///< from a to b
         std::vector<ContactPoint> points;
     };

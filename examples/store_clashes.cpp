@@ -1,5 +1,5 @@
-// Models of any size: into a store on the disk, and the clashes from there in little memory.
-// Started by mpirun, all processes share the work.
+// Imports models of any size into a store on disk, and finds their clashes in little memory. If
+// mpirun starts several processes, they share the work.
 //
 //     abut-store-clashes STORE MODEL...
 //     mpirun -n 4 abut-store-clashes STORE

@@ -6,9 +6,9 @@ namespace drop {
 
 namespace {
 
-/// A ball of which both halves are moved apart along z.
+/// Makes a ball whose halves are moved apart along z.
 abut::Mesh stretched_ball(double radius, double half_length) {
-    constexpr std::uint32_t kRound = 12, kRows = 8; // of points, between the poles and with them
+    constexpr std::uint32_t kRound = 12, kRows = 8; // points around, and rows with the poles
     abut::Mesh mesh;
     for (std::uint32_t row = 0; row <= kRows; ++row)
         for (std::uint32_t i = 0; i < kRound; ++i) {

@@ -9,15 +9,15 @@
 
 namespace drop {
 
-/// Triangles of a shape, to look at.
+/// Returns the triangles of a shape, for display.
 abut::Mesh surface_of(const abut::Sphere& sphere);
 abut::Mesh surface_of(const abut::Capsule& capsule);
 abut::Mesh surface_of(const abut::Box3& box);
 
-/// One mesh for each body of a simulator; an empty one is not shown.
+/// One mesh for each body of a simulator. An empty mesh is not shown.
 struct Surfaces {
     std::vector<abut::Mesh> of_body;
-    /// All of them where the bodies are.
+    /// Returns all meshes at the current places of the bodies.
     [[nodiscard]] abut::Mesh placed(Simulator& simulator) const;
 };
 

@@ -1,4 +1,4 @@
-// What two models have to do with each other: contact, distance, depth.
+// Finds contact, distance and depth of two models.
 //
 //     abut-two-models A B
 

@@ -1,4 +1,4 @@
-// Walks through a store from place to place, in real time, and says each second what is nearest.
+// Walks through a store from place to place in real time, and prints the nearest part every second.
 //
 //     abut-walk-through STORE X,Y,Z X,Y,Z ...
 

@@ -19,16 +19,16 @@ Frame Walker::step_towards(const abut::Vec3& goal) {
     abut::Vec3 velocity;
     if (left > 0)
         velocity = (std::min(settings_.speed, left / settings_.frame) / left) * way;
-    // Into what is near, one does not go: that part of the velocity is taken away.
+    // The velocity component towards a near part is removed.
     const abut::NearParts near = walk_.within(body_, abut::Pose{position_}, settings_.skin);
-    constexpr int kCorners = 8; // one part may turn the velocity into another
+    constexpr int kCorners = 8; // one part may deflect the velocity towards another
     for (int i = 0; i < kCorners; ++i)
         for (const abut::WalkGap& gap : near.parts)
             if (const double inward = dot(velocity, gap.normal); inward < 0)
                 velocity = velocity - inward * gap.normal;
     for (const abut::WalkGap& gap : near.parts)
         if (dot(velocity, gap.normal) < -1e-9)
-            velocity = {}; // wedged in
+            velocity = {}; // stuck between parts
     position_ = position_ + settings_.frame * velocity;
     walk_.move_to(position_, velocity);
     return {position_, walk_.distance(body_, abut::Pose{position_})};

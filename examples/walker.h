@@ -4,18 +4,18 @@
 
 #include <vector>
 
-/// A person who walks through the parts of a store, and does not walk through walls.
+/// A person who walks through the parts of a store and stops at walls.
 namespace walker {
 
 struct Settings {
     double speed = 1.4; ///< m/s
-    double skin = 0.05; ///< m: this near to a part, one does not go nearer
+    double skin = 0.05; ///< m; minimum distance to parts
     double frame = 1.0 / 60;
 };
 
-/// Where the person is after a frame, and what is nearest.
+/// The position of the person after a frame, and the nearest part.
 struct Frame {
-    abut::Vec3 position; ///< of the middle
+    abut::Vec3 position; ///< of the capsule's centre
     abut::NearestPart nearest;
 };
 
@@ -24,8 +24,7 @@ public:
     /// A capsule 1.8 m tall, y up.
     Walker(abut::Walk& walk, const abut::Vec3& start, const Settings& settings = {});
 
-    /// One frame towards a place; what is in the way is walked around, as far as sliding along it does
-    /// that.
+    /// Moves for one frame towards a place. The person slides along parts that are in the way.
     Frame step_towards(const abut::Vec3& goal);
     [[nodiscard]] const abut::Vec3& position() const { return position_; }
     [[nodiscard]] double way_to(const abut::Vec3& goal) const;

@@ -17,8 +17,8 @@ namespace {
 
 using namespace abut::command;
 
-/// Whether this process must stay silent. Of several processes that mpirun started for one job,
-/// only the first prints.
+/// Returns whether this process must stay silent. Of several processes that mpirun started for one
+/// job, only the first prints.
 bool is_spoken_for(const std::vector<std::string>& arguments) {
     return std::ranges::find(arguments, "clash") != arguments.end() && abut::is_helper();
 }

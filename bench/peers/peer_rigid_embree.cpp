@@ -1,5 +1,6 @@
 #include "measure.h"
 #include "peers/peer_rigid.h"
+#include "placement.h"
 
 #ifdef ABUT_BENCH_EMBREE
 #include <algorithm>
@@ -11,13 +12,6 @@ namespace abut::bench {
 #ifdef ABUT_BENCH_EMBREE
 
 namespace {
-
-Vec3 placed(const Transform& t, const Vec3& p) {
-    const auto& m = t.m;
-    return {m[0] * p.x + m[3] * p.y + m[6] * p.z + m[9],
-            m[1] * p.x + m[4] * p.y + m[7] * p.z + m[10],
-            m[2] * p.x + m[5] * p.y + m[8] * p.z + m[11]};
-}
 
 /// A mesh as user geometry, which rtcCollide requires.
 class EmbreeModel {

@@ -5,18 +5,32 @@
 
 #include "measure.h"
 #include "peers/peer_elementary.h"
-#include "suites.h"
+#include "placement.h"
+#include "suite.h"
 #include "suites/ccd_step_rows.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
+#include <memory>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct CcdSuiteOptions {
+    std::vector<std::string> files;  ///< of queries (see read_elementary_queries)
+    std::vector<std::string> frames; ///< start and end of each step (see read_frame)
+    std::vector<std::string> scenes; ///< names of deforming scenes
+    int samples = 12;                ///< frames of each scene that are measured
+    std::size_t pairs = 2000;        ///< of each generated case
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
 
 struct Case {
     std::string name;
@@ -77,12 +91,8 @@ bool swept_boxes_overlap(const ElementaryPair& pair) {
     const auto box_of = [&](std::size_t begin, std::size_t end) {
         Box3 box;
         for (std::size_t i = begin; i < end; ++i)
-            for (const Vec3& p : {pair.start.at(i), pair.end.at(i)}) {
-                box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y),
-                             std::min(box.lower.z, p.z)};
-                box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y),
-                             std::max(box.upper.z, p.z)};
-            }
+            for (const Vec3& p : {pair.start.at(i), pair.end.at(i)})
+                extend(box, p);
         return box;
     };
     const std::size_t second = pair.kind == ElementaryKind::vertex_face ? 1 : 2;
@@ -253,8 +263,12 @@ CcdStep read_step(const std::string& start, const std::string& end) {
             read_frame(end).positions};
 }
 
-} // namespace
-
+/// Measures elementary tests of continuous collision, by kind and truth, against FCL's cubic
+/// solver, and whole steps of deforming surfaces, with other schemes compared with representative
+/// triangles.
+///
+/// Errors      as read_elementary_queries and read_frame; Error{bad_argument} for an odd number of
+///             frames.
 Report run_ccd_suite(const CcdSuiteOptions& options) {
     Report report;
     report.suite = "ccd";
@@ -281,5 +295,24 @@ Report run_ccd_suite(const CcdSuiteOptions& options) {
             report.rows.push_back(std::move(row));
     return report;
 }
+
+const Suite kCcdSuite(
+    "ccd", "Continuous collision: elementary tests against FCL, steps of deforming surfaces",
+    [](CLI::App& suite) -> RunSuite {
+        const auto options = std::make_shared<CcdSuiteOptions>();
+        suite.add_option("files", options->files, "Files of queries (CSV)");
+        suite.add_option("--frames", options->frames,
+                         "Frames (PLY, OBJ): start and end of each step");
+        suite.add_option("--scenes", options->scenes, "Deforming scenes (see abut scene)");
+        suite.add_option("--samples", options->samples, "Frames of each scene that are measured")
+            ->check(CLI::Range(1, 10000));
+        suite.add_option("--pairs", options->pairs, "Generated pairs of each case")
+            ->check(CLI::Range(1, 1000000));
+        add_rounds(suite, options->rounds);
+        suite.add_option("--seed", options->seed, "Of the generated pairs");
+        return [options] { return run_ccd_suite(*options); };
+    });
+
+} // namespace
 
 } // namespace abut::bench

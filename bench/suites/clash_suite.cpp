@@ -6,7 +6,8 @@
 
 #include "measure.h"
 #include "peers/peer_fcl.h"
-#include "suites.h"
+#include "suite.h"
+#include "suites/clash_scene.h"
 
 #include <algorithm>
 #include <atomic>
@@ -14,15 +15,27 @@
 #include <cmath>
 #include <condition_variable>
 #include <fmt/format.h>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
 
-constexpr std::size_t kBlock = 2048; ///< candidates that one side processes before the other's turn
+struct ClashSuiteOptions {
+    ClashSceneOptions scene;
+    std::string part_file;   ///< empty: the bent pipe
+    double clearance = 0.05; ///< in diagonals of the part
+    int rounds = 5;
+    int threads = 2;        ///< of the rows that use more than one
+    double job_limit = 120; ///< seconds after which the whole job is stopped
+};
+
+constexpr std::size_t kBatch = 2048; ///< candidates that one side processes before the other's turn
 constexpr std::size_t kListed = 10;  ///< number of disagreements listed in the notes
 
 /// Sets a flag after some seconds, unless it is destroyed before.
@@ -103,7 +116,7 @@ private:
     Row& compare(const std::string& name, const Work& ours, const Work& theirs,
                  const std::string& peer) {
         const double microseconds = 1e6 / pairs();
-        const Turns turns = take_turns(scene_.candidates.size(), kBlock, options_.rounds, ours,
+        const Turns turns = take_turns(scene_.candidates.size(), kBatch, options_.rounds, ours,
                                        fcl_ ? theirs : Work{});
         Row row{name, turns.ours * microseconds, {}, {}, "us/pair", 1, {}};
         if (fcl_)
@@ -253,10 +266,36 @@ private:
     std::vector<Counters> counters_;
 };
 
-} // namespace
-
+/// Measures intersection and clearance of all candidate pairs against FCL, then the whole clash
+/// job.
 Report run_clash_suite(const ClashSuiteOptions& options) {
     return ClashSuite(options).run();
 }
+
+const Suite kClashSuite(
+    "clash", "2,000 instances of one part of 20,000 triangles: contact and clearance, against FCL",
+    [](CLI::App& suite) -> RunSuite {
+        const auto options = std::make_shared<ClashSuiteOptions>();
+        suite.add_option("--instances", options->scene.instances, "Number of instances");
+        suite.add_option("--spacing", options->scene.spacing, "Of the grid, in diagonals");
+        suite.add_option("--bend", options->scene.bend, "Angle of the part's bend, radians");
+        suite.add_option("--tube", options->scene.tube, "Radius of its tube, in radii of the bend");
+        suite.add_flag_callback(
+            "--tight", [options] { options->scene.boxes = CandidateBoxes::tight; },
+            "Candidates by the placed parts' own boxes, not by boxes for any rotation");
+        suite.add_option("--seed", options->scene.seed, "Of jitter and rotations");
+        suite.add_option("--part", options->part_file,
+                         "Model file to use instead of the bent pipe");
+        suite.add_option("--clearance", options->clearance, "In diagonals of the part")
+            ->check(CLI::PositiveNumber);
+        add_rounds(suite, options->rounds);
+        suite.add_option("--threads", options->threads, "Of the rows with several threads")
+            ->check(CLI::Range(1, 1024));
+        suite.add_option("--job-limit", options->job_limit, "Seconds; 0 leaves the whole job out")
+            ->check(CLI::NonNegativeNumber);
+        return [options] { return run_clash_suite(*options); };
+    });
+
+} // namespace
 
 } // namespace abut::bench

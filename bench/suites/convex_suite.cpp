@@ -5,32 +5,33 @@
 #include "measure.h"
 #include "peers/peer_convex.h"
 #include "placement.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
-#include <numbers>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
 
-using Quaternion = std::array<double, 4>;
+struct ConvexSuiteOptions {
+    std::vector<std::string> files;                    ///< models whose hulls are measured too
+    std::vector<std::size_t> vertices{100, 500, 2000}; ///< of the ellipsoids
+    std::size_t poses = 2000;                          ///< in each case
+    bool alone = false;                                ///< without peers
+    std::string only; ///< runs only the cases whose name contains this
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
 
 Vec3 combined(double s, const Vec3& a, double t, const Vec3& b) {
     return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
-}
-
-/// Rotates q by one degree about an axis.
-Quaternion turned(const Quaternion& q, const Vec3& axis) {
-    const double half = 0.5 * std::numbers::pi / 180, c = std::cos(half), s = std::sin(half);
-    return {c * q[0] - s * (axis.x * q[1] + axis.y * q[2] + axis.z * q[3]),
-            c * q[1] + s * (axis.x * q[0] + axis.y * q[3] - axis.z * q[2]),
-            c * q[2] + s * (axis.y * q[0] + axis.z * q[1] - axis.x * q[3]),
-            c * q[3] + s * (axis.z * q[0] + axis.x * q[2] - axis.y * q[1])};
 }
 
 /// The hull of random points on an ellipsoid with half axes 1, 0.7, 0.5.
@@ -106,7 +107,38 @@ private:
                 world_b.translation = combined(radius * std::cos(angle), u,
                                                radius * std::sin(angle) / length, across);
                 poses.push_back({world_a, world_b});
-                world_b.rotation = turned(world_b.rotation, axis);
+                world_b.rotation = turned(world_b.rotation, axis, 1);
+            }
+        }
+        poses.resize(options_.poses);
+        return poses;
+    }
+
+    /// Paths of 250 steps: b rotates by half a degree per step, slides as far around a, and keeps
+    /// the gap.
+    std::vector<PosedPair> sliding_poses(const Convex& a, const Convex& b, double gap) {
+        std::vector<PosedPair> poses;
+        while (poses.size() < options_.poses) {
+            const Pose world_a{{}, random_rotation(random_)};
+            Pose world_b{{}, random_rotation(random_)};
+            const Vec3 axis = random_direction(random_), u = random_direction(random_);
+            const Vec3 other = random_direction(random_);
+            const double along = u.x * other.x + u.y * other.y + u.z * other.z;
+            const Vec3 across = combined(1, other, -along, u);
+            const double length = std::hypot(across.x, across.y, across.z);
+            for (std::size_t i = 0; i < kSteps; ++i) {
+                const double angle = 0.5 * std::numbers::pi / 180 * static_cast<double>(i);
+                world_b.translation =
+                    combined(3 * std::cos(angle), u, 3 * std::sin(angle) / length, across);
+                // Twice, since the first translation is long and rounds accordingly.
+                for (const double to : {0.2, gap}) {
+                    const ConvexGap now = abut::distance(a, world_a, b, world_b);
+                    const Vec3 way = combined(1, now.point_b, -1, now.point_a);
+                    world_b.translation =
+                        combined(1, world_b.translation, to / now.distance - 1, way);
+                }
+                poses.push_back({world_a, world_b});
+                world_b.rotation = turned(world_b.rotation, axis, 0.5);
             }
         }
         poses.resize(options_.poses);
@@ -188,6 +220,8 @@ private:
                     largest_error(a, b, poses));
         };
         measure("distance, coherent", path_poses(2.1), warm);
+        for (const double gap : {1e-3, 1e-6, 1e-9})
+            measure(fmt::format("distance, sliding at {:g}", gap), sliding_poses(a, b, gap), warm);
         const std::vector<PosedPair> apart = random_poses(a, b, true);
         measure("distance, random", apart, cold);
         measure("distance, random, old warm start", apart, warm);
@@ -213,10 +247,27 @@ private:
     Report report_;
 };
 
-} // namespace
-
+/// Measures pairs of convex bodies against FCL and Bullet.
+///
+/// Errors      as read_mesh.
 Report run_convex_suite(const ConvexSuiteOptions& options) {
     return ConvexSuite(options).run();
 }
+
+const Suite kConvexSuite("convex", "Pairs of convex bodies, against FCL and Bullet",
+                         [](CLI::App& suite) -> RunSuite {
+                             const auto options = std::make_shared<ConvexSuiteOptions>();
+                             suite.add_option("files", options->files,
+                                              "Model files whose hulls are taken too");
+                             suite.add_option("--vertices", options->vertices, "Of the ellipsoids");
+                             suite.add_option("--poses", options->poses, "In each case");
+                             suite.add_flag("--alone", options->alone, "Without peers");
+                             add_only(suite, options->only);
+                             add_rounds(suite, options->rounds);
+                             suite.add_option("--seed", options->seed, "Of bodies and poses");
+                             return [options] { return run_convex_suite(*options); };
+                         });
+
+} // namespace
 
 } // namespace abut::bench

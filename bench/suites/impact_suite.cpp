@@ -4,20 +4,32 @@
 
 #include "measure.h"
 #include "peers/peer_impact.h"
-#include "suites.h"
+#include "suite.h"
 #include "suites/long_motion_rows.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct ImpactSuiteOptions {
+    std::vector<std::string> files; ///< first and second model of each pair
+    bool is_long = false;           ///< also large bodies against small ones
+    int motions = 200;
+    int rounds = 3;
+    std::uint64_t seed = 1;
+    double peer_limit = 30; ///< seconds that the peer has for each row; 0: no peer
+};
 
 /// Moves the mesh to the origin, and scales it so that its bounding box has diagonal 1.
 Mesh unit_diagonal(Mesh mesh) {
@@ -144,8 +156,10 @@ Row measure(const Pair& pair, const std::string& kind, double turn,
     return row;
 }
 
-} // namespace
-
+/// Measures times of impact of random motions that let two models cross, against FCL's conservative
+/// advancement.
+///
+/// Errors      as read_scene; Error{bad_argument} for an odd number of files.
 Report run_impact_suite(const ImpactSuiteOptions& options) {
     if (options.files.size() % 2 != 0 || (options.files.empty() && !options.is_long))
         throw Error(ErrorCode::bad_argument, "impact: takes pairs of files, or --long");
@@ -167,5 +181,23 @@ Report run_impact_suite(const ImpactSuiteOptions& options) {
             report.rows.push_back(std::move(row));
     return report;
 }
+
+const Suite kImpactSuite(
+    "impact", "Time of impact of models that cross each other, against FCL",
+    [](CLI::App& suite) -> RunSuite {
+        const auto options = std::make_shared<ImpactSuiteOptions>();
+        suite.add_option("files", options->files, "Pairs of model files");
+        suite.add_flag("--long", options->is_long,
+                       "Also large bodies that turn against small ones, slide and nest");
+        suite.add_option("--motions", options->motions, "Random motions a row")
+            ->check(CLI::Range(1, 1000000));
+        add_rounds(suite, options->rounds);
+        suite.add_option("--seed", options->seed, "Of the motions");
+        suite.add_option("--peer-limit", options->peer_limit, "Seconds a row; 0 leaves FCL out")
+            ->check(CLI::NonNegativeNumber);
+        return [options] { return run_impact_suite(*options); };
+    });
+
+} // namespace
 
 } // namespace abut::bench

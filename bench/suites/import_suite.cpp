@@ -2,7 +2,7 @@
 #include <abut/scene.h>
 
 #include "measure.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,11 @@
 namespace abut::bench {
 
 namespace {
+
+struct ImportSuiteOptions {
+    std::vector<std::string> files;
+    int rounds = 7;
+};
 
 /// Reads a file with Assimp in this process, without isolation and checks. Returns what
 /// `read_scene` would, as far as reading the file goes.
@@ -122,8 +128,10 @@ Row compare(const std::string& file, int rounds) {
     return row;
 }
 
-} // namespace
-
+/// Measures `read_scene`, whose reader runs in a process of its own, against Assimp in this
+/// process.
+///
+/// Errors      as read_scene.
 Report run_import_suite(const ImportSuiteOptions& options) {
     Report report{"import", {}, {}};
     Row sum{"all, one after another", 0, "Assimp in process", 0, "ms", 1, {}};
@@ -137,5 +145,16 @@ Report run_import_suite(const ImportSuiteOptions& options) {
         "wall time; both end with the parts in memory; ours adds the reader's process and checks");
     return report;
 }
+
+const Suite
+    kImportSuite("import", "Models read in isolation, against Assimp in process",
+                 [](CLI::App& suite) -> RunSuite {
+                     const auto options = std::make_shared<ImportSuiteOptions>();
+                     suite.add_option("files", options->files, "Model files (GLB)")->required();
+                     add_rounds(suite, options->rounds);
+                     return [options] { return run_import_suite(*options); };
+                 });
+
+} // namespace
 
 } // namespace abut::bench

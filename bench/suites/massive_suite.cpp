@@ -7,7 +7,7 @@
 #include "measure.h"
 #include "scenes/plant/plant.h"
 #include "scratch_folder.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,22 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct MassiveSuiteOptions {
+    std::vector<std::uint64_t> plants = {2'000'000}; ///< triangles of each, instances counted
+    std::uint64_t ground = 2'000'000; ///< triangles of a large mesh with small parts on it; 0: none
+    std::uint64_t sheet = 2'000'000;  ///< triangles of one mesh; 0: none
+    std::uint64_t memory = std::uint64_t{512} << 20; ///< of the import
+    std::vector<std::uint64_t> clash_memory = {std::uint64_t{512} << 20, std::uint64_t{64} << 20};
+    int rounds = 3;
+};
 
 /// Writes a wavy sheet as binary STL. Each triangle has three vertices of its own, which the import
 /// must join.
@@ -223,8 +235,10 @@ Scene sheet_and_parts(std::uint64_t triangles, int parts) {
     return scene;
 }
 
-} // namespace
-
+/// Measures imports into a store against `read_scene` of the same files, which keeps all in memory,
+/// and clash jobs on the store against the job in core.
+///
+/// Errors      as import_models.
 Report run_massive_suite(const MassiveSuiteOptions& options) {
     Report report{"massive", {}, {}};
     const ScratchFolder folder;
@@ -260,5 +274,23 @@ Report run_massive_suite(const MassiveSuiteOptions& options) {
         options.memory >> 20));
     return report;
 }
+
+const Suite kMassiveSuite(
+    "massive",
+    "Models beyond the memory: import into a store and its clashes, against the same in core",
+    [](CLI::App& suite) -> RunSuite {
+        const auto options = std::make_shared<MassiveSuiteOptions>();
+        suite.add_option("--plants", options->plants, "Triangles of each plant");
+        suite.add_option("--ground", options->ground,
+                         "Triangles of the large mesh that small parts lie on; 0: none");
+        suite.add_option("--sheet", options->sheet, "Triangles of the one large mesh; 0: none");
+        suite.add_option("--memory", options->memory, "Bytes that the import keeps to");
+        suite.add_option("--clash-memory", options->clash_memory,
+                         "Bytes that the clash job keeps to, each in turn");
+        add_rounds(suite, options->rounds);
+        return [options] { return run_massive_suite(*options); };
+    });
+
+} // namespace
 
 } // namespace abut::bench

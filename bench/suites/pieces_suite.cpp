@@ -10,7 +10,7 @@
 #include "peers/peer_rigid.h"
 #include "placement.h"
 #include "scenes/bodies.h"
-#include "suites.h"
+#include "suite.h"
 #include "suites/machine_parts.h"
 
 #include <algorithm>
@@ -19,12 +19,25 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
-#include <numbers>
+#include <memory>
 #include <numeric>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct PiecesSuiteOptions {
+    std::vector<std::string> files; ///< two for each pair; closed
+    std::size_t poses = 500;        ///< in each regime
+    std::string part;               ///< runs only the machine parts whose name contains this
+    std::string only;               ///< runs only the cases whose name contains this
+    std::uint32_t curved = 0;       ///< if not 0: only builds of generated bodies with this many
+                                    ///< triangles are measured
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
 
 enum class Ask : std::uint8_t { distance, within, first_contact, penetration };
 
@@ -50,15 +63,6 @@ constexpr std::array kCases{
 };
 constexpr double kTolerance = 0.1;
 
-/// Rotates q by a tenth of a degree about an axis.
-std::array<double, 4> turned(const std::array<double, 4>& q, const Vec3& axis) {
-    const double half = 0.05 * std::numbers::pi / 180, c = std::cos(half), s = std::sin(half);
-    return {c * q[0] - s * (axis.x * q[1] + axis.y * q[2] + axis.z * q[3]),
-            c * q[1] + s * (axis.x * q[0] + axis.y * q[3] - axis.z * q[2]),
-            c * q[2] + s * (axis.y * q[0] + axis.z * q[1] - axis.x * q[3]),
-            c * q[3] + s * (axis.z * q[0] + axis.x * q[2] - axis.y * q[1])};
-}
-
 /// Paths as in a simulation: 50 steps of 0.1 degrees and 0.0005. They start at the separated poses,
 /// where b is 0.05 to 0.5 farther away than at its first touch.
 std::vector<PosedPair> small_steps(const RigidScene& scene, std::size_t count,
@@ -81,7 +85,7 @@ std::vector<PosedPair> small_steps(const RigidScene& scene, std::size_t count,
                     b.m[3 * c + r] = sum;
                 }
             poses.push_back({start.a, b});
-            moved.rotation = turned(moved.rotation, axis);
+            moved.rotation = turned(moved.rotation, axis, 0.1);
             moved.translation = {moved.translation.x + 0.0005 * step.x,
                                  moved.translation.y + 0.0005 * step.y,
                                  moved.translation.z + 0.0005 * step.z};
@@ -263,8 +267,10 @@ private:
     std::vector<PosedPair> steps_;
 };
 
-} // namespace
-
+/// Measures solids as unions of convex pieces against the triangle trees and FCL: machine parts,
+/// each with itself, and pairs of files.
+///
+/// Errors      as read_mesh and ConvexPieces; Error{bad_argument} for an odd number of files.
 Report run_pieces_suite(const PiecesSuiteOptions& options) {
     if (options.files.size() % 2 != 0)
         throw Error(ErrorCode::bad_argument, "an odd number of files: they come in pairs");
@@ -295,5 +301,23 @@ Report run_pieces_suite(const PiecesSuiteOptions& options) {
             read_mesh(options.files[i]), read_mesh(options.files[i + 1]));
     return report;
 }
+
+const Suite kPiecesSuite("pieces", "Solids of convex pieces, against the triangle trees and FCL",
+                         [](CLI::App& suite) -> RunSuite {
+                             const auto options = std::make_shared<PiecesSuiteOptions>();
+                             suite.add_option("files", options->files, "Closed models, two a pair");
+                             suite.add_option("--poses", options->poses, "In each regime");
+                             suite.add_option(
+                                 "--curved", options->curved,
+                                 "Instead: builds of curved bodies of so many triangles");
+                             suite.add_option("--part", options->part,
+                                              "Machine parts whose name has this in it");
+                             add_only(suite, options->only);
+                             add_rounds(suite, options->rounds);
+                             suite.add_option("--seed", options->seed, "Of the poses");
+                             return [options] { return run_pieces_suite(*options); };
+                         });
+
+} // namespace
 
 } // namespace abut::bench

@@ -6,18 +6,33 @@
 #include "measure.h"
 #include "peers/peer_rigid.h"
 #include "scenes/bodies.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <functional>
+#include <memory>
 #include <numeric>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct RigidSuiteOptions {
+    std::vector<std::string> files; ///< two for each pair
+    /// Triangles of each model of a generated pair; 100,000 and 1,000,000 if nothing is given.
+    std::vector<std::uint32_t> generated;
+    std::size_t poses = 500; ///< in each regime
+    int rounds = 3;
+    bool alone = false;   ///< without peers
+    bool volumes = false; ///< also with every other kind of bounding volume
+    std::string only;     ///< runs only the cases whose name contains this
+    std::uint64_t seed = 1;
+};
 
 constexpr double kNear = 0.005, kFar = 0.1; ///< tolerances, in diagonals
 /// Time to try each of FCL's volumes for a case: with some, a pose takes seconds.
@@ -160,10 +175,10 @@ private:
         std::vector<double> their_answers(poses.size());
         // Takes turns, some poses each. Either side then has its own data in the caches, as a user
         // would.
-        constexpr std::size_t kBlock = kPathSteps;
+        constexpr std::size_t kBatch = kPathSteps;
         for (int round = 0; round < options_.rounds; ++round)
-            for (std::size_t first = 0; first < poses.size(); first += kBlock) {
-                const std::size_t end = std::min(first + kBlock, poses.size());
+            for (std::size_t first = 0; first < poses.size(); first += kBatch) {
+                const std::size_t end = std::min(first + kBatch, poses.size());
                 WarmStart warm_start;
                 for (std::size_t i = first; i < end; ++i) {
                     const double start = wall_seconds();
@@ -267,8 +282,10 @@ void run_build(const std::string& name, const Mesh& mesh, int rounds, Volume vol
         report.rows.push_back(row);
 }
 
-} // namespace
-
+/// Measures collide, distance and within on pairs of models, and their build, against FCL, CGAL and
+/// Embree.
+///
+/// Errors      as read_mesh; Error{bad_argument} for an odd number of files.
 Report run_rigid_suite(const RigidSuiteOptions& options) {
     if (options.files.size() % 2 != 0)
         throw Error(ErrorCode::bad_argument, "an odd number of files: they come in pairs");
@@ -304,5 +321,24 @@ Report run_rigid_suite(const RigidSuiteOptions& options) {
             fmt::format("knot {}k", triangles / 1000), scenes::knot(triangles));
     return report;
 }
+
+const Suite kRigidSuite("rigid",
+                        "Queries on pairs of models in four regimes, against FCL, CGAL and Embree",
+                        [](CLI::App& suite) -> RunSuite {
+                            const auto options = std::make_shared<RigidSuiteOptions>();
+                            suite.add_option("files", options->files, "Model files, two a pair");
+                            suite.add_option("--generated", options->generated,
+                                             "Pairs of generated models of so many triangles each");
+                            suite.add_option("--poses", options->poses, "In each regime");
+                            add_rounds(suite, options->rounds);
+                            add_only(suite, options->only);
+                            suite.add_flag("--alone", options->alone, "Without peers");
+                            suite.add_flag("--volumes", options->volumes,
+                                           "Also with every kind of bounding volume");
+                            suite.add_option("--seed", options->seed, "Of the poses");
+                            return [options] { return run_rigid_suite(*options); };
+                        });
+
+} // namespace
 
 } // namespace abut::bench

@@ -3,17 +3,28 @@
 
 #include "measure.h"
 #include "peers/peer_shapes.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct ShapesSuiteOptions {
+    std::string file; ///< empty: a generated model
+    std::uint32_t triangles = 100000;
+    std::size_t queries = 20000;
+    int rounds = 5;
+    std::uint64_t seed = 1;
+};
 
 /// A closed torus with waves on it, of about this many triangles.
 Mesh wavy_torus(std::uint32_t triangles) {
@@ -145,10 +156,25 @@ private:
     Report report_;
 };
 
-} // namespace
-
+/// Measures one model against rays (Embree), points (CGAL) and containment.
+///
+/// Errors      as read_mesh.
 Report run_shapes_suite(const ShapesSuiteOptions& options) {
     return ShapesSuite(options).run();
 }
+
+const Suite kShapesSuite("shapes", "One model and rays, points: against Embree and CGAL",
+                         [](CLI::App& suite) -> RunSuite {
+                             const auto options = std::make_shared<ShapesSuiteOptions>();
+                             suite.add_option("--model", options->file,
+                                              "Model file to use instead of a wavy torus");
+                             suite.add_option("--triangles", options->triangles, "Of the torus");
+                             suite.add_option("--queries", options->queries, "In each case");
+                             add_rounds(suite, options->rounds);
+                             suite.add_option("--seed", options->seed, "Of the queries");
+                             return [options] { return run_shapes_suite(*options); };
+                         });
+
+} // namespace
 
 } // namespace abut::bench

@@ -6,18 +6,32 @@
 #include "measure.h"
 #include "scenes/plant/plant.h"
 #include "scratch_folder.h"
-#include "suites.h"
+#include "suite.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
+#include <memory>
 #include <random>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct WalkSuiteOptions {
+    std::string store;                    ///< empty: a plant in which no mesh is shared
+    std::uint64_t triangles = 15'432'126; ///< of that plant
+    std::vector<std::uint64_t> memory = {std::uint64_t{512} << 20, std::uint64_t{128} << 20,
+                                         std::uint64_t{64} << 20};
+    double seconds = 120; ///< of each walk, in real time
+    std::string only;     ///< runs only the cases whose name contains this
+    std::uint64_t seed = 1;
+};
 
 constexpr double kFrame = 1.0 / 60;
 
@@ -155,29 +169,40 @@ private:
     std::vector<std::pair<WalkPart, Transform>> parts_;
 };
 
-Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
-             const WalkSuiteOptions& options) {
-    Row row{fmt::format("{}, {} MiB", what.name, memory >> 20), 0, "", {}, "ms", 2, {}};
-    constexpr double kMeanWay = 12;
-    const double legs = 2 + options.seconds * std::max(what.speed / kMeanWay, 1.0);
-    Wanderer wanderer(make_places(store, what.jump_every > 0, static_cast<int>(legs), options.seed),
-                      what.speed);
-    const double start = wall_seconds();
-    Walk walk(store, {.memory = memory, .prefetch = what.prefetch});
-    row.counters["open, s"] = wall_seconds() - start;
-    const Probe person(kPerson);
-    walk.move_to(wanderer.position(), {});
-    const double before_wait = wall_seconds();
-    walk.wait();
-    row.counters["first fill, s"] = wall_seconds() - before_wait;
-    MovingParts moving(walk, wanderer.position(), what.moving_parts);
-
-    const WalkStatistics begin = walk.statistics();
-    const auto frames = static_cast<int>(options.seconds / kFrame);
+/// The measurements of the frames of a walk.
+struct WalkFigures {
     std::vector<double> distance_ms, processor_ms, spin_ms, within_ms, move_ms, part_ms, jump_ms;
-    std::uint64_t near = 0;
-    std::uint64_t late = 0, missed_frames = 0, touching = 0, candidates = 0;
+    std::uint64_t near = 0, late = 0, missed_frames = 0, touching = 0, candidates = 0;
     double sum_of_distances = 0;
+
+    void add_to(std::map<std::string, double>& c, int frames) const {
+        c["distance, 99th percentile, ms"] = percentile(distance_ms, 0.99);
+        c["distance, 99.9th percentile, ms"] = percentile(distance_ms, 0.999);
+        c["distance, worst, ms"] = percentile(distance_ms, 1);
+        c["distance, worst, processor ms"] = percentile(processor_ms, 1);
+        c["as long of nothing, 99.9th percentile, ms"] = percentile(spin_ms, 0.999);
+        c["as long of nothing, worst, ms"] = percentile(spin_ms, 1);
+        c["within 1 m, median, ms"] = percentile(within_ms, 0.5);
+        c["within 1 m, 99th percentile, ms"] = percentile(within_ms, 0.99);
+        c["parts within 1 m"] = static_cast<double>(near) / frames;
+        c["move_to, median, us"] = 1e3 * percentile(move_ms, 0.5);
+        c["move_to, worst, ms"] = percentile(move_ms, 1);
+        if (!jump_ms.empty()) {
+            c["distance after a jump, median, ms"] = percentile(jump_ms, 0.5);
+            c["distance after a jump, worst, ms"] = percentile(jump_ms, 1);
+        }
+        c["frames with a miss, %"] = 100.0 * static_cast<double>(missed_frames) / frames;
+        c["frames late, %"] = 100.0 * static_cast<double>(late) / frames;
+        c["frames that touch, %"] = 100.0 * static_cast<double>(touching) / frames;
+        c["mean distance, m"] = sum_of_distances / frames;
+        c["candidates a frame"] = static_cast<double>(candidates) / frames;
+    }
+};
+
+WalkFigures walk_frames(const WalkCase& what, int frames, Walk& walk, Wanderer& wanderer,
+                        MovingParts& moving) {
+    const Probe person(kPerson);
+    WalkFigures figures;
     NearestPart nearest;
     auto next = std::chrono::steady_clock::now();
     for (int frame = 0; frame < frames; ++frame) {
@@ -193,55 +218,59 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
         const double t2 = wall_seconds();
         const double computed = thread_seconds();
         nearest = walk.distance(person, Pose{wanderer.position()});
-        processor_ms.push_back(1e3 * (thread_seconds() - computed));
+        const double processor_seconds = thread_seconds() - computed;
         const double t3 = wall_seconds();
-        near += walk.within(person, Pose{wanderer.position()}, 1).parts.size();
-        within_ms.push_back(1e3 * (wall_seconds() - t3));
-        move_ms.push_back(1e3 * (t1 - t0)), part_ms.push_back(1e3 * (t2 - t1));
-        (jumps ? jump_ms : distance_ms).push_back(1e3 * (t3 - t2));
-        missed_frames += nearest.misses > 0 ? 1 : 0;
-        touching += nearest.gap.distance <= 0 ? 1 : 0;
-        candidates += nearest.candidates;
-        sum_of_distances += nearest.gap.distance;
-        spin_ms.push_back(1e3 * spin(processor_ms.back() / 1e3));
+        figures.near += walk.within(person, Pose{wanderer.position()}, 1).parts.size();
+        figures.within_ms.push_back(1e3 * (wall_seconds() - t3));
+        figures.processor_ms.push_back(1e3 * processor_seconds);
+        figures.move_ms.push_back(1e3 * (t1 - t0)), figures.part_ms.push_back(1e3 * (t2 - t1));
+        (jumps ? figures.jump_ms : figures.distance_ms).push_back(1e3 * (t3 - t2));
+        figures.missed_frames += nearest.misses > 0 ? 1 : 0;
+        figures.touching += nearest.gap.distance <= 0 ? 1 : 0;
+        figures.candidates += nearest.candidates;
+        figures.sum_of_distances += nearest.gap.distance;
+        figures.spin_ms.push_back(1e3 * spin(processor_seconds));
         // A frame is 1/60 s of wall time. A late frame does not shorten the next ones.
         next += std::chrono::duration_cast<std::chrono::steady_clock::duration>(
             std::chrono::duration<double>(kFrame));
         const auto now = std::chrono::steady_clock::now();
-        late += now > next ? 1 : 0;
+        figures.late += now > next ? 1 : 0;
         next = std::max(next, now);
         std::this_thread::sleep_until(next);
     }
+    return figures;
+}
+
+Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
+             const WalkSuiteOptions& options) {
+    Row row{fmt::format("{}, {} MiB", what.name, memory >> 20), 0, "", {}, "ms", 2, {}};
+    std::map<std::string, double>& c = row.counters;
+    constexpr double kMeanWay = 12;
+    const double legs = 2 + options.seconds * std::max(what.speed / kMeanWay, 1.0);
+    Wanderer wanderer(make_places(store, what.jump_every > 0, static_cast<int>(legs), options.seed),
+                      what.speed);
+    const double start = wall_seconds();
+    Walk walk(store, {.memory = memory, .prefetch = what.prefetch});
+    c["open, s"] = wall_seconds() - start;
+    walk.move_to(wanderer.position(), {});
+    const double before_wait = wall_seconds();
+    walk.wait();
+    c["first fill, s"] = wall_seconds() - before_wait;
+    MovingParts moving(walk, wanderer.position(), what.moving_parts);
+
+    const auto frames = static_cast<int>(options.seconds / kFrame);
+    const WalkStatistics begin = walk.statistics();
+    const WalkFigures figures = walk_frames(what, frames, walk, wanderer, moving);
     const WalkStatistics end = walk.statistics();
     const auto lookups = static_cast<double>(end.lookups - begin.lookups);
-    row.ours = percentile(distance_ms, 0.5);
-    auto& c = row.counters;
-    c["distance, 99th percentile, ms"] = percentile(distance_ms, 0.99);
-    c["distance, 99.9th percentile, ms"] = percentile(distance_ms, 0.999);
-    c["distance, worst, ms"] = percentile(distance_ms, 1);
-    c["distance, worst, processor ms"] = percentile(processor_ms, 1);
-    c["as long of nothing, 99.9th percentile, ms"] = percentile(spin_ms, 0.999);
-    c["as long of nothing, worst, ms"] = percentile(spin_ms, 1);
-    c["within 1 m, median, ms"] = percentile(within_ms, 0.5);
-    c["within 1 m, 99th percentile, ms"] = percentile(within_ms, 0.99);
-    c["parts within 1 m"] = static_cast<double>(near) / frames;
-    c["move_to, median, us"] = 1e3 * percentile(move_ms, 0.5);
-    c["move_to, worst, ms"] = percentile(move_ms, 1);
-    if (!jump_ms.empty()) {
-        c["distance after a jump, median, ms"] = percentile(jump_ms, 0.5);
-        c["distance after a jump, worst, ms"] = percentile(jump_ms, 1);
-    }
+    row.ours = percentile(figures.distance_ms, 0.5);
+    figures.add_to(c, frames);
     if (what.moving_parts > 0)
-        c["moving the parts, median, us"] = 1e3 * percentile(part_ms, 0.5);
+        c["moving the parts, median, us"] = 1e3 * percentile(figures.part_ms, 0.5);
     c["hit rate, %"] =
         100 * (1 - static_cast<double>(end.misses - begin.misses) / std::max(1.0, lookups));
     c["frames"] = frames;
     c["way, m"] = wanderer.way();
-    c["frames with a miss, %"] = 100.0 * static_cast<double>(missed_frames) / frames;
-    c["frames late, %"] = 100.0 * static_cast<double>(late) / frames;
-    c["frames that touch, %"] = 100.0 * static_cast<double>(touching) / frames;
-    c["mean distance, m"] = sum_of_distances / frames;
-    c["candidates a frame"] = static_cast<double>(candidates) / frames;
     c["read ahead, parts"] = static_cast<double>(end.read_ahead - begin.read_ahead);
     c["read in queries, parts"] = static_cast<double>(end.read_in_query - begin.read_in_query);
     c["parts in memory at the end"] = static_cast<double>(end.parts_in_memory);
@@ -251,8 +280,10 @@ Row walk_row(const Store& store, const WalkCase& what, std::uint64_t memory,
     return row;
 }
 
-} // namespace
-
+/// A person walks, flies and jumps through a store, frame by frame. Measures the time to find the
+/// distance to the nearest part.
+///
+/// Errors      as open_store and Walk.
 Report run_walk_suite(const WalkSuiteOptions& options) {
     Report report{"walk", {}, {}};
     const ScratchFolder folder;
@@ -285,5 +316,20 @@ Report run_walk_suite(const WalkSuiteOptions& options) {
         "reads ahead");
     return report;
 }
+
+const Suite kWalkSuite(
+    "walk", "Through a store in little memory: a distance in every frame",
+    [](CLI::App& suite) -> RunSuite {
+        const auto options = std::make_shared<WalkSuiteOptions>();
+        suite.add_option("--store", options->store, "Of a model in metres, y up; else a plant");
+        suite.add_option("--triangles", options->triangles, "Of the plant");
+        suite.add_option("--memory", options->memory, "Bytes of the walk, each in turn");
+        suite.add_option("--seconds", options->seconds, "Of each walk")->check(CLI::PositiveNumber);
+        add_only(suite, options->only);
+        suite.add_option("--seed", options->seed, "Of the paths");
+        return [options] { return run_walk_suite(*options); };
+    });
+
+} // namespace
 
 } // namespace abut::bench

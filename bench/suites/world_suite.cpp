@@ -3,7 +3,7 @@
 
 #include "measure.h"
 #include "peers/peer_boxes.h"
-#include "suites.h"
+#include "suite.h"
 #include "suites/box_scene.h"
 #include "suites/flight_rows.h"
 
@@ -13,10 +13,23 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace abut::bench {
 
 namespace {
+
+struct WorldSuiteOptions {
+    std::vector<std::size_t> counts{1000, 10000, 100000, 1000000};
+    int steps = 20;        ///< at least, for each case
+    bool alone = false;    ///< without peers
+    bool methods = false;  ///< also each broad phase by itself
+    std::string only;      ///< runs only the cases whose name contains this
+    double peer_limit = 4; ///< approximate seconds per step beyond which a peer is left out
+    std::uint64_t seed = 1;
+};
 
 struct Layout {
     BoxLayout layout;
@@ -212,10 +225,27 @@ private:
     std::map<std::pair<std::string, BoxMotion>, Experience> last_; ///< of each peer and motion
 };
 
-} // namespace
-
+/// Measures overlapping pairs of moving boxes, against Bullet, CGAL, Embree and FCL.
 Report run_world_suite(const WorldSuiteOptions& options) {
     return WorldSuite(options).run();
 }
+
+const Suite kWorldSuite(
+    "world", "Overlapping pairs of moving boxes, against Bullet, CGAL, Embree and FCL",
+    [](CLI::App& suite) -> RunSuite {
+        const auto options = std::make_shared<WorldSuiteOptions>();
+        suite.add_option("--boxes", options->counts, "Numbers of boxes");
+        suite.add_option("--steps", options->steps, "At least, of each case; means are taken")
+            ->check(CLI::Range(1, 100000));
+        add_only(suite, options->only);
+        suite.add_flag("--alone", options->alone, "Without peers");
+        suite.add_flag("--methods", options->methods, "Also each broad phase by itself");
+        suite.add_option("--peer-limit", options->peer_limit, "Seconds a step, about")
+            ->check(CLI::NonNegativeNumber);
+        suite.add_option("--seed", options->seed, "Of the boxes");
+        return [options] { return run_world_suite(*options); };
+    });
+
+} // namespace
 
 } // namespace abut::bench

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The whole library. One header a subject; each can be included alone.
+/// Includes the whole library. There is one header for each subject, and each can be included
+/// alone.
 #include <abut/batch.h>
 #include <abut/broad_phase.h>
 #include <abut/clash.h>

@@ -10,22 +10,25 @@
 #include <span>
 #include <vector>
 
-/// Many queries of one pair of models, or solids of convex pieces, at once: the verbs of rigid.h,
-/// motion.h and convex_pieces.h for a list of placements, in parallel (`set_threads`). Each answer equals that of the single query, counters
-/// included, and stands at its placement's index. A warm start in the options is left alone: it is one
-/// thread's. A limit of steps holds for each query. The stop flag ends all with Error{interrupted}, and
-/// reports tell the share of the queries that are done.
+/// Many queries of one pair of models, or of one pair of solids made of convex pieces, in one call:
+/// the functions of rigid.h, motion.h and convex_pieces.h for a list of placements. The queries run
+/// in parallel (`set_threads`).
 ///
-/// Errors, of all: those of the single query, for the first placement that has one; its message
-/// begins with "placement N: ", N counted from 0.
+/// Each answer, its counters included, equals that of the single query, and has the index of its
+/// placement. A warm start in the options is not used, because only one thread may use it. A limit
+/// of steps applies to each query. The stop flag ends all queries with Error{interrupted}. Progress
+/// reports give the fraction of the queries that are finished.
+///
+/// Errors      of all functions: those of the single query, for the first placement that has one;
+///             the message begins with "placement N: ", with N counted from 0.
 namespace abut {
 
-/// Where both models are.
+/// The places of both models.
 struct Placement {
     Transform world_from_a, world_from_b;
 };
 
-/// How both models move.
+/// The motions of both models.
 struct MotionPair {
     Motion a, b;
 };

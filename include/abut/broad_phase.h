@@ -10,18 +10,18 @@
 #include <utility>
 #include <vector>
 
-/// Which of many boxes overlap, from step to step. docs/world.md tells how they are found.
+/// Finds which of many boxes overlap, step after step. docs/world.md explains the methods.
 namespace abut {
 
-/// Two different boxes by their indices, the lower first; in one number, so that lists of pairs sort
-/// and compare fast.
+/// The indices of two different boxes, the lower one first. They are packed into one number, so
+/// that lists of pairs sort and compare fast.
 class IndexPair {
 public:
     IndexPair() = default;
     IndexPair(std::uint32_t i, std::uint32_t k)
         : key_(i < k ? std::uint64_t{i} << 32 | k : std::uint64_t{k} << 32 | i) {}
 
-    /// The pair with this key.
+    /// Returns the pair that has this key.
     static IndexPair of_key(std::uint64_t key) {
         IndexPair pair;
         pair.key_ = key;
@@ -32,7 +32,7 @@ public:
         return static_cast<std::uint32_t>(key_ >> 32);
     }
     [[nodiscard]] std::uint32_t b() const noexcept { return static_cast<std::uint32_t>(key_); }
-    /// Grows with a, then with b.
+    /// Increases with a, then with b.
     [[nodiscard]] std::uint64_t key() const noexcept { return key_; }
     friend bool operator==(const IndexPair&, const IndexPair&) = default;
     friend bool operator<(const IndexPair& p, const IndexPair& q) { return p.key_ < q.key_; }
@@ -41,31 +41,33 @@ private:
     std::uint64_t key_ = 0;
 };
 
-/// How pairs of boxes are found.
+/// The method that finds pairs of boxes.
 enum class BroadPhaseMethod : std::uint8_t {
-    automatic,       ///< by size and measured coherence: one of those below, each step
-    tree,            ///< wide hierarchy, refitted; built anew where its boxes have become bad
-    sweep,           ///< sorted along one axis
-    sweep_and_prune, ///< sorted along three axes; only what changes places is looked at
+    automatic,       ///< chooses one of the others in each step, by size and measured coherence
+    tree,            ///< wide hierarchy, refitted; rebuilt where its boxes have become too loose
+    sweep,           ///< boxes sorted along one axis
+    sweep_and_prune, ///< boxes sorted along three axes; examines only those that change places
 };
 /// The enumerator's name.
 const char* to_string(BroadPhaseMethod method);
 
 struct BroadPhaseOptions {
     BroadPhaseMethod method = BroadPhaseMethod::automatic;
-    /// Pairs (i, k), i < k, that are of interest; all if empty. Called from any thread. What it says
-    /// of a pair may change only with `BroadPhase::forget`.
+    /// Returns whether the pair (i, k), i < k, is of interest; if empty, all pairs are. It is
+    /// called from any thread. Its answer for a pair may change only together with a call of
+    /// `BroadPhase::forget`.
     std::function<bool(std::uint32_t, std::uint32_t)> filter{};
 };
 
 class PairList;
 class PairSearch;
 
-/// The overlapping pairs of boxes that move, and which begin and end. A box is known by its index.
+/// The overlapping pairs of moving boxes, and the pairs that begin and end in each step. A box is
+/// identified by its index.
 ///
-/// Boxes are closed: touching ones overlap. A box with lower > upper on some axis, or that lies at
-/// infinity, has no point and overlaps nothing: so indices are free to be given away and taken back.
-/// Boxes may reach to infinity.
+/// Boxes are closed: boxes that touch overlap. A box may extend to infinity. A box with lower >
+/// upper on some axis, or one that lies at infinity, contains no point and overlaps nothing. Such a
+/// box can stand at an index that is not in use.
 class BroadPhase {
 public:
     explicit BroadPhase(BroadPhaseOptions options = {});
@@ -73,26 +75,28 @@ public:
     BroadPhase(BroadPhase&&) noexcept;
     BroadPhase& operator=(BroadPhase&&) noexcept;
 
-    /// The next step: any box may have changed, and their number.
+    /// Starts the next step. Any box, and the number of boxes, may have changed.
     ///
-    /// Accuracy    exact for the given doubles, no margins.
-    /// Errors      Error{bad_argument} if a bound is not a number, naming the box: nothing has
-    ///             changed then.
-    /// Cost        some 200 ns a box with 5 pairs each, one thread; in parallel (`set_threads`).
+    /// Accuracy    exact for the given doubles, without margins.
+    /// Errors      Error{bad_argument}, naming the box, if a bound is not a number; the object is
+    ///             then unchanged.
+    /// Cost        about 200 ns a box with 5 pairs each, on one thread; parallel (`set_threads`).
     void update(std::span<const Box3> boxes);
-    /// The same, where only the boxes of these indices (in any order, each once) may have changed, or
-    /// are new.
+    /// Starts the next step, in which only the boxes with these indices have changed or are new.
+    /// The indices may be in any order; each occurs once.
     ///
-    /// Cost        that of what changed, and of copying the list of pairs.
+    /// Cost        proportional to the changes, plus a copy of the list of pairs.
     void update(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
-    /// Finds everything anew in the next update: what is `filter` has changed.
+    /// Makes the next update find all pairs anew. Call it when the answers of `filter` have
+    /// changed.
     void forget();
 
-    /// Sorted, and the same for every method and number of threads; valid until the next update.
+    /// The overlapping pairs, sorted. The list is the same for every method and number of threads,
+    /// and is valid until the next update.
     [[nodiscard]] const std::vector<IndexPair>& pairs() const noexcept;
-    /// Of `pairs`, those that were none before the last update; sorted.
+    /// The pairs that began with the last update, sorted.
     [[nodiscard]] const std::vector<IndexPair>& begun() const noexcept;
-    /// Those that are none any more; sorted.
+    /// The pairs that ended with the last update, sorted.
     [[nodiscard]] const std::vector<IndexPair>& ended() const noexcept;
 
 private:
@@ -102,14 +106,16 @@ private:
     bool forgotten_ = true;
 };
 
-/// The pairs (i, k), i < k, of boxes at most `gap` apart on every axis, sorted, that `filter(i, k)`
-/// admits: one question, nothing remembered.
+/// Returns the pairs (i, k), i < k, of boxes that are at most `gap` apart on every axis and that
+/// `filter(i, k)` accepts, sorted. Nothing is remembered between calls.
 ///
-/// In          boxes; empty ones (lower > upper) meet nothing. `filter` is called from any thread.
+/// In          boxes; empty ones (lower > upper) overlap nothing. `filter` is called from any
+///             thread.
 /// Accuracy    exact for the given doubles.
-/// Errors      Error{bad_argument} if a bound is not a number, or the gap negative or not finite.
-/// Cost        O(n log n + pairs), in parallel; memory of 4 bytes a box, 16 a pair and some 10 MB, more
-///             where many boxes are long.
+/// Errors      Error{bad_argument} if a bound is not a number, or if the gap is negative or not
+///             finite.
+/// Cost        O(n log n + pairs), parallel. Memory: 4 bytes a box, 16 bytes a pair and about 10
+///             MB, more where many boxes are long.
 std::vector<IndexPair>
 overlapping_boxes(std::span<const Box3> boxes, double gap = 0,
                   const std::function<bool(std::uint32_t, std::uint32_t)>& filter = {});

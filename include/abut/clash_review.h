@@ -8,50 +8,52 @@
 #include <string>
 #include <vector>
 
-/// What people say of the clashes of a store, and what has become of these. docs/clash-status.md tells
-/// the rules.
+/// The review of a store's clashes: the marks that people set, and the statuses that result.
+/// docs/clash-status.md explains the rules.
 namespace abut {
 
-/// The clashes of one question, as its last job that ended left them.
+/// The clashes of one question, as found by the last job that finished.
 struct ClashReview {
-    double clearance = 0, touch_tolerance = 0; ///< metres; as asked for
+    double clearance = 0, touch_tolerance = 0; ///< metres; the tolerances of the question
     bool self = false;
-    std::uint64_t rules = 0;                 ///< how many
+    std::uint64_t rules = 0;                 ///< number of rules
     std::int64_t finished = 0;               ///< when the job ended, in seconds since 1970
-    std::array<std::uint64_t, 5> statuses{}; ///< how many of each, by ClashStatus
-    std::vector<ListedClash> clashes;        ///< resolved ones too; by status, the deepest first
+    std::array<std::uint64_t, 5> statuses{}; ///< number of clashes of each ClashStatus
+    std::vector<ListedClash> clashes;        ///< with resolved ones; by status, the deepest first
 };
 
-/// One for each question that the store has been asked, in the order of the first time.
+/// Returns one review for each question, in the order in which the questions were first asked.
 ///
 /// Errors      those of the store; Error{malformed} if a row is damaged.
 std::vector<ClashReview> review_clashes(const Store& store);
 
-/// One JSON object; docs/clash-status.md gives the keys.
+/// Returns one JSON object; docs/clash-status.md lists the keys.
 std::string to_json(const ClashReview& review);
+/// One JSON object with the path of a store and its reviews, as `abut review --json` prints it.
+std::string to_json(const std::vector<ClashReview>& reviews, const std::string& store);
 
-/// Marks to set and to take away, by clash ids.
+/// Marks to set and to clear, by clash ids.
 struct MarkChanges {
-    std::vector<std::uint64_t> reviewed, approved; ///< to be marked so, in place of what they are
-    std::vector<std::uint64_t> cleared;            ///< to be as if nobody had marked them
-    std::string note;                              ///< of those that are marked
+    std::vector<std::uint64_t> reviewed, approved; ///< get this mark in place of an earlier one
+    std::vector<std::uint64_t> cleared;            ///< lose their mark
+    std::string note;                              ///< stored with the marks that are set
 };
 
-/// Makes all of the changes or, after an error, none. A mark is of the clash, whichever question it
-/// answers; it stays until it is cleared, and holds until the clash is resolved.
+/// Makes all of the changes or, after an error, none. A mark belongs to the clash, whichever
+/// question found it. The mark stays until it is cleared, and is valid until the clash is resolved.
 ///
 /// In          store: opened with read_only = false.
-/// Errors      Error{bad_argument}, naming the clash: no job that ended found it, it is resolved and is
-///             to be marked, or it is named twice. Error{cannot_write}: the store is read-only.
+/// Errors      Error{bad_argument}, naming the clash: no finished job found it, it is to be marked
+///             but is resolved, or it is named twice. Error{cannot_write}: the store is read-only.
 void mark_clashes(const Store& store, const MarkChanges& changes);
 
-/// Removes resolved clashes, and their marks, from the lists of all questions. Returns how many.
+/// Removes resolved clashes and their marks from the lists of all questions. Returns their number.
 ///
 /// In          store: opened with read_only = false.
 std::uint64_t forget_resolved_clashes(const Store& store);
 
-/// Reads all that the store keeps of jobs and clashes, and checks each row against its checksum; what
-/// `verify` does for models.
+/// Reads everything that the store keeps about jobs and clashes, and checks each row against its
+/// checksum. `verify` does this for the models.
 ///
 /// Errors      Error{malformed}, naming the file and the damage.
 void verify_jobs(const Store& store);

@@ -12,30 +12,30 @@
 #include <span>
 #include <vector>
 
-/// Continuous collision detection of deforming surfaces: which vertices and faces, and which edges,
-/// meet while the vertices move, and when. docs/representative-triangles.md tells how they are
-/// found.
+/// Continuous collision detection of deforming surfaces: finds which vertices and faces, and which
+/// pairs of edges, meet while the vertices move, and when. docs/representative-triangles.md
+/// explains the algorithm.
 namespace abut {
 
-/// Which one of its triangles represents a vertex or an edge.
+/// Decides which of its triangles represents a vertex or an edge.
 enum class Assignment : std::uint8_t {
-    greedy,              ///< the first one in the mesh's order
-    maximal,             ///< few triangles represent much: the others need no tests of their own
+    greedy,              ///< the first triangle in the mesh's order
+    maximal,             ///< few triangles represent many features; the others need no tests
     uniform_vertex_edge, ///< all triangles represent about as many vertices and edges
     uniform_edge_edge,   ///< all triangles represent about as many edges, and as many vertices
     adaptive, ///< greedy, until `Deformable::adapt` moves features off triangles that collide
 };
 
-/// How pairs of triangles that may meet become tests of features.
+/// Decides how pairs of triangles that may meet become tests of features.
 enum class Scheme : std::uint8_t {
-    representative, ///< tests of the features that both represent, if the features' boxes overlap
-    database, ///< all 15 tests whose features' boxes overlap and that a hash table has not yet seen
-    markup,   ///< tests of the features that both represent, without boxes of features
+    representative, ///< the features that both triangles represent, if the features' boxes overlap
+    database, ///< all 15 tests whose features' boxes overlap; a hash table prevents repetitions
+    markup,   ///< the features that both triangles represent, without boxes of features
     basic,    ///< all 15 tests
-    features, ///< no triangle pairs: trees over vertices, edges and faces of their own
+    features, ///< no triangle pairs: separate trees over vertices, edges and faces
 };
 
-/// How pairs of triangles that may meet are found.
+/// The broad phase that finds pairs of triangles that may meet.
 enum class Culling : std::uint8_t {
     tree,  ///< bounding-volume hierarchy
     grid,  ///< uniform grid
@@ -48,14 +48,15 @@ struct DeformableOptions {
     Culling culling = Culling::tree;
 };
 
-/// Two features that meet.
+/// Two features that meet during the step.
 struct FeatureImpact {
     ElementaryKind kind = ElementaryKind::vertex_face;
     Status status = Status::exact; ///< as in ElementaryImpact
-    /// vertex_face between two surfaces: the face is the first surface's, the vertex the second's.
+    /// For vertex_face between two surfaces: true if the face belongs to the first surface and the
+    /// vertex to the second.
     bool face_first = false;
-    /// vertex_face: vertex and triangle. edge_edge: edges, as numbered by `Deformable::edges`; of
-    /// one surface, a < b.
+    /// vertex_face: the vertex and the triangle. edge_edge: the two edges, as `Deformable::edges`
+    /// numbers them; within one surface, a < b.
     std::uint32_t a = 0, b = 0;
     double time = 1;                     ///< as in ElementaryImpact
     std::array<double, 3> barycentric{}; ///< as in ElementaryImpact
@@ -64,32 +65,34 @@ struct FeatureImpact {
     friend bool operator==(const FeatureImpact&, const FeatureImpact&) = default;
 };
 
-/// A number for each kind of test.
+/// One number for each kind of test.
 struct TestCounts {
     std::uint64_t vertex_face = 0, edge_edge = 0;
     friend bool operator==(const TestCounts&, const TestCounts&) = default;
 };
 
-/// Work that a query did: the machine-independent part of its cost. The same for any number of
-/// threads.
+/// The work of a query: the part of its cost that does not depend on the machine or on the number
+/// of threads.
 struct DeformableCounters {
-    std::uint64_t triangle_pairs = 0; ///< whose boxes overlap, each once, but for those that flat
-                                      ///< regions spare; 0 where the scheme looks at none
-    TestCounts candidates; ///< feature pairs that the scheme wants tested: without adjacent ones
-    TestCounts elementary_tests;       ///< of these, those for whose roots was looked: that neither
-                                       ///< directions nor signs of the cubic have told apart
-    std::uint64_t exact_fallbacks = 0; ///< of these, those that integers had to decide
+    /// Triangle pairs whose boxes overlap, each counted once. Pairs within one flat region,
+    /// which cannot meet, are not counted. 0 if the scheme uses no triangle pairs.
+    std::uint64_t triangle_pairs = 0;
+    TestCounts candidates; ///< feature pairs that the scheme selects; adjacent pairs are left out
+    /// Candidates whose roots were computed, because neither separating directions nor the signs of
+    /// the cubic ruled them out.
+    TestCounts elementary_tests;
+    std::uint64_t exact_fallbacks = 0; ///< elementary tests that integer arithmetic had to decide
 
     friend bool operator==(const DeformableCounters&, const DeformableCounters&) = default;
 };
 
 struct Impacts {
-    /// Sorted by kind, face_first, a, b; each pair of features once.
+    /// Sorted by kind, face_first, a, b. Each pair of features occurs once.
     std::vector<FeatureImpact> list;
     DeformableCounters counters;
 };
 
-/// Two features at rest that are near each other.
+/// Two features that are near each other at the start of the step.
 struct FeaturePair {
     ElementaryKind kind = ElementaryKind::vertex_face;
     bool face_first = false;    ///< as in FeatureImpact
@@ -102,17 +105,18 @@ struct FeaturePair {
 
 class DeformableData;
 
-/// A triangle mesh whose vertices move from step to step, with all that its queries need. During a
-/// step every vertex goes from its start to its end in a straight line while t goes from 0 to 1.
+/// A triangle mesh whose vertices move from step to step, with the data that its queries need.
+/// During a step every vertex moves in a straight line from its start to its end while t goes from
+/// 0 to 1.
 ///
-/// Any number of threads may query it; none may change it meanwhile. Movable, not copyable.
+/// Any number of threads may query it while no thread changes it. Movable, not copyable.
 class Deformable {
 public:
-    /// The mesh at rest: its positions are start and end.
+    /// Takes a mesh at rest: its positions are both start and end.
     ///
-    /// Degenerate  any triangles, also with equal vertices or a repeated index; duplicate vertices are
-    ///             vertices of their own, and features that share no index are tested. Vertices
-    ///             that no triangle uses take no part.
+    /// Degenerate  any triangles are allowed, also with equal vertices or a repeated index.
+    ///             Duplicate vertices are separate vertices, and features that share no index are
+    ///             tested. Vertices that no triangle uses are ignored.
     /// Errors      Error{bad_mesh} as `Model`.
     /// Cost        O(n log n).
     explicit Deformable(Mesh mesh, const DeformableOptions& options = {});
@@ -120,36 +124,37 @@ public:
     Deformable(Deformable&&) noexcept;
     Deformable& operator=(Deformable&&) noexcept;
 
-    /// Sets the step: where every vertex is at t = 0 and at t = 1. Refits the hierarchy, and builds it
-    /// anew where its boxes have become bad.
+    /// Sets the step: the position of every vertex at t = 0 and at t = 1. Refits the hierarchy, and
+    /// rebuilds it where its boxes have become too loose.
     ///
-    /// Errors      Error{bad_argument} if there are not as many positions as vertices; Error{bad_mesh} if
-    ///             a coordinate is not finite or beyond 1e18. Nothing has changed then.
-    /// Cost        O(n), in parallel; O(n log n) where the hierarchy is built anew.
+    /// Errors      Error{bad_argument} if the number of positions is not that of the vertices;
+    ///             Error{bad_mesh} if a coordinate is not finite or beyond 1e18. Nothing has
+    ///             changed then.
+    /// Cost        O(n), parallel; O(n log n) where the hierarchy is rebuilt.
     void set_motion(std::span<const Vec3> start, std::span<const Vec3> end);
-    /// The next step: what was the end is the start. Errors and cost as set_motion.
+    /// Starts the next step: the old end becomes the start. Errors and cost as `set_motion`.
     void advance(std::span<const Vec3> end);
-    /// The same; the memory of the positions is free before the hierarchy is fitted.
+    /// As above, but frees the memory of `end` before it refits the hierarchy.
     void advance(std::vector<Vec3>&& end);
 
-    /// Takes another mesh, at rest: cutting, fracture, remeshing. What is represented by a triangle
-    /// that has the same three vertices in the same order at the same index stays so.
+    /// Replaces the mesh, at rest, after cutting, fracture or remeshing. A triangle that keeps its
+    /// index and its three vertices in the same order keeps the features that it represents.
     ///
     /// Errors      Error{bad_mesh} as the constructor; nothing has changed then.
     /// Cost        O(n log n).
     void set_mesh(Mesh mesh);
 
-    /// Moves the vertices and edges of triangles that met something to other triangles of theirs that
-    /// did not. For Assignment::adaptive, from time to time; changes no answer.
+    /// Moves vertices and edges from triangles that met something to neighbouring triangles that
+    /// met nothing. Call it from time to time with Assignment::adaptive. It changes no answer.
     ///
-    /// In          `self_impacts` of this surface, as its triangles are.
+    /// In          `self_impacts` of this surface with its current triangles.
     /// Cost        O(n log n).
     void adapt(const Impacts& impacts);
 
     [[nodiscard]] std::size_t vertex_count() const noexcept;
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const noexcept;
-    /// Every pair of vertices that a triangle joins, once, the lower first; sorted by the higher,
-    /// then by the lower.
+    /// Every pair of vertices that a triangle joins, once, the lower vertex first. Sorted by the
+    /// higher vertex, then by the lower one.
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 2>>& edges() const noexcept;
     /// Memory, in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept;
@@ -159,32 +164,35 @@ private:
     std::unique_ptr<DeformableData> data_;
 };
 
-/// Every vertex and face, and every two edges, of one surface that meet during the step, each once.
-/// Features that share a vertex are no pair.
+/// Finds every vertex and face, and every two edges, of one surface that meet during the step. Each
+/// pair is listed once. Features that share a vertex are not a pair.
 ///
 /// In          options: exact by default; see ElementaryOptions.
-/// Accuracy    complete, and exact where the options say so: decided as `elementary_impact` does.
-/// Errors      Error{bad_argument} for the options, as `elementary_impact`; or if the schemes or
-///             cullings of two surfaces differ. Error{interrupted} if the stop flag is set, as
-///             of all queries below.
-/// Cost        in parallel (`set_threads`); no list of candidates is ever made.
-/// Source      [Curtis, Tamstorf, Manocha 2008]. Differs: leaves of several triangles test the boxes of all
-///             the features that they represent, one against many in SIMD; certified filters follow at
-///             once, eight pairs at a time.
+/// Accuracy    complete, and exact where the options say so; each pair is decided as by
+///             `elementary_impact`.
+/// Errors      Error{bad_argument} for the options, as `elementary_impact`, or if the schemes or
+///             cullings of two surfaces differ. All queries below throw Error{interrupted} if the
+///             stop flag is set.
+/// Cost        parallel (`set_threads`); a list of candidates is never stored.
+/// Source      [Curtis, Tamstorf, Manocha 2008]. Differs: a leaf holds several triangles and tests
+///             the boxes of all features that they represent, one against many in SIMD; certified
+///             filters follow at once, eight pairs at a time.
 Impacts self_impacts(const Deformable& surface, const ElementaryOptions& options = {},
                      const Progress& progress = {});
-/// The same between two surfaces: a's features come first, but for FeatureImpact::face_first.
+/// As `self_impacts`, but between two surfaces. The features of `a` come first, except where
+/// FeatureImpact::face_first says otherwise.
 Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOptions& options = {},
                 const Progress& progress = {});
 
-/// The earliest of them; of several at the same time, the first of the list. Nothing if there is none.
+/// Returns the earliest impact; of several at the same time, the first in the order of the list.
+/// Returns nothing if there is none.
 ///
-/// Accuracy    `time` is never later than the first contact. With an error allowed or a thickness, some other
-///             of the list may have an earlier `time`, at which it is only near within the tolerances
-///             that ElementaryOptions tells.
+/// Accuracy    `time` is never later than the first contact. With an absolute error or a thickness,
+///             another impact of the list may have an earlier `time`, at which its features are
+///             only near each other, within the tolerances that ElementaryOptions describes.
 /// Errors      Error{bad_argument} for the options.
-/// Cost        less than all impacts: times are searched in growing windows, and only what moves into
-///             each other within a window is looked at.
+/// Cost        less than that of all impacts: time is searched in growing windows, and only
+///             features that may meet within a window are tested.
 std::optional<FeatureImpact> self_time_of_impact(const Deformable& surface,
                                                  const ElementaryOptions& options = {},
                                                  const Progress& progress = {});
@@ -192,19 +200,20 @@ std::optional<FeatureImpact> time_of_impact(const Deformable& a, const Deformabl
                                             const ElementaryOptions& options = {},
                                             const Progress& progress = {});
 
-/// Whether there is none: stops at the first that is found. Errors as those of `self_impacts` and
+/// Returns whether there is no impact. Stops at the first one found. Errors as `self_impacts` and
 /// `impacts`.
 bool is_free_of_self_impacts(const Deformable& surface, const ElementaryOptions& options = {},
                              const Progress& progress = {});
 bool is_free_of_impacts(const Deformable& a, const Deformable& b,
                         const ElementaryOptions& options = {}, const Progress& progress = {});
 
-/// Every vertex and face, and every two edges, that are at most `distance` apart at the start of
-/// the step, each once, sorted; features that share a vertex are no pair.
+/// Finds every vertex and face, and every two edges, that are at most `distance` apart at the start
+/// of the step. Each pair is listed once; the list is sorted. Features that share a vertex are not
+/// a pair.
 ///
-/// In          a length, at least 0.
-/// Accuracy    which pairs are listed is exact for the given doubles. Their distances are rounded,
-///             by less than 1e-12 of the features' size, and not above `distance`.
+/// In          distance: a length, at least 0.
+/// Accuracy    the selection of pairs is exact for the given doubles. The distances are rounded, by
+///             less than 1e-12 of the features' size, and never exceed `distance`.
 /// Errors      Error{bad_argument} if the distance is negative or not finite.
 std::vector<FeaturePair> self_within(const Deformable& surface, double distance,
                                      const Progress& progress = {});

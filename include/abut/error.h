@@ -6,7 +6,7 @@
 
 namespace abut {
 
-/// What kind of fault an Error reports. Each value names its cause, not its remedy.
+/// The kind of fault that an Error reports. Each value names its cause, not its remedy.
 enum class ErrorCode : std::uint8_t {
     bad_argument,   ///< a parameter is outside its domain (negative clearance, zero-length
                     ///< quaternion)

@@ -4,17 +4,17 @@
 
 namespace abut {
 
-/// Tells where Abut's helper programs lie: `abut-reader`, which reads FBX, COLLADA and some glTF
-/// files, the folder `ifc` for IFC, and the module for MPI. STL, OBJ, PLY, OFF and usual GLB files
-/// need none.
+/// Sets the folder of Abut's helper programs: `abut-reader`, which reads FBX, COLLADA and some glTF
+/// files; the folder `ifc`, which converts IFC; and the module for MPI. STL, OBJ, PLY, OFF and
+/// usual GLB files need none of them.
 ///
-/// They are looked for beside the running program, in ../libexec/abut of it, then in this folder. A
-/// program that is built with `find_package(Abut)` need not call this: the package names its own
-/// libexec/abut, wherever it lies when the program is configured. Call it where that folder is moved
-/// later. The environment variables ABUT_READER (the program) and ABUT_IFC_CONVERTER (the folder
-/// `ifc`) come before all of these.
+/// The library looks for them beside the running program, then in ../libexec/abut relative to it,
+/// then in this folder. A program built with `find_package(Abut)` need not call this function: the
+/// package sets its own libexec/abut, as located when the program is configured. Call it if that
+/// folder is moved later. The environment variables ABUT_READER (the program) and
+/// ABUT_IFC_CONVERTER (the folder `ifc`) take precedence over all of these.
 ///
-/// In          folder: absolute. To be called before files are read by several threads.
+/// In          folder: an absolute path. Call this before several threads read files.
 void set_helper_folder(const std::string& folder);
 
 #ifdef ABUT_HELPER_FOLDER

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/mesh.h>
+#include <abut/progress.h>
 #include <abut/types.h>
 #include <abut/volume.h>
 
@@ -11,9 +12,11 @@ namespace abut {
 class ModelData;
 
 struct ModelOptions {
-    /// The bounding volume of the hierarchy. Queries of two models use it where both have the same;
-    /// else, and for a single model, the boxes that every model has.
+    /// The bounding volume of the hierarchy. A query of two models uses it if both models have the
+    /// same one. Otherwise, and for a single model, queries use the boxes that every model has.
     Volume volume = Volume::automatic;
+    /// For building the hierarchy: only its stop flag is used.
+    Progress progress{};
 };
 
 /// A mesh with the bounding-volume hierarchy that queries need. Immutable once built: copies share
@@ -22,17 +25,17 @@ class Model {
 public:
     /// Takes the mesh and builds its hierarchy.
     ///
-    /// Degenerate  zero-area triangles are kept: they count as the segments or points that they
-    ///             are. A mesh without triangles is a valid model that meets nothing.
+    /// Degenerate  zero-area triangles are kept and count as segments or points. A mesh without
+    ///             triangles is a valid model that meets nothing.
     /// Errors      Error{bad_mesh} if an index is out of range or a coordinate is not finite or
-    ///             beyond 1e18.
+    ///             beyond 1e18; Error{interrupted}.
     /// Cost        O(n log n); parallel over subtrees.
     explicit Model(Mesh mesh, const ModelOptions& options = {});
-    /// For the library itself, which alone can make such data.
+    /// For use by the library only.
     explicit Model(std::shared_ptr<const ModelData> data);
 
     [[nodiscard]] const Mesh& mesh() const noexcept;
-    /// Memory of mesh and hierarchy, in bytes.
+    /// Memory of the mesh and its hierarchy, in bytes.
     [[nodiscard]] std::size_t bytes() const noexcept;
     [[nodiscard]] const ModelData& data() const noexcept { return *data_; }
 

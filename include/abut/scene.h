@@ -12,108 +12,110 @@
 
 namespace abut {
 
-/// One node with geometry.
+/// One node of a model file that has geometry.
 struct Part {
-    std::string
-        id; ///< the node's name (glTF from a building: the GlobalId); unique within its scene
-    std::string name;       ///< `extras.name`, else the same as `id`
-    std::string type;       ///< `extras.type`, else empty
+    std::string id; ///< the node's name (glTF of a building: the GlobalId); unique within its scene
+    std::string name;       ///< `extras.name`; if missing, the id
+    std::string type;       ///< `extras.type`; if missing, empty
     std::uint32_t mesh = 0; ///< index in Scene::meshes
     Transform world_from_mesh;
 };
 
-/// The axis of a right-handed frame that points up. A frame with another one is this frame after
-/// quarter turns: as COLLADA has it, y up is x right and z towards the viewer, z up is x right and y
-/// away from the viewer, x up is y to the left and z towards the viewer.
+/// The axis of a right-handed frame that points up. Frames with different up axes differ by quarter
+/// turns, as in COLLADA. y up: x points right and z towards the viewer. z up: x points right and y
+/// away from the viewer. x up: y points left and z towards the viewer.
 enum class UpAxis : std::uint8_t { x, y, z };
 /// "x", "y", "z".
 const char* to_string(UpAxis up);
 
-/// What became of something that a file has and that its scene does not have as the file means it.
+/// The kind of a note about something that the scene lacks or holds differently from its file.
 enum class NoteKind : std::uint8_t {
-    space,     ///< a space or a zone: a volume, but nothing that is built; ReadOptions::spaces
-    cut_away,  ///< its openings leave nothing of it
-    not_built, ///< its shape could not be built, or some of its shapes
-    open,      ///< its shape is a solid; the surface of its part is not closed
+    space,     ///< a space or a zone: a volume without material; see ReadOptions::spaces
+    cut_away,  ///< its openings remove all of it
+    not_built, ///< its shape, or one of its shapes, could not be built
+    open,      ///< its shape is a solid, but the part's surface is not closed
 };
 /// "space", "cut_away", "not_built", "open".
 const char* to_string(NoteKind kind);
 
 struct SceneNote {
     NoteKind kind = NoteKind::not_built;
-    std::string id;   ///< of the part, or what its id would be (IFC: the GlobalId)
-    std::string name; ///< else the same as `id`
+    std::string id;   ///< the part's id, or the id that it would have (IFC: the GlobalId)
+    std::string name; ///< if the file has none, the id
     std::string type; ///< may be empty
     std::string text; ///< one line
 };
 
-/// A file's parts. Instances share a mesh. The world is in metres.
+/// The parts of a model file. Instances share a mesh. The world is in metres.
 struct Scene {
     std::string file; ///< path as given
     std::vector<Mesh> meshes;
     std::vector<Part> parts;
-    double unit = 1;       ///< metres per unit of the file; applied already
-    UpAxis up = UpAxis::y; ///< of the world
+    double unit = 1;       ///< metres per unit of the file; already applied
+    UpAxis up = UpAxis::y; ///< up axis of the world
     std::vector<SceneNote> notes{};
 };
 
-/// Turns the world of a scene by quarter turns, so that this axis points up. Exact: coordinates
-/// change places and signs.
+/// Turns the world of a scene by quarter turns, so that this axis points up. Exact: only the order
+/// and the signs of coordinates change.
 void turn_up(Scene& scene, UpAxis up);
 
-/// Turns all scenes into the frame of the first.
+/// Turns all scenes to the axes of the first.
 void into_one_frame(std::vector<Scene>& scenes);
 
-/// A model file, and the unit and axes of its coordinates where its format does not say them, or
-/// says what is wrong.
+/// A model file, with the unit and up axis of its coordinates. Give them where the file's format
+/// does not state them, or where the file states them wrongly.
 struct ModelPath {
     std::string path;
-    double unit = 0;            ///< metres per unit of the file; 0: as the format says
-    std::optional<UpAxis> up{}; ///< none: as the format says
+    double unit = 0;            ///< metres per unit of the file; 0: as the format defines
+    std::optional<UpAxis> up{}; ///< none: as the format defines
 };
 
-/// "pump.stl", "pump.stl:mm", "part.obj:mm:y-up", "scan.ply:0.3048": a path, then perhaps a unit
-/// (um, mm, cm, dm, m, km, in, ft, yd, or metres per unit as a number) and an axis (x-up, y-up, z-up).
-/// The text of a file that is there is a path, whatever it ends with.
+/// Parses a path that may be followed by a unit (um, mm, cm, dm, m, km, in, ft, yd, or metres per
+/// unit as a number) and an up axis (x-up, y-up, z-up): "pump.stl", "pump.stl:mm",
+/// "part.obj:mm:y-up", "scan.ply:0.3048". If the whole text names an existing file, it is only a
+/// path.
 ///
-/// Errors      Error{bad_argument}, naming the file, if what stands before a colon is a file that is
-///             there and what follows is no unit and no axis, or one of them twice.
+/// Errors      Error{bad_argument}, naming the file, if the text before a colon names an existing
+///             file, but the text after it is not a unit or an axis, or gives one of them twice.
 ModelPath parse_model_path(const std::string& text);
 
 struct ReadOptions {
-    /// Metres per unit of a file whose format has no unit of its own (OBJ, OFF, PLY, STL). 0: 1.
+    /// Metres per unit of a file whose format defines no unit (OBJ, OFF, PLY, STL). 0: 1.
     double unit = 0;
-    /// What points up in a file whose format does not say it (OBJ, OFF, PLY, STL).
+    /// Up axis of a file whose format defines none (OBJ, OFF, PLY, STL).
     UpAxis up = UpAxis::z;
-    /// Whether IFC's spaces and zones become parts. They are volumes in which things are, and meet
-    /// all of them.
+    /// Whether the spaces and zones of IFC become parts. They are volumes that contain other parts
+    /// and would collide with all of them.
     bool spaces = false;
-    /// Whether the parts of an IFC file lie on the map that it names (IfcMapConversion): x is the
-    /// easting, y the northing, z the height. Else they lie in the coordinates of the project.
+    /// Whether the parts of an IFC file are placed on the map that the file names
+    /// (IfcMapConversion): x is the easting, y the northing, z the height. Otherwise the project's
+    /// coordinates are used.
     bool map = true;
     /// Seconds after which a reader is stopped. 0: no limit.
     double time_limit = 600;
     /// Bytes of memory that a reader may use. 0: no limit.
     std::uint64_t memory_limit = 0;
-    /// Whether a model may refer to files outside of its own folder: buffers of glTF, and material
-    /// libraries of OBJ, which are refused though they are never opened.
+    /// Whether a model may refer to files outside its own folder: buffers of glTF, and material
+    /// libraries of OBJ. Such a library is refused by default, although it is never opened.
     bool allow_outside_files = false;
-    /// Reports the share of the bytes that is read; stops the readers on request.
+    /// Reports the fraction of the bytes that have been read; stops the readers on request.
     Progress progress{};
 };
 
-/// Reads a model: glTF/GLB, OBJ, PLY, STL, OFF, FBX, COLLADA, 3MF; IFC 2x3 and 4, also as ifcZIP,
-/// where Node.js is installed.
+/// Reads a model file: glTF/GLB, OBJ, PLY, STL, OFF, FBX, COLLADA, 3MF; also IFC 2x3 and 4 and
+/// ifcZIP if Node.js is installed.
 ///
-/// Vertices of a mesh at equal positions (-0 equals 0) are joined and come in the order of
-/// their first occurrence; one that no triangle uses is kept. Triangles are kept
-/// all, in the file's order; polygons are cut.
+/// Vertices of a mesh at equal positions (-0 equals 0) are joined, in the order of their first
+/// occurrence. A vertex that no triangle uses is kept. All triangles are kept, in the file's order.
+/// Polygons are triangulated.
 ///
-/// The world has the file's own axes, in metres: glTF is in metres and y up; COLLADA, FBX, 3MF and
-/// IFC (the last two z up) say their unit and axes; for others `options` hold. ModelPath overrules
-/// all of them.
+/// The world has the file's own axes, in metres. glTF is in metres with y up. COLLADA, FBX, 3MF and
+/// IFC state their unit and axes; 3MF and IFC are z up. For all others, `options` apply. A unit or
+/// axis in ModelPath overrides all of these.
 ///
-/// Third-party readers run in a process of their own (see helper_programs.h), our own in this one.
+/// Third-party readers run in a separate process (see helper_programs.h); Abut's own run in this
+/// one.
 ///
 /// Errors      Error, naming the file: file_not_found, unreadable, malformed, unsupported, bad_mesh
 ///             (an index out of range, a coordinate that is not finite, no triangle or only
@@ -121,24 +123,24 @@ struct ReadOptions {
 Scene read_scene(const ModelPath& path, const ReadOptions& options = {});
 Scene read_scene(const std::string& path, const ReadOptions& options = {});
 
-/// Several files at once, in parallel, each in its own frame. Errors as read_scene; of several, the
-/// first file's.
+/// Reads several files in parallel, each in its own frame. Errors as `read_scene`; if several files
+/// fail, the error of the first.
 std::vector<Scene> read_scenes(const std::vector<ModelPath>& paths,
                                const ReadOptions& options = {});
 std::vector<Scene> read_scenes(const std::vector<std::string>& paths,
                                const ReadOptions& options = {});
 
-/// All parts of a scene as one mesh in world coordinates.
+/// Returns all parts of a scene as one mesh in world coordinates.
 ///
-/// Errors      Error{bad_mesh}, naming the file, if a mesh cannot have so many vertices.
+/// Errors      Error{bad_mesh}, naming the file, if the mesh would have too many vertices.
 Mesh to_mesh(const Scene& scene);
 
-/// All parts of a file as one mesh in world coordinates. Errors as read_scene.
+/// Reads all parts of a file as one mesh in world coordinates. Errors as `read_scene`.
 Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
-/// Writes a scene as binary glTF, atomically: positions as floats, `id` as node name, `name` and
-/// `type` as extras, instances shared. A world of other axes is turned y up, as glTF has it: what is
-/// read back and turned again has the transforms that were written.
+/// Writes a scene as binary glTF, atomically. Positions become floats, `id` the node name, `name`
+/// and `type` extras; instances stay shared. A world with another up axis is turned y up, as glTF
+/// requires. If it is read again and turned back, it has the transforms that were written.
 ///
 /// Errors      Error{cannot_write}, naming the file.
 void write_glb(const Scene& scene, const std::string& path);

@@ -12,111 +12,111 @@
 #include <span>
 #include <vector>
 
-/// Queries of one model under its transform (a Pose converts silently) with a point, a ray, a
-/// segment, a sphere or a box. Shapes and results are in the world frame that the transform maps
-/// to.
+/// Queries of one model, with its transform (a Pose converts implicitly), and a point, ray,
+/// segment, sphere or box. Shapes and results are in the world frame that the transform maps to.
 ///
-/// All take any transform: where it has no inverse (a flattened part), a copy of the mesh is
-/// transformed and given a hierarchy first, once a call. All throw Error{bad_argument} if the
-/// transform is not finite or a coordinate of a shape is not finite or beyond 1e18, and
-/// Error{bad_mesh} if such a copy has positions beyond 1e18. Zero-area triangles count as the
-/// segments or points that they are. All end with Error{interrupted} if the stop flag of their
-/// progress is set, and report nothing.
+/// Any transform is allowed. If it has no inverse (a flattened part), each call first transforms a
+/// copy of the mesh and builds its hierarchy. Zero-area triangles count as segments or points.
+///
+/// Errors      of all queries: Error{bad_argument} if the transform is not finite, or if a
+///             coordinate of a shape is not finite or beyond 1e18; Error{bad_mesh} if such a copy
+///             has positions beyond 1e18; Error{interrupted} if the stop flag of their progress is
+///             set. They report no progress.
 namespace abut {
 
 // ------------------------------------------------------------------------------ nearest point ---
 
 struct NearestOptions {
-    /// Stop caring beyond this: if no point is nearer, the result is `bound_only` with this
-    /// distance.
+    /// If no point is nearer than this, the result is `bound_only` with this distance.
     double upper_bound = std::numeric_limits<double>::infinity();
-    /// Negative strictly inside a closed model.
+    /// Makes the distance negative strictly inside a closed model.
     bool signed_distance = false;
     Progress progress{};
 };
 
-/// A point of the surface.
+/// The nearest point of the surface.
 struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     Vec3 point;
-    std::uint32_t triangle = 0; ///< of several at the same distance, the least
+    std::uint32_t triangle = 0; ///< of several at the same distance, the lowest
     Feature feature = Feature::face;
-    std::uint8_t index = 0; ///< the triangle's vertex, or its edge: i runs from vertex i to i + 1
+    std::uint8_t index = 0; ///< vertex i of the triangle, or its edge from vertex i to i + 1
     std::array<double, 3> barycentric{}; ///< of `point`: weights of the triangle's vertices
-    Status status = Status::exact; ///< bound_only: |distance| is the bound given, and no point is
-                                   ///< nearer; nothing else is set
+    Status status = Status::exact;       ///< bound_only: |distance| is the given bound, no point is
+                                         ///< nearer, and nothing else is set
 };
 
-/// The surface point nearest to a point.
+/// Finds the surface point nearest to a point.
 ///
 /// Degenerate  an empty model is infinitely far away (status `bound_only`).
-/// Accuracy    to double rounding; 0 exactly if and only if the point lies on the surface; its sign
-///             is exact.
-/// Errors      Error{bad_argument} if the bound is negative or NaN, or if a signed distance is
-///             asked of a model that is not closed.
-/// Cost        some 30 boxes and triangles. Signed: also that of `contains`.
+/// Accuracy    to double rounding; 0 if and only if the point lies on the surface. The sign is
+///             exact.
+/// Errors      Error{bad_argument} if the bound is negative or NaN, or if signed_distance is set
+///             for a model that is not closed.
+/// Cost        about 30 boxes and triangles. With signed_distance, also the cost of `contains`.
 Nearest nearest(const Model& model, const Transform& world_from_model, const Vec3& point,
                 const NearestOptions& options = {});
-/// Many points, in parallel; results in their order.
+/// As above for many points, in parallel. Results are in the order of the points.
 std::vector<Nearest> nearest(const Model& model, const Transform& world_from_model,
                              std::span<const Vec3> points, const NearestOptions& options = {});
 
 // ----------------------------------------------------------------------------------------- ray ---
 
-/// Which side of a triangle a ray comes from.
+/// The side of a triangle that a ray comes from.
 enum class HitSide : std::uint8_t {
-    front, ///< the side from which its vertices run counter-clockwise
+    front, ///< the side from which the vertices run counter-clockwise
     back,
-    along, ///< the ray lies in its plane, or it has no area
+    along, ///< the ray lies in the triangle's plane, or the triangle has zero area
 };
 
-/// Where a ray meets a triangle.
+/// The point where a ray meets a triangle.
 struct RayHit {
-    bool meet = false;                                  ///< else nothing below is set
+    bool meet = false;                                  ///< if false, nothing else is set
     double t = std::numeric_limits<double>::infinity(); ///< the ray's parameter
     Vec3 point;                                         ///< on the triangle
     std::uint32_t triangle = 0;
-    std::array<double, 3> barycentric{}; ///< weights of its vertices
+    std::array<double, 3> barycentric{}; ///< weights of the triangle's vertices
     HitSide side = HitSide::front;
 };
 
-/// The first triangle that a ray meets; of several at the same t, the one of least index.
+/// Finds the first triangle that a ray meets; of several at the same t, the one of lowest index.
 ///
-/// A ray in a triangle's plane meets it where it enters (at t_min if it starts within).
+/// A ray in a triangle's plane meets it where it enters, or at t_min if it starts within.
 ///
 /// Accuracy    which triangles are met, and their order along the ray: exact. A ray through an edge
-///             or a vertex meets all triangles there, so none slips between two. t: to 2^-40
-///             relative.
+///             or a vertex meets all triangles there, so no ray passes between two. t: to a
+///             relative 2^-40.
 /// Errors      Error{bad_argument} if the direction is zero or not finite, or an end of the range
 ///             is NaN.
-/// Source      the sides of edges as seen along the ray [Woop, Benthin, Wald 2013]; differs: the
+/// Source      the sides of edges as seen along the ray [Woop, Benthin, Wald 2013]. Differs: the
 ///             signs are exact, hence watertight without a sheared frame.
 RayHit first_hit(const Model& model, const Transform& world_from_model, const Ray& ray,
                  const Progress& progress = {});
-/// Many rays, in parallel; results in their order.
+/// As above for many rays, in parallel. Results are in the order of the rays.
 std::vector<RayHit> first_hit(const Model& model, const Transform& world_from_model,
                               std::span<const Ray> rays, const Progress& progress = {});
 
-/// Every triangle that a ray meets, each once, sorted by t, then by index. Otherwise as first_hit.
+/// Finds every triangle that a ray meets, each once, sorted by t, then by index. Otherwise as
+/// first_hit.
 std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_model, const Ray& ray,
                              const Progress& progress = {});
 
 // ------------------------------------------------------------------------------------- segment ---
 
-/// Distance of the surface and a segment, and one pair of points that realises it: a is the model,
-/// b the segment (`triangle_b` is 0). 0 and a common point if they meet. As abut/rigid.h says of
-/// two models.
+/// Returns the distance of the surface and a segment, with one pair of closest points: a is the
+/// model, b the segment (`triangle_b` is 0). If they meet, the distance is 0 and both points are
+/// one common point. Otherwise as `distance` of two models in abut/rigid.h.
 Gap distance(const Model& model, const Transform& world_from_model, const Segment& segment,
              const DistanceOptions& options = {});
 
 // ------------------------------------------------------------------------------------- overlap ---
 
-/// Whether the surface and a solid shape (or a segment) share a point. Touching counts.
+/// Returns whether the surface and a solid shape (or a segment) share a point. Touching counts.
 ///
-/// The model counts as a surface: a shape inside a closed model, away from its triangles, does not
-/// overlap it (`contains` tells), while triangles inside a shape do.
+/// The model counts as a surface. A shape inside a closed model, away from its triangles, does not
+/// overlap it (`contains` tests that); triangles inside a shape do.
 ///
-/// Degenerate  a box that is empty (lower > upper on some axis) overlaps nothing.
+/// Degenerate  an empty box (lower > upper on some axis) overlaps nothing.
 /// Accuracy    exact.
 /// Errors      Error{bad_argument} if a radius is negative.
 bool overlaps(const Model& model, const Transform& world_from_model, const Sphere& sphere,
@@ -128,7 +128,7 @@ bool overlaps(const Model& model, const Transform& world_from_model, const Orien
 bool overlaps(const Model& model, const Transform& world_from_model, const Segment& segment,
               const Progress& progress = {});
 
-/// All triangles that share a point with the shape, sorted. Otherwise as `overlaps`.
+/// Finds all triangles that share a point with the shape, sorted. Otherwise as `overlaps`.
 std::vector<std::uint32_t> overlapping_triangles(const Model& model,
                                                  const Transform& world_from_model,
                                                  const Sphere& sphere,
@@ -149,36 +149,37 @@ std::vector<std::uint32_t> overlapping_triangles(const Model& model,
 
 enum class Side : std::uint8_t { outside, inside, on_surface };
 
-/// What the answer of `contains` rests on.
+/// The method that `contains` used.
 enum class ContainmentMethod : std::uint8_t {
-    crossings, ///< the model is closed: parity of a ray's crossings, exact
-    winding,   ///< it is not: the winding number, rounded
+    crossings, ///< for a closed model: parity of a ray's crossings, exact
+    winding,   ///< for any other model: the winding number, rounded
 };
 
-/// Where a point is.
+/// The result of `contains`.
 struct Containment {
     Side side = Side::outside;
     ContainmentMethod method = ContainmentMethod::crossings;
-    /// Signed number of times that the surface winds around the point, a fraction where it has
-    /// holes. Only if `method` is winding and the point is not on the surface; else 0.
+    /// Signed number of times that the surface winds around the point; a fraction where it has
+    /// holes. Set only if `method` is winding and the point is not on the surface; else 0.
     double winding_number = 0;
 };
 
-/// Whether a point lies inside the model, outside, or on its surface.
+/// Returns whether a point lies inside the model, outside, or on its surface.
 ///
-/// A closed model (every edge used by exactly two triangles, equal positions merged) is decided by
-/// parity, whatever the orientation of its triangles: a closed shell inside another is a cavity.
-/// Any other by its winding number: inside if it is at least 1/2 in magnitude.
+/// For a closed model (every edge is used by exactly two triangles, equal positions merged) parity
+/// decides, whatever the orientation of the triangles: a closed shell inside another is a cavity.
+/// For any other model the winding number decides: the point is inside if its magnitude is at least
+/// 1/2.
 ///
 /// Accuracy    on_surface: exact. crossings: exact. winding: to rounding; where the surface has
 ///             holes, the answer near them is a convention.
-/// Cost        the first question to a model examines its edges, O(n log n), and keeps what it
-///             found with the model, about 60 bytes a triangle; no lock after that. Then: one ray;
-///             with a winding number, O(n).
-/// Source      [Jacobson, Kavan, Sorkine-Hornung 2013] for the winding number of dirty surfaces.
+/// Cost        the first query of a model examines its edges, O(n log n), and keeps the result with
+///             the model, about 60 bytes a triangle; later queries take no lock. Then one ray; with
+///             a winding number, O(n).
+/// Source      [Jacobson, Kavan, Sorkine-Hornung 2013] for the winding number of open surfaces.
 Containment contains(const Model& model, const Transform& world_from_model, const Vec3& point,
                      const Progress& progress = {});
-/// Many points, in parallel; results in their order.
+/// As above for many points, in parallel. Results are in the order of the points.
 std::vector<Containment> contains(const Model& model, const Transform& world_from_model,
                                   std::span<const Vec3> points, const Progress& progress = {});
 

@@ -9,120 +9,131 @@
 #include <string>
 #include <vector>
 
-/// The clash job on a store: models of any size in little memory. docs/massive.md tells how.
+/// Clash detection on a store: models of any size in little memory. docs/massive.md explains it.
 namespace abut {
 
-/// How the work is put into an order.
+/// The order in which a job works on pairs.
 enum class WorkOrder : std::uint8_t {
-    partition, ///< the overlap graph is cut into subgraphs that fit the memory
-    random,    ///< to show what the partition saves
+    partition, ///< cuts the overlap graph into subgraphs that fit the memory
+    random,    ///< any order; shows what the partition saves
 };
 
 struct OutOfCoreOptions {
     /// Bytes for geometry, hierarchies and the tables of parts and pairs. The program and its
-    /// libraries come on top, some 64 MiB.
+    /// libraries need about 64 MiB more.
     std::uint64_t memory = std::uint64_t{512} << 20;
     WorkOrder order = WorkOrder::partition;
-    /// What is done is kept in the store, if it can be written to: a job that is killed goes on where
-    /// it was, and one that has ended is not done again as long as its parts are the same.
+    /// Whether finished work is kept in the store, if the store can be written to. A killed job
+    /// then continues where it was, and a finished job is not repeated while its parts remain the
+    /// same.
     bool keep = true;
-    /// With what is done, the hierarchies that were built are kept in the store: one to two bytes a
-    /// triangle, for later jobs and walks to read instead of building them. Not by a crew. What is kept
-    /// there is read in any case.
+    /// Whether the hierarchies that were built are kept in the store, too: one to two bytes a
+    /// triangle, which later jobs and walks read instead of building them. A crew keeps none.
+    /// Hierarchies in the store are read in any case.
     bool keep_hierarchies = true;
-    /// Processes that do the job together, this one the leader; null: this process alone. `memory` is
-    /// that of each. The result does not depend on how many they are.
+    /// The processes that do the job together, with this one as leader; null: this process alone.
+    /// `memory` applies to each process. The result does not depend on their number.
     Crew* crew = nullptr;
 };
 
-/// What a job out of core did.
+/// The work of an out-of-core job.
 struct OutOfCoreCounters {
-    std::uint64_t units = 0;      ///< pieces of work that fit into the memory
-    std::uint64_t meshes = 0;     ///< that a candidate needs, large ones left out
-    std::uint64_t mesh_loads = 0; ///< each time that one was read
-    /// Of large meshes, which are never whole in memory: needed. Of several processes, the sum.
+    std::uint64_t units = 0;      ///< work units, each of which fits into the memory
+    std::uint64_t meshes = 0;     ///< needed by a candidate pair; large ones are not counted
+    std::uint64_t mesh_loads = 0; ///< times that a mesh was read
+    /// Blocks of large meshes that were needed, summed over the processes. A large mesh is never
+    /// completely in memory.
     std::uint64_t blocks = 0;
-    std::uint64_t block_loads = 0;  ///< each time that one was read
+    std::uint64_t block_loads = 0;  ///< times that a mesh block was read
     std::uint64_t bytes_needed = 0; ///< of those meshes and blocks in the store, each once
-    std::uint64_t bytes_read = 0;   ///< of the store's blocks and hierarchies
-    /// Of these loads, those whose hierarchy was in the store; the others built it.
+    std::uint64_t bytes_read = 0;   ///< of mesh blocks and hierarchies, from the store
+    /// Loads whose hierarchy was in the store. For the other loads it was built.
     std::uint64_t hierarchies_found = 0;
-    std::uint64_t hierarchies_kept = 0; ///< in the store, of those that were built
+    std::uint64_t hierarchies_kept = 0; ///< hierarchies that were built and then stored
     std::uint64_t peak_bytes = 0;       ///< of models in memory at once
-    bool kept = false;                  ///< in the store
-    std::uint64_t recalled_pairs = 0;   ///< done before, by a job that was stopped or has ended
+    bool kept = false;                  ///< the result is in the store
+    std::uint64_t recalled_pairs = 0;   ///< finished by an earlier job, complete or not
 
-    /// What one process did; sums and the largest of these are above.
+    /// The work of one process. The counters above hold the sums, or the maxima for peaks.
     struct Worker {
         std::uint64_t units = 0, pairs = 0;
         std::uint64_t mesh_loads = 0;
         std::uint64_t blocks = 0, block_loads = 0, block_bytes_needed = 0;
         std::uint64_t hierarchies_found = 0;
         std::uint64_t bytes_read = 0, peak_bytes = 0;
-        double processor_seconds = 0; ///< since it began, of all its threads
-        double waiting_seconds = 0;   ///< for pieces of work, with nothing to do
+        double processor_seconds = 0; ///< of all threads, since the process began
+        double waiting_seconds = 0;   ///< without work, waiting for a work unit
         double peak_rss_mib = 0;      ///< as peak_resident_mib
     };
-    std::vector<Worker> workers; ///< by rank
+    std::vector<Worker> workers; ///< in the order of ranks
 };
 
 struct StoreClashReport {
     ClashReport report;
-    /// For the writers of reports: the store's models, with the parts that clash alone; the clashes
-    /// of the report name parts by their index here. No meshes.
+    /// The models for report writers: only the parts that clash, without meshes. The clashes of the
+    /// report refer to parts by their index here.
     std::vector<Scene> models;
     OutOfCoreCounters counters;
 };
 
-/// As find_clashes of the models in memory, in the order in which they were first imported: the same
-/// clashes, to the last bit.
+/// Returns one JSON object: that of the report, with a last member `out_of_core` for the counters
+/// (docs/massive.md).
+std::string to_json(const StoreClashReport& found);
+
+/// Finds the same clashes, to the last bit, as find_clashes of the models in memory, in the order
+/// in which they were first imported.
 ///
-/// Errors      as find_clashes and open_store; Error{bad_argument}: an import into the store has
-///             not ended, or `memory` does not hold the tables, or two meshes that are to be compared,
-///             or, of large meshes, the few blocks that are compared at a time.
-/// Cost        each mesh is read about once if `memory` holds a fair share of what a neighbourhood
-///             needs; while one piece of work is done, the next one's meshes are read.
+/// Errors      as find_clashes and open_store; Error{bad_argument} if an import into the store has
+///             not finished, or if `memory` does not hold the tables, or two meshes that are
+///             compared, or (for large meshes) the few blocks that are compared at a time.
+/// Cost        each mesh is read about once if `memory` holds most of what neighbouring parts need.
+///             While one work unit is processed, the meshes of the next are read.
 StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
                               const OutOfCoreOptions& out_of_core = {});
 
-/// The helpers' half of a job whose leader calls find_clashes with the crew. Returns when the leader
-/// has left the crew, or if something went wrong here, which the leader then throws.
+/// Takes part in a job whose leader calls find_clashes with the crew; each helper calls this.
+/// Returns when the leader has left the crew. Also returns after an error here, which the leader
+/// then throws.
 ///
-/// In          store: path of the leader's store, on a file system of both, or of a copy of it. It is
-///             read without locks.
+/// In          store: path of the leader's store, on a shared file system, or of a copy of it. It
+///             is read without locks.
 void help_find_clashes(const std::string& store, Crew& crew, const Progress& progress = {});
 
-/// The graph of a store's parts: an edge where boxes are at most the clearance apart.
+/// The overlap graph of a store's parts. An edge joins parts whose boxes are at most the clearance
+/// apart.
 struct GraphReport {
     std::uint64_t nodes = 0; ///< parts
     std::uint64_t edges = 0;
-    std::uint64_t components = 0; ///< of parts that have an edge
+    std::uint64_t components = 0; ///< of the parts that have an edge
     std::uint64_t isolated = 0;   ///< parts without an edge
     std::uint64_t largest_component = 0, highest_valence = 0;
-    double mean_valence = 0; ///< of parts that have an edge
+    double mean_valence = 0; ///< of the parts that have an edge
     std::uint64_t bytes = 0; ///< of the models that an edge needs, each once
-    /// Of these, those of large meshes: of all their blocks, of which few are in memory at a time.
+    /// The large ones among these meshes, and the bytes of all their blocks. Only a few blocks are
+    /// in memory at a time.
     std::uint64_t large_meshes = 0, large_bytes = 0;
     struct Unit {
         std::uint64_t parts = 0, edges = 0;
-        std::uint64_t meshes = 0, bytes = 0; ///< that must be in memory together: no large ones
-        Box3 bounds;                         ///< of its parts' middles
-        Vec3 middle;                         ///< their mean
+        std::uint64_t meshes = 0, bytes = 0; ///< in memory together; large meshes are not counted
+        Box3 bounds;                         ///< of the centres of its parts' boxes
+        Vec3 middle;                         ///< mean of these centres
     };
     std::vector<Unit> units;     ///< in the order of work
-    std::uint64_t cut_edges = 0; ///< between parts that a partition put apart
+    std::uint64_t cut_edges = 0; ///< edges between parts in different units
     struct Line {
-        Vec3 a, b; ///< middles of both parts' boxes
+        Vec3 a, b; ///< centres of both parts' boxes
         std::uint32_t unit = 0;
     };
-    std::vector<Line> lines; ///< some of the edges, to draw
+    std::vector<Line> lines; ///< some of the edges, for drawing
     double seconds = 0;
 };
 
-/// In          lines: of about how many edges, evenly chosen, the ends are wanted; keep: edges and
-///             pieces are kept in the store for SQL, in place of those that were kept before
-///             (docs/massive.md).
-/// Errors      as find_clashes of a store; Error{cannot_write} if it is to be kept and cannot be.
+/// Computes the overlap graph and its partition.
+///
+/// In          lines: the approximate number of edges to return as lines, evenly chosen. keep:
+///             stores the edges and units for SQL, in place of earlier ones (docs/massive.md).
+/// Errors      as find_clashes of a store; Error{cannot_write} if `keep` is set and the store
+///             cannot be written to.
 GraphReport overlap_graph(const Store& store, const ClashOptions& options,
                           const OutOfCoreOptions& out_of_core = {}, std::uint64_t lines = 0,
                           bool keep = false);

@@ -6,7 +6,7 @@
 
 namespace abut {
 
-/// A point or a vector; units are the model's.
+/// A point or a vector, in the model's units.
 struct Vec3 {
     double x = 0, y = 0, z = 0;
     friend bool operator==(const Vec3&, const Vec3&) = default;
@@ -21,23 +21,22 @@ struct Box3 {
     friend bool operator==(const Box3&, const Box3&) = default;
 };
 
-/// Rigid pose: x_world = R(rotation) x_model + translation.
+/// A rigid pose: x_world = R(rotation) x_model + translation.
 ///
-/// The quaternion (w, x, y, z) need not be of unit length; a length of zero is an Error when it is
-/// used.
+/// The quaternion (w, x, y, z) need not be of unit length. Using one of zero length is an Error.
 struct Pose {
     Vec3 translation;
     std::array<double, 4> rotation{1, 0, 0, 0};
 };
 
-/// Affine map, the upper three rows of a 4x4 matrix in column-major order (as glTF writes it):
+/// An affine map: the upper three rows of a 4x4 matrix in column-major order, as in glTF:
 ///
 ///     x' = m[0] x + m[3] y + m[6] z + m[9]
 ///     y' = m[1] x + m[4] y + m[7] z + m[10]
 ///     z' = m[2] x + m[5] y + m[8] z + m[11]
 ///
-/// Every query takes positions as this formula gives them, evaluated left to right in double
-/// precision without fused operations; "exact" means exact for those positions.
+/// Every query uses the positions that this formula gives, evaluated from left to right in double
+/// precision without fused operations. "Exact" means exact for those positions.
 struct Transform {
     std::array<double, 12> m{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 
@@ -50,18 +49,18 @@ struct Transform {
     friend bool operator==(const Transform&, const Transform&) = default;
 };
 
-/// The points that two triangles share: corners of a convex polygon, in order.
+/// The points that two triangles share: the corners of a convex polygon, in order.
 struct Intersection {
     std::array<Vec3, 6> corners;
     std::uint32_t count = 0; ///< 1: a point; 2: a segment; 3 to 6: coplanar triangles
 };
 
-/// The part of a triangle that a point of it belongs to.
+/// The feature of a triangle that a point lies on.
 enum class Feature : std::uint8_t { vertex, edge, face };
 
-/// What a result claims of its numbers.
+/// What a result guarantees about its numbers.
 enum class Status : std::uint8_t {
-    exact,      ///< the answer for the given positions, numbers to double rounding
+    exact,      ///< the answer for the given positions, with numbers to double rounding
     converged,  ///< the answer within the error that was allowed
     bound_only, ///< the numbers are a proven bound of the answer
 };

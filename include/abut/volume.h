@@ -5,22 +5,22 @@
 
 namespace abut {
 
-/// The kinds of bounding volume that a model's hierarchy can be made of.
+/// The kinds of bounding volume that a model's hierarchy can use.
 enum class Volume : std::uint8_t {
-    automatic, ///< what wins the benchmarks: boxes; every node has axes of its own where they fit
-               ///< better, else the model's
+    automatic, ///< the fastest in the benchmarks: boxes; a node has its own axes where they fit
+               ///< better than the model's
     aabb,      ///< boxes along the model's axes
-    sphere,    ///< smallest ball, nearly
+    sphere,    ///< nearly the smallest enclosing ball
     kdop14,    ///< slabs along the axes and the diagonals of the cube
-    kdop18,    ///< along the axes and the diagonals of its faces
-    kdop26,    ///< along all of these
+    kdop18,    ///< slabs along the axes and the diagonals of the cube's faces
+    kdop26,    ///< slabs along all of these
     obb,       ///< oriented box, from the statistics of the convex hull
     pss,       ///< point swept by a sphere
     lss,       ///< line segment swept by a sphere
     rss,       ///< rectangle swept by a sphere
 };
 
-/// All of them.
+/// All kinds.
 inline constexpr std::array kVolumes{
     Volume::automatic, Volume::aabb, Volume::sphere, Volume::kdop14, Volume::kdop18,
     Volume::kdop26,    Volume::obb,  Volume::pss,    Volume::lss,    Volume::rss};

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-/// Walking through a store that does not fit into the memory: what is near, what is touched, frame by
-/// frame. docs/walk.md tells how.
+/// Queries while moving through a store that does not fit into memory: what is near and what is
+/// touched, in every tick. docs/walk.md explains them.
 namespace abut {
 
-/// A part of the store, by its row in the table `part`; or one that was added, by a negative number.
+/// A part of a walk: its row in the store's table `part`, or a negative number if it was added.
 struct WalkPart {
     std::int64_t number = 0;
     friend bool operator==(const WalkPart&, const WalkPart&) = default;
@@ -25,30 +25,31 @@ struct WalkPart {
 };
 
 struct WalkOptions {
-    /// Bytes for the tables of parts, for geometry and hierarchies: never more. The program and its
-    /// libraries come on top, some 64 MiB.
+    /// Bytes for the tables of parts, geometry and hierarchies; never exceeded. The program and its
+    /// libraries need about 64 MiB more.
     std::uint64_t memory = std::uint64_t{512} << 20;
-    /// Seconds of the predicted path along which parts are read ahead.
+    /// Seconds of the predicted path for which parts are read ahead.
     double look_ahead = 3;
-    /// Whether a second thread reads ahead. Without, a query reads what it needs.
+    /// Whether a second thread reads ahead. Otherwise a query reads what it needs.
     bool prefetch = true;
 };
 
-/// What a query does about a part that it needs and that is not in memory.
+/// What a query does if it needs a part that is not in memory.
 enum class MissingParts : std::uint8_t {
-    wait, ///< reads it: the answer is exact
-    skip, ///< leaves it out, and says so; it is read in the background, before all else
+    wait, ///< reads the part: the answer is exact
+    skip, ///< leaves the part out and reports it; it is read in the background with priority
 };
 
 class ProbeData;
 
-/// What is moved about in a walk: a model, or a convex body, sphere, capsule or box, in a frame of its
-/// own. A model is its surface; the others are solid. Cheap to copy; make it once, not in each frame.
+/// The object that is moved in a walk: a model, convex body, sphere, capsule or box in its own
+/// frame. A model is a surface; the others are solid. Cheap to copy. Make it once, not in every
+/// tick.
 class Probe {
 public:
-    /// Errors      Error{bad_argument} if a value is not finite or a coordinate beyond 1e18, a radius is
-    ///             negative, or a box is empty.
-    /// Cost        of a model linear in its triangles, otherwise small.
+    /// Errors      Error{bad_argument} if a value is not finite or a coordinate beyond 1e18, a
+    ///             radius is negative, or a box is empty.
+    /// Cost        for a model linear in its triangles, otherwise small.
     Probe(const Model& model); // NOLINT: a model is a probe; the conversion is meant to be silent.
     Probe(const Convex& convex);   // NOLINT
     Probe(const Sphere& sphere);   // NOLINT
@@ -63,39 +64,40 @@ private:
 
 struct WalkQuery {
     MissingParts missing = MissingParts::wait;
-    /// Of `distance`: parts that are not nearer than this do not matter.
+    /// For `distance`: parts that are not nearer than this are ignored.
     double upper_bound = std::numeric_limits<double>::infinity();
-    /// This part is left out: the one that the probe is a copy of, say. 0: none.
+    /// A part to leave out, for example the one that the probe is a copy of. 0: none.
     WalkPart except{};
-    /// Of `collide`: all parts that are touched, or some one of them.
+    /// For `collide`: all touched parts, or any one of them.
     ContactMode mode = ContactMode::all;
 };
 
-/// How a part and the probe lie to each other, world frame.
+/// The distance of a part and the probe, world frame.
 struct WalkGap {
     WalkPart part;
-    /// 0 if they touch; of a sphere or a capsule also negative: how far its surface goes beyond the part's.
+    /// 0 if they touch. For a sphere or a capsule it may be negative: minus the distance by which
+    /// its surface reaches beyond the part's.
     double distance = std::numeric_limits<double>::infinity();
-    Vec3 point_part, point_probe; ///< that far apart
+    Vec3 point_part, point_probe; ///< witness points, that far apart
     Vec3 normal; ///< unit vector from the part to the probe; zero where none is known
     std::uint32_t triangle_part = 0, triangle_probe = 0; ///< of meshes; else 0
-    /// exact: to rounding. bound_only: bodies that meet go at least so deep into each other.
+    /// exact: to rounding. bound_only: bodies that meet are at least this deep in each other.
     Status status = Status::exact;
 };
 
-/// What all answers have.
+/// The members that all answers share.
 struct WalkAnswer {
-    /// False if parts that may matter were skipped since they are not in memory.
+    /// False if parts that may matter were skipped because they are not in memory.
     bool complete = true;
-    std::uint64_t candidates = 0; ///< parts, or pieces of parts, whose boxes were in reach
-    std::uint64_t misses = 0;     ///< of these, those that were not in memory
+    std::uint64_t candidates = 0; ///< parts or mesh blocks whose boxes were in reach
+    std::uint64_t misses = 0;     ///< candidates that were not in memory
 };
 
 struct NearestPart : WalkAnswer {
-    bool found = false; ///< else no part is nearer than the bound, and `gap` is not set
+    bool found = false; ///< if false, no part is nearer than the bound, and `gap` is not set
     WalkGap gap;
     double at_least =
-        0; ///< no part is nearer, to rounding; the distance itself if the answer is complete
+        0; ///< lower bound of the distance, to rounding; equal to it if the answer is complete
 };
 struct NearParts : WalkAnswer {
     std::vector<WalkGap> parts; ///< sorted by part
@@ -104,93 +106,98 @@ struct TouchedParts : WalkAnswer {
     std::vector<WalkPart> parts; ///< sorted
 };
 
-/// What is known of a part by name.
+/// The names of a part.
 struct WalkPartName {
     std::string file; ///< empty for a part that was added
     std::string id, name, type;
 };
 
-/// Since the walk began.
+/// Statistics since the walk began.
 struct WalkStatistics {
-    std::uint64_t lookups = 0; ///< parts (or pieces) of the store that queries needed
-    std::uint64_t misses = 0;  ///< of these, those that were not in memory
-    double seconds_waited = 0; ///< for these
-    std::uint64_t read_ahead = 0, read_in_query = 0; ///< parts (or pieces) brought into memory
+    std::uint64_t lookups = 0; ///< parts (or mesh blocks) of the store that queries needed
+    std::uint64_t misses = 0;  ///< lookups of what was not in memory
+    double seconds_waited = 0; ///< for misses
+    std::uint64_t read_ahead = 0, read_in_query = 0; ///< parts (or mesh blocks) read into memory
     std::uint64_t evicted = 0;
     std::uint64_t parts_in_memory = 0;
-    std::uint64_t table_bytes = 0; ///< of the boxes of all parts, and what belongs to them
-    std::uint64_t bytes = 0, peak_bytes = 0; ///< of everything: at most WalkOptions::memory
+    std::uint64_t table_bytes = 0;           ///< of the table of all parts and their boxes
+    std::uint64_t bytes = 0, peak_bytes = 0; ///< total memory; at most WalkOptions::memory
 };
 
 class WalkData;
 
-/// A region of interest that moves through a store, and queries about what is there.
+/// A region of interest that moves through a store, and queries about the parts in it.
 ///
-/// The answers are those that all parts in memory would give: which parts are in memory decides how long
-/// a query takes. Parts count as surfaces, as in abut/rigid.h. The store must not be written to
-/// meanwhile.
+/// The answers equal those with all parts in memory; which parts are in memory only affects how
+/// long a query takes. Parts count as surfaces, as in abut/rigid.h. The store must not be written
+/// to during the walk.
 ///
-/// One thread at a time may use a walk.
+/// Only one thread at a time may use a walk.
 ///
-/// Errors      of all queries: Error{bad_argument} if a transform is not finite, or is no rotation
-///             and translation for a probe that is not a model, or a bound is negative or NaN;
-///             those of the store.
+/// Errors      of all queries: Error{bad_argument} if a transform is not finite, or is not a
+///             rotation and translation for a probe other than a model, or if a bound is negative
+///             or NaN; those of the store.
 class Walk {
 public:
+    /// Errors      as open_store; Error{bad_argument} if an import into the store has not finished,
+    ///             if the memory does not hold the tables and the largest mesh (or the largest
+    ///             block of a mesh that is cut into blocks), or if look_ahead is negative or not
+    ///             finite.
     /// Cost        one pass over the parts of the store, some microseconds for each.
-    /// Errors      as open_store; Error{bad_argument}: an import into the store has not ended; the
-    ///             memory does not hold the tables and the largest mesh (or the largest block of one that
-    ///             is cut), or look_ahead is negative or not finite.
     explicit Walk(const Store& store, const WalkOptions& options = {});
     ~Walk();
     Walk(Walk&&) noexcept;
     Walk& operator=(Walk&&) noexcept;
 
-    /// Says where the region of interest is: in every frame, or whenever it has moved. Never waits for
-    /// the disk.
+    /// Sets the position of the region of interest. Call it in every tick, or whenever the position
+    /// has changed. It never waits for the disk.
     ///
-    /// In          velocity: units a second; if it is not given, how the position has changed since
-    ///             the last call tells.
+    /// In          velocity: units a second. If it is not given, it is estimated from the change
+    ///             since the last call.
     /// Errors      Error{bad_argument} if a coordinate is not finite or beyond 1e18.
     void move_to(const Vec3& position);
     void move_to(const Vec3& position, const Vec3& velocity);
-    /// Waits until what is near and ahead is in memory, or memory is full: behind a loading screen.
+    /// Waits until the parts near and ahead are in memory, or the memory is full; for example
+    /// behind a loading screen.
     void wait();
 
-    /// The part nearest to the probe; of several at the same distance, the one of least number.
+    /// Finds the part nearest to the probe; of several at the same distance, the one of lowest
+    /// number.
     NearestPart distance(const Probe& probe, const Transform& world_from_probe,
                          const WalkQuery& query = {});
-    /// All parts at most `tolerance` away, and how far.
+    /// Finds all parts at most `tolerance` away, and their distances.
     NearParts within(const Probe& probe, const Transform& world_from_probe, double tolerance,
                      const WalkQuery& query = {});
-    /// The parts that share a point with the probe.
+    /// Finds the parts that share a point with the probe.
     ///
-    /// Accuracy    of a model, a box or a convex body: exact; of a sphere or a capsule: to rounding.
+    /// Accuracy    for a model, box or convex body: exact; for a sphere or capsule: to rounding.
     TouchedParts collide(const Probe& probe, const Transform& world_from_probe,
                          const WalkQuery& query = {});
-    /// The same, with how deep they go into each other, and where.
+    /// As `collide`, with penetration depths and witness points.
     ///
-    /// Accuracy    as `World::penetration`. Of a part whose mesh is cut into blocks, the block's surface
-    ///             counts (bound_only): a depth of 0 for models, boxes and convex bodies.
+    /// Accuracy    as `World::penetration`. For a part whose mesh is cut into blocks, each block
+    ///             counts as an open surface (bound_only): the depth is 0 for models, boxes and
+    ///             convex bodies.
     NearParts penetration(const Probe& probe, const Transform& world_from_probe,
                           const WalkQuery& query = {});
 
-    /// Brings in a part that is not in the store. The model is the caller's: its memory does not count.
+    /// Adds a part that is not in the store. The model belongs to the caller: its memory does not
+    /// count.
     ///
-    /// Errors      Error{bad_argument} if the transform is not finite, or the memory of the walk does
-    ///             not hold the table of one more part.
+    /// Errors      Error{bad_argument} if the transform is not finite, or if the memory of the walk
+    ///             does not hold the table of one more part.
     WalkPart add(const Model& model, const Transform& world_from_part);
-    /// Puts a part elsewhere, for this walk: the store stays as it is.
+    /// Moves a part for this walk only: the store remains as it is.
     ///
     /// Errors      as `add`; Error{bad_argument} if there is no such part; those of the store.
     void move(WalkPart part, const Transform& world_from_part);
-    /// Takes a part out, for this walk. Errors as `move`.
+    /// Removes a part for this walk only. Errors as `move`.
     void remove(WalkPart part);
 
-    /// Errors, of all: as `move`.
+    /// Errors      of all three: as `move`.
     [[nodiscard]] WalkPartName name(WalkPart part);
     [[nodiscard]] Transform world_from_part(WalkPart part);
-    /// The whole model of a part, as a copy that is the caller's: to move it as a probe, say.
+    /// Returns a copy of the whole model of a part; for example, to move it as a probe.
     [[nodiscard]] Model model(WalkPart part);
 
     [[nodiscard]] WalkStatistics statistics() const;

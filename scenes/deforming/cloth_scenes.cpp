@@ -45,10 +45,10 @@ ClothModel cloth_on_ball(const DeformingOptions& options) {
     const Mesh ball = ball_of(size);
     ClothModel model;
     model.mesh = ball;
-    const std::uint32_t cloth = append(
-        model.mesh, sheet(kSide, kSide, size),
-        after(at({random.uniform(-0.05, 0.05), kRadius + kDrop, random.uniform(-0.05, 0.05)}),
-              turned_about_y(random.uniform(0, 1))));
+    const double turn = random.uniform(0, 1), x = random.uniform(-0.05, 0.05),
+                 z = random.uniform(-0.05, 0.05);
+    const std::uint32_t cloth = append(model.mesh, sheet(kSide, kSide, size),
+                                       after(at({x, kRadius + kDrop, z}), turned_about_y(turn)));
     ruffle(std::span(model.mesh.positions).subspan(cloth), size, random);
     model.driven.assign(model.mesh.positions.size(), false);
     std::fill_n(model.driven.begin(), cloth, true);

@@ -61,14 +61,7 @@ void build_rack_pipes(PlantBuilder& b, const Unit& unit, double z) {
     }
 }
 
-} // namespace
-
-void build_rack(PlantBuilder& b, const Unit& unit) {
-    build_rack_steel(b, unit, kRackFront);
-    build_rack_pipes(b, unit, kRackFront);
-}
-
-void build_yard(PlantBuilder& b, const Unit& unit) {
+void build_storage_tanks(PlantBuilder& b, const Unit& unit) {
     const double g = b.gap, ground = ground_level(b);
     double x = 2;
     for (int n = 0; n < unit.storage_tanks; ++n) {
@@ -98,7 +91,11 @@ void build_yard(PlantBuilder& b, const Unit& unit) {
                 "IfcStairFlight", fmt::format("Ladder of tank {}.{}", unit.number, n + 1));
         x += 2 * radius + 2;
     }
-    // The stack, its platforms and the flue.
+}
+
+/// Builds the stack, its platforms and the flue.
+void build_stack(PlantBuilder& b, const Unit& unit) {
+    const double g = b.gap, ground = ground_level(b);
     const double pitch = on_grid_above(0.0625 + g), width = unit.wall_tubes * pitch;
     const double stack_r = std::max(1.0, on_grid(unit.stack_height / 32));
     const double side = on_grid_above(stack_r + 0.25);
@@ -137,6 +134,18 @@ void build_yard(PlantBuilder& b, const Unit& unit) {
             fmt::format("Flue {}", unit.number));
     b.place(duct_shape, along(kY, {from - 1 - flue, 5 + flue, foot.z}), "IfcDuctSegment",
             fmt::format("Flue {} riser", unit.number));
+}
+
+} // namespace
+
+void build_rack(PlantBuilder& b, const Unit& unit) {
+    build_rack_steel(b, unit, kRackFront);
+    build_rack_pipes(b, unit, kRackFront);
+}
+
+void build_yard(PlantBuilder& b, const Unit& unit) {
+    build_storage_tanks(b, unit);
+    build_stack(b, unit);
 }
 
 } // namespace abut::scenes

@@ -5,9 +5,9 @@
 #include "ccd/elementary_batch.h"
 #include "ccd/elementary_crossing.h"
 #include "ccd/elementary_filter.h"
+#include "core/set_bits.h"
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,12 +23,6 @@ ElementaryImpact impact_of_crossing(const ElementaryPair& pair, const CrossingBa
 /// The result for a pair that the filter and, if there is no thickness, decide_crossings have left
 /// undecided.
 ElementaryImpact decide_singly(const ElementaryPair& pair, const ElementaryOptions& options);
-
-template <typename Visit>
-void for_each_bit(std::uint32_t bits, const Visit& visit) {
-    for (; bits != 0; bits &= bits - 1)
-        visit(static_cast<std::size_t>(std::countr_zero(bits)));
-}
 
 /// Takes pairs of one kind through the stages, in batches of eight. The pairs that a stage leaves
 /// undecided wait for the next stage until they fill a batch.
@@ -75,9 +69,10 @@ private:
     };
 
     void filter() {
-        for_each_bit(possible_impacts(candidates_.batch, kind_, options_.thickness) &
-                         candidates_.used(),
-                     [&](std::size_t lane) { pass(candidates_.items[lane]); });
+        for (const std::size_t lane :
+             SetBits(possible_impacts(candidates_.batch, kind_, options_.thickness) &
+                     candidates_.used()))
+            pass(candidates_.items[lane]);
         candidates_.count = 0;
     }
     /// Takes a pair that the filter has left undecided to the next stage.
@@ -90,13 +85,13 @@ private:
     void cross() {
         decide_crossings(possible_.batch, kind_, crossings_);
         const std::uint32_t decided = crossings_.apart | crossings_.meet;
-        for_each_bit(possible_.used(), [&](std::size_t lane) {
+        for (const std::size_t lane : SetBits(possible_.used())) {
             const Item& item = possible_.items[lane];
             const ElementaryPair& pair = source_.pair(item);
             source_.take(item, (decided >> lane & 1) != 0
                                    ? impact_of_crossing(pair, crossings_, lane)
                                    : decide_singly(pair, options_));
-        });
+        }
         possible_.count = 0;
     }
 

@@ -2,6 +2,7 @@
 
 #include "clash/classify_pair.h"
 #include "rigid/solid/placed_blocks.h"
+#include "rigid/solid/placed_solid.h"
 
 #include <memory>
 #include <optional>
@@ -51,10 +52,29 @@ public:
     }
     /// The part's blocks; null if the part is one model.
     [[nodiscard]] PlacedBlocks* placed() { return placed_ ? &*placed_ : nullptr; }
+    /// The part as a solid.
+    ///
+    /// Cost        the first call examines a model, or reads all blocks, unless that was done before.
+    [[nodiscard]] const WorldSolid& solid() {
+        if (placed_)
+            return *placed_;
+        if (!solid_)
+            solid_.emplace(*part_.model, part_.model->data().solid(), part_.world_from_mesh);
+        return *solid_;
+    }
 
 private:
     const ClashPart& part_;
     std::optional<PlacedBlocks> placed_;
+    std::optional<PlacedSolid> solid_;
 };
+
+/// Whether two parts consist of the same triangles at the same place. The order of the triangles
+/// and of their corners does not matter.
+///
+/// Accuracy    compares boxes and numbers of triangles, then hashes of 128 bits. An accidental
+///             match is not to be expected.
+/// Cost        one pass over both parts, only if their boxes and numbers of triangles are equal.
+bool same_triangles(const BlockList& a, const BlockList& b);
 
 } // namespace abut

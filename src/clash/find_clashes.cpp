@@ -4,7 +4,7 @@
 #include <abut/progress.h>
 
 #include "clash/clash_identity.h"
-#include "clash/classify_by_id.h"
+#include "clash/classify_pair.h"
 #include "clash/mesh_in_blocks.h"
 #include "clash/model_boxes.h"
 #include "clash/part_instances.h"

@@ -72,4 +72,8 @@ private:
     std::vector<Hash128> prefixes_; ///< by part and length; zero if the name is shorter
 };
 
+/// Whether a text matches a glob. `*` matches any run of characters, `?` one character (a byte),
+/// and any other character itself. Case counts.
+bool glob_match(std::string_view glob, std::string_view text);
+
 } // namespace abut

@@ -139,6 +139,10 @@ void recall(const Polytope& polytope, std::uint32_t vertex, std::uint32_t edge, 
 /// Steps that a walk from the last query's end may take. A longer one means that the motion was
 /// large.
 constexpr std::uint32_t kSmallStep = 4;
+/// A walk goes on if no two points are nearer than its distance less this many roundings, which is
+/// about a hundredth of the bodies' size, and if the distance is not above four times that. Bodies
+/// that slide on each other need it: where they are near, a search that begins anew is longer.
+constexpr double kNearEnd = 0x1p43;
 
 /// Continues from where the last query ended, or begins anew if that takes long. Returns as
 /// `descend`.
@@ -154,23 +158,33 @@ bool go_on(const PlacedBodies& bodies, double rounding, const ConvexWarmStart& l
     recall(*pair.a.polytope, pairs[0].a, pairs[1].a, pairs[2].a, search.at.a);
     recall(*pair.b.polytope, pairs[0].b, pairs[1].b, pairs[2].b, search.at.b);
     walk(pair, rounding, kSmallStep, search.at);
+    const double near_end = kNearEnd * rounding;
+    if (search.at.end == WalkEnd::limit && search.at.distance_sq <= 16 * near_end * near_end &&
+        search.at.excess * search.at.excess <= near_end * near_end * search.at.distance_sq)
+        walk(pair, rounding, 3 * kSmallStep, search.at);
     const bool ended = search.at.end == WalkEnd::closest || search.at.end == WalkEnd::meeting;
     return ended || descend(bodies, rounding, search);
 }
 
-/// Proves what the search has found by looking at all vertices, or replaces it by an answer in
-/// integers. The integers decide for the bodies themselves, whatever error is allowed.
+/// Proves what the search has found, first by the direction across its features, then by looking at
+/// all vertices; or replaces it by an answer in integers. The integers decide for the bodies
+/// themselves, whatever error is allowed.
 ///
-/// In          `bodies`: by value, so that the caller need not keep it in memory. `is_at_level`:
-///             what `descend` returned.
+/// In          `bodies`: by value, so that the caller need not keep it in memory. `doubt`: what a
+///             proven distance may lose to rounding. `is_at_level`: what `descend` returned.
 /// Out         `is_decided`: the search now refers to the bodies' own polytopes.
 [[gnu::noinline, gnu::cold]] CertainDistance settle(PlacedBodies bodies, double rounding,
-                                                    ClosestPointSearch& search, bool is_at_level,
-                                                    bool& is_decided) {
+                                                    double doubt, ClosestPointSearch& search,
+                                                    bool is_at_level, bool& is_decided) {
     const PolytopePair pair = is_at_level ? bodies.at(bodies.level_a, bodies.level_b)
                                           : bodies.at(std::max(bodies.a.entry, bodies.level_a),
                                                       std::max(bodies.b.entry, bodies.level_b));
     is_decided = false;
+    if (is_at_level && search.at.distance_sq > 4 * doubt * doubt &&
+        bodies.a.outside + bodies.b.outside == 0 && is_proven_across(pair, rounding, search.at)) {
+        const double distance = std::sqrt(search.at.distance_sq);
+        return {distance, distance - doubt};
+    }
     if (!search.simplex && surely_meet(pair, rounding, search.at))
         return {};
     const bool is_simplified = bodies.level_a + bodies.level_b > 0;
@@ -220,7 +234,7 @@ ConvexGap distance(const Convex& a, const Transform& world_from_a, const Convex&
     CertainDistance settled;
     if (!is_proven) {
         bool is_decided = false;
-        settled = settle(bodies, rounding, search, worth_keeping, is_decided);
+        settled = settle(bodies, rounding, doubt, search, worth_keeping, is_decided);
         if (is_decided)
             bodies.level_a = bodies.level_b = 0, worth_keeping = true;
     }

@@ -37,9 +37,12 @@ struct Bodies {
 
 /// Returns whether a search has proven that the bodies are apart.
 bool surely_apart(const Bodies& bodies, const ClosestPointSearch& search) {
-    return search.at.proven && search.at.end == WalkEnd::closest &&
-           is_measurable(search.at.distance_sq, 9 * bodies.rounding + world_rounding(bodies.pair) +
-                                                    bodies.placed.outside());
+    const double doubt =
+        9 * bodies.rounding + world_rounding(bodies.pair) + bodies.placed.outside();
+    if (search.at.end != WalkEnd::closest || !(search.at.distance_sq > 4 * doubt * doubt))
+        return false;
+    return (search.at.proven && is_measurable(search.at.distance_sq, doubt)) ||
+           is_proven_across(bodies.pair, bodies.rounding, search.at);
 }
 
 /// Searches from a simplex that holds the origin; none if the bodies are proven apart.

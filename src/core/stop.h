@@ -38,6 +38,9 @@ private:
     const std::atomic<bool>* before_;
 };
 
+/// A visitor returns this in place of a bound, which is never negative, to stop its traversal.
+inline constexpr double kStopTraversal = -1;
+
 /// Counts the steps of a search, up to a limit. Polls the stop flag at the first step and then every
 /// 256 steps.
 class SearchSteps {

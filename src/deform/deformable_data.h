@@ -2,7 +2,6 @@
 
 #include <abut/deformable.h>
 
-#include "ccd/moving_vertex.h"
 #include "deform/flat_regions.h"
 #include "deform/leaf_features.h"
 #include "mesh/representative_triangles.h"

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "ccd/moving_vertex.h"
+#include <abut/types.h>
+
 #include "deform/leaf_features.h"
 #include "tree/moving_tree.h"
 
@@ -9,6 +10,11 @@
 #include <vector>
 
 namespace abut {
+
+/// The position of a vertex at the start and at the end of a step.
+struct MovingVertex {
+    Vec3 start, end;
+};
 
 /// The nodes whose triangles certainly do not meet each other during a step, except where they are
 /// connected. The triangles below such a node form a disc. Seen along some direction, all of them

@@ -4,6 +4,20 @@
 
 namespace abut {
 
+namespace {
+
+/// The axis along which the boxes overlap least, from an axis of each box.
+Vec3 unit_axis(LeastOverlap::Kind kind, const Vec3& of_a, const Vec3& of_b) {
+    if (kind == LeastOverlap::Kind::face_a)
+        return of_a;
+    if (kind == LeastOverlap::Kind::face_b)
+        return of_b;
+    const Vec3 across = cross(of_a, of_b);
+    return (1 / length(across)) * across;
+}
+
+} // namespace
+
 // All axes share the scalar products of the boxes' own axes.
 LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
     using Kind = LeastOverlap::Kind;
@@ -52,21 +66,8 @@ LeastOverlap least_overlap(const RoundedBox& a, const RoundedBox& b) {
             const double way = way_a[i2] * turn[i1][k] - way_a[i1] * turn[i2][k];
             keep(scale * (reach_a + reach_b - std::abs(way)), way, Kind::edges, i, k);
         }
-    switch (least.kind) {
-    case Kind::face_a:
-        least.normal = a.axis[best_i];
-        break;
-    case Kind::face_b:
-        least.normal = b.axis[best_k];
-        break;
-    case Kind::edges: {
-        const Vec3 across = cross(a.axis[best_i], b.axis[best_k]);
-        least.normal = (1 / length(across)) * across;
-        break;
-    }
-    }
-    if (best_way < 0)
-        least.normal = -least.normal;
+    const Vec3 along = unit_axis(least.kind, a.axis[best_i], b.axis[best_k]);
+    least.normal = best_way < 0 ? -along : along;
     return least;
 }
 

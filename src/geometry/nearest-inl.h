@@ -67,9 +67,17 @@ HWY_INLINE Foot<V> foot_on(const V& p, const std::array<V, 3>& t) {
     return foot;
 }
 
+/// Squared lengths of two edges and of their cross product.
+struct EdgeSquares {
+    double uu = 0, vv = 0, nn = 0;
+};
+
 /// See geometry/triangle_triangle_distance.h.
+///
+/// Out         `squares`: of u and v.
 template <class V>
-HWY_INLINE SegmentPoints nearest_on_segments(const V& u, const V& v, const V& r) {
+HWY_INLINE SegmentPoints nearest_on_segments(const V& u, const V& v, const V& r,
+                                             EdgeSquares& squares) {
     const auto clamp01 = [](double x) HWY_ATTR { return std::min(std::max(x, 0.0), 1.0); };
     const double uu = length_sq(u), vv = length_sq(v), uv = dot(u, v);
     const V n = cross(u, v);
@@ -79,7 +87,14 @@ HWY_INLINE SegmentPoints nearest_on_segments(const V& u, const V& v, const V& r)
     double s = nn > 0 ? clamp01(dot(cross(r, v), n) / nn) : 0;
     const double t = vv > 0 ? clamp01((s * uv - dot(r, v)) / vv) : 0;
     s = uu > 0 ? clamp01((t * uv + dot(r, u)) / uu) : 0;
+    squares.uu = uu, squares.vv = vv, squares.nn = nn;
     return {s, t, length_sq(r - s * u + t * v)};
+}
+
+template <class V>
+HWY_INLINE SegmentPoints nearest_on_segments(const V& u, const V& v, const V& r) {
+    EdgeSquares squares;
+    return nearest_on_segments(u, v, r, squares);
 }
 
 } // namespace abut::HWY_NAMESPACE

@@ -17,7 +17,7 @@ namespace abut {
 namespace {
 
 constexpr std::size_t kRowsOfPair = 8;
-/// Digits of the longest numerator or denominator that a double needs, and some.
+/// More than the digits of the longest numerator or denominator that a double needs.
 constexpr std::size_t kMostDigits = 1100;
 
 std::optional<BigInt> parse_integer(std::string_view text) {
@@ -27,13 +27,14 @@ std::optional<BigInt> parse_integer(std::string_view text) {
     if (text.empty() || text.size() > kMostDigits ||
         !std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); }))
         return std::nullopt;
-    // A leading zero would ask for octal digits.
+    // A leading zero would mean octal digits.
     text.remove_prefix(std::min(text.find_first_not_of('0'), text.size() - 1));
     const BigInt value{std::string(text)};
     return negative ? BigInt(-value) : value;
 }
 
-/// The double that equals numerator / denominator, if there is one. In: the denominator is not 0.
+/// Returns the double that equals numerator / denominator, if there is one. In: denominator is not
+/// 0.
 std::optional<double> exact_double(BigInt numerator, BigInt denominator) {
     if (numerator.is_zero())
         return 0;
@@ -49,11 +50,12 @@ std::optional<double> exact_double(BigInt numerator, BigInt denominator) {
     const int exponent = static_cast<int>(zeros) - static_cast<int>(halvings);
     const auto mantissa = static_cast<double>(static_cast<std::int64_t>(odd));
     const double value = std::ldexp(mantissa, exponent);
-    // Beyond the largest double, or rounded among the smallest ones.
+    // The result is wrong if it is beyond the largest double, or was rounded as a subnormal.
     return std::ldexp(value, -exponent) == mantissa ? std::optional(value) : std::nullopt;
 }
 
-/// Words are told apart by what is no letter, so that "ee" is not found in "sheep".
+/// Finds the kind in a file's name. Words end at characters that are not letters, so that "ee" is
+/// not found in "sheep".
 std::optional<ElementaryKind> kind_of_name(const std::string& file) {
     std::string name = std::filesystem::path(file).stem().string();
     for (char& c : name)
@@ -132,12 +134,13 @@ private:
     [[nodiscard]] double number(std::string_view numerator, std::string_view denominator) const {
         const auto n = parse_integer(numerator), d = parse_integer(denominator);
         if (!n || !d)
-            fail("'" + std::string(n ? denominator : numerator) + "' is no integer");
+            fail("'" + std::string(n ? denominator : numerator) + "' is not an integer");
         if (d->is_zero())
             fail("a denominator is zero");
         const auto value = exact_double(*n, *d);
         if (!value)
-            fail(std::string(numerator) + "/" + std::string(denominator) + " is no double");
+            fail(std::string(numerator) + "/" + std::string(denominator) +
+                 " is not exactly a double");
         return *value;
     }
 
@@ -166,7 +169,7 @@ ElementaryQueries read_elementary_queries(const std::string& file,
         kind = kind_of_name(file);
     if (!kind)
         throw Error(ErrorCode::bad_argument, file,
-                    "its name says neither vertex-face nor edge-edge: give the kind");
+                    "its name contains neither vertex-face nor edge-edge: give the kind");
     return QueryReader(file, *kind).read();
 }
 

@@ -51,7 +51,7 @@ Scene read_isolated(const ModelPath& path, const ReadOptions& options,
     return decode_scene(result.bytes(), path, options);
 }
 
-/// Makes the result of a reader of polygons what read_scene promises: its file, frame and checks.
+/// Adds to a polygon reader's scene what read_scene promises: its file, frame and checks.
 Scene completed(Scene scene, const ModelPath& path, const ReadOptions& options) {
     const ModelFrame frame = model_frame(FormatFrame{}, path, options);
     scene.file = path.path;
@@ -87,7 +87,7 @@ Scene read_one(const ModelPath& path, const ReadOptions& options,
     return read_isolated(path, options, should_stop);
 }
 
-/// Reads the files, the largest first, by several threads that each wait for one reader.
+/// Reads files, the largest first, with several threads that each wait for one reader.
 class ParallelReader {
 public:
     ParallelReader(const std::vector<ModelPath>& files, const ReadOptions& options)
@@ -132,7 +132,7 @@ private:
             if (turn >= order_.size())
                 return;
             const std::size_t i = order_[turn];
-            // Neither a file at fault nor what comes after it is wanted any more.
+            // After a fault, the files that come later in the list are not needed.
             const auto should_stop = [&] {
                 return first_fault_.load() <= i ||
                        (options_.progress.stop != nullptr && options_.progress.stop->load());
@@ -213,7 +213,8 @@ Mesh to_mesh(const Scene& scene) {
         const auto base = static_cast<std::uint32_t>(mesh.positions.size());
         for (const Vec3& position : scene.meshes[part.mesh].positions) {
             mesh.positions.push_back(apply(part.world_from_mesh, position));
-            // Its own coordinates are no fault: the transform may have made them too large.
+            // The transform may have made the coordinate too large although it was valid in the
+            // file.
             if (const char* const fault = coordinate_fault(mesh.positions.back()))
                 throw Error(ErrorCode::bad_mesh, scene.file,
                             "part " + part.id + ": vertex " +

@@ -1,5 +1,6 @@
 #include <abut/store_clash.h>
 
+#include "core/disjoint_sets.h"
 #include "core/stop_watch.h"
 #include "massive/job/job_plan.h"
 #include "massive/record/graph_rows.h"
@@ -16,33 +17,6 @@ namespace {
 Vec3 middle_of(const Box3& box) {
     return 0.5 * box.lower + 0.5 * box.upper;
 }
-
-/// The connected components of a graph, as a union-find structure with the size of each set.
-class Components {
-public:
-    explicit Components(std::size_t count) : parent_(count), size_(count, 1) {
-        for (std::uint32_t i = 0; i < count; ++i)
-            parent_[i] = i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        if (a == b)
-            return;
-        if (size_[a] < size_[b])
-            std::swap(a, b);
-        parent_[b] = a;
-        size_[a] += size_[b];
-    }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i)
-            i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    [[nodiscard]] std::uint32_t size(std::uint32_t root) const { return size_[root]; }
-
-private:
-    std::vector<std::uint32_t> parent_, size_;
-};
 
 /// Sums up the figures of a graph report. add() is called for each work unit in order.
 class GraphFigures {
@@ -88,14 +62,17 @@ public:
             report_.large_meshes += large != nullptr ? 1 : 0;
             report_.large_bytes += large != nullptr ? large->bytes : 0;
         }
+        std::vector<std::uint32_t> parts_of(report_.nodes); // by the root of a component
+        for (std::uint32_t i = 0; i < report_.nodes; ++i)
+            ++parts_of[components_.root(i)];
         for (std::uint32_t i = 0; i < report_.nodes; ++i) {
             report_.highest_valence = std::max<std::uint64_t>(report_.highest_valence, valence_[i]);
             report_.isolated += valence_[i] == 0 ? 1 : 0;
-            if (valence_[i] == 0 || components_.find(i) != i)
+            if (valence_[i] == 0 || components_.root(i) != i)
                 continue;
             ++report_.components;
             report_.largest_component =
-                std::max<std::uint64_t>(report_.largest_component, components_.size(i));
+                std::max<std::uint64_t>(report_.largest_component, parts_of[i]);
         }
         if (report_.nodes > report_.isolated)
             report_.mean_valence = 2 * static_cast<double>(report_.edges) /
@@ -109,7 +86,7 @@ private:
     }
 
     void add_edge(const IndexPair& pair) {
-        components_.join(pair.a(), pair.b());
+        components_.unite(pair.a(), pair.b());
         ++valence_[pair.a()], ++valence_[pair.b()];
         if (every_ > 0 && edges_++ % every_ == 0)
             report_.lines.push_back({middle(pair.a()), middle(pair.b()),
@@ -120,7 +97,7 @@ private:
     GraphReport report_;
     std::vector<std::uint32_t> valence_; ///< by part
     std::vector<bool> needed_;           ///< by mesh: whether an edge needs it
-    Components components_;
+    DisjointSets components_;            ///< parts that a path of edges connects
     std::uint64_t every_, edges_ = 0;
 };
 

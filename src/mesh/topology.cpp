@@ -2,11 +2,11 @@
 
 #include <abut/error.h>
 
+#include "core/disjoint_sets.h"
 #include "math/vector.h"
 #include "mesh/equal_positions.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -87,22 +87,10 @@ bool is_closed(const Topology& topology) {
 }
 
 std::vector<std::uint32_t> vertex_components(const Mesh& mesh, const Topology& topology) {
-    // Union-find in which parents have lower indices, so that one ascending pass finds all roots.
-    std::vector<std::uint32_t> parent = topology.vertex_of;
-    const auto root = [&](std::uint32_t v) {
-        while (parent[v] != v)
-            v = parent[v] = parent[parent[v]];
-        return v;
-    };
-    for (const auto& t : mesh.triangles) {
-        const std::array<std::uint32_t, 3> r{root(t[0]), root(t[1]), root(t[2])};
-        const std::uint32_t lowest = std::min({r[0], r[1], r[2]});
-        for (const std::uint32_t other : r)
-            parent[other] = lowest;
-    }
-    for (std::uint32_t& p : parent)
-        p = parent[p];
-    return parent;
+    DisjointSets sets(topology.vertex_of);
+    for (const auto& t : mesh.triangles)
+        sets.unite(sets.unite(t[0], t[1]), t[2]);
+    return std::move(sets).roots();
 }
 
 std::vector<std::uint32_t> component_representatives(const Mesh& mesh, const Topology& topology) {

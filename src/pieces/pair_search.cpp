@@ -29,17 +29,18 @@ bool is_root(const BoundedPair& pair) {
     return pair.hulls == HullPair{};
 }
 
-bool later(const BoundedPair& p, const BoundedPair& q) {
-    return p.bound > q.bound;
-}
+/// A type, not a function, so that the heap's operations have it inlined.
+struct Later {
+    bool operator()(const BoundedPair& p, const BoundedPair& q) const { return p.bound > q.bound; }
+};
 
 void push(std::vector<BoundedPair>& heap, const BoundedPair& pair) {
     heap.push_back(pair);
-    std::push_heap(heap.begin(), heap.end(), later);
+    std::push_heap(heap.begin(), heap.end(), Later());
 }
 
 BoundedPair pop(std::vector<BoundedPair>& heap) {
-    std::pop_heap(heap.begin(), heap.end(), later);
+    std::pop_heap(heap.begin(), heap.end(), Later());
     const BoundedPair pair = heap.back();
     heap.pop_back();
     return pair;
@@ -62,9 +63,10 @@ double PiecePairSearch::measure(const HullPair& hulls, const ClosestPointSearch&
 }
 
 /// The lower bound of a distance that the end of a walk proves; 0 if it proves nothing.
-double PiecePairSearch::bound_by_walk(const HullPair& hulls, const WalkState& at,
-                                      double distance) const {
-    return at.proven && is_measurable(at.distance_sq, placed_.rounding)
+double PiecePairSearch::bound_by_walk(const HullPair& hulls, const PolytopePair& pair,
+                                      const WalkState& at, double distance) const {
+    return (at.proven && is_measurable(at.distance_sq, placed_.rounding)) ||
+                   is_proven_across(pair, placed_.rounding, at)
                ? std::max(0.0, distance - 8 * placed_.rounding - placed_.margin(hulls))
                : 0;
 }
@@ -82,7 +84,7 @@ double PiecePairSearch::take(const HullPair& hulls, const PolytopePair& pair,
     const double distance = std::sqrt(search.at.distance_sq);
     const double enough =
         std::min(distance, best_.distance) - kTolerance * placed_.rounding - placed_.margin(hulls);
-    double at_least = bound_by_walk(hulls, search.at, distance);
+    double at_least = bound_by_walk(hulls, pair, search.at, distance);
     if (at_least < enough) {
         at_least =
             std::max(at_least, proven_room_at(pair, search.at, placed_.a.reach, placed_.b.reach,
@@ -126,7 +128,7 @@ void PiecePairSearch::measure_hulls(BoundedPair& pair, double floor) {
     pair.along = {};
     if (state.end == WalkEnd::closest) {
         const double distance = std::sqrt(state.distance_sq);
-        double bound = bound_by_walk(pair.hulls, state, distance);
+        double bound = bound_by_walk(pair.hulls, hulls, state, distance);
         if (bound == 0)
             bound = proven_room(hulls, state.gap, placed_.a.reach, placed_.b.reach,
                                 placed_.margin(pair.hulls));
@@ -181,14 +183,19 @@ void PiecePairSearch::jump(const BoundedPair& roots) {
     measure_pieces(pair);
 }
 
-void PiecePairSearch::open(const BoundedPair& pair, PairFront& front) {
+void PiecePairSearch::open(const BoundedPair& pair, PairFront& front, bool keep) {
     placed_.for_each_child(pair.hulls, [&](const HullPair& hulls) {
         ++counters_.sphere_pairs;
+        const double gap = placed_.sphere_gap(hulls);
+        const double bound = pair.bound > 0 ? std::max(pair.bound, gap) : gap;
+        if (!keep && !matters(bound)) {
+            at_least_ = std::min(at_least_, bound);
+            return;
+        }
         BoundedPair child;
         child.hulls = hulls;
         child.along = pair.along;
-        const double gap = placed_.sphere_gap(hulls);
-        child.bound = front.drift + (pair.bound > 0 ? std::max(pair.bound, gap) : gap);
+        child.bound = front.drift + bound;
         push(front.heap, child);
     });
 }
@@ -228,7 +235,7 @@ void PiecePairSearch::run(PairFront& front, bool keep) {
         }
         const bool open_it = matters(pair.bound) && !placed_.are_pieces(pair.hulls);
         if (open_it && !ends()) {
-            open(pair, front);
+            open(pair, front, keep);
             continue;
         }
         at_least_ = std::min(at_least_, pair.bound);

@@ -89,10 +89,10 @@ private:
     void measure(BoundedPair& pair, double floor);
     void measure_pieces(BoundedPair& pair);
     double take(const HullPair& hulls, const PolytopePair& pair, const ClosestPointSearch& search);
-    [[nodiscard]] double bound_by_walk(const HullPair& hulls, const WalkState& at,
-                                       double distance) const;
+    [[nodiscard]] double bound_by_walk(const HullPair& hulls, const PolytopePair& pair,
+                                       const WalkState& at, double distance) const;
     void measure_hulls(BoundedPair& pair, double floor);
-    void open(const BoundedPair& pair, PairFront& front);
+    void open(const BoundedPair& pair, PairFront& front, bool keep);
     [[nodiscard]] bool ends() const { return best_.found && (first_ || best_.distance == 0); }
     /// Returns whether pairs with this bound may matter.
     [[nodiscard]] bool matters(double bound) const {

@@ -129,8 +129,8 @@ Vec3 way_out(const PlacedPieces& placed, std::vector<Vec3> directions, double at
     const Model &a = placed.a.model, &b = placed.b.model;
     const PlacedSolid solid_a(a, a.data().solid(), placed.world_from_a),
         solid_b(b, b.data().solid(), placed.world_from_b);
-    const bool is_flattened =
-        solid_a.world() != placed.world_from_a || solid_b.world() != placed.world_from_b;
+    const bool is_flattened = solid_a.model().world() != placed.world_from_a ||
+                              solid_b.model().world() != placed.world_from_b;
     Counters counters;
     const Vec3 way = is_flattened
                          ? penetration(a, placed.world_from_a, b, placed.world_from_b).separation

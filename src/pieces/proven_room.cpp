@@ -4,30 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace abut {
 
 namespace {
-
-/// Returns whether a vertex has a neighbour of at least the height `least` along a direction.
-bool has_high_neighbour(const Polytope& polytope, const Vec3& direction, const HullVertex& vertex,
-                        double least) {
-    const RingBatch* block = polytope.rings.data() + vertex.first_edge / RingBatch::kEdges;
-    const RingBatch* const end =
-        block + (vertex.degree + RingBatch::kEdges - 1) / RingBatch::kEdges;
-    // Unused lanes of the last batch repeat the first edge.
-    for (; block != end; ++block) {
-        bool high = false;
-        for (std::size_t k = 0; k < RingBatch::kEdges; ++k)
-            high |=
-                direction.x * block->x[k] + direction.y * block->y[k] + direction.z * block->z[k] >=
-                least;
-        if (high)
-            return true;
-    }
-    return false;
-}
 
 /// Returns the highest of the vertices that rounding may hide: those connected to `vertex` through
 /// vertices of at least the height `least`.
@@ -53,18 +35,30 @@ std::uint32_t highest_hidden(const Polytope& polytope, const Vec3& direction, st
     return vertex;
 }
 
-/// The highest vertex along a direction, given one that no neighbour exceeds.
-std::uint32_t highest(const PlacedPolytope& side, const Vec3& along, std::uint32_t vertex,
-                      double reach) {
-    const Polytope& polytope = *side.polytope;
-    const Vec3 direction = side.pulled_back(along);
+/// Hulls of at most this many vertices are looked at as a whole where rounding may hide a vertex:
+/// that takes less time than to follow neighbours.
+constexpr std::size_t kScanned = 256;
+
+std::uint32_t highest_of_all(const Polytope& polytope, const Vec3& direction) {
+    std::uint32_t highest = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::uint32_t v = 0; v < polytope.vertices.size(); ++v)
+        if (const double height = dot(direction, polytope.vertices[v].at); height > most)
+            most = height, highest = v;
+    return highest;
+}
+
+/// The highest vertex along a direction, given one that all neighbours are lower than by `lead`.
+std::uint32_t highest(const Polytope& polytope, const Vec3& direction, std::uint32_t vertex,
+                      double lead, double reach) {
     // Heights that differ by less may be in the other order.
     const double hidden = 0x1p-48 * sum_of_sizes(direction) * reach;
-    const HullVertex& v = polytope.vertices[vertex];
-    const double least = dot(direction, v.at) - hidden;
-    return has_high_neighbour(polytope, direction, v, least)
-               ? highest_hidden(polytope, direction, vertex, least)
-               : vertex;
+    if (lead > hidden)
+        return vertex;
+    if (polytope.vertices.size() <= kScanned)
+        return highest_of_all(polytope, direction);
+    const double least = dot(direction, polytope.vertices[vertex].at) - hidden;
+    return highest_hidden(polytope, direction, vertex, least);
 }
 
 /// Two edges of the triangle between an edge and the next one around its vertex.
@@ -122,13 +116,11 @@ private:
 
 VertexPair proven_farthest(const PolytopePair& pair, const Vec3& along, double reach_a,
                            double reach_b) {
-    VertexPair found = farthest(pair, along);
-    // In two small hulls all vertices were compared.
-    if (pair.a.polytope->columns.empty() || pair.b.polytope->columns.empty()) {
-        found.a = highest(pair.a, along, found.a, reach_a);
-        found.b = highest(pair.b, -along, found.b, reach_b);
-    }
-    return found;
+    const Polytope &a = *pair.a.polytope, &b = *pair.b.polytope;
+    const Vec3 direction_a = pair.a.pulled_back(along), direction_b = pair.b.pulled_back(-along);
+    const FarthestPair found = farthest_with_lead(a, direction_a, b, direction_b);
+    return {highest(a, direction_a, found.vertices.a, found.lead_a, reach_a),
+            highest(b, direction_b, found.vertices.b, found.lead_b, reach_b)};
 }
 
 double proven_room(const PolytopePair& pair, const Vec3& along, double reach_a, double reach_b,

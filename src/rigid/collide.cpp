@@ -26,7 +26,7 @@ public:
             for_each_pair(pairs.may_meet, [&](auto i, auto j) {
                 return add(i, j, triangle_triangle_intersect(leaves_.a(i), leaves_.b(j)));
             });
-        return go_on ? 0 : -1;
+        return go_on ? 0 : kStopTraversal;
     }
 
     std::vector<Contact> contacts;

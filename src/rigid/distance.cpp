@@ -65,7 +65,7 @@ public:
                                       take_contact(i, j);
                            });
         if (!apart)
-            return -1;
+            return kStopTraversal;
         for_each_pair(pairs.may_meet | pairs.may_be_near, [&](auto i, auto j) {
             block_.set(collected_, leaves_.a(i), leaves_.b(j));
             indices_[collected_] = leaves_.indices(i, j);
@@ -73,7 +73,7 @@ public:
                 measure();
             return true;
         });
-        return found_ && first_ ? -1 : bound_sq();
+        return found_ && first_ ? kStopTraversal : bound_sq();
     }
 
     [[nodiscard]] Vec3 direction() const override {

@@ -2,8 +2,6 @@
 #include <abut/store.h>
 
 #include "core/progress.h"
-#include "io/file/byte_stream.h"
-#include "io/file/fault.h"
 #include "math/vector.h"
 #include "store/codec/hierarchy_codec.h"
 #include "store/database/store_file.h"
@@ -49,7 +47,7 @@ void check_mesh(StoreFile& file, const MeshRow& row) {
         hash_128(std::as_bytes(std::span<const std::array<std::uint32_t, 3>>(mesh.triangles))));
     if (hash != Hash128{row.hash_low, row.hash_high})
         throw Error(ErrorCode::malformed, file.path(),
-                    "is damaged: mesh " + std::to_string(row.mesh) + " is not what its hash says");
+                    "is damaged: mesh " + std::to_string(row.mesh) + " does not match its hash");
 }
 
 /// Checks that each hierarchy of the current format can be decoded and fits its block. Jobs rebuild
@@ -71,7 +69,7 @@ void check_hierarchies(StoreFile& file) {
         if (!kept || !decode_hierarchy(kept->data, read.row.triangles))
             throw Error(ErrorCode::malformed, file.path(),
                         "is damaged: the hierarchy of block " + std::to_string(block) +
-                            " is not what its checksum says");
+                            " does not match its checksum");
     }
 }
 
@@ -115,13 +113,7 @@ void require_regular_file(const std::string& path) {
 } // namespace
 
 bool is_store(const std::string& path) {
-    try {
-        // ByteStream opens without blocking: a plain open() of a named pipe waits for a writer.
-        ByteStream content = ByteStream::open(path);
-        return content.has(kMagic.size()) && content.ahead().starts_with(kMagic);
-    } catch (const Fault&) {
-        return false; // the attempt to read it as a model reports why
-    }
+    return first_bytes(path, kMagic.size()) == kMagic;
 }
 
 Store open_store(const std::string& path, const StoreOptions& options) {
@@ -188,7 +180,7 @@ void verify(const Store& store, const Progress& progress) {
     file.for_each_part([&](const PartRow& part) {
         if (!known.contains(part.mesh))
             throw Error(ErrorCode::malformed, file.path(),
-                        "is damaged: part " + part.id + " shows a mesh that is missing");
+                        "is damaged: part " + part.id + " refers to a mesh that is missing");
     });
     meter.advance();
     check_boxes(file);

@@ -5,7 +5,6 @@
 #include "tree/obb_tree.h"
 
 #include <array>
-#include <cmath>
 
 namespace abut {
 
@@ -22,10 +21,6 @@ struct FrameMap : LeafPlacement {
 /// A direction expressed in a frame: its product with a vector of that frame is the vector's length
 /// along the direction in the world.
 using Covector = std::array<float, 3>;
-
-inline float reach_along(const Covector& n, const std::array<float, 3>& half) {
-    return std::abs(n[0]) * half[0] + std::abs(n[1]) * half[1] + std::abs(n[2]) * half[2];
-}
 
 /// The map between two trees' frames.
 struct TreeMap {

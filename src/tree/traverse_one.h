@@ -52,7 +52,7 @@ void for_each_along_segment(const Tree& tree, const TreeSegment& segment, const 
 
 /// Calls visit(slot) for primitives near a point, in order of their approximate distance in single
 /// precision. `visit` returns the squared distance in the tree's frame beyond which no primitive
-/// matters any more.
+/// matters any more, or kStopTraversal.
 template <typename Visit>
 void for_each_near(const Tree& tree, const std::array<float, 3>& point, float margin,
                    float bound_sq, const Visit& visit);

@@ -1,8 +1,8 @@
 #include "tree/traverse_overlaps.h"
 
+#include "core/set_bits.h"
 #include "core/stop.h"
 
-#include <bit>
 #include <boost/container/small_vector.hpp>
 
 #undef HWY_TARGET_INCLUDE
@@ -79,20 +79,16 @@ private:
     }
     /// Pairs a child of a with those children of a node of b that are `wanted`.
     void open_b(std::uint32_t name, std::uint32_t node, std::uint32_t wanted) {
-        std::uint32_t bits =
-            near_children(traversal_.b.nodes[node], box_of(traversal_.a, name), traversal_.margin) &
-            wanted;
-        for (; bits != 0; bits &= bits - 1)
-            pairs_.push_back({name, child_of(node, bits)});
+        const std::uint32_t near =
+            near_children(traversal_.b.nodes[node], box_of(traversal_.a, name), traversal_.margin);
+        for (const std::uint32_t lane : SetBits(near & wanted))
+            pairs_.push_back({name, child_name(node, lane)});
     }
     void open_a(std::uint32_t node, std::uint32_t name) {
-        std::uint32_t bits =
+        const std::uint32_t near =
             near_children(traversal_.a.nodes[node], box_of(traversal_.b, name), traversal_.margin);
-        for (; bits != 0; bits &= bits - 1)
-            pairs_.push_back({child_of(node, bits), name});
-    }
-    static std::uint32_t child_of(std::uint32_t node, std::uint32_t bits) {
-        return child_name(node, static_cast<std::uint32_t>(std::countr_zero(bits)));
+        for (const std::uint32_t lane : SetBits(near))
+            pairs_.push_back({child_name(node, lane), name});
     }
 
     const OverlapTraversal& traversal_;

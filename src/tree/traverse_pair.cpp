@@ -1,5 +1,6 @@
 #include "tree/traverse_pair.h"
 
+#include "core/set_bits.h"
 #include "math/rounding.h"
 #include "tree/near_first_queue.h"
 
@@ -204,8 +205,7 @@ private:
 
     bool measure(const Side& x, const Side& y, PairSet& pairs) {
         const std::uint32_t leaves_x = leaf_lanes(x.node), leaves_y = leaf_lanes(y.node);
-        for (std::uint32_t lanes = x.lanes; lanes != 0; lanes &= lanes - 1) {
-            const auto i = static_cast<std::uint32_t>(std::countr_zero(lanes));
+        for (const std::uint32_t i : SetBits(x.lanes)) {
             const RowOfPairs row =
                 compare_row<test>(x.children, i, y.children, bound_sq_, pairs.value[i]);
             t_.volume_tests += Node::kWidth;
@@ -223,9 +223,8 @@ private:
 
     template <bool y_is_a>
     bool visit_leaves(const NodePair& nodes, const Side& x, const Side& y, const PairSet& pairs) {
-        for (std::uint64_t left = pairs.leaves; left != 0; left &= left - 1) {
-            const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-            const std::size_t i = bit / Node::kWidth, j = bit % Node::kWidth;
+        for (const std::uint32_t bit : SetBits(pairs.leaves)) {
+            const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
             if (pairs.value[i][j] > bound_sq_) // the bound may have shrunk since
                 continue;
             const NodeRef leaf_x = x.node.child[i], leaf_y = y.node.child[j];
@@ -242,14 +241,14 @@ private:
         found_.resize(before + count, boost::container::default_init);
         BoxPair* next = found_.data() + before;
         BoxPair* deepest = next;
-        for (std::uint64_t left = pairs.near; left != 0; left &= left - 1, ++next) {
-            const auto bit = static_cast<std::uint32_t>(std::countr_zero(left));
+        for (const std::uint32_t bit : SetBits(pairs.near)) {
             const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
             const std::uint32_t name_x = child_name(x.index, i), name_y = child_name(y.index, j);
             *next = {y_is_a ? name_y : name_x, y_is_a ? name_x : name_y, pairs.value[i][j]};
             deepest = next->bound_sq < deepest->bound_sq ? next : deepest;
             prefetch(x.node.child[i], y_is_a ? t_.b : t_.a);
             prefetch(y.node.child[j], y_is_a ? t_.a : t_.b);
+            ++next;
         }
         // The pair that overlaps deepest goes last, so that it is tested next: a contact is
         // likeliest there.

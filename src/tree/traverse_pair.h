@@ -19,8 +19,7 @@ public:
     virtual ~LeafPairVisitor() = default;
 
     /// Tests the pairs of triangles that were not culled; there is at least one. Returns the
-    /// squared world distance beyond which pairs no longer matter. A negative value stops the
-    /// traversal.
+    /// squared world distance beyond which pairs no longer matter, or kStopTraversal.
     virtual double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& pairs) = 0;
     /// A world direction, from a to b, along which the trees seem to be far apart: the direction
     /// between the closest points found so far. Any vector of length at most 1 is correct. Zero if

@@ -1,5 +1,6 @@
 #include "tree/traverse_volumes.h"
 
+#include "core/set_bits.h"
 #include "tree/near_first_queue.h"
 
 #include <algorithm>
@@ -183,8 +184,7 @@ private:
         // The child that overlaps deepest goes last, so that it is tested next: a contact is
         // likeliest there.
         std::uint32_t deepest = Node::kWidth;
-        for (std::uint32_t rest = used; rest != 0; rest &= rest - 1) {
-            auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+        for (std::uint32_t lane : SetBits(used)) {
             constexpr float kUnderflow = traverse_volumes::kUnderflow;
             if (with_upper &&
                 (bounds.upper_sq[lane] + kUnderflow) * side.most_stretch_sq + kUnderflow <=

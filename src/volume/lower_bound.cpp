@@ -75,17 +75,11 @@ float distance_lower_bound(const V& a, const V& b, const typename V::Map& map) {
     return std::sqrt(bounds.lower_sq[0]);
 }
 
-template <typename V>
-bool may_overlap(const V& a, const V& b, const typename V::Map& map) {
-    return !(distance_lower_bound(a, b, map) > 0);
-}
-
 #define ABUT_INSTANTIATE_BOUNDS(V)                                                                 \
     template void bound_distances(const VolumeBatch<V>&, const V::Image&, VolumeBounds&);          \
     template void bound_distances_reference(const VolumeBatch<V>&, const V::Image&,                \
                                             VolumeBounds&);                                        \
-    template float distance_lower_bound(const V&, const V&, const V::Map&);                        \
-    template bool may_overlap(const V&, const V&, const V::Map&)
+    template float distance_lower_bound(const V&, const V&, const V::Map&)
 
 ABUT_INSTANTIATE_BOUNDS(BoundingSphere);
 ABUT_INSTANTIATE_BOUNDS(Pss);

@@ -41,8 +41,4 @@ void bound_distances_reference(const VolumeBatch<V>& batch, const typename V::Im
 template <typename V>
 float distance_lower_bound(const V& a, const V& b, const typename V::Map& map);
 
-/// Whether two volumes may share a point. If false, they certainly do not.
-template <typename V>
-bool may_overlap(const V& a, const V& b, const typename V::Map& map);
-
 } // namespace abut

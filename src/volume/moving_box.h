@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/set_bits.h"
 #include "volume/aabb.h"
 
 #include <array>
@@ -114,10 +115,8 @@ struct RunOverlaps {
         for_each_tile([&](std::uint32_t i, std::uint32_t k, std::uint64_t tile) {
             const std::uint32_t* ids_a = a.ids + std::size_t{i} * kTile;
             const std::uint32_t* ids_b = b.ids + std::size_t{k} * kTile;
-            for (; tile != 0; tile &= tile - 1) {
-                const auto bit = static_cast<std::uint32_t>(std::countr_zero(tile));
+            for (const std::uint32_t bit : SetBits(tile))
                 visit(ids_a[bit / kTile], ids_b[bit % kTile]);
-            }
         });
     }
 

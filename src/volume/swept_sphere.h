@@ -24,7 +24,6 @@ struct SweptSphereImage;
 /// The volume is that of the exact values of its floats, as everywhere in this folder.
 template <std::size_t dimension>
 struct SweptSphere {
-    static constexpr std::size_t kDimension = dimension;
     static constexpr std::size_t kFloats = 4 + 4 * dimension;
     using Map = RelativePose;
     using Image = SweptSphereImage<dimension>;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "volume/aabb.h"
-#include "world/broad_phase/box_node.h"
+#include "world/broad_phase/box_levels.h"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +16,8 @@
 
 namespace abut {
 
-/// A tree over boxes that finds near boxes. Level 0 consists of batches of 16 boxes (`BoxNode`),
-/// in an order that keeps neighbours together. Lane i of batch b at level k + 1 bounds batch
-/// 16 b + i of level k. No links are stored, so that a box takes 26 bytes.
+/// A tree that finds near boxes, in an order that keeps neighbours together. Unlike a
+/// `MovingBoxTree`, it never compares its boxes with each other, so that it needs no marks.
 class BoxTree {
 public:
     static constexpr std::uint32_t kWidth = BoxNode::kWidth;
@@ -31,12 +30,12 @@ public:
         return levels_[0][lane / kWidth].box(lane % kWidth);
     }
     [[nodiscard]] std::size_t size() const { return size_; }
-    [[nodiscard]] std::size_t bytes() const;
-    [[nodiscard]] const std::vector<std::vector<BoxNode>>& levels() const { return levels_; }
+    [[nodiscard]] std::size_t bytes() const { return levels_.bytes(); }
+    [[nodiscard]] const BoxLevels& levels() const { return levels_; }
 
 private:
     std::size_t size_ = 0;
-    std::vector<std::vector<BoxNode>> levels_;
+    BoxLevels levels_;
 };
 
 /// A lower bound for each lane of a batch of boxes; infinite for an empty box.
@@ -74,7 +73,7 @@ public:
 
     NearestLanes(const BoxTree& tree, const Metric& metric) : tree_(tree), metric_(metric) {
         if (tree.size() > 0)
-            open(tree.levels().size() - 1, 0);
+            open(tree.levels().count() - 1, 0);
     }
 
     /// From now on, lanes whose key exceeds the limit are skipped.

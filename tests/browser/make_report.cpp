@@ -1,6 +1,6 @@
-/// abut-make-report FOLDER COUNT [statuses]: writes report.html, report.json and report.csv of COUNT
-/// made-up clashes, among them names that break pages which are careless with text; with `statuses`
-/// as of a store. The same count gives the same files.
+/// abut-make-report FOLDER COUNT [statuses]: writes report.html, report.json and report.csv of
+/// COUNT made-up clashes. Some names would break pages that do not escape text. With `statuses`,
+/// the clashes have statuses as from a store. The same count gives the same files.
 #include <abut/clash.h>
 #include <abut/error.h>
 
@@ -76,7 +76,7 @@ Scene make_scene(const std::string& file, const Product (&products)[N], std::siz
 double distance_of(ClashKind kind, double share) {
     switch (kind) {
     case ClashKind::hard:
-        return share < 0.05 ? -1e-9 : -0.0005 - 0.35 * share * share; // some nanometres deep
+        return share < 0.05 ? -1e-9 : -0.0005 - 0.35 * share * share; // a few nanometres deep
     case ClashKind::contained:
         return -0.02 - share;
     case ClashKind::clearance:
@@ -89,7 +89,7 @@ double distance_of(ClashKind kind, double share) {
 }
 
 ClashReport make_report(const std::vector<Scene>& models, std::size_t count, std::mt19937& random) {
-    // Real numbers, not std::uniform_real_distribution: its values differ between standard
+    // std::uniform_real_distribution is not used, because its values differ between standard
     // libraries.
     const auto share = [&] { return random() / 4294967296.0; };
     const auto point = [&] { return abut::Vec3{80 * share(), 45 * share(), 18 * share()}; };
@@ -127,7 +127,7 @@ ClashReport make_report(const std::vector<Scene>& models, std::size_t count, std
     return report;
 }
 
-/// As if a store knew the clashes, and every tenth as many that are gone.
+/// Adds statuses as from a store, and a tenth as many resolved clashes.
 void add_statuses(ClashReport& report, const std::vector<Scene>& models) {
     report.statuses.emplace();
     for (std::size_t i = 0; i < report.clashes.size(); ++i) {

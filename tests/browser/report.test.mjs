@@ -1,5 +1,5 @@
-// Opens the report page in headless Chromium and uses it as an engineer would. What the page shows is compared
-// with report.json and report.csv, which the library wrote from the same clashes.
+// Opens the report page in headless Chromium and uses it as an engineer would. The page's contents are
+// compared with report.json and report.csv, which the library wrote from the same clashes.
 import assert from 'node:assert/strict';
 import { mkdtemp, readFile, rm } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
@@ -48,7 +48,7 @@ const open = async (count, hash = '') => {
   await page.waitForSelector('#main:not([hidden])');
 };
 
-// textContent, not innerText: what CSS cuts off counts as shown.
+// textContent, not innerText: text that CSS cuts off counts as shown.
 const rowsInView = () => page.$$eval('#rows tr', (rows) => rows.map((row) => ({
   place: Number(row.getAttribute('aria-rowindex')) - 2,
   cells: Array.from(row.cells, (cell) => cell.textContent),
@@ -154,10 +154,10 @@ describe('10,000 clashes', () => {
     assert.deepEqual([...ids].sort(), wanted.sort());
     assert.equal(await page.getAttribute('.kind.contained', 'aria-pressed'), 'true');
     assert.equal(await page.getAttribute('.kind.hard', 'aria-pressed'), 'false');
-    await page.click('.kind.duplicate'); // a second kind joins
+    await page.click('.kind.duplicate'); // adds a second kind
     await waitForCount(truth.counts.contained + truth.counts.duplicate);
     await page.click('.kind.contained');
-    await page.click('.kind.duplicate'); // the last one left gives all back
+    await page.click('.kind.duplicate'); // removing the last kind shows all
     await waitForCount(10000);
   });
 
@@ -253,7 +253,7 @@ describe('10,000 clashes', () => {
     assert.equal(await page.getAttribute('#clashes', 'aria-activedescendant'), 'row-2');
     await page.keyboard.press('Enter');
     const first = await page.textContent('#detail');
-    await page.keyboard.press('ArrowDown'); // the detail follows
+    await page.keyboard.press('ArrowDown'); // the detail shows the next row
     assert.notEqual(await page.textContent('#detail'), first);
     assert.equal(await page.getAttribute('#rows tr.open', 'id'), 'row-3');
     await page.keyboard.press('Escape');
@@ -280,7 +280,7 @@ describe('10,000 clashes', () => {
     assert.deepEqual((await rowsInView()).slice(0, 10), before.rows);
     assert.equal(await page.textContent('#detail'), before.detail);
     assert.equal(await page.inputValue('#max'), '-10');
-    // An address typed into the open page, with things in it that mean nothing.
+    // An address typed into the open page, with meaningless values.
     await page.evaluate(() => { location.hash = '#kind=touch,nonsense&sort=constructor&type=nothing&min=abc&open=0'; });
     await waitForCount(truth.counts.touch);
     assert.equal(await sortOf('kind'), 'ascending');
@@ -420,7 +420,7 @@ describe('colour scheme and width', () => {
   });
 });
 
-/** RFC 4180, strictly: throws on a stray quote or a bare line end. */
+/** Strict RFC 4180: throws on a stray quote or a bare line end. */
 function parseCsv(text) {
   const rows = [];
   let row = [];
@@ -438,7 +438,7 @@ function parseCsv(text) {
   return rows;
 }
 
-/** Cells 10 to 20 are numbers: 1e-07 and 1e-7 are the same. */
+/** Cells 10 to 20 as numbers, so that 1e-07 equals 1e-7. */
 function numbersRead(row) {
   return row.map((value, c) => (c >= 10 && c <= 20 ? Number(value) : value));
 }

@@ -1,4 +1,4 @@
-/// Bad usage: one line, status 2, nothing else.
+/// Bad usage gives one line on standard error and status 2, and nothing else.
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 

@@ -1,4 +1,4 @@
-/// Bad input: one line that names the file and the fault, status 2, no output.
+/// Bad input gives one line that names the file and the fault, status 2, and no output.
 #include "tests/command/box_test.h"
 
 #include <cstring>
@@ -11,7 +11,7 @@ namespace {
 
 class BadInputTest : public BoxTest {
 protected:
-    /// Every subcommand that reads must refuse the file by name, and leave nothing.
+    /// Expects every subcommand that reads to refuse the file by name and to write nothing.
     void expect_all_refuse(const std::string& file) {
         SCOPED_TRACE(file);
         const auto before = folder_.list();
@@ -23,7 +23,7 @@ protected:
     }
 };
 
-/// Seven lines of a PLY header and its data, as text.
+/// A text PLY file with these vertices and faces.
 std::string ply(const std::string& vertices, int vertex_count, const std::string& faces,
                 int face_count) {
     return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertex_count) +
@@ -81,7 +81,8 @@ TEST_F(BadInputTest, TruncatedFilesOfEachFormat) {
 }
 
 TEST_F(BadInputTest, AWholeStlAndPlyAreAccepted) {
-    // The counterpart of the truncated ones: they are refused for being short and for nothing else.
+    // Whole files like the truncated ones are accepted: those were refused only because they were
+    // short.
     EXPECT_EQ(run_abut({"info", folder_.write("whole.stl", stl(2, 2))}).status, 0);
     EXPECT_EQ(run_abut({"info", folder_.write("whole.ply",
                                               ply("0 0 0\n1 0 0\n0 1 0\n", 3, "3 0 1 2\n", 1))})
@@ -135,7 +136,7 @@ TEST_F(BadInputTest, RulesThatCannotBeUsed) {
 
 TEST_F(BadInputTest, OutputThatCannotBeWritten) {
     const auto before = folder_.list();
-    // Permissions stop no root user; a file in the way and a folder of the kernel stop everybody.
+    // Permissions do not stop root, but a file in the way or a folder of the kernel does.
     expect_refused(run_abut({"clash", box_, "--out", box_}), {"box.obj", "cannot be written"});
     expect_refused(run_abut({"clash", box_, "--out", box_ + "/out"}), {"box.obj"});
     expect_refused(run_abut({"clash", box_, "--out", "/proc/abut/out"}), {"/proc/abut/out"});

@@ -9,14 +9,14 @@
 
 namespace abut::test {
 
-/// A test of the command with a file that holds the unit box.
+/// Fixture with a file that holds the unit box.
 class BoxTest : public ::testing::Test {
 protected:
     TemporaryFolder folder_;
     std::string box_ = folder_.write("box.obj", box_obj());
 };
 
-/// The box against itself.
+/// Queries of the box with itself.
 class TwoBoxesTest : public BoxTest {
 protected:
     Outcome ask(const std::string& verb, std::vector<std::string> options) {

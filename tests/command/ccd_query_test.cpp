@@ -1,4 +1,4 @@
-/// ccd-query: queries written by hand, and files that it must refuse.
+/// ccd-query: queries written by hand, and files that must be refused.
 #include "tests/command/run_command.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace abut::test {
 namespace {
 
-/// A vertex that falls from z = 1 to z = `end` on the right triangle in the plane z = 0.
+/// A vertex that falls from z = 1 to z = `end` onto the right triangle in the plane z = 0.
 std::string falling(const std::string& end, const std::string& truth = "") {
     const std::string face =
         "0,1,0,1,0,1" + truth + "\n1,1,0,1,0,1" + truth + "\n0,1,1,1,0,1" + truth + "\n";
@@ -27,7 +27,8 @@ protected:
 };
 
 TEST_F(CcdQueryCommand, CountsAnswersAgainstTheTruth) {
-    // Reaches z = -1/2, stops at 1/8, touches at 0; the last two say the contrary.
+    // The vertex reaches z = -1/2, stops at 1/8, or touches at 0. The second file states the
+    // opposite.
     const std::string good =
         folder_.write("one-vertex-face-0.csv",
                       falling("-1,2", ",1") + falling("1,8", ",0") + falling("0,1", ",1"));
@@ -82,8 +83,8 @@ TEST_F(CcdQueryCommand, TruthInAFileOfItsOwn) {
     expect_refused(run_abut(arguments), {"truth.json"});
 }
 
-TEST_F(CcdQueryCommand, ConservativeReportsWhatIsNear) {
-    // An edge whose end passes another edge 2^-60 beside it.
+TEST_F(CcdQueryCommand, ConservativeModeReportsNearPairs) {
+    // The end of an edge passes another edge at a distance of about 2^-60.
     const std::string moving = "1,1152921504606846976,0,1,HEIGHT,1\n1,1,3,1,HEIGHT,1\n",
                       fixed = "-3,1,1,1,0,1\n3,1,-1,1,0,1\n";
     const auto at = [&](const std::string& height) {
@@ -101,7 +102,7 @@ TEST_F(CcdQueryCommand, ConservativeReportsWhatIsNear) {
     EXPECT_EQ(conservative.json()["delta"], 1e-9);
 }
 
-TEST_F(CcdQueryCommand, ThicknessTakesThePlaceOfTheTruth) {
+TEST_F(CcdQueryCommand, AThicknessReplacesTheTruth) {
     const std::string queries =
         folder_.write("vf.csv", falling("1,8", ",0") + falling("1,2", ",0"));
     const auto thick = run_abut({"ccd-query", queries, "--thickness", "0.25", "--json"});
@@ -128,8 +129,9 @@ TEST_F(CcdQueryCommand, BadFilesAreRefusedByLine) {
     expect_file_refused(falling("-1.5,1", ",1"), {"line 5", "'-1.5'"});
     expect_file_refused(falling(",1", ",1"), {"line 5"});
     expect_file_refused(falling("1,3", ",1"), {"line 5", "1/3"});
-    expect_file_refused(falling("9007199254740993,1", ",1"), {"line 5", "no double"});
-    expect_file_refused(falling("1" + std::string(400, '0') + ",1", ",1"), {"line 5", "no double"});
+    expect_file_refused(falling("9007199254740993,1", ",1"), {"line 5", "not exactly a double"});
+    expect_file_refused(falling("1" + std::string(400, '0') + ",1", ",1"),
+                        {"line 5", "not exactly a double"});
     expect_file_refused(falling("-1,2", ",2"), {"line 1", "truth"});
     expect_file_refused(falling("-1,2", ",1") + falling("1,1"), {"line 9", "columns"});
     std::string differs = good;
@@ -143,7 +145,7 @@ TEST_F(CcdQueryCommand, BadFilesAreRefusedByLine) {
 }
 
 TEST_F(CcdQueryCommand, RationalsThatAreDoublesAreTaken) {
-    // 3/6 and -2/-8 reduce; +-0; Windows' ends of lines, spaces, an empty line.
+    // 3/6 and -2/-8 reduce; also +0 and -0, Windows line ends, spaces and an empty line.
     std::string text = falling("-3,6", ",1") + falling("-2,-8", ",0");
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
         text.replace(at, 1, "\r\n");

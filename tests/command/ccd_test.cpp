@@ -1,5 +1,5 @@
-/// abut ccd: sequences whose impacts are counted by hand, what is written of them, and sequences
-/// that it must refuse.
+/// abut ccd: sequences with impacts counted by hand, their output files, and sequences that must be
+/// refused.
 #include <abut/deformable.h>
 #include <abut/frame.h>
 
@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A right triangle in the plane z = 0, and a small one whose lowest vertex is at (1, 1, height),
-/// its other two one higher. Seen from above, the small one is inside the other.
+/// A right triangle in the plane z = 0, and a small one above its interior. The small one's lowest
+/// vertex is at (1, 1, height); its other two are one higher.
 Mesh small_above_large(double height) {
     return {{{0, 0, 0},
              {4, 0, 0},
@@ -30,8 +30,8 @@ Mesh small_above_large(double height) {
             {{0, 1, 2}, {3, 4, 5}}};
 }
 
-/// An upright triangle along x, its upper edge at z = 0, and one along y, its lower edge at the
-/// height. They cross over the origin.
+/// An upright triangle with its upper edge along x at z = 0, and one with its lower edge along y at
+/// z = height. Seen from above, the edges cross at the origin.
 Mesh crossed_edges(double height) {
     return {
         {{-1, 0, 0}, {1, 0, 0}, {0, 0, -5}, {0, -1, height}, {0, 1, height}, {0, 0, height + 5}},
@@ -46,7 +46,7 @@ protected:
         write_frame(mesh, folder_ / name);
         return folder_ / name;
     }
-    /// A file for each of the meshes, in order.
+    /// Writes each mesh to a file and returns the paths in order.
     [[nodiscard]] std::vector<std::string> frames(const std::vector<Mesh>& meshes) const {
         std::vector<std::string> files;
         files.reserve(meshes.size());
@@ -68,7 +68,8 @@ protected:
         EXPECT_EQ(outcome.status, 0) << outcome.err;
         return outcome.status == 0 ? outcome.json() : nlohmann::json();
     }
-    /// A good step, then the bad frame: one line that names it, and the good step's impacts on disk.
+    /// Runs a good step and then the bad frame. Expects one line that names the bad frame, and the
+    /// good step's impacts on disk.
     void expect_frame_refused(const std::string& bad, const std::vector<std::string>& words) {
         SCOPED_TRACE(bad);
         std::vector<std::string> files =
@@ -136,7 +137,7 @@ TEST_F(CcdCommand, TwoEdgesCross) {
     EXPECT_EQ(written[0].step, 0U);
     const FeatureImpact& impact = written[0].impact;
     EXPECT_EQ(impact.kind, ElementaryKind::edge_edge);
-    // Edges by their higher, then their lower vertex: 01 02 12 34 35 45.
+    // Edges are sorted by their higher, then their lower vertex: 01 02 12 34 35 45.
     EXPECT_EQ(impact.a, 0U);
     EXPECT_EQ(impact.b, 3U);
     EXPECT_NEAR(impact.barycentric[0], 0.5, 1e-6);
@@ -146,7 +147,7 @@ TEST_F(CcdCommand, TwoEdgesCross) {
     EXPECT_EQ(impact.status, Status::exact);
 }
 
-/// Two crumpled sheets that are crumpled anew in every frame.
+/// Two sheets that are crumpled anew in every frame.
 std::vector<Mesh> crumpled_sheets(Random& random, std::size_t frames) {
     constexpr std::uint32_t kSide = 9;
     Mesh sheets;
@@ -209,8 +210,8 @@ TEST_F(CcdCommand, WritesWhatTheLibraryFinds) {
     }
 }
 
-TEST_F(CcdCommand, ConservativeReportsWhatIsNear) {
-    // A vertex passes the edge x + y = 4 of the large triangle 2^-51 beside it.
+TEST_F(CcdCommand, ConservativeModeReportsNearPairs) {
+    // A vertex passes the edge x + y = 4 of the large triangle at a distance of about 2^-51.
     const auto falling = [](double height) {
         return Mesh{{{0, 0, 0},
                      {4, 0, 0},
@@ -233,8 +234,8 @@ TEST_F(CcdCommand, ConservativeReportsWhatIsNear) {
         EXPECT_EQ(each.impact.status, Status::bound_only);
 }
 
-TEST_F(CcdCommand, AThicknessReportsWhatComesSoNear) {
-    // The lowest vertex stops at 1/8; the edges, at 1/16 from each other.
+TEST_F(CcdCommand, AThicknessReportsNearPairs) {
+    // The lowest vertex stops at 1/8 above the face, and the edges 1/16 apart.
     const auto falling = frames({small_above_large(2), small_above_large(0.125)});
     EXPECT_EQ(answer(falling)["total"]["vertex_face"], 0);
     EXPECT_EQ(answer(falling, {"--thickness", "0.1"})["total"]["vertex_face"], 0);
@@ -303,7 +304,7 @@ TEST_F(CcdCommand, HasTheKeysThatTheGuidePromises) {
     EXPECT_GT(total["bytes"], 0);
 }
 
-TEST_F(CcdCommand, TheTableHasALineAStep) {
+TEST_F(CcdCommand, TheTableHasALineForEachStep) {
     const Outcome outcome =
         ccd(frames({small_above_large(5), small_above_large(1), small_above_large(-2)}), {});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -341,7 +342,7 @@ TEST_F(CcdCommand, AnotherTopologyStartsAnewWhereAllowed) {
         mesh->positions.insert(mesh->positions.end(), {{9, 0, 0}, {9, 1, 0}, {9, 0, 1}});
         mesh->triangles.push_back({6, 7, 8});
     }
-    // Between frames 1 and 2 the small triangle would pass through the large one once more.
+    // From frame 1 to 2 the small triangle would pass through the large one again.
     const auto files =
         frames({small_above_large(1), small_above_large(-2), more_before, more_after});
     const std::string out = folder_ / "impacts.csv";
@@ -415,7 +416,7 @@ TEST_F(CcdCommand, AnInterruptLeavesWholeSteps) {
     const auto impacts =
         total["edge_edge"].get<std::size_t>() + total["vertex_face"].get<std::size_t>();
     ASSERT_GT(impacts, 0U);
-    for (int i = 0; i < 10000; ++i) // to and fro
+    for (int i = 0; i < 10000; ++i) // back and forth
         files.push_back(files.at(i));
     files.insert(files.begin(), "ccd");
     const std::string out = folder_ / "impacts.csv";

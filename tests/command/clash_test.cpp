@@ -32,7 +32,7 @@ protected:
     }
 };
 
-/// The clash of the parts named, which must be there.
+/// The clash of these two parts, which must be in the report.
 json between(const json& report, const std::string& one, const std::string& other) {
     for (const json& clash : report["clashes"])
         if (std::set<std::string>{clash["a"], clash["b"]} == std::set<std::string>{one, other})
@@ -119,7 +119,7 @@ TEST_F(ClashTest, WritesAllThreeReportsOrNone) {
                                         "site.glb"}));
     EXPECT_EQ(json::parse(read_file(out + "/report.json"))["counts"], counts(1, 1, 1, 1, 1));
     const std::string csv = read_file(out + "/report.csv");
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6); // a head and five rows
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 6); // a header and five rows
     EXPECT_NE(read_file(out + "/report.html").find("</html>"), std::string::npos);
 }
 

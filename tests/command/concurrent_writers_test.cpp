@@ -1,4 +1,5 @@
-// Processes that write one file at once: one wins and keeps its file, the others wait or say why not.
+// Processes that write the same file at once: one wins and keeps its file, the others wait or
+// report why not.
 #include <abut/store.h>
 
 #include "tests/command/models.h"
@@ -39,7 +40,8 @@ TEST(ConcurrentWriters, CreateOneStoreAtOnce) {
     for (int round = 0; round < many(30); ++round) {
         std::filesystem::remove(store);
         std::vector<std::future<Outcome>> imports;
-        // Every other round has one sound model alone, so that those that fail come first more often.
+        // Every other round has only one sound model, so that failing imports come first more
+        // often.
         const std::size_t first = round % 2 == 0 ? 0 : 1;
         for (std::size_t i = first; i < models.size(); ++i)
             imports.push_back(std::async(std::launch::async, [&, i] {

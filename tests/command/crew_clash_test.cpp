@@ -1,5 +1,5 @@
-/// mpirun -n N abut clash STORE: the answer of one process, and what befalls the processes: kills, signals,
-/// damage, a full disk, bad arguments. Whatever it is ends all of them.
+/// mpirun -n N abut clash STORE gives the answer of one process. A kill, signal, damage, a full
+/// disk or a bad argument ends all processes.
 #include "store/database/sqlite.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
@@ -25,7 +25,7 @@ constexpr const char* kMpiexec = ABUT_MPIEXEC;
 constexpr const char* kMpiexec = nullptr;
 #endif
 
-/// The processes that a process has started, in that order.
+/// The child processes of a process, oldest first.
 std::vector<pid_t> children_of(pid_t process) {
     std::ifstream list(fmt::format("/proc/{0}/task/{0}/children", process));
     std::vector<pid_t> children;
@@ -54,7 +54,7 @@ protected:
         write_glb(scene, model_);
         import_anew();
     }
-    /// A store of the same parts that knows of no job.
+    /// Makes the store anew, without any job.
     void import_anew() {
         std::filesystem::remove(store_);
         ASSERT_EQ(run_abut({"import", model_, store_, "--quiet"}).status, 0);
@@ -66,7 +66,7 @@ protected:
     [[nodiscard]] Outcome alone(const std::vector<std::string>& options) const {
         return run_abut(arguments(options));
     }
-    /// By so many processes. mpirun's own remarks are left out.
+    /// Runs the command by this number of processes, without mpirun's own messages.
     static Outcome run_crew(int processes, const std::vector<std::string>& of,
                             const Watch& watch = {}) {
         std::vector<std::string> command{
@@ -84,7 +84,7 @@ protected:
     std::string model_ = folder_ / "site.glb", store_ = folder_ / "site.abut";
 };
 
-/// Does something once, so many seconds after the work has begun.
+/// Acts once, this many seconds after the work has begun.
 class OnceAtWork {
 public:
     OnceAtWork(double seconds, std::function<void(pid_t)> act)
@@ -105,7 +105,7 @@ private:
     std::optional<std::chrono::steady_clock::time_point> begun_;
 };
 
-TEST_F(CrewClash, AnswersAsOneProcess) {
+TEST_F(CrewClash, EqualsOneProcess) {
     make(crowd(150, 8));
     const Outcome one = alone({"--memory", "1M", "--json", "--out", folder_ / "one"});
     ASSERT_EQ(one.status, 0) << one.err;
@@ -130,7 +130,7 @@ TEST_F(CrewClash, AnswersAsOneProcess) {
         }
         EXPECT_EQ(one.json()["candidates"], pairs);
     }
-    // What has been found is known to any number of them.
+    // Any number of processes recalls what was found before.
     for (const int processes : {1, 3}) {
         const Outcome again = crew(processes, {"--json"});
         EXPECT_EQ(again.json()["clashes"], one.json()["clashes"]);
@@ -144,7 +144,7 @@ TEST_F(CrewClash, OneKilledEndsAllAndTheJobGoesOn) {
     make(crowd(400, 12));
     const auto truth = alone({"--json"}).json()["clashes"];
     std::size_t killed = 0, went_on = 0;
-    double longest = 1; // seconds
+    double longest = 1; // in seconds
     const int rounds = many(4);
     for (int round = 0; round < rounds; ++round) {
         import_anew();
@@ -193,7 +193,7 @@ TEST_F(CrewClash, ASignalToOneEndsAll) {
             EXPECT_EQ(outcome.err.find("abut: ", said + 1), std::string::npos) << outcome.err;
             EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
         }
-    // mpirun passes it on, and kills those that have not ended after a second.
+    // mpirun passes the signal on, and kills processes that have not ended after a second.
     import_anew();
     EXPECT_NE(
         crew(2, {"--progress"}, OnceAtWork(0.1, [](pid_t mpirun) { kill(mpirun, SIGINT); })).status,
@@ -214,7 +214,7 @@ TEST_F(CrewClash, DamageIsAnErrorOrDoesNotMatter) {
     const int rounds = many(6);
     for (int round = 0; round < rounds; ++round) {
         std::string bytes = whole;
-        if (round % 2 == 0) // whoever reads it notices
+        if (round % 2 == 0) // every process that reads the block notices
             bytes[place + static_cast<std::size_t>(random.bits() % block.size())] ^= 4;
         else
             for (int i = random.integer(1, 20); i > 0; --i)
@@ -236,8 +236,8 @@ TEST_F(CrewClash, DamageIsAnErrorOrDoesNotMatter) {
 TEST_F(CrewClash, AFullDiskIsAnErrorAndTheJobGoesOn) {
     make(crowd(300, 8));
     const auto size = std::filesystem::file_size(store_);
-    // The leader's files are of at most this size: writes beyond it fail, as on a full disk. MPI's own
-    // files, which other ways of messages than TCP need, would fail too.
+    // The leader's files are limited to this size, so that writes beyond it fail as on a full disk.
+    // MPI messages go over TCP, because the other transports need files.
     const std::string leader =
         fmt::format("trap '' XFSZ; ulimit -f {}; exec {} clash {} --clearance 0.05",
                     size / 1024 + 96, ABUT_COMMAND, store_);
@@ -266,7 +266,7 @@ TEST_F(CrewClash, AFullDiskIsAnErrorAndTheJobGoesOn) {
     EXPECT_EQ(crew(2, {"--json"}).json()["clashes"], alone({"--json"}).json()["clashes"]);
 }
 
-TEST_F(CrewClash, OfAStoreThatCannotBeWrittenIsDoneAndNotKept) {
+TEST_F(CrewClash, AReadOnlyStoreIsAnsweredButNotKept) {
     make(crowd(60, 8));
     const auto truth = clashes_of(run_abut({"clash", model_, "--clearance", "0.05", "--json"}));
     const ReadOnly read_only(folder_);
@@ -286,7 +286,8 @@ TEST_F(CrewClash, RefusesWhatOneProcessRefuses) {
     expect_refused(crew(2, {"--clearance"}), {"--clearance"});
     expect_refused(run_crew(2, {"clash", model_}), {model_, "store"});
     expect_refused(run_crew(2, {"clash", folder_ / "missing.abut"}), {"missing.abut"});
-    // Started by another MPI than that of this build: it would take itself for the only one.
+    // Started by an MPI that differs from the build's, the process would take itself for the only
+    // one.
     expect_refused(run_program({"env", "PMI_RANK=0", "PMI_SIZE=2", ABUT_COMMAND, "clash", store_}),
                    {"another MPI"});
 }

@@ -1,4 +1,4 @@
-/// The programs of examples/, on small models; and that docs/start.md quotes them.
+/// The programs of examples/ on small models, and the lines of them that docs/start.md quotes.
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 #include "tests/support/paths.h"
@@ -36,7 +36,7 @@ TEST_F(ExamplePrograms, ShapeQueries) {
     const std::string out = run_example("shape-queries", {box_}).out;
     EXPECT_EQ(out.rfind("nearest 2 m, on triangle ", 0), 0U) << out;
     EXPECT_NE(out.find("below at z = 1 m\n"), std::string::npos) << out;
-    // All triangles but the two of the bottom come up to the plane z = 1.
+    // All triangles but the two of the bottom reach up to the plane z = 1.
     EXPECT_NE(out.find("triangles meet the ball\nnot inside\n"), std::string::npos) << out;
 }
 
@@ -72,7 +72,7 @@ TEST_F(ExamplePrograms, SayWhatIsWrong) {
               std::string::npos);
 }
 
-/// The lines of C++ on the page, without indents, by block.
+/// The lines of each C++ block on the page, without indentation.
 std::vector<std::vector<std::string>> blocks_of_cpp(const std::string& page) {
     std::vector<std::vector<std::string>> blocks;
     std::istringstream stream(page);

@@ -1,4 +1,4 @@
-/// Units and axes in the command: models of several formats in one job, and in one store.
+/// Units and axes in the command: models of several formats in one job and in one store.
 
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The box from (2, 0, 3) to (3, 1, 4) metres, z up, as an OBJ file whose unit is the millimetre.
+/// The box from (2, 0, 3) to (3, 1, 4) m, z up, as an OBJ file in millimetres.
 std::string box_in_millimetres() {
     const Mesh box = unit_box();
     std::string text;
@@ -25,8 +25,8 @@ std::string box_in_millimetres() {
 
 class FrameTest : public ::testing::Test {
 protected:
-    /// site.glb has the box from (2.5, 3, -1) to (3.5, 4, 0), y up: z up it is (2.5, 0, 3) to
-    /// (3.5, 1, 4).
+    /// site.glb holds the box from (2.5, 3, -1) to (3.5, 4, 0), y up. With z up it is (2.5, 0, 3)
+    /// to (3.5, 1, 4).
     FrameTest() {
         Scene scene;
         scene.meshes = {unit_box()};
@@ -69,10 +69,10 @@ TEST_F(FrameTest, AMetreGlbAndAMillimetreObjMeetInTheFrameOfTheFirst) {
     EXPECT_NEAR(z_up["clashes"][0]["point_a"][2].get<double>(), 3.5, 0.5 + 1e-9);
     EXPECT_NEAR(z_up["clashes"][0]["point_a"][1].get<double>(), 0.5, 0.5 + 1e-9);
 
-    // A default for files without a unit: glTF has one.
+    // --unit is a default for files without a unit; glTF has one.
     const std::vector<std::string> with_default{site_, box_, "--unit", "0.001"};
     EXPECT_EQ(clash_of(with_default)["clashes"].size(), 1U);
-    // In other axes it is elsewhere.
+    // With other axes the box is elsewhere.
     EXPECT_EQ(clash_of({site_, box_ + ":mm:y-up"})["clashes"].size(), 0U);
 }
 
@@ -94,17 +94,18 @@ TEST_F(FrameTest, ModelsThatShareNoSpaceAreNamed) {
         EXPECT_NE(warning.find(text), std::string::npos) << warning;
     const Outcome outcome = run_abut({"clash", site_, box_});
     EXPECT_NE(outcome.out.find("warning: the boxes of"), std::string::npos) << outcome.out;
-    // Within the clearance nothing is lost.
+    // The clearance spans the gap, so there is no warning.
     EXPECT_EQ(clash_of({site_, box_, "--clearance", "4000"})["warnings"].size(), 0U);
-    // The same of a store.
+    // A store gives the same warning.
     const std::string store = folder_ / "s.abut";
     ASSERT_EQ(run_abut({"import", site_, box_, store}).status, 0);
     EXPECT_EQ(clash_of({store})["warnings"], report["warnings"]);
 }
 
 TEST_F(FrameTest, WordsAfterAFileAreUnderstoodOrRefused) {
-    expect_refused(run_abut({"clash", site_, box_ + ":miles"}), {"box.obj", "'miles' is no unit"});
-    expect_refused(run_abut({"clash", site_, box_ + ":mm:cm"}), {"box.obj", "once more"});
+    expect_refused(run_abut({"clash", site_, box_ + ":miles"}),
+                   {"box.obj", "'miles' is neither a unit"});
+    expect_refused(run_abut({"clash", site_, box_ + ":mm:cm"}), {"box.obj", "a second time"});
     expect_refused(run_abut({"clash", box_ + ":mm", box_}), {"box.obj", "given twice"});
     expect_refused(run_abut({"info", folder_ / "none.obj:mm"}), {"none.obj: no such file"});
     const json info = run_abut({"info", box_ + ":mm:y-up", "--json"}).json()["files"][0];
@@ -156,18 +157,18 @@ TEST_F(FrameTest, AStoreKeepsTheFrameOfItsFirstFile) {
         clash.erase("status");
     EXPECT_EQ(job["clashes"], in_core["clashes"]);
 
-    // Other axes of the first file do not turn the store: the file is turned.
+    // Other axes given for the first file turn that file, not the store.
     ASSERT_EQ(run_abut({"import", box_ + ":mm:y-up", store}).status, 0);
     expect_stored(store, read_scene(ModelPath{box_, 0.001, UpAxis::y}), 0);
     info = run_abut({"info", store, "--json"}).json()["stores"][0];
     EXPECT_EQ(info["frame"]["up"], "z");
     EXPECT_EQ(info["models"][0]["up"], "y");
-    // The frame outlives the file that gave it.
+    // The frame stays when the file that defined it is removed.
     ASSERT_EQ(run_abut({"import", "--remove", box_, store}).status, 0);
     expect_stored(store, read_scene(site_), 0);
     info = run_abut({"info", store, "--json"}).json()["stores"][0];
     EXPECT_EQ(info["frame"], (json{{"up", "z"}, {"unit", "m"}, {"of", site_}}));
-    // A file that is imported in the same way again is not read again.
+    // A file imported again in the same way is not read.
     EXPECT_EQ(run_abut({"import", site_, store, "--json"}).json()["models"][0]["outcome"],
               "unchanged");
     expect_refused(run_abut({"clash", store, "--spaces"}), {"--spaces", "store"});

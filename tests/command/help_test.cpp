@@ -1,4 +1,4 @@
-/// Help, manual pages and completion: they name what there is, and their examples are true.
+/// Help, manual pages and completion name all that exists, and their examples work.
 #include <abut/store.h>
 
 #include "tests/command/models.h"
@@ -25,7 +25,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// The lines of a section of the help, without their two spaces.
+/// The lines of a section of the help, without their indentation of two spaces.
 std::vector<std::string> section_of(const std::string& help, const std::string& title) {
     std::vector<std::string> section;
     bool inside = false;
@@ -38,7 +38,7 @@ std::vector<std::string> section_of(const std::string& help, const std::string& 
     return section;
 }
 
-/// Its examples, as typed: they begin where their explanations are indented further.
+/// The examples in a verb's help, as typed. Explanations are indented further.
 std::vector<std::string> examples_of(const std::vector<std::string>& verb) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
@@ -69,7 +69,7 @@ protected:
             (void)folder_.write(std::string("frame-") + number + ".ply",
                                 frame + "0 0 0\n1 0 0\n1 1 0\n0 1 " + number +
                                     "\n3 0 1 2\n3 0 2 3\n");
-        // A vertex comes down through a face: x, y, z as quotients, and the answer.
+        // A vertex comes down through a face: x, y and z as fractions, and the answer.
         const std::string face = "0,1,0,1,0,1,1\n1,1,0,1,0,1,1\n0,1,1,1,0,1,1\n";
         const std::string rows = "1,4,1,4,1,1,1\n" + face + "1,4,1,4,-1,1,1\n" + face;
         (void)folder_.write("queries-vertex-face.csv", rows);
@@ -88,7 +88,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-TEST_F(Examples, OfEveryHelpRun) {
+TEST_F(Examples, EveryExampleOfTheHelpRuns) {
     const bool has_mpi =
         std::filesystem::exists(std::string(ABUT_BINARY_DIR) + "/bin/abut-mpi.so") &&
         shell("command -v mpirun >mpirun.txt").status == 0;
@@ -133,7 +133,7 @@ TEST(Help, NamesTheExitStatuses) {
 TEST(Help, FitsEightyColumns) {
     for (const std::string& verb : kVerbs) {
         std::vector<std::string> lines = lines_of(run_abut({verb, "--help"}).out);
-        // An example is one line, to be copied; a pattern of seven numbers is one word.
+        // Long lines are allowed for examples, which are copied as one line.
         for (const std::string& example : examples_of({verb}))
             std::erase(lines, "  " + example);
         for (const std::string& line : lines)
@@ -141,7 +141,7 @@ TEST(Help, FitsEightyColumns) {
     }
 }
 
-TEST(Help, AloneIsTheListOfVerbsInGroups) {
+TEST(Help, WithoutAVerbListsTheVerbsInGroups) {
     const Outcome alone = run_abut({});
     EXPECT_EQ(alone.status, 0);
     EXPECT_EQ(alone.err, "");
@@ -155,12 +155,12 @@ TEST(Help, AloneIsTheListOfVerbsInGroups) {
     EXPECT_EQ(run_abut({"help", "clash"}).out, run_abut({"clash", "--help"}).out);
 }
 
-/// What `abut generate` writes, in its own folder.
+/// The files that `abut generate` writes, in a folder of their own.
 class Documents : public ::testing::Test {
 protected:
     Documents() { EXPECT_EQ(run_abut({"generate", folder_ / ""}).status, 0); }
 
-    /// The completions that bash finds where the line ends, sorted.
+    /// Sorted completions that bash finds at the end of the line.
     std::vector<std::string> complete(const std::string& line) const {
         const std::string script =
             "source " + (folder_ / "bash/abut") + "; line='" + line + "'; COMP_WORDS=($line); " +
@@ -229,7 +229,7 @@ TEST_F(Documents, CompletionKnowsEveryOptionOfTheHelp) {
     }
 }
 
-TEST_F(Documents, ZshTakesItsCompletion) {
+TEST_F(Documents, ZshAcceptsTheCompletion) {
     if (run_program({"sh", "-c", "command -v zsh"}).status != 0)
         GTEST_SKIP() << "zsh is not installed";
     EXPECT_EQ(run_program({"zsh", "-n", folder_ / "zsh/_abut"}).err, "");

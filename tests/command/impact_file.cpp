@@ -57,7 +57,7 @@ std::vector<WrittenImpact> read_csv(const std::string& text) {
     return impacts;
 }
 
-/// Of a machine that has the least significant byte first.
+/// A value stored with the least significant byte first, on a machine that does the same.
 template <typename Value>
 Value value_at(const std::string& bytes, std::size_t offset) {
     Value value{};

@@ -16,7 +16,8 @@ struct WrittenImpact {
     friend bool operator==(const WrittenImpact&, const WrittenImpact&) = default;
 };
 
-/// Reads FILE.csv or FILE.bin as docs/deformable.md says that it is. What differs fails the test.
+/// Reads FILE.csv or FILE.bin in the format of docs/deformable.md. Fails the test if the file
+/// differs.
 std::vector<WrittenImpact> read_impacts(const std::string& file);
 
 } // namespace abut::test

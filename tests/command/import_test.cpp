@@ -1,4 +1,5 @@
-/// abut import and abut info of stores, and what befalls a store: kills, a full disk, damage, locks.
+/// abut import, abut info of stores, and what may happen to a store: kills, a full disk, damage,
+/// locks.
 #include <abut/error.h>
 #include <abut/store.h>
 
@@ -82,7 +83,7 @@ TEST(Import, KeepsModelsThatAreNotNamedAndTakesAUnit) {
     const auto info = run_abut({"info", store, "--json"}).json()["stores"][0];
     EXPECT_EQ(info["models"].size(), 2U);
     EXPECT_EQ(info["meshes"], 1);
-    // Another unit is another model.
+    // The same file with another unit has changed.
     const auto again = run_abut({"import", a, store, "--unit", "0.5", "--json"}).json();
     EXPECT_EQ(again["models"][0]["changed"], 1);
     expect_stored(store, read_scene(a, {.unit = 0.5}), 0);
@@ -105,7 +106,7 @@ TEST(Import, RefusesWhatItCannotDo) {
     expect_refused(run_abut({"import", store, folder / "t.abut"}), {"s.abut", "is a store"});
     expect_refused(run_abut({"info", store, box}), {"not both"});
     expect_refused(run_abut({"info", box, "--verify"}), {"--verify"});
-    // A model that turns bad takes nothing away from the store.
+    // A model whose file has become bad stays in the store.
     (void)folder.write("box.obj", "v 0 0 0\nf 1 2 3\n");
     expect_refused(run_abut({"import", box, store}), {"box.obj"});
     const auto info = run_abut({"info", store, "--json"}).json()["stores"][0];
@@ -122,12 +123,12 @@ TEST(Import, SaysWhatIsWrongWithAStore) {
         expect_refused(run_abut({"import", box, path}), words);
     };
     expect_both_refused(folder.write("text.abut", std::string(5000, 'x')),
-                        {"text.abut", "is no store"});
+                        {"text.abut", "is not an Abut store"});
     {
         Database other(folder / "other.abut", OpenMode::create);
         other.run("CREATE TABLE t(a)");
     }
-    expect_both_refused(folder / "other.abut", {"other.abut", "is no store of Abut"});
+    expect_both_refused(folder / "other.abut", {"other.abut", "is not an Abut store"});
     ASSERT_EQ(run_abut({"import", box, store}).status, 0);
     const std::string whole = read_file(store);
     (void)folder.write("short.abut", whole.substr(0, whole.size() / 2));
@@ -161,7 +162,7 @@ TEST(Import, AReadOnlyStoreIsReadAndNotWritten) {
     expect_refused(run_abut({"import", box, store}), {"read-only"});
 }
 
-/// Meshes that hardly shrink: an import of many transactions.
+/// Meshes that hardly compress, so that their import takes many transactions.
 Scene noise(Random& random, int meshes) {
     Scene scene;
     for (int m = 0; m < meshes; ++m) {
@@ -187,7 +188,7 @@ TEST(Import, SurvivesAFullDisk) {
     write_glb(noise(random, 60), model);
     const std::string box = folder.write("box.obj", box_obj());
     ASSERT_EQ(run_abut({"import", box, store}).status, 0);
-    // Files of at most 3 MB: writes beyond it fail, as on a full disk.
+    // Files are limited to 3 MB, so that writes beyond it fail as on a full disk.
     const std::string command = "trap '' XFSZ; ulimit -f 3000; exec " + std::string(ABUT_COMMAND) +
                                 " import " + model + " " + store + " 2>" + (folder / "err");
     EXPECT_EQ(WEXITSTATUS(std::system(("bash -c \"" + command + "\"").c_str())), 2); // NOLINT
@@ -216,7 +217,7 @@ TEST(Import, SurvivesKillsAtAnyMoment) {
         }
         const Outcome outcome =
             run_abut_and_kill({"import", model, store}, random.uniform(0, 1) * whole);
-        if (outcome.status == 0) { // killed too late
+        if (outcome.status == 0) { // the kill came too late
             expect_stored(store, scene);
             std::filesystem::remove(store);
             continue;
@@ -224,7 +225,7 @@ TEST(Import, SurvivesKillsAtAnyMoment) {
         ++killed;
         std::error_code missing;
         if (std::filesystem::file_size(store, missing) == 0 || missing)
-            continue; // it had not begun
+            continue; // the store had not been created
         try {
             const Store found = open_store(store);
             ++opened;
@@ -234,8 +235,8 @@ TEST(Import, SurvivesKillsAtAnyMoment) {
             kept += content.meshes > 0 && !content.complete ? 1 : 0;
             ASSERT_TRUE(content.models.empty() || !content.complete || content.parts == 300U);
         } catch (const Error& error) {
-            // Nothing was committed yet: not even the tables.
-            ASSERT_NE(std::string(error.what()).find("is no store"), std::string::npos)
+            // Nothing was committed, not even the tables.
+            ASSERT_NE(std::string(error.what()).find("is not an Abut store"), std::string::npos)
                 << error.what();
         }
     }
@@ -268,7 +269,7 @@ TEST(Import, AnInterruptedImportGoesOn) {
     expect_stored(store, read_scene(model));
 }
 
-TEST(Import, KeepsToItsMemory) {
+TEST(Import, StaysWithinItsMemory) {
     const TemporaryFolder folder;
     constexpr std::uint32_t kTriangles = 1'200'000;
     {
@@ -284,7 +285,8 @@ TEST(Import, KeepsToItsMemory) {
             file.write(record, sizeof record);
         }
     }
-    // Through a shell that forks: a process that this one forks would begin with the peak of this one.
+    // The shell forks the command. A fork of this process would start with this process's peak
+    // memory.
     const std::string command =
         fmt::format("'{}' import '{}' '{}' --memory 32M --json >'{}'; exit $?", ABUT_COMMAND,
                     folder / "sheet.stl", folder / "s.abut", folder / "out");

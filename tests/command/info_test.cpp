@@ -28,7 +28,7 @@ TEST(Info, CountsAClosedBox) {
 
 TEST(Info, CountsDefects) {
     const TemporaryFolder folder;
-    // A square of two triangles, one of them twice, and one triangle of no area.
+    // A square of two triangles, one of them stored twice, and one triangle of zero area.
     const std::string soup =
         folder.write("soup.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n"
                                  "3 0 1 2\n3 0 2 3\n3 0 2 3\n3 0 1 4\n");
@@ -55,7 +55,7 @@ TEST(Info, CountsConvexPieces) {
     const auto none = run_abut({"info", open, "--pieces", "--json"});
     ASSERT_EQ(none.status, 0) << none.err;
     EXPECT_TRUE(none.json()["files"][0]["convex_pieces"][0]["pieces"].is_null());
-    // A question about solids is refused, by the file's name.
+    // A query of solids is refused, naming the file.
     const Outcome refused = run_abut({"distance", box, open, "--pieces"});
     EXPECT_EQ(refused.status, 2);
     EXPECT_NE(refused.err.find(open), std::string::npos) << refused.err;

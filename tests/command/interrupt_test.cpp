@@ -1,4 +1,4 @@
-/// Ctrl-C in each stage: status 130, nothing on standard output, nothing on the disk.
+/// Ctrl-C in each stage: status 130, nothing on standard output, no file on disk.
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 
@@ -8,7 +8,7 @@
 namespace abut::test {
 namespace {
 
-/// Balls by the thousand, each overlapping most others: far more work than a test can wait for.
+/// Thousands of overlapping balls: far more work than a test can wait for.
 Scene endless_work() {
     Scene scene;
     scene.meshes = {ball(40)};
@@ -38,7 +38,7 @@ TEST(Interrupt, AClashJobLeavesNothing) {
         }
 }
 
-TEST(Interrupt, ASceneInTheMakingLeavesNothing) {
+TEST(Interrupt, AnUnfinishedSceneLeavesNothing) {
     const TemporaryFolder folder;
     expect_interrupted(run_abut_and_signal(
         {"scene", "plant", "--triangles", "20000000", "--out", folder / "plant.glb", "--progress"},

@@ -1,4 +1,4 @@
-/// nearest, ray, overlap and contains: the unit box, answers by hand.
+/// nearest, ray, overlap and contains on the unit box, with answers by hand.
 #include "tests/command/box_test.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST_F(OneModelTest, Contains) {
     EXPECT_EQ(json["points"][0]["side"], "inside");
     EXPECT_EQ(json["points"][1]["side"], "on_surface");
     EXPECT_EQ(json["points"][2]["side"], "outside");
-    // Without its last triangle.
+    // The box without its last triangle is open.
     std::string text = box_obj();
     text.erase(text.rfind("f "));
     const Outcome open = run_abut(
@@ -100,7 +100,7 @@ TEST_F(OneModelTest, FailOnTurnsAYesIntoStatusOne) {
     EXPECT_EQ(ask("overlap", {"--sphere", "9,0,0,1", "--fail-on", "overlap"}).status, 0);
 }
 
-TEST_F(OneModelTest, PeopleGetSentences) {
+TEST_F(OneModelTest, TextAnswersAreSentences) {
     EXPECT_EQ(ask("nearest", {"--point", "3,0.5,0.5"})
                   .out.rfind("distance 2 m, point (1, 0.5, 0.5) m", 0),
               0U);

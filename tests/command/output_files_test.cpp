@@ -1,4 +1,4 @@
-// Files that appear together or not at all, by several writers too.
+// Files that appear together or not at all, with several writers too.
 #include <abut/error.h>
 
 #include "apps/abut/arguments/output_files.h"
@@ -14,7 +14,7 @@ namespace {
 
 using command::OutputFiles;
 
-TEST(OutputFiles, AreAsBeforeWhenOneCannotBeMoved) {
+TEST(OutputFiles, StayUnchangedIfOneCannotBeMoved) {
     const TemporaryFolder folder;
     (void)folder.write("a", "earlier");
     OutputFiles files(folder / "", {"a", "b", "c"});
@@ -27,7 +27,7 @@ TEST(OutputFiles, AreAsBeforeWhenOneCannotBeMoved) {
     EXPECT_TRUE(std::filesystem::is_directory(folder / "c"));
 }
 
-TEST(OutputFiles, OfSeveralWritersStayTogether) {
+TEST(OutputFiles, FilesOfSeveralWritersStayTogether) {
     const TemporaryFolder folder;
     constexpr int kWriters = 4, kRounds = 50;
     std::vector<std::thread> writers;

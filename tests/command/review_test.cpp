@@ -1,4 +1,4 @@
-/// Statuses of clashes: abut review, and what abut clash says of them. Kills, damage, locks.
+/// Statuses of clashes in abut review and abut clash; kills, damage and locks.
 #include <abut/clash_review.h>
 #include <abut/error.h>
 #include <abut/store.h>
@@ -45,7 +45,7 @@ protected:
         options.insert(options.begin(), {"review", store_});
         return run_abut(options);
     }
-    /// "h1 hard new", sorted, of a report.
+    /// The clashes of a report as sorted lines such as "h1 hard new".
     static std::vector<std::string> words(const nlohmann::json& report) {
         std::vector<std::string> words;
         for (const char* const list : {"clashes", "resolved"})
@@ -97,7 +97,8 @@ TEST_F(Review, StatusesOverTheLifeOfASite) {
     EXPECT_EQ(fails_on("clearance,new"), 0);
     EXPECT_EQ(fails_on("active"), 0);
 
-    // The touch becomes hard: another clash, whatever was said of the touch. The pump leaves the tank.
+    // The touch becomes a hard clash, which is another clash without the mark. The pump leaves the
+    // tank.
     Scene scene = one_of_each_kind();
     scene.parts[3].world_from_mesh = placed(10.9, 0.25, 0.25);
     scene.parts[5].world_from_mesh = placed(26, 1, 1);
@@ -111,7 +112,8 @@ TEST_F(Review, StatusesOverTheLifeOfASite) {
     EXPECT_EQ(report()["resolved"][0]["resolved"].get<std::string>().size(),
               std::string("2026-11-22T10:00:00Z").size());
 
-    // Back again: new, the touch too, for what was said of it was before it had gone.
+    // The site is as before. Returned clashes are new, and the touch's mark has lapsed, because it
+    // was made before the touch was gone.
     import(one_of_each_kind());
     EXPECT_EQ(words(report()),
               (Words{"c1 contained new", "d1 duplicate active", "h1 hard approved",
@@ -127,7 +129,7 @@ TEST_F(Review, StatusesOverTheLifeOfASite) {
     EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
 }
 
-TEST_F(Review, ClashesOfAModelThatIsTakenOutAreResolved) {
+TEST_F(Review, ClashesOfARemovedModelAreResolved) {
     const std::string other = folder_ / "other.glb";
     write_glb(one_of_each_kind(), other);
     ASSERT_EQ(run_abut({"import", other, store_, "--quiet"}).status, 0);
@@ -146,7 +148,7 @@ TEST_F(Review, ClashesOfAModelThatIsTakenOutAreResolved) {
 }
 
 TEST_F(Review, ListsWhatTheStoreKnows) {
-    EXPECT_NE(review({}).out.find("no clash job has ended"), std::string::npos);
+    EXPECT_NE(review({}).out.find("no clash job has finished"), std::string::npos);
     EXPECT_EQ(review({"--json"}).json()["questions"].size(), 0U);
     const std::string hard = id_of("h1");
     ASSERT_EQ(run_abut({"clash", store_, "--quiet"}).status, 0); // another question
@@ -175,7 +177,7 @@ TEST_F(Review, ListsWhatTheStoreKnows) {
     EXPECT_NE(text.find("\"as built\""), std::string::npos) << text;
 }
 
-TEST_F(Review, IsInEveryReport) {
+TEST_F(Review, StatusesAreInEveryReport) {
     ASSERT_EQ(review({"--approve", id_of("h1"), "--note", "=1+1, \"so\""}).status, 0);
     ASSERT_EQ(clash(store_, {"--quiet", "--out", folder_ / "store"}).status, 0);
     ASSERT_EQ(clash(model_, {"--quiet", "--out", folder_ / "model"}).status, 0);
@@ -183,11 +185,11 @@ TEST_F(Review, IsInEveryReport) {
     EXPECT_NE(csv.find(",rule,status,note\r\n"), std::string::npos);
     EXPECT_NE(csv.find(",,approved,\"'=1+1, \"\"so\"\"\"\r\n"), std::string::npos) << csv;
     EXPECT_NE(csv.find(",,new,\r\n"), std::string::npos);
-    EXPECT_NE(read_file(folder_ / "store/report.html").find("\"statuses\": {\"new\": 4"),
+    EXPECT_NE(read_file(folder_ / "store/report.html").find("\"statuses\":{\"new\":4"),
               std::string::npos);
     EXPECT_NE(clash(store_).out.find("new 4, active 0, reviewed 0, approved 1, resolved 0"),
               std::string::npos);
-    // Of models there are none.
+    // Reports on model files contain no statuses.
     for (const char* const name : {"report.csv", "report.json"})
         EXPECT_EQ(read_file(folder_ / (std::string("model/") + name)).find("status"),
                   std::string::npos)
@@ -220,7 +222,7 @@ TEST_F(Review, RefusesWhatItCannotDo) {
     EXPECT_EQ(review({"--clear", hard}).status, 0);
 }
 
-TEST_F(Review, OfAReadOnlyStoreIsReadAndNotWritten) {
+TEST_F(Review, AReadOnlyStoreIsReadAndNotWritten) {
     ASSERT_EQ(review({"--approve", id_of("h1")}).status, 0);
     const auto words_before = words(report());
     const ReadOnly read_only(folder_);
@@ -232,13 +234,13 @@ TEST_F(Review, OfAReadOnlyStoreIsReadAndNotWritten) {
     expect_refused(review({"--clear", id_of("h1")}), {store_, "read-only"});
 }
 
-TEST_F(Review, AnswersTheQuestionsOfItsPage) {
+TEST_F(Review, QueriesOfItsPageWork) {
     ASSERT_EQ(review({"--approve", id_of("h1")}).status, 0);
-    // Two statuses, four new ones, none resolved, one mark.
+    // Two statuses, four new clashes, none resolved, one mark.
     EXPECT_EQ(rows_of_page_queries("clash-status.md", store_), (std::vector<int>{2, 4, 0, 1}));
 }
 
-/// Balls in a row; some of them a little aside.
+/// Balls in rows; some are displaced, depending on `shift`.
 Scene balls(int count, int shift) {
     Scene scene;
     for (int i = 0; i < count; ++i) {
@@ -255,7 +257,7 @@ Scene balls(int count, int shift) {
     return scene;
 }
 
-/// The clashes with their statuses, and the resolved ones, without times.
+/// The status of each clash by id, resolved clashes included.
 std::map<std::string, std::string> statuses(const nlohmann::json& report) {
     std::map<std::string, std::string> result;
     for (const char* const list : {"clashes", "resolved"})
@@ -267,7 +269,7 @@ std::map<std::string, std::string> statuses(const nlohmann::json& report) {
 TEST_F(Review, KillsLoseNothing) {
     Random random(7);
     import(balls(160, 0));
-    // What the store says once nothing is in its way, beside what it says after kills.
+    // `calm` is a store without kills; both must have the same statuses.
     const std::string calm = folder_ / "calm.abut";
     ASSERT_EQ(run_abut({"import", model_, calm, "--quiet"}).status, 0);
     const auto whole = clash(store_, {"--quiet"}).processor_time;

@@ -24,7 +24,7 @@ namespace abut::test {
 
 namespace {
 
-/// A program that runs for so long hangs, whatever the load of the machine.
+/// A program that runs this long hangs, whatever the load of the machine.
 constexpr std::chrono::seconds kLimit(600);
 
 /// A running program and the reading ends of its two outputs.
@@ -33,10 +33,10 @@ struct Running {
     std::array<pollfd, 2> outputs{};
 };
 
-/// Of what is started: true while a ReadOnly lives.
+/// Programs are started as nobody; true while a ReadOnly lives.
 bool as_nobody = false;
 
-/// In a child of root.
+/// Called in a child of a process of root.
 void become_nobody() {
     constexpr uid_t kNobody = 65534;
     if (setgroups(0, nullptr) != 0 || setgid(kNobody) != 0 || setuid(kNobody) != 0 ||
@@ -72,7 +72,7 @@ Running start_program(const std::vector<std::string>& command) {
     return running;
 }
 
-/// True if a child has ended; it stays to be waited for.
+/// True if a child has ended. The child is not reaped.
 bool has_ended(pid_t child) {
     siginfo_t info{};
     return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
@@ -84,7 +84,8 @@ Running start(std::vector<std::string> arguments) {
     return start_program(arguments);
 }
 
-/// Reads both outputs until they are closed, or the deadline; calls on_text() again and again.
+/// Reads both outputs until they are closed or the deadline passes, and calls on_text() now and
+/// then.
 template <typename OnText>
 bool drain(Running& running, Outcome& outcome, std::chrono::steady_clock::time_point deadline,
            const OnText& on_text) {
@@ -102,7 +103,7 @@ bool drain(Running& running, Outcome& outcome, std::chrono::steady_clock::time_p
                     .append(buffer.data(), static_cast<std::size_t>(count));
             } else {
                 close(running.outputs.at(i).fd);
-                running.outputs.at(i).fd = -1; // poll() passes over it
+                running.outputs.at(i).fd = -1; // poll() skips it
                 running.outputs.at(i).revents = 0;
             }
         }

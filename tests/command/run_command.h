@@ -10,38 +10,35 @@
 
 namespace abut::test {
 
-/// What a finished program left.
+/// Exit status and output of a finished program.
 struct Outcome {
     int status = -1; ///< exit status; 128 + N if signal N ended it, as a shell says it
     std::string out, err;
-    /// The processor time that it used, with that of the children it waited for.
+    /// Processor time of the program and the children that it waited for.
     std::chrono::microseconds processor_time{};
 
     [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(out); }
 };
 
-/// Runs a program with its arguments to its end. watch: called some times a second while it runs,
-/// with its process and what it has printed so far.
+/// Runs a program to its end. watch: called several times a second while the program runs, with its
+/// process and its output so far.
 using Watch = std::function<void(pid_t process, const Outcome& so_far)>;
 Outcome run_program(const std::vector<std::string>& command, const Watch& watch = {});
 
 /// Runs `abut ARGUMENTS` to its end.
 Outcome run_abut(const std::vector<std::string>& arguments);
 
-/// Runs `abut ARGUMENTS`, sends the signal as soon as one of its outputs holds `sign`, and waits for
-/// its end.
-///
-/// A run that ends before fails the test.
+/// Runs `abut ARGUMENTS`, sends the signal once an output contains `sign`, and waits for the end.
+/// Fails the test if the program ends before.
 Outcome run_abut_and_signal(const std::vector<std::string>& arguments, const std::string& sign,
                             int signal);
 
-/// Runs `abut ARGUMENTS` and kills it (SIGKILL) once it has used this much processor time, unless it
-/// has ended by then. Processor time, since the load of a machine moves the clock on the wall
-/// without any work.
+/// Runs `abut ARGUMENTS` and kills it (SIGKILL) once it has used this much processor time, unless
+/// it has ended. Wall-clock time would depend on the load of the machine.
 Outcome run_abut_and_kill(const std::vector<std::string>& arguments,
                           std::chrono::duration<double, std::micro> after);
 
-/// A folder of its own, removed with everything in it.
+/// A temporary folder, removed with its contents.
 class TemporaryFolder {
 public:
     TemporaryFolder();
@@ -49,19 +46,19 @@ public:
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-    /// The path of a file in it.
+    /// The path of a file in the folder.
     [[nodiscard]] std::string operator/(const std::string& name) const;
     /// Writes a file and returns its path.
     [[nodiscard]] std::string write(const std::string& name, const std::string& content) const;
-    /// Sorted paths of all that it holds, relative to it.
+    /// Sorted relative paths of all contents.
     [[nodiscard]] std::vector<std::string> list() const;
 
 private:
     std::filesystem::path path_;
 };
 
-/// While it lives, a folder and its files are read-only, and programs are run by someone whom that binds:
-/// by nobody, where the tests run as root.
+/// While it lives, a folder and its files are read-only. If the tests run as root, programs are run
+/// as nobody, because permissions do not bind root.
 class ReadOnly {
 public:
     explicit ReadOnly(const TemporaryFolder& folder);
@@ -69,7 +66,7 @@ public:
     ReadOnly(const ReadOnly&) = delete;
     ReadOnly& operator=(const ReadOnly&) = delete;
 
-    /// False where nobody may not run this build: it lies in somebody's own folder.
+    /// False if nobody may not run this build, because it lies in a private folder.
     [[nodiscard]] static bool can_run_abut();
 
 private:
@@ -80,11 +77,11 @@ private:
 
 std::string read_file(const std::string& path);
 
-/// The clashes of a JSON report, without what a store alone knows of them.
+/// The clashes of a JSON report, without the keys that only a store adds.
 nlohmann::json clashes_of(const Outcome& outcome);
 
-/// Refused input: status 2, nothing on standard output, one line on standard error that holds every
-/// word.
+/// Expects refused input: status 2, nothing on standard output, and one line on standard error that
+/// contains every word.
 void expect_refused(const Outcome& outcome, const std::vector<std::string>& words);
 
 } // namespace abut::test

@@ -1,4 +1,4 @@
-/// `abut scene` of surfaces that deform: a file a frame.
+/// `abut scene` of deforming surfaces writes one file per frame.
 #include <abut/frame.h>
 
 #include "scenes/deforming/deforming.h"
@@ -9,7 +9,7 @@
 namespace abut::test {
 namespace {
 
-TEST(SceneFrames, AreThoseOfTheLibrary) {
+TEST(SceneFrames, EqualThoseOfTheLibrary) {
     const TemporaryFolder folder;
     const Outcome outcome = run_abut({"scene", "fracture", "--triangles", "1500", "--seed", "3",
                                       "--frames", "40", "--out", folder / "out", "--json"});

@@ -1,4 +1,5 @@
-/// abut clash and abut graph of a store, and what befalls a job: kills, a full disk, damage, locks.
+/// abut clash and abut graph of a store, and what may happen to a job: kills, a full disk, damage,
+/// locks.
 #include <abut/error.h>
 #include <abut/store.h>
 
@@ -22,7 +23,7 @@ namespace {
 
 class StoreClash : public testing::Test {
 protected:
-    /// A model and its store.
+    /// Writes a model file and its store.
     void make(const Scene& scene) {
         write_glb(scene, model_);
         const Outcome outcome = run_abut({"import", model_, store_});
@@ -38,7 +39,7 @@ protected:
     std::string model_ = folder_ / "site.glb", store_ = folder_ / "site.abut";
 };
 
-TEST_F(StoreClash, AnswersAsOfTheModels) {
+TEST_F(StoreClash, EqualsTheJobOnModelFiles) {
     make(one_of_each_kind());
     const Outcome in_core = clash(model_, {"--json"}), out = clash(store_, {"--json"});
     ASSERT_EQ(in_core.status, 0) << in_core.err;
@@ -94,7 +95,7 @@ TEST_F(StoreClash, RefusesWhatItCannotDo) {
     expect_refused(run_abut({"clash", store_, model_}), {store_});
 }
 
-TEST_F(StoreClash, OfAStoreThatCannotBeWrittenIsDoneAndNotKept) {
+TEST_F(StoreClash, AReadOnlyStoreIsAnsweredButNotKept) {
     make(crowd(30, 8));
     const auto truth = clashes_of(clash(model_, {"--json"}));
     const ReadOnly read_only(folder_);
@@ -113,7 +114,7 @@ TEST_F(StoreClash, SurvivesKillsAtAnyMoment) {
     ASSERT_GT(truth.size(), 100U);
     const std::vector<std::string> command{"clash",    store_, "--clearance", "0.05",
                                            "--memory", "1M",   "--quiet"};
-    // A store of the same parts that knows nothing of the job.
+    // Makes the store anew, without any job.
     const auto make_anew = [&] {
         std::filesystem::remove(store_);
         ASSERT_EQ(run_abut({"import", model_, store_, "--quiet"}).status, 0);
@@ -145,7 +146,7 @@ TEST_F(StoreClash, SurvivesKillsAtAnyMoment) {
 TEST_F(StoreClash, SurvivesAFullDisk) {
     make(crowd(300, 8));
     const auto size = std::filesystem::file_size(store_);
-    // Files of at most this size: writes beyond it fail, as on a full disk.
+    // Files are limited to this size, so that writes beyond it fail as on a full disk.
     const std::string command =
         fmt::format("trap '' XFSZ; ulimit -f {}; exec {} clash {} --clearance 0.05 2>{}",
                     size / 1024 + 8, ABUT_COMMAND, store_, folder_ / "err");

@@ -1,4 +1,4 @@
-/// Names of others on their way to a terminal, colours, widths.
+/// Foreign names printed to a terminal; colours; widths.
 #include <abut/store.h>
 
 #include "tests/command/models.h"
@@ -11,16 +11,16 @@
 namespace abut::test {
 namespace {
 
-// SeparatingMotion, the control sequence introducer of C1, a right-to-left override, a byte that is no UTF-8, a
-// line end, DEL.
+// ESC, the C1 control sequence introducer, a right-to-left override, an invalid UTF-8 byte, a
+// newline, DEL.
 const std::string kHostile = "a\x1b[2Jb\u009b31mc\u202ed\xff"
                              "e\nf\x7fg";
 const std::string kShown = "a\\x1b[2Jb\\u009b31mc\\u202ed\\xffe\\nf\\x7fg";
-/// A scene reader replaces what is no UTF-8, since glTF is JSON.
+/// Without the invalid byte, which scene readers replace because glTF is JSON.
 const std::string kHostileUtf8 = "a\x1b[2Jb\u009b31mc\u202ed\nf\x7fg";
 const std::string kShownUtf8 = "a\\x1b[2Jb\\u009b31mc\\u202ed\\nf\\x7fg";
 
-/// Whether nothing in the text but line ends is a control character or a mark of direction.
+/// Whether the text contains no control character except newlines, and no directional mark.
 bool is_tame(const std::string& text) {
     const bool no_c0 = std::ranges::none_of(
         text, [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f || c == 0xff; });
@@ -66,7 +66,7 @@ TEST_F(Terminal, NamesAreEscapedInEveryText) {
         const Outcome outcome = run_abut(arguments);
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_TRUE(is_tame(outcome.out)) << outcome.out;
-        // The names of files and of parts have the beginning in common.
+        // Names of files and of parts begin alike.
         EXPECT_NE(outcome.out.find("a\\x1b[2Jb\\u009b31mc\\u202ed\\"), std::string::npos)
             << outcome.out;
     }
@@ -91,7 +91,7 @@ TEST_F(Terminal, NamesAreEscapedInErrors) {
     }
 }
 
-TEST_F(Terminal, JsonEscapesThemAndMeansTheSame) {
+TEST_F(Terminal, JsonEscapesNamesWithoutLoss) {
     for (const std::string verb : {"info", "clash"}) {
         const Outcome outcome =
             run_abut(verb == "info" ? std::vector<std::string>{verb, model_, "--parts", "--json"}
@@ -106,7 +106,7 @@ TEST_F(Terminal, JsonEscapesThemAndMeansTheSame) {
     }
 }
 
-/// `abut ARGUMENTS` on a terminal of so many columns.
+/// Output of `abut ARGUMENTS` on a terminal of this many columns.
 std::string on_terminal(int columns, const std::string& settings, const std::string& arguments) {
     return run_program({"script", "-qec",
                         "stty cols " + std::to_string(columns) + "; TERM=xterm " + settings + " " +

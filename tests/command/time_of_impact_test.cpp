@@ -32,15 +32,15 @@ TEST_F(TimeOfImpactCommand, BoxesApproach) {
 TEST_F(TimeOfImpactCommand, TheToleranceBoundsTheGap) {
     const Outcome outcome =
         ask("time-of-impact", {"--pose-a", "-3,0.5,0,1,0,0,0", "--end-a", "9,0.5,0,1,0,0,0",
-                               "--tolerance", "1e-9", "--json"});
+                               "--absolute-error", "1e-9", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_LE(outcome.json()["gap"], 1e-9);
     EXPECT_NEAR(outcome.json()["time"], 1.0 / 6, 1e-9);
 }
 
-TEST_F(TimeOfImpactCommand, AScrewGoesAnotherWay) {
-    // Half a turn about z with the origin from (3, 0) to (-1, 0): straight on, B goes through A; by
-    // the screw it circles (1, 0) at a distance of 2.
+TEST_F(TimeOfImpactCommand, AScrewTakesAnotherPath) {
+    // B makes half a turn about z while its origin moves from (3, 0) to (-1.5, 0). In a straight
+    // line B would pass through A; on the screw it circles around A.
     const std::vector<std::string> motion{"--pose-b", "3,0,0,1,0,0,0", "--end-b",
                                           "-1.5,0,0,0,0,0,1", "--json"};
     EXPECT_EQ(ask("time-of-impact", motion).json()["hit"], true);
@@ -51,7 +51,7 @@ TEST_F(TimeOfImpactCommand, AScrewGoesAnotherWay) {
     EXPECT_EQ(answer["time"], 1);
 }
 
-TEST_F(TimeOfImpactCommand, ALimitOnStepsTellsTheTimeThatIsFree) {
+TEST_F(TimeOfImpactCommand, ALimitOnStepsLeavesAProvenTime) {
     const std::vector<std::string> motion{"--pose-b", "3,0.5,0,1,0,0,0", "--end-b",
                                           "-1,0.5,0,1,0,0.3,0"};
     const auto with = [&](const std::vector<std::string>& more) {
@@ -80,7 +80,7 @@ TEST_F(TimeOfImpactCommand, ALimitOnStepsTellsTheTimeThatIsFree) {
     EXPECT_EQ(with({"--max-steps", "1000000", "--json"}).json()["time"], whole["time"]);
 }
 
-// To the nearest six digits, 2 / 3 would be more than is proven.
+// Rounded to the nearest sixth digit, 2 / 3 would exceed the proven time.
 TEST_F(TimeOfImpactCommand, TheTimeInTextIsRoundedDown) {
     int above = 0;
     for (const char* end : {"0,0.5,0,1,0,0,0", "-4,0.5,0,1,0,0,0", "-8,0.5,0,1,0,0,0",
@@ -111,7 +111,7 @@ TEST_F(TimeOfImpactCommand, BadUsageIsRefused) {
     for (const auto& [option, value, word] : {std::array{"--end-a", "0,0,0", "7 numbers"},
                                               {"--end-b", "0,0,0,0,0,0,0", "zero length"},
                                               {"--end-b", "x,0,0,1,0,0,0", "--end-b"},
-                                              {"--tolerance", "-1", "--tolerance"},
+                                              {"--tolerance", "-1", "--absolute-error"},
                                               {"--tolerance", "nan", "nan"},
                                               {"--max-steps", "-1", "--max-steps"},
                                               {"--max-steps", "few", "--max-steps"},
@@ -133,7 +133,7 @@ TEST_F(TimeOfImpactCommand, ManyPosesInOneRun) {
     EXPECT_EQ(gaps["poses"][0]["distance"], 2.0);
     EXPECT_EQ(gaps["poses"][1]["distance"], 0.0);
     EXPECT_EQ(ask("distance", {"--poses", poses}).out, "2 m\n0 m\n0 m\n");
-    // A's own pose counts.
+    // A's pose is used too.
     EXPECT_EQ(ask("distance", {"--poses", poses, "--pose-a", "-1,0,0,1,0,0,0"})
                   .out.rfind("3 m\n1 m\n", 0),
               0U);

@@ -1,4 +1,4 @@
-/// collide, distance and within: two unit boxes under poses, answers by hand.
+/// collide, distance and within: two placed unit boxes, answers by hand.
 #include "tests/command/box_test.h"
 
 #include <cmath>
@@ -40,8 +40,8 @@ TEST_F(TwoModelsTest, ConvexHulls) {
     EXPECT_EQ(ask("distance", {"--convex", "--signed"}).status, 2);
 }
 
-TEST_F(TwoModelsTest, DistanceNamesWhatThePointsLieOn) {
-    // The corner (1, 1, 1) of A, the corner (2, 2, 2) of B.
+TEST_F(TwoModelsTest, DistanceNamesTheFeaturesOfThePoints) {
+    // The corner (1, 1, 1) of A and the corner (2, 2, 2) of B.
     const auto answer = ask("distance", {"--pose-b", "2,2,2,1,0,0,0", "--json"}).json();
     EXPECT_LT(answer["at_least"], answer["distance"]);
     EXPECT_NEAR(answer["at_least"], answer["distance"], 1e-12);
@@ -89,7 +89,7 @@ TEST_F(TwoModelsTest, DistanceBeyondItsBoundHasNoPoints) {
         EXPECT_FALSE(answer.contains(key)) << key;
 }
 
-TEST_F(TwoModelsTest, ALimitOnStepsTellsWhatIsProven) {
+TEST_F(TwoModelsTest, ALimitOnStepsLeavesProvenBounds) {
     const std::vector<std::string> apart{"--pose-b", "3,0.25,0.5,1,0,0,0"},
         inside{"--pose-b", "0.5,0.25,0.5,1,0,0,0"};
     const auto with = [&](const std::string& verb, std::vector<std::string> arguments,
@@ -175,8 +175,8 @@ TEST_F(TwoModelsTest, TheVolumeChangesTheWorkAndNotTheAnswer) {
 }
 
 TEST_F(TwoModelsTest, DistanceUnderARotation) {
-    // A quarter turn about z maps B to x in [-1, 0]; the quaternion is not of unit length. A starts
-    // at x = 2.
+    // A quarter turn about z maps B to x in [-1, 0]; the quaternion does not have unit length. A
+    // begins at x = 2.
     const Outcome outcome =
         ask("distance", {"--pose-a", "2,0,0,1,0,0,0", "--pose-b", "0,0,0,5,0,0,5", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -213,7 +213,7 @@ TEST_F(TwoModelsTest, CollideListsWhereEachPairMeets) {
     EXPECT_FALSE(ask("collide", {"--json"}).json().contains("segments"));
 }
 
-TEST_F(TwoModelsTest, PenetrationSaysHowDeepAndWhichWayIsOut) {
+TEST_F(TwoModelsTest, PenetrationGivesDepthAndSeparatingMotion) {
     const Outcome outcome = ask("penetration", {"--pose-b", "0.9,0.2,0.3,1,0,0,0", "--json"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto answer = outcome.json();
@@ -230,7 +230,7 @@ TEST_F(TwoModelsTest, PenetrationSaysHowDeepAndWhichWayIsOut) {
                             "point_b", "triangle_pairs"})
         EXPECT_TRUE(answer["regions"][0].contains(key)) << key;
 
-    // Where it says, the command finds no contact.
+    // Moved by the separation, B is not in contact.
     const auto& s = answer["separation"];
     const std::string pose = std::to_string(0.9 + s[0].get<double>()) + "," +
                              std::to_string(0.2 + s[1].get<double>()) + "," +
@@ -336,7 +336,7 @@ TEST_F(TwoModelsTest, FailOnTurnsAYesIntoStatusOne) {
         0);
 }
 
-TEST_F(TwoModelsTest, PeopleGetSentences) {
+TEST_F(TwoModelsTest, TextAnswersAreSentences) {
     EXPECT_EQ(ask("collide", {"--pose-b", "9,0,0,1,0,0,0"}).out, "no contact\n");
     EXPECT_EQ(ask("collide", {}).out.rfind("contact: triangle ", 0), 0U);
     EXPECT_EQ(ask("distance", {"--pose-b", "3,0,0,1,0,0,0"}).out.rfind("distance 2 m\n", 0), 0U);

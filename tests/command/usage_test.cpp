@@ -1,5 +1,5 @@
-/// How the command is spoken to: order of options, lengths with units, names that are mistyped; and how
-/// it says numbers.
+/// The command line and its output: order of options, lengths with units, mistyped names, number
+/// formats.
 #include "tests/command/box_test.h"
 #include "tests/support/paths.h"
 
@@ -37,15 +37,15 @@ TEST_F(Usage, AValueThatIsAVerbIsAValue) {
         {"sh", "-c", "cd " + (folder_ / "") + " && " + ABUT_COMMAND + " --out info clash box.obj"});
     EXPECT_EQ(relative.status, 0) << relative.err;
     EXPECT_TRUE(std::filesystem::exists(folder_ / "info/report.json"));
-    // A file that has the name of a verb.
+    // A file with the name of a verb.
     EXPECT_EQ(run_program({"sh", "-c",
                            "cd " + (folder_ / "") + " && cp box.obj ray && " + ABUT_COMMAND +
                                " contains box.obj --points ray --quiet"})
                   .status,
-              2); // it is read, and holds no points
+              2); // the file is read, and has no points
 }
 
-TEST_F(Usage, NamesThatAreMistyped) {
+TEST_F(Usage, MistypedNamesGetSuggestions) {
     struct Case {
         std::vector<std::string> arguments;
         std::string meant;
@@ -92,7 +92,7 @@ TEST_F(Usage, LengthsTakeAUnit) {
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_EQ(outcome.json()["within"], is_within) << length;
     }
-    // Rounded once: the same double as the number in metres.
+    // Rounded once, so that the double equals that of the number in metres.
     for (const auto& [length, value] : std::vector<std::pair<std::string, double>>{
              {"50mm", 0.05}, {"5cm", 0.05}, {"2in", 0.0508}, {"3ft", 0.9144}, {"7mm", 0.007}})
         EXPECT_EQ(ask("within", {"--json", "--tolerance", length}).json()["tolerance"], value)
@@ -128,7 +128,7 @@ TEST_F(Usage, EveryLengthOptionTakesAUnit) {
     expect_refused(run_abut({"ray", box_, "--origin", "0,0,0", "--direction", "1m,0,0"}), {"1m"});
 }
 
-/// Every number of the text that has a fraction or an exponent, or is a zero.
+/// All numbers in the text.
 std::vector<std::string> numbers_of(const std::string& text) {
     const std::regex number(R"(-?\d+(\.\d+)?(e[-+]\d+)?)");
     return {std::sregex_token_iterator(text.begin(), text.end(), number),
@@ -181,7 +181,7 @@ TEST_F(Usage, TextHasUnitsAndFewDigits) {
 }
 
 TEST_F(Usage, NoNegativeZero) {
-    // The nearest point of a box below the origin lies at -0.
+    // The nearest point of a box below the origin has coordinates of -0.
     const std::string at = "-1,-1,-1,1,0,0,0";
     for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
              {"nearest", box_, "--pose", at, "--point", "-0,-0,-0"},
@@ -191,20 +191,20 @@ TEST_F(Usage, NoNegativeZero) {
              {"info", box_}}) {
         const Outcome outcome = run_abut(arguments);
         ASSERT_EQ(outcome.status, 0) << outcome.err;
-        // A letter may come before the sign in the name of a file.
+        // In file names, a letter may precede "-0".
         EXPECT_FALSE(std::regex_search(outcome.out, std::regex(R"((^|\W)-0(?![.\w]))")))
             << outcome.out;
     }
 }
 
 TEST_F(Usage, JsonGivesEveryDigit) {
-    // Two boxes that are the diagonal of a unit square apart.
+    // The boxes are apart by the diagonal of a unit square.
     const auto answer = ask("distance", {"--pose-b", "2,2,0,1,0,0,0", "--json"});
     EXPECT_NE(answer.out.find("\"distance\":1.4142135623730951,"), std::string::npos) << answer.out;
     EXPECT_EQ(answer.json()["distance"].get<double>(), std::sqrt(2.0));
 }
 
-TEST_F(Usage, SegmentsAreSaidInText) {
+TEST_F(Usage, SegmentsAreInTheText) {
     const Outcome crossing =
         ask("collide", {"--pose-b", "0.5,0.21,0.34,1,0,0,0", "--all", "--segments"});
     ASSERT_EQ(crossing.status, 0) << crossing.err;
@@ -217,7 +217,7 @@ TEST_F(Usage, SegmentsAreSaidInText) {
               json["segments"].size())
         << crossing.out;
     EXPECT_GT(json["segments"].size(), 1U);
-    // Faces in one plane share polygons, corners share points.
+    // Coplanar faces share polygons, and corners share points.
     const Outcome touching = ask("collide", {"--pose-b", "1,1,1,1,0,0,0", "--all", "--segments"});
     EXPECT_NE(touching.out.find("  point (1, 1, 1) m\n"), std::string::npos) << touching.out;
     EXPECT_NE(ask("collide", {"--all", "--segments"}).out.find("  polygon ("), std::string::npos);

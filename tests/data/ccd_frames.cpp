@@ -14,7 +14,7 @@ CcdFrames::CcdFrames(const std::string& start, const std::string& end) {
     start_ = std::move(first.positions);
     end_ = read_frame(end).positions;
     faces_ = std::move(first.triangles);
-    // By the higher vertex, then by the lower one.
+    // Edges are sorted by their higher, then their lower vertex.
     for (const auto& [a, b, c] : faces_)
         for (const auto& [p, q] : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)})
             edges_.push_back({q, p});

@@ -10,22 +10,22 @@
 
 namespace abut::test {
 
-/// A pair of frames of ../shared/data/ccd and its features, numbered as IDS.md there says.
+/// Two frames of the ccd data set and their features, numbered as IDS.md there says.
 class CcdFrames {
 public:
-    /// In: paths of frames that read_frame can read.
+    /// The arguments are paths of frames for read_frame.
     CcdFrames(const std::string& start, const std::string& end);
 
     [[nodiscard]] ElementaryPair vertex_face(std::size_t vertex, std::size_t face) const;
     [[nodiscard]] ElementaryPair edge_edge(std::size_t a, std::size_t b) const;
 
     struct Truth {
-        /// As numbered there: two edges, the lower first; or vertex and triangle.
+        /// Numbered as in IDS.md: two edges, the lower first, or vertex and triangle.
         std::vector<std::array<std::uint32_t, 2>> features;
         std::vector<ElementaryPair> pairs;
         std::vector<bool> collides;
     };
-    /// The pairs of box ids in STEM-pairs.json and their answers in STEM-collides.json.
+    /// The pairs of box ids in STEM-pairs.json, and their answers in STEM-collides.json.
     [[nodiscard]] Truth read_truth(const std::string& stem, ElementaryKind kind) const;
 
 private:

@@ -1,5 +1,5 @@
-// Elementary tests on known answers: single queries, and every pair of features that collides
-// between two frames of a simulation.
+// Elementary tests with known answers: single queries, and all colliding pairs of features between
+// two frames of a simulation.
 
 #include <abut/elementary_impact.h>
 
@@ -50,7 +50,7 @@ TEST_F(Queries, ConservativeMissesNone) {
     }
 }
 
-TEST_F(Queries, MutatedOnesAgainstTheOracle) {
+TEST_F(Queries, MutatedQueriesAgainstTheOracle) {
     Random random(721);
     int hits = 0, exact = 0;
     for (const ElementaryPair& original : pairs_) {

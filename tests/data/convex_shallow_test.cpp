@@ -1,5 +1,5 @@
-// Shallow overlaps of the hulls of real meshes: what overlaps by little is found, what is apart by
-// little is told, as the triangles say.
+// Hulls of real meshes that overlap or are apart by very little: convex queries agree with the
+// triangles.
 
 #include <abut/convex.h>
 #include <abut/rigid.h>
@@ -17,7 +17,7 @@ namespace {
 
 class ShallowOverlaps : public testing::TestWithParam<const char*> {};
 
-/// The hull of a mesh of diagonal 2, about the origin.
+/// The hull of a mesh, scaled to a diagonal of 2 and centred at the origin.
 Convex hull_of(const std::string& file) {
     Mesh mesh = read_mesh(file);
     Box3 box;
@@ -30,7 +30,7 @@ Convex hull_of(const std::string& file) {
     return Convex(mesh.positions);
 }
 
-TEST_P(ShallowOverlaps, OfHullsOfMeshesAreFound) {
+TEST_P(ShallowOverlaps, AreFoundForHullsOfMeshes) {
     const std::string file = std::string(ABUT_SHARED_DATA) + "/meshes/" + GetParam();
     if (!std::filesystem::exists(file))
         GTEST_SKIP() << file << " is not there";

@@ -1,5 +1,5 @@
-// Steps of simulations whose colliding pairs of features are all known: through the library, and
-// through the command.
+// Steps of simulations with all colliding pairs of features known, through the library and the
+// command.
 
 #include <abut/deformable.h>
 #include <abut/frame.h>
@@ -72,7 +72,7 @@ TEST_P(Deforming, EverySchemeFindsEveryTruePairAndNoOther) {
     }
 }
 
-TEST_P(Deforming, TheCommandWritesThem) {
+TEST_P(Deforming, TheCommandWritesTheTruePairs) {
     const TemporaryFolder folder;
     const std::string out = folder / "impacts.bin";
     const Outcome outcome = run_abut({"ccd", start_, end_, "--json", "--out", out});

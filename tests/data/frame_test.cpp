@@ -1,4 +1,4 @@
-// Frames of simulations: as another reader has them, and unchanged by writing.
+// Frames of simulations equal those of another reader, and are unchanged by writing.
 
 #include <abut/frame.h>
 #include <abut/scene.h>
@@ -45,7 +45,7 @@ TEST_P(SimulatedFrame, HasTheTrianglesThatAssimpReads) {
                 << i << ' ' << k;
 }
 
-TEST_P(SimulatedFrame, IsTheSameOnceWritten) {
+TEST_P(SimulatedFrame, SurvivesWriting) {
     const Mesh frame = read_frame(path_);
     const Folder folder;
     write_frame(frame, folder / "frame.ply");

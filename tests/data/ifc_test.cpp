@@ -1,5 +1,5 @@
-// Real buildings in IFC: every product with a body is a part or is accounted for by name, by a raw look
-// at the file's text; solids have closed surfaces but for those that are named here.
+// Real buildings in IFC. Every product with a body, as found by scanning the file's text, is a part
+// or is named in a note. Solids have closed surfaces, except those named here.
 
 #include <abut/error.h>
 #include <abut/mesh.h>
@@ -24,19 +24,19 @@ namespace {
 
 const std::string kFolder = std::string(ABUT_SHARED_DATA) + "/ifc/";
 
-/// An entity of a STEP file: its class and its parameters as they are written.
+/// An entity of a STEP file: its class, and its parameters as written.
 struct Entity {
     std::string type;
     std::vector<std::string> parameters;
 };
 
-/// "a,(b,c),'d,'" as its parameters.
+/// Splits a list such as "a,(b,c),'d,'" into its parameters.
 std::vector<std::string> split(std::string_view list) {
     std::vector<std::string> words(1);
     int depth = 0;
     bool in_text = false;
     for (const char c : list) {
-        in_text = in_text != (c == '\''); // '' in a text ends it and begins it again
+        in_text = in_text != (c == '\''); // '' inside a text ends the text and begins it again
         if (!in_text && (c == '(' || c == ')'))
             depth += c == '(' ? 1 : -1;
         if (!in_text && depth == 0 && c == ',')
@@ -47,7 +47,7 @@ std::vector<std::string> split(std::string_view list) {
     return words;
 }
 
-/// All entities by their name (#12), of files without comments in their data.
+/// All entities by name (#12). The file must have no comments in its data.
 std::map<std::string, Entity> entities(const std::string& path) {
     std::ifstream stream(path, std::ios::binary);
     std::string text(std::istreambuf_iterator<char>(stream), {});
@@ -76,7 +76,7 @@ std::map<std::string, Entity> entities(const std::string& path) {
     return all;
 }
 
-/// GlobalId and class of the products that have a representation 'Body', openings left out.
+/// GlobalId and class of all products with a 'Body' representation, except openings.
 std::map<std::string, std::string> products_with_body(const std::string& path) {
     const auto all = entities(path);
     const auto trimmed = [](std::string word) {
@@ -167,7 +167,7 @@ TEST_P(IfcData, EveryProductWithABodyIsAPartOrHasANote) {
     EXPECT_EQ(counts[NoteKind::not_built], 0U);
     EXPECT_EQ(open, std::set<std::string>(GetParam().open.begin(), GetParam().open.end()));
     EXPECT_EQ(scene_.up, UpAxis::z);
-    // Projects in millimetres, metres and feet.
+    // The projects are in millimetres, metres or feet.
     EXPECT_TRUE(scene_.unit == 0.001 || scene_.unit == 1 || std::fabs(scene_.unit - 0.3048) < 1e-9)
         << scene_.unit;
     if (GetParam().spaces > 0)
@@ -228,7 +228,7 @@ Scene read_or_skip(const std::string& path) {
     }
 }
 
-TEST(IfcMap, FilesWithAMapConversionLieThere) {
+TEST(IfcMap, FilesWithAMapConversionArePlacedOnTheMap) {
     const std::string file = kFolder + "pcert/Building-Structural.ifc";
     const Scene scene = read_or_skip(file);
     if (scene.parts.empty())
@@ -237,7 +237,7 @@ TEST(IfcMap, FilesWithAMapConversionLieThere) {
     options.map = false;
     const Scene project = read_scene(file, options);
     ASSERT_EQ(project.parts.size(), scene.parts.size());
-    // #19=IFCMAPCONVERSION(…) in millimetres: turned by 60 degrees.
+    // #19=IFCMAPCONVERSION(…) in millimetres rotates by 60 degrees.
     const double sine = std::sqrt(0.75);
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         const auto& from = project.parts[i].world_from_mesh.m;
@@ -289,8 +289,8 @@ Box3 box_of(const Scene& scene, const Part& part) {
     return inspect(to_mesh(alone)).bounds;
 }
 
-/// The same building as GLB, y up, and as IFC, z up: one frame after a quarter turn.
-TEST(IfcFrame, IsThatOfTheSameBuildingInAnotherFormat) {
+/// A building as GLB (y up) and as IFC (z up): the frames agree after a quarter turn.
+TEST(IfcFrame, EqualsThatOfTheBuildingAsGlb) {
     std::vector<Scene> scenes{
         read_or_skip(std::string(ABUT_SHARED_DATA) + "/bim/duplex_design.glb"),
         read_or_skip(kFolder + "duplex/Duplex_A_20110907.ifc")};

@@ -1,4 +1,4 @@
-// A building's steel as an archive, against the same model as a file.
+// The steel of a building as an archive gives the same model as the file.
 
 #include <abut/error.h>
 #include <abut/scene.h>
@@ -12,7 +12,7 @@
 namespace abut::test {
 namespace {
 
-TEST(IfcZipData, IsTheFileWithinIt) {
+TEST(IfcZipData, EqualsTheFileInTheArchive) {
     const std::string folder = std::string(ABUT_SHARED_DATA) + "/ifc/schependomlaan/";
     if (!std::filesystem::exists(folder + "ROOT-staal.ifczip"))
         GTEST_SKIP() << "no test data: " << folder;

@@ -1,5 +1,5 @@
-// Real buildings: as many parts, meshes and triangles as they are known to hold, and every corner
-// of a triangle where the file has it, by a raw look at its bytes.
+// Real buildings have their known numbers of parts, meshes and triangles. Every corner of a
+// triangle is where a scan of the file's bytes finds it.
 
 #include <abut/scene.h>
 
@@ -21,7 +21,7 @@ using nlohmann::json;
 
 struct Building {
     const char* file;
-    std::size_t parts, meshes, triangles; // triangles: instanced
+    std::size_t parts, meshes, triangles; // triangles: counted once per instance
     friend std::ostream& operator<<(std::ostream& stream, const Building& building) {
         return stream << building.file;
     }
@@ -36,7 +36,7 @@ Value value_at(const std::string& bytes, std::size_t offset) {
     return value;
 }
 
-TEST_P(Import, EqualsARawLookAtTheFile) {
+TEST_P(Import, EqualsAScanOfTheFile) {
     const Building& building = GetParam();
     const std::string path = std::string(ABUT_SHARED_DATA) + "/bim/" + building.file;
     if (!std::filesystem::exists(path))

@@ -13,7 +13,7 @@
 namespace abut::test {
 namespace {
 
-TEST(StoreOfData, IsTheSameAsReadScene) {
+TEST(StoreOfData, EqualsReadScene) {
     const std::filesystem::path data = std::filesystem::path(ABUT_SHARED_DATA) / "bim";
     if (!std::filesystem::exists(data))
         GTEST_SKIP() << data << " is not there";

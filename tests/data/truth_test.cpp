@@ -1,4 +1,4 @@
-// The clashes of real buildings against lists that exact brute force made.
+// Clashes of real buildings against lists made by exact brute force.
 
 #include <abut/clash.h>
 
@@ -40,7 +40,7 @@ protected:
     [[nodiscard]] const Part& part(const Clash& c, std::size_t side) const {
         return models_[c.model.at(side)].parts[c.part.at(side)];
     }
-    /// Unordered pairs have their ids in order.
+    /// The ids of an unordered pair are sorted.
     [[nodiscard]] IdPair ids(std::string a, std::string b) const {
         if (self() && b < a)
             std::swap(a, b);
@@ -65,7 +65,7 @@ protected:
     std::vector<Scene> models_;
 };
 
-TEST_P(Truth, PairForPair) {
+TEST_P(Truth, EveryPairAgrees) {
     const ClashReport report =
         find_clashes(models_, {.clearance = truth_["clearance"].get<double>()});
     EXPECT_EQ(report.candidates, truth_["box_pairs"].get<std::uint64_t>());
@@ -76,7 +76,7 @@ TEST_P(Truth, PairForPair) {
         const IdPair pair = ids(part(c, 0).id, part(c, 1).id);
         if (c.kind == ClashKind::contained)
             contained.insert(std::minmax(pair.first, pair.second));
-        // A contained part may be near as well: its distance to the surface around it.
+        // A contained part may also be near: its distance is that to the surface around it.
         if (c.kind == ClashKind::contained || c.kind == ClashKind::clearance)
             near.emplace(pair, std::abs(c.distance));
         else
@@ -127,8 +127,8 @@ TEST_P(Truth, WindingNumbersOfOpenParts) {
             apply(inner.world_from_mesh, mesh_of(p[0]).positions[mesh_of(p[0]).triangles[0][0]]);
         const double winding =
             winding_number(transformed(outer_mesh, outer.world_from_mesh), world);
-        // Any point of the inner part would do where the number is an integer; else the point
-        // matters.
+        // For integer winding numbers any point of the inner part gives the same; for others the
+        // point matters.
         if (std::abs(std::abs(p[2].get<double>()) - 1) < 1e-6)
             worst = std::max(worst, std::abs(std::abs(winding) - std::abs(p[2].get<double>())));
         else

@@ -1,5 +1,5 @@
-// All contacts of whole models, against CGAL's tree with exact predicates on the same world
-// positions, where it is installed.
+// All contacts of whole models against CGAL's tree with exact predicates, on the same world
+// positions, where CGAL is installed.
 
 #include <abut/rigid.h>
 
@@ -54,8 +54,8 @@ std::vector<TrianglePair> expected_pairs(const Mesh& a, const Transform& world_a
     return pairs;
 }
 
-/// Triangles between lattice points: most that meet only touch. None without an area, which CGAL
-/// does not take.
+/// Triangles between lattice points, so that most pairs that meet only touch. Zero-area triangles
+/// are left out, because CGAL does not accept them.
 Mesh lattice_soup(Random& random, int count) {
     Mesh mesh;
     while (static_cast<int>(mesh.triangles.size()) < count) {
@@ -77,7 +77,7 @@ TEST(CgalModels, AllContactsOfCurvedBodies) {
     const Model a(rock), b(rope);
     std::size_t pairs = 0, apart = 0;
     for (int i = 0; i < 60; ++i) {
-        // From deep in each other to just apart; every third unevenly scaled.
+        // From deep overlap to just apart; every third pair is scaled unevenly.
         Transform world_a = random.pose(0.3), world_b = random.pose(0.3);
         if (i % 3 == 0)
             world_a = compose(world_a, Transform({1.5, 0.2, 0, 0, 0.7, 0.1, 0, 0, 1.1, 0, 0, 0}));

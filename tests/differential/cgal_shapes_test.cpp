@@ -1,4 +1,4 @@
-// Points, rays, segments and boxes against CGAL's AABB tree with exact predicates, where it is
+// Points, rays, segments and boxes against CGAL's AABB tree with exact predicates, where CGAL is
 // installed.
 
 #include <abut/shape_queries.h>
@@ -31,7 +31,7 @@ Kernel::Point_3 cgal(const Vec3& p) {
     return {p.x, p.y, p.z};
 }
 
-/// Triangles on a lattice, all with an area: nothing is rounded, most queries are special cases.
+/// Lattice triangles with an area: nothing is rounded, and most queries are special cases.
 Mesh lattice_mesh(Random& random, int count) {
     Mesh mesh;
     while (mesh.triangles.size() < static_cast<std::size_t>(count)) {

@@ -1,4 +1,4 @@
-// Against CGAL's triangles with exact predicates, where it is installed.
+// Triangles against CGAL's with exact predicates, where CGAL is installed.
 
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
@@ -35,7 +35,7 @@ TEST(Cgal, AgreesOnTrianglesWithAnArea) {
                 b[0] = random.nudge(0.25 * a[0] + 0.25 * a[1] + 0.5 * a[2], 2);
         }
         if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2]))
-            continue; // CGAL asks for an area
+            continue; // CGAL requires an area
         const bool expected = CGAL::do_intersect(cgal(a), cgal(b));
         ASSERT_EQ(triangle_triangle_intersect(a, b) != TriangleContact::none, expected) << i;
         ++cases, meet += expected ? 1 : 0;

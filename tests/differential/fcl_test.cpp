@@ -1,5 +1,5 @@
-// Against the Flexible Collision Library, where it is installed. It decides in floating point
-// without an error bound, so poses that come within rounding of contact are left out.
+// Models against the Flexible Collision Library, where it is installed. FCL decides in floating
+// point without an error bound, so poses within rounding of contact are skipped.
 
 #include <abut/rigid.h>
 
@@ -53,7 +53,7 @@ TEST(Fcl, AgreesOnContactAndDistance) {
                 ASSERT_EQ(ours, gap.distance == 0);
                 ++cases, meet += ours ? 1 : 0;
                 if (ours != collision.isCollision()) {
-                    // Only where they are within rounding of contact, or barely in contact.
+                    // The libraries may differ only within rounding of contact.
                     ++by_rounding;
                     ASSERT_LT(gap.distance, 1e-7);
                     continue;

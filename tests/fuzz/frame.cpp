@@ -1,4 +1,4 @@
-/// Any text as a frame, or as the data of a PLY file, is a mesh that can be looked at, or a Fault.
+/// Any text as a frame or as the data of a PLY file gives a mesh with valid indices, or a Fault.
 #include "io/file/fault.h"
 #include "io/frames/frame_formats.h"
 
@@ -15,14 +15,14 @@ void check(Read read, const std::string& content) {
         abut::Mesh mesh;
         abut::CollectedFaces faces(mesh.triangles);
         read(stream, mesh.positions, faces);
-        // A bounded number for each byte of the file.
+        // The mesh may have at most one item for each byte of the file.
         if (mesh.positions.size() + mesh.triangles.size() > content.size())
             std::abort();
         for (const auto& triangle : mesh.triangles)
             for (const std::uint32_t corner : triangle)
                 if (corner >= mesh.positions.size())
                     std::abort();
-    } catch (const abut::Fault&) { // the other good answer
+    } catch (const abut::Fault&) { // a Fault is a valid answer
     }
 }
 

@@ -1,4 +1,4 @@
-/// Any bytes as a file of a format that is read in this process are a scene with sound indices and
+/// Any bytes as a file of a format that is read in this process give a scene with valid indices and
 /// finite coordinates, or an Error.
 #include <abut/error.h>
 #include <abut/scene.h>
@@ -43,7 +43,7 @@ void check(const std::string& extension, const std::string& content) {
         }
     } catch (const abut::Error& error) {
         if (error.code() == abut::ErrorCode::reader_failed && extension != ".glb")
-            std::abort(); // too slow, or too much memory for a small file
+            std::abort(); // too slow or too much memory for a small file
     }
 }
 

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
              abut::read_rules("/proc/self/fd/" + std::to_string(file)))
             if (!(rule.clearance.value_or(0) >= 0) || !(rule.touch_tolerance.value_or(0) >= 0))
                 std::abort();
-    } catch (const abut::Error&) { // the other good answer
+    } catch (const abut::Error&) { // an Error is a valid answer
     }
     close(file);
     return 0;

@@ -1,4 +1,4 @@
-/// What a reader hands back, damaged in any way, is a sound scene or an Error.
+/// A reader's output, damaged in any way, gives a sound scene or an Error.
 #include <abut/error.h>
 
 #include "io/process/decode_scene.h"
@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const abut::Part& part : scene.parts)
             if (part.mesh >= scene.meshes.size())
                 std::abort();
-    } catch (const abut::Error&) { // the other good answer
+    } catch (const abut::Error&) { // an Error is a valid answer
     }
     return 0;
 }

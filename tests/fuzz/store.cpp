@@ -1,5 +1,5 @@
-/// A store of any rows and blocks, each with a valid checksum, or with any bytes changed, gives meshes,
-/// parts and work left that can be used, or an Error.
+/// A store with any rows and blocks under valid checksums, or with any bytes changed, gives usable
+/// meshes, parts and remaining work, or an Error.
 #include <abut/error.h>
 #include <abut/store.h>
 
@@ -42,7 +42,8 @@ Mesh tetrahedron() {
             {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-/// A store of one model, some meshes and parts: what it should be, but for what the bytes say otherwise.
+/// A store of one model with some meshes and parts, valid except where the fuzzer's bytes change
+/// it.
 class StoreDraft {
 public:
     StoreDraft(ByteChoices& choices, const std::string& path)
@@ -63,7 +64,7 @@ public:
     }
 
 private:
-    /// Most of the time what it is.
+    /// Changes the value, seldom.
     template <typename Integer>
     void distort(Integer& value) {
         if (!choices_.chance(0.1))
@@ -78,7 +79,7 @@ private:
     void distort(double& value) {
         if (!choices_.chance(0.05))
             return;
-        // SQLite keeps no NaN: null, which the columns refuse.
+        // SQLite stores NaN as null, which the columns refuse.
         constexpr std::array kOdd{0.0,
                                   -1.0,
                                   1e300,
@@ -95,7 +96,7 @@ private:
                 distort(*at);
     }
 
-    /// A block as it is written, or the header and lists that the bytes give.
+    /// A valid block, or one with a header and lists from the fuzzer's bytes.
     EncodedBlock some_block(MeshBlock& block) {
         if (choices_.chance(0.5))
             return encode_block(block);
@@ -116,7 +117,7 @@ private:
 
     void add_mesh(std::int64_t number) {
         MeshBlock block{tetrahedron(), {}, {}};
-        if (choices_.chance(0.3)) // a piece
+        if (choices_.chance(0.3)) // a mesh block of a larger mesh
             block.vertex_ids = {0, 1, 2, 3}, block.triangle_ids = {0, 1, 2, 3};
         for (auto* const ids : {&block.vertex_ids, &block.triangle_ids})
             for (std::uint32_t& id : *ids)
@@ -224,7 +225,7 @@ private:
     std::uint64_t hash_ = 1;
 };
 
-/// Calls work(); an Error is an answer, if it is one line.
+/// Calls work(). An Error is a valid answer if it is one line.
 template <typename Work>
 void answer_of(const Work& work) {
     try {
@@ -292,7 +293,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool changes = choices.chance(0.3);
     try {
         StoreDraft draft(choices, path);
-    } catch (const abut::Error&) { // two parts of one number, and the like
+    } catch (const abut::Error&) { // for example two parts with one number
         return 0;
     }
     if (changes)

@@ -1,4 +1,5 @@
-/// Any script of operations on a world leaves it knowing what all pairs of bodies, asked one by one, say.
+/// After any script of operations, a world gives the same answers as queries of all pairs of
+/// bodies.
 #include <abut/progress.h>
 #include <abut/world.h>
 
@@ -72,7 +73,7 @@ private:
         last_ = now;
     }
 
-    /// Pairs whose boxes do not overlap do not touch; the rest is asked in two ways.
+    /// Pairs whose boxes do not overlap must not touch. The other pairs are asked in two ways.
     void check_contacts() {
         const BodyPairs touching = world_.collide();
         require(without(touching, world_.pairs()).empty(), "touching without a pair of boxes");
@@ -102,7 +103,7 @@ private:
         require(without(touching, near).empty(), "touching bodies not near");
     }
 
-    /// What touches on the way has met by then.
+    /// Bodies that touch at a time must have had an impact by then.
     void check_impacts() {
         const std::vector<BodyMotion> motions = script_.motions(0.5);
         const std::vector<Surface> surfaces = all_surfaces();
@@ -137,7 +138,7 @@ private:
         return surfaces;
     }
 
-    /// A schedule that was told of no speeds, or of some.
+    /// Checks the schedule with speeds set for none or some of the bodies.
     void check_schedule() {
         for (const auto& [id, body] : script_.bodies())
             if (choices_.chance(0.2))

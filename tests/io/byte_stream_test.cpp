@@ -1,4 +1,4 @@
-// Bytes of a file in pieces are the bytes of the file in one.
+// A file read buffer by buffer gives the same bytes as in memory.
 
 #include "io/file/byte_stream.h"
 #include "io/file/text_scan.h"
@@ -10,10 +10,10 @@
 namespace abut::test {
 namespace {
 
-/// As ByteStream reads a file.
+/// The buffer size of ByteStream.
 constexpr std::size_t kBlock = std::size_t{1} << 18;
 
-/// A text of blanks, line ends and words; some of them are longer than one piece or two.
+/// A text of blanks, line ends and words; some are longer than one or two buffers.
 std::string random_text(Random& random, std::size_t bytes) {
     static constexpr std::string_view kBlanks = " \t\n\r", kLetters = "abc-0.";
     std::string text;
@@ -45,12 +45,12 @@ std::vector<std::string> lines(ByteStream stream) {
     return all;
 }
 
-TEST(ByteStreams, AFileInPiecesIsTheFileInOne) {
+TEST(ByteStreams, AFileReadByBuffersEqualsTheFileInMemory) {
     Random random(1);
     const TemporaryFolder folder;
     std::size_t long_words = 0;
     for (int round = 0; round < 24; ++round) {
-        // On the border of a piece and a byte beside it, too.
+        // Every other file ends at a buffer's border, or one byte beside it.
         const std::size_t bytes =
             round % 2 == 0
                 ? static_cast<std::size_t>(random.integer(1, 5)) * kBlock - 1 + random.bits() % 3

@@ -1,5 +1,5 @@
-// Geometry compressed by Draco and by meshoptimizer, against the same geometry plain; and what
-// becomes of damaged streams.
+// Geometry compressed by Draco and by meshoptimizer against the same geometry uncompressed, and
+// damaged streams.
 
 #include "tests/io/gltf_builder.h"
 #include "tests/io/support.h"
@@ -20,7 +20,7 @@ using nlohmann::json;
 
 constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kShort = 5122;
 
-/// A wavy sheet: some vertices, shared by triangles.
+/// A wavy sheet of triangles that share vertices.
 struct Sheet {
     std::vector<std::array<float, 3>> positions;
     std::vector<std::uint32_t> corners;
@@ -44,7 +44,7 @@ Sheet sheet(Random& random, int width, int height) {
 
 using Triangles = std::vector<std::array<std::array<double, 3>, 3>>;
 
-/// Triangles in an order that does not depend on which is first, nor on their first corners.
+/// Sorts triangles, and rotates each so that its smallest corner is first.
 Triangles sorted(Triangles triangles) {
     for (auto& triangle : triangles)
         std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()),
@@ -77,7 +77,7 @@ struct DracoStream {
     std::uint32_t attribute = 0;
 };
 
-/// bits: of quantisation; 0: the floats themselves.
+/// bits: quantisation; 0 keeps the floats.
 DracoStream draco_of(const Sheet& sheet, int method, int bits) {
     draco::Mesh mesh;
     mesh.set_num_points(static_cast<std::uint32_t>(sheet.positions.size()));
@@ -102,7 +102,7 @@ DracoStream draco_of(const Sheet& sheet, int method, int bits) {
     return {std::string(buffer.data(), buffer.size()), mesh.attribute(number)->unique_id()};
 }
 
-/// A GLB file of one part, whose accessors have no data but Draco's.
+/// A GLB file of one part whose accessors have data only from Draco.
 GltfBuilder draco_file(const Sheet& sheet, const DracoStream& stream) {
     GltfBuilder builder;
     builder.require("KHR_draco_mesh_compression");
@@ -148,7 +148,7 @@ std::string meshopt_indices(const Sheet& sheet) {
     return bytes;
 }
 
-/// A view whose only content is compressed: it lies in a buffer without bytes.
+/// A buffer view with only compressed content, which lies in a buffer without bytes.
 std::size_t compressed_view(GltfBuilder& builder, const std::string& bytes, const char* mode,
                             std::size_t count, std::size_t stride, const char* filter = nullptr,
                             const char* extension = "EXT_meshopt_compression") {
@@ -176,11 +176,11 @@ void add_part(GltfBuilder& builder, std::size_t positions, std::size_t indices) 
 
 class CompressedGltf : public testing::Test {
 protected:
-    /// The scene, which is the same whether it is read whole or in pieces.
+    /// The scene, which is the same read whole and streamed.
     Scene read(const GltfBuilder& builder) {
         return read_both_ways(folder_.file("model.glb", builder.file()), folder_.path(""));
     }
-    /// Reads damaged copies, each with an error or with triangles whose corners are numbers.
+    /// Reads damaged copies. Each must give an error, or triangles with finite coordinates.
     void damage(const GltfBuilder& whole, std::size_t from, std::size_t bytes, Random& random) {
         std::size_t read = 0, refused = 0;
         for (int round = 0; round < many(60); ++round) {
@@ -222,7 +222,7 @@ TEST_F(CompressedGltf, DracoKeepsFloatsAsTheyAre) {
 TEST_F(CompressedGltf, DracoQuantisesWithinItsStep) {
     Random random(2);
     const Sheet plain = sheet(random, 25, 20);
-    // Sequential: triangles and corners keep their order, so that they can be compared.
+    // Sequential encoding keeps the order of triangles and corners, so that they can be compared.
     const Scene scene =
         read(draco_file(plain, draco_of(plain, draco::MESH_SEQUENTIAL_ENCODING, 11)));
     const auto triangles = world_triangles(scene);
@@ -235,10 +235,10 @@ TEST_F(CompressedGltf, DracoQuantisesWithinItsStep) {
         largest = std::max({largest, std::abs(p.x - x), std::abs(p.y - y), std::abs(p.z - z)});
     }
     EXPECT_LE(largest, 0.51 * step);
-    EXPECT_GT(largest, 0); // it did quantise
+    EXPECT_GT(largest, 0); // the positions were quantised
 }
 
-TEST_F(CompressedGltf, DracoIsLeftAloneWhereThePlainFormIsThere) {
+TEST_F(CompressedGltf, ThePlainFormIsPreferredToDraco) {
     Random random(3);
     const Sheet plain = sheet(random, 8, 8);
     GltfBuilder builder = draco_file(plain, draco_of(plain, draco::MESH_EDGEBREAKER_ENCODING, 6));
@@ -363,7 +363,7 @@ TEST_F(CompressedGltf, MeshoptFiltersOfPositionsAndInstances) {
         rotations.push_back({0, std::sin(angle), 0, std::cos(angle)});
     }
     std::vector<std::array<std::uint32_t, 3>> exponential(count), moved(kInstances);
-    // 24 bits keep every float that has a small exponent whole.
+    // 24 bits keep every float with a small exponent exactly.
     meshopt_encodeFilterExp(exponential.data(), count, 12, 24, plain.positions[0].data());
     meshopt_encodeFilterExp(moved.data(), kInstances, 12, 24, translations[0].data());
     std::vector<std::array<std::int16_t, 4>> turned(kInstances);
@@ -403,7 +403,7 @@ TEST_F(CompressedGltf, MeshoptFiltersOfPositionsAndInstances) {
     for (std::size_t i = 0; i < plain.corners.size(); ++i) {
         const auto& p = plain.positions[plain.corners[i]];
         const Vec3& found = triangles[i / 3].at(i % 3);
-        // The exponent is that of the largest coordinate of a vertex.
+        // A vertex has one exponent, that of its largest coordinate.
         EXPECT_NEAR(found.x, p[0], 4e-6);
         EXPECT_NEAR(found.y, p[1], 4e-6);
         EXPECT_NEAR(found.z, p[2], 4e-6);
@@ -446,7 +446,7 @@ TEST_F(CompressedGltf, DamagedMeshoptIsReadOrRefused) {
         refuse(file(vertices.substr(0, size), triangles), "vertices");
     for (std::size_t size = 0; size + 1 < triangles.size(); size += 1 + triangles.size() / 10)
         refuse(file(vertices, triangles.substr(0, size)), "triangles");
-    // A count without the bytes for it takes no memory.
+    // A large count without the bytes for it must not take memory.
     for (const auto& [pointer, value] : std::vector<std::pair<const char*, json>>{
              {"/bufferViews/0/extensions/EXT_meshopt_compression/count", 1U << 31},
              {"/bufferViews/0/extensions/EXT_meshopt_compression/count", 1ULL << 50},
@@ -510,7 +510,7 @@ TEST_F(CompressedGltf, AFilterOfColoursDoesNotMatter) {
     EXPECT_EQ(triangles_of(read(builder)), triangles_of(plain.positions, plain.corners));
 }
 
-TEST_F(CompressedGltf, WithoutTheDecodersProgramTheErrorSaysSo) {
+TEST_F(CompressedGltf, AMissingDecoderIsNamed) {
     Random random(10);
     const Sheet plain = sheet(random, 4, 4);
     const GltfBuilder builder =
@@ -522,7 +522,7 @@ TEST_F(CompressedGltf, WithoutTheDecodersProgramTheErrorSaysSo) {
     }
     const Environment crash("ABUT_READER", folder_.script("crash", "kill -SEGV $$\n"));
     EXPECT_NE(error_of(path, ErrorCode::reader_failed).find("crashed"), std::string::npos);
-    // One that decodes nothing, and one that lies.
+    // A decoder that writes nothing, in place of one that crashes.
     const Environment idle("ABUT_READER", folder_.script("idle", "exit 0\n"));
     error_of(path, ErrorCode::malformed);
 }

@@ -1,6 +1,6 @@
-// A reader's process can open nothing but its file, and reach neither the network nor other
-// programs. The function that takes these rights away is run in forked processes here; then a
-// script of Node.js tries the same through the library.
+// A reader's process can open only its file, and can reach neither the network nor other programs.
+// Forked processes test the function that takes these rights away. Then a Node.js script tries the
+// same through the library.
 
 #include "io/process/scene_stream.h"
 #include "io/reader/confine.h"
@@ -22,14 +22,14 @@ namespace {
 
 constexpr int kDenied = 0, kAllowed = 1, kOtherFault = 2, kNotEnforced = 3;
 
-/// Whether a call was refused for lack of rights.
+/// Whether a call was allowed, refused for lack of rights, or failed otherwise.
 int judged(std::int64_t result) {
     if (result >= 0)
         return kAllowed;
     return errno == EPERM || errno == EACCES || errno == ENOSYS ? kDenied : kOtherFault;
 }
 
-/// What an action says in a process that is confined before it.
+/// The result of an action in a process that is confined first.
 template <typename Confine>
 int in_confined_process(const Confine& confine, bool Confinement::*needed,
                         const std::function<int()>& action) {
@@ -151,7 +151,7 @@ TEST_F(ConfinementOfReaders, AProgramMayHaveThreads) {
     ABUT_EXPECT_OR_SKIP(said, kAllowed);
 }
 
-/// A converter for IFC that tries what a hostile file might make of a reader, and says what
+/// Runs a converter for IFC that tries what a hostile file might make a reader do, and reports what
 /// happened in its result.
 TEST_F(ConfinementOfReaders, TheReaderOfIfcIsConfined) {
     if (in_confined_process([] { return confine_program("/bin/true", {}); }, &Confinement::files,

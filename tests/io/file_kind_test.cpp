@@ -1,4 +1,4 @@
-// Files that are not what their name says, or nothing at all, are refused at once, in words that
+// Files that differ from their name, or have no contents, are refused at once, with messages that
 // help.
 
 #include <abut/store.h>
@@ -25,7 +25,7 @@ protected:
     std::map<std::string, std::string> samples_ = sample_files();
 };
 
-TEST_F(FileKind, IsSaidWhereTheNameSaysAnother) {
+TEST_F(FileKind, IsNamedIfItDiffersFromTheExtension) {
     const std::vector<std::pair<std::string, std::string>> kinds{
         {"sample.glb", "a GLB file"},  {"little.ply", "a PLY file"},
         {"text.ply", "a PLY file"},    {"sample.off", "an OFF file"},
@@ -57,11 +57,11 @@ TEST_F(FileKind, ABinaryStlFileMayBeginAsItLikes) {
 TEST_F(FileKind, TheSizeOfAnStlFileIsExplained) {
     std::string bytes = samples_.at("binary.stl");
     bytes.resize(bytes.size() - 10);
-    refuse(folder_.file("short.stl", bytes), "promises 4 triangles in 284 bytes, but it has 274",
+    refuse(folder_.file("short.stl", bytes), "states 4 triangles in 284 bytes, but it has 274",
            ErrorCode::malformed);
 }
 
-/// Files of ten gigabytes that take no room on the disk: none may be read to its end.
+/// Files of ten gigabytes that take no space on disk. None may be read to its end.
 TEST_F(FileKind, ManyZerosAreNoModel) {
     for (const auto& [name, content] : samples_) {
         const std::string path = folder_.file(name, "");
@@ -69,7 +69,7 @@ TEST_F(FileKind, ManyZerosAreNoModel) {
         const std::string text = error_of(path, ErrorCode::malformed);
         EXPECT_NE(text.find("zero bytes"), std::string::npos) << text;
     }
-    // After a beginning that is sound, the first zero counts.
+    // After a valid beginning, the first zero byte is the error.
     for (const char* const name : {"sample.obj", "sample.off", "text.stl", "text.ply"}) {
         const std::string path = folder_.file(name, samples_.at(name).substr(0, 60));
         std::filesystem::resize_file(path, std::uintmax_t{10} << 30);
@@ -81,7 +81,7 @@ TEST_F(FileKind, APipeIsNoFile) {
     for (const char* const extension : {".obj", ".stl", ".glb", ".dae", ".ifc", ".abut"}) {
         const std::string path = folder_.path(std::string("pipe") + extension);
         ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
-        EXPECT_FALSE(is_store(path)); // and does not wait for a writer
+        EXPECT_FALSE(is_store(path)); // and it does not wait for a writer
         if (std::string(extension) != ".abut")
             refuse(path, "is not a regular file", ErrorCode::unreadable);
     }

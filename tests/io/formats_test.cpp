@@ -1,5 +1,4 @@
-// Every format: the same tetrahedron arrives, position for position; and no file that is cut short
-// is read.
+// Every format gives the same tetrahedron with the same positions, and no truncated file is read.
 
 #include "tests/io/sample_files.h"
 #include "tests/io/support.h"
@@ -25,21 +24,21 @@ TEST_P(Format, GivesTheStoredPositions) {
             const auto& corner = kCorners.at(kFaces[i].at(k));
             EXPECT_EQ(triangles[i].at(k), (Vec3{corner[0], corner[1], corner[2]})) << i << ' ' << k;
         }
-    EXPECT_EQ(scene.meshes[0].positions.size(), kCorners.size()); // none is stored twice
+    EXPECT_EQ(scene.meshes[0].positions.size(), kCorners.size()); // each vertex is stored once
     EXPECT_FALSE(scene.parts[0].id.empty());
     EXPECT_EQ(scene.parts[0].name, scene.parts[0].id);
 }
 
-TEST_P(Format, RefusesAFileThatIsCutShort) {
-    // Without its line end a text file is whole.
+TEST_P(Format, RefusesATruncatedFile) {
+    // A text file without its last line end is complete.
     std::size_t end = content_.find_last_not_of(" \n\r\t") + 1;
     if (GetParam() == "text.stl")
         end = content_.find("endsolid") + 8; // a name follows, which may be left out
     const bool is_obj = GetParam() == "sample.obj";
     std::size_t cuts = 0;
     for (std::size_t size = 1; size < end; size += 1 + end / 60) {
-        // An OBJ file has no count and no end: one that lacks whole lines at its end is an OBJ
-        // file. What can be known is that its faces refer to vertices that are not there.
+        // An OBJ file has no count and no end mark, so one without its last lines is valid. A fault
+        // shows only if faces refer to missing vertices.
         if (is_obj && size > content_.find("\nf "))
             continue;
         ++cuts;
@@ -71,13 +70,13 @@ INSTANTIATE_TEST_SUITE_P(All, Format,
 
 TEST(Formats, PolygonsAreCutIntoAllTheirTriangles) {
     const TemporaryFolder folder;
-    // An L of six corners; Newell's normal is -z, so that the plane is seen from below.
+    // An L of six corners. Newell's normal is -z, so the plane is seen from below.
     const std::string path = folder.file(
         "l.off", "OFF\n6 1 0\n0 0 0\n0 2 0\n1 2 0\n1 1 0\n2 1 0\n2 0 0\n6 0 1 2 3 4 5\n");
     double area = 0;
     for (const auto& [a, b, c] : world_triangles(read_scene(path))) {
         const double doubled = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        EXPECT_LT(doubled, 0); // all turn as the polygon does: none lies outside of it
+        EXPECT_LT(doubled, 0); // all triangles turn as the polygon does, so none lies outside it
         area -= doubled / 2;
     }
     EXPECT_EQ(area, 3);
@@ -99,7 +98,7 @@ TEST(Formats, ZeroAreaTrianglesAreKept) {
 
 TEST(Formats, VerticesAtEqualPositionsAreJoinedInTheirOrder) {
     const TemporaryFolder folder;
-    // Two triangles and one of no area; vertices 4 and 6 repeat 1 and 0 (as -0), none uses 5.
+    // Two triangles and one of zero area. Vertices 4 and 6 repeat 1 and 0 (as -0), and 5 is unused.
     const Mesh mesh = read_mesh(
         folder.file("soup.off", "OFF\n7 3 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n1 0 0\n7 7 7\n-0 0 -0\n"
                                 "3 6 1 2\n3 4 3 2\n3 0 6 4\n"));
@@ -123,7 +122,7 @@ TEST(Formats, UnitScalesTheTransformAndKeepsTheMesh) {
     EXPECT_THROW(read_scene("any.obj", options), Error);
 }
 
-/// The largest corner of a scene, coordinate by coordinate, and the smallest.
+/// The smallest and largest coordinates of a scene.
 std::array<Vec3, 2> extent_of(const Scene& scene) {
     Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
     for (const auto& triangle : world_triangles(scene))
@@ -165,8 +164,9 @@ TEST(Formats, FbxHasItsOwnAxes) {
                     "\"FrontAxisSign\", \"int\", \"Integer\", \"\",-1");
     const Scene upright = read_scene(folder.file("z.fbx", z_up));
     EXPECT_EQ(upright.up, UpAxis::z);
-    EXPECT_EQ(extent_of(upright)[1], (Vec3{1.25, 2.5, 0.1F})); // as the file has it
-    // x up, y to the left: turned to y up. The corner at y = 2.5 lies at x = -2.5 then.
+    EXPECT_EQ(extent_of(upright)[1], (Vec3{1.25, 2.5, 0.1F})); // as in the file
+    // With x up and y to the left the file is turned to y up; the corner at y = 2.5 comes to x =
+    // -2.5.
     std::string x_up = replaced(y_up, "\"UpAxis\", \"int\", \"Integer\", \"\",1",
                                 "\"UpAxis\", \"int\", \"Integer\", \"\",0");
     x_up = replaced(x_up, "\"CoordAxis\", \"int\", \"Integer\", \"\",0",
@@ -191,13 +191,13 @@ TEST(Formats, ColladaComesInItsOwnUnitAndAxes) {
     EXPECT_EQ(scene.unit, 0.5);
     EXPECT_EQ(scene.up, UpAxis::z);
     EXPECT_EQ(world_triangles(scene)[0][1], (Vec3{0, 1.25, 0})); // corner 2
-    // The unit and axes of a path overrule those of the file.
+    // The unit and axes of a path override those of the file.
     const Scene other = read_scene(ModelPath{scene.file, 2, UpAxis::x});
     EXPECT_EQ(other.up, UpAxis::x);
     EXPECT_EQ(world_triangles(other)[0][1], (Vec3{0, 5, 0}));
 }
 
-TEST(Formats, ColladaWithAUnitOrAxesThatAreNoneIsRefused) {
+TEST(Formats, ColladaWithAnInvalidUnitOrAxesIsRefused) {
     const TemporaryFolder folder;
     const std::string sample = sample_files().at("sample.dae");
     for (const char* const meter : {"0", "-1", "0,01", "nan", "inf", "1e999", "mm"}) {

@@ -1,4 +1,4 @@
-// Frames that must be refused, each with one line that says why; and files damaged in any way.
+// Frames that must be refused, each with one line that says why, and randomly damaged files.
 
 #include <abut/frame.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 class DamagedFrame : public testing::Test {
 protected:
-    /// In          part: what the message must say.
+    /// In          part: words that the message must contain.
     void refuse(const std::string& name, const std::string& content, ErrorCode code,
                 const std::string& part) {
         refuse(folder_.file(name, content), code, part);
@@ -50,7 +50,7 @@ TEST_F(DamagedFrame, Headers) {
                             const std::string& part) {
         refuse("a.ply", sample("text.ply", what, with), ErrorCode::malformed, part);
     };
-    change("ply", "pl", "is no PLY file");
+    change("ply", "pl", "is not a PLY file");
     change("ascii", "utf-8", "line 2: unknown format utf-8");
     change("format ascii 1.0", "comment", "names no format");
     change("vertex 4", "vertex -4", "line 3: an element lacks its count");
@@ -84,13 +84,13 @@ TEST_F(DamagedFrame, IndicesOutOfRange) {
     for (const char* const number : {"0", "-5", "-9223372036854775808"})
         refuse("a.obj", samples_.at("sample.obj") + "f 1 2 " + number + "\n", ErrorCode::bad_mesh,
                std::string("line 10: a face refers to vertex ") + number);
-    // 2^32 + 1 is 1 where it is cut to 32 bits.
+    // 2^32 + 1 would be 1 if it were cut to 32 bits.
     for (const char* const number : {"5", "4294967297"})
         refuse("a.obj", samples_.at("sample.obj") + "f 1 2 " + number + "\n", ErrorCode::bad_mesh,
                std::string("line 10: a face refers to vertex ") + number + " of 4");
 }
 
-TEST_F(DamagedFrame, WhatIsNoNumber) {
+TEST_F(DamagedFrame, InvalidNumbers) {
     for (const char* const word : {"1.25x", "x", "0x1", "1,25", "--1", "1..2"}) {
         refuse("a.ply", sample("text.ply", "1.25", word), ErrorCode::malformed, word);
         refuse("a.obj", sample("sample.obj", "1.25", word), ErrorCode::malformed,
@@ -131,14 +131,14 @@ TEST_F(DamagedFrame, CountsThatTheFileCannotHold) {
             refuse("a.ply", sample(name, element + " 4", element + " 18446744073709551615"),
                    ErrorCode::malformed, "truncated");
     }
-    // A list of four billion.
+    // A list with a length of more than four billion.
     std::string ply = sample("big.ply", "uchar int", "uint int");
     ply.insert(ply.find("end_header\n") + 11 + 48, "\xff\xff\xff");
     refuse("a.ply", ply, ErrorCode::bad_mesh, "vertex"); // what follows is taken for its corners
     ply = sample("big.ply", "uchar int vertex_indices",
                  "uchar int vertex_indices\nproperty list uint uchar other");
     refuse("a.ply", ply, ErrorCode::malformed, "0 of 4 elements face");
-    // An element without properties has no data, however many there are.
+    // An element without properties takes no bytes, whatever its count.
     EXPECT_EQ(read_frame(folder_.file("a.ply", sample("text.ply", "element face",
                                                       "element none 18446744073709551615\n"
                                                       "element face")))
@@ -152,7 +152,7 @@ TEST_F(DamagedFrame, DataAfterTheLastElement) {
     EXPECT_EQ(
         read_frame(folder_.file("a.ply", samples_.at("text.ply") + " \r\n\n")).triangles.size(),
         4U);
-    // A coordinate of another size than the header says.
+    // A coordinate type of another size than the data.
     refuse("a.ply", sample("little.ply", "float z", "short z"), ErrorCode::malformed, "");
 }
 
@@ -162,7 +162,7 @@ TEST_F(DamagedFrame, CutAtEveryByte) {
     samples_["double.ply"] = read_bytes(doubles);
     for (const char* const name : {"text.ply", "little.ply", "big.ply", "double.ply"}) {
         const std::string& content = samples_.at(name);
-        // The line end of a text's last line may be missing.
+        // The last line end of a text file may be missing.
         const std::size_t end = content.size() - (std::string(name) == "text.ply" ? 1 : 0);
         for (std::size_t size = 0; size < end; ++size) {
             SCOPED_TRACE(std::string(name) + " cut to " + std::to_string(size));

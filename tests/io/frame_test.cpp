@@ -1,4 +1,4 @@
-// Frames: vertices and triangles as the file has them, from every layout of the formats.
+// Frames give vertices and triangles as stored in the file, from every layout of the formats.
 
 #include <abut/frame.h>
 
@@ -19,7 +19,7 @@ protected:
     [[nodiscard]] Mesh read(const std::string& name, const std::string& content) const {
         return read_frame(folder_.file(name, content));
     }
-    /// A text PLY of these vertex lines and these face lines.
+    /// A text PLY file with these vertex and face lines.
     static std::string text_ply(std::size_t vertices, const std::string& vertex_lines,
                                 std::size_t faces, const std::string& face_lines,
                                 const std::string& real = "double") {
@@ -40,7 +40,7 @@ TEST_F(Frames, TheTetrahedronInEveryFormat) {
         ASSERT_EQ(mesh.positions.size(), kCorners.size());
         for (std::size_t i = 0; i < kCorners.size(); ++i) {
             const auto [x, y, z] = kCorners[i];
-            // OBJ says nothing of floats: 0.1 there is the double.
+            // OBJ does not specify floats, so 0.1 is read as a double.
             const double stored_z = std::string(name) == "sample.obj" && z == 0.1F ? 0.1 : z;
             EXPECT_EQ(mesh.positions[i], (Vec3{x, y, stored_z})) << i;
         }
@@ -48,7 +48,7 @@ TEST_F(Frames, TheTetrahedronInEveryFormat) {
     }
 }
 
-TEST_F(Frames, PositionsAloneWhereTheTrianglesAreTheSame) {
+TEST_F(Frames, OnlyPositionsIfTheTrianglesAreTheSame) {
     const auto samples = sample_files();
     for (const char* const name : {"text.ply", "little.ply", "big.ply", "sample.obj"}) {
         SCOPED_TRACE(name);
@@ -73,7 +73,7 @@ TEST_F(Frames, PositionsAloneWhereTheTrianglesAreTheSame) {
 }
 
 TEST_F(Frames, VerticesAreNeitherJoinedNorLeftOut) {
-    // 1 repeats 0, 3 is not used, 5 repeats 4 with another sign of zero.
+    // Vertex 1 repeats 0, 3 is unused, and 5 repeats 4 with another sign of zero.
     const std::vector<Vec3> positions{{0, 0, 0}, {0, 0, 0}, {1, 0, 0},
                                       {9, 9, 9}, {0, 1, 0}, {0, 1, -0.0}};
     const std::string lines = "0 0 0\n0 0 0\n1 0 0\n9 9 9\n0 1 0\n0 1 -0\n";
@@ -88,8 +88,8 @@ TEST_F(Frames, VerticesAreNeitherJoinedNorLeftOut) {
 }
 
 TEST_F(Frames, PolygonsAreFansWhateverTheirShape) {
-    // A quad with its second corner dented past the diagonal, and the same quad flat: ears would
-    // differ.
+    // A quad whose second corner is dented past the diagonal, and the same quad flat. Ear clipping
+    // would cut the two differently.
     for (const char* const second : {"0.2 0.2 0", "2 0 0"}) {
         const std::string lines = std::string("0 0 0\n") + second + "\n2 2 0\n0 2 0\n-1 1 0\n";
         const Mesh mesh =
@@ -139,7 +139,7 @@ public:
             std::reverse(word.begin(), word.end());
         bytes_ += word;
     }
-    /// A value of the type that PLY names so.
+    /// Adds a value of this PLY type.
     void add(const std::string& type, double value) {
         if (type == "char" || type == "int8")
             add(static_cast<std::int8_t>(value));
@@ -169,7 +169,8 @@ const std::vector<std::string> kIntegers{"char",   "int8",   "uchar", "uint8", "
                                          "ushort", "uint16", "int",   "int32", "uint",  "uint32"};
 const std::vector<std::string> kReals{"float", "float32", "double", "float64"};
 
-/// PLY files of a mesh, laid out at random, with properties and elements that are not asked for.
+/// Writes a mesh as PLY with a random layout, and with other properties and elements that readers
+/// skip.
 class RandomPly {
 public:
     RandomPly(Random& random, const Mesh& mesh) : random_(random), mesh_(mesh) {}
@@ -246,7 +247,7 @@ private:
     std::mt19937_64 engine_{random_.bits()};
 };
 
-/// Coordinates are floats: multiples of 2^-10.
+/// Coordinates are multiples of 2^-10, so that they are floats.
 Mesh random_mesh(Random& random) {
     Mesh mesh;
     mesh.positions.resize(random.integer(3, 12));
@@ -276,12 +277,12 @@ TEST_F(Frames, EveryLayoutOfPly) {
     }
 }
 
-TEST_F(Frames, WhatIsWrittenIsReadBack) {
+TEST_F(Frames, WritingAndReadingGivesTheSameFrame) {
     Random random(4712);
     for (int round = 0; round < 100; ++round) {
         Mesh mesh = random_mesh(random);
         const bool floats = random.chance(0.5);
-        // One coordinate decides.
+        // One coordinate that is no float makes the file use doubles.
         if (!floats) {
             Vec3& p = mesh.positions.back();
             *std::array{&p.x, &p.y, &p.z}.at(round % 3) = 0.1;
@@ -312,7 +313,7 @@ TEST_F(Frames, TheBytesOfAWrittenFrame) {
     EXPECT_EQ(read_bytes(path), expected);
 }
 
-TEST_F(Frames, WhatCannotBeReadIsNotWritten) {
+TEST_F(Frames, UnreadableMeshesAreNotWritten) {
     const Mesh good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     const auto refuse = [&](const Mesh& mesh, const std::string& name, ErrorCode code) {
         const std::string path = folder_.path(name);

@@ -11,7 +11,7 @@
 
 namespace abut::test {
 
-/// Puts a glTF file together: buffer views and accessors one after the other.
+/// Builds a glTF file from buffer views and accessors.
 class GltfBuilder {
 public:
     using json = nlohmann::json;
@@ -22,7 +22,7 @@ public:
                   {"buffers", json::array({json::object()})}};
     std::string binary;
 
-    /// Returns the view's number.
+    /// Adds a buffer view and returns its index.
     std::size_t view(const std::string& bytes, std::size_t stride = 0) {
         json view = place(bytes);
         if (stride > 0)
@@ -30,7 +30,7 @@ public:
         return append("bufferViews", view);
     }
 
-    /// `buffer`, `byteOffset` and `byteLength` of bytes that it takes in.
+    /// Stores bytes and returns their `buffer`, `byteOffset` and `byteLength`.
     json place(const std::string& bytes) {
         binary.resize((binary.size() + 3) / 4 * 4, '\0');
         const std::size_t offset = binary.size();
@@ -58,12 +58,12 @@ public:
         return document[list].size() - 1;
     }
 
-    /// A mesh of one primitive.
+    /// Adds a mesh of one primitive and returns its index.
     std::size_t mesh(const json& primitive) {
         return append("meshes", {{"primitives", json::array({primitive})}});
     }
 
-    /// A root.
+    /// Adds a root node and returns its index.
     std::size_t node(const json& node) {
         const std::size_t number = append("nodes", node);
         document["scenes"][0]["nodes"].push_back(number);

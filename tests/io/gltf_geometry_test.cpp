@@ -1,4 +1,4 @@
-// Where glTF keeps its numbers: instances, quantised and sparse accessors, strips, data: URIs and
+// Sources of numbers in glTF: instances, quantised and sparse accessors, strips, data: URIs, and
 // files beside the model.
 
 #include "tests/io/gltf_builder.h"
@@ -28,7 +28,7 @@ protected:
     TemporaryFolder folder_;
 };
 
-/// Adds the tetrahedron; its mesh's number.
+/// Adds the tetrahedron and returns its mesh's index.
 std::size_t add_tetrahedron(GltfBuilder& builder) {
     const std::vector<std::array<float, 3>> corners(kCorners.begin(), kCorners.end());
     const std::vector<std::array<std::uint32_t, 3>> faces(kFaces.begin(), kFaces.end());
@@ -76,7 +76,7 @@ TEST_F(GltfGeometry, EachInstanceIsAPartOfTheSameMesh) {
     ASSERT_EQ(found, expected);
     EXPECT_EQ(scene.parts[0].world_from_mesh, Transform({1, 0, 0, 0, 1, 0, 0, 0, 1, 101, 0, 0}));
     EXPECT_EQ(scene.parts[2].world_from_mesh, Transform({2, 0, 0, 0, 3, 0, 0, 0, 4, 100, 0, 3}));
-    // The child stands where its parent does: once.
+    // The child appears once, at its parent's place: instances do not apply to children.
     EXPECT_EQ(scene.parts[3].world_from_mesh, Transform({1, 0, 0, 0, 1, 0, 0, 0, 1, 100, 0, 0}));
     const std::array<double, 12> turned{0, 1, 0, -1, 0, 0, 0, 0, 1, 100, 2, 0};
     for (std::size_t i = 0; i < 12; ++i)
@@ -87,7 +87,7 @@ TEST_F(GltfGeometry, InstancesRotateByNormalisedIntegers) {
     for (const int component : {kByte, kShort}) {
         GltfBuilder builder;
         const std::size_t mesh = add_tetrahedron(builder);
-        // 0.6, 0, 0, 0.8 as integers; their length is not quite one.
+        // 0.6, 0, 0, 0.8 as integers; the length is not exactly one.
         const std::size_t rotation =
             component == kByte
                 ? builder.accessor(std::vector<std::array<std::int8_t, 4>>{{76, 0, 0, 102}}, kByte,
@@ -163,7 +163,7 @@ TEST_F(GltfGeometry, QuantisedPositionsOfEveryType) {
     }
 }
 
-/// A fan of triangles in a plane, with more corners than are read at once.
+/// A fan of triangles in a plane, with more corners than readers take at once.
 std::vector<std::array<float, 3>> many_positions(std::size_t count) {
     std::vector<std::array<float, 3>> positions;
     for (std::size_t i = 0; i < count; ++i) {
@@ -240,7 +240,7 @@ TEST_F(GltfGeometry, SparseAccessorsThatContradictThemselves) {
     EXPECT_EQ(world_triangles(read(file({1, 3}))).size(), 4U);
     refuse(file({3, 1}), ErrorCode::malformed);
     refuse(file({1, 1}), ErrorCode::malformed);
-    refuse(file({1, 4}), ErrorCode::malformed); // beyond the accessor
+    refuse(file({1, 4}), ErrorCode::malformed); // beyond the end of the accessor
     refuse(file({0, 1, 2, 3, 4}), ErrorCode::malformed);
     refuse(file({1, 3}, {{"count", 1000}}), ErrorCode::malformed);
     refuse(file({1, 3}, {{"indices", {{"componentType", kFloat}}}}), ErrorCode::malformed);
@@ -296,7 +296,7 @@ TEST_F(GltfGeometry, RequiredExtensions) {
                   std::string::npos);
 }
 
-/// A text file of the tetrahedron whose buffer is elsewhere.
+/// A text file of the tetrahedron with its buffer at a URI.
 std::string text_file(const json& uri) {
     json document = tetrahedron_document({{{"name", "n"}, {"mesh", 0}}}, {0});
     document["buffers"][0]["uri"] = uri;
@@ -334,7 +334,7 @@ TEST_F(GltfFiles, PercentEncodedNamesAreDecoded) {
 
 TEST_F(GltfFiles, DataUris) {
     const std::string zeros = "data:application/gltf-buffer;base64,";
-    // 96 bytes of zeros: all triangles are degenerate.
+    // 96 bytes of zeros make all triangles degenerate.
     EXPECT_NE(expect_refused(zeros + std::string(128, 'A'), ErrorCode::bad_mesh).find("degenerate"),
               std::string::npos);
     expect_refused(zeros + std::string(124, 'A'), ErrorCode::malformed);
@@ -353,7 +353,7 @@ TEST_F(GltfFiles, OnlyFilesOfItsOwnFolderAreOpened) {
     expect_read("sub/data.bin");
     expect_read("sub/../sub/data.bin");
     expect_read(folder_.path("sub/data.bin")); // absolute, but inside
-    // A link to a folder inside is a path inside.
+    // A link to a folder inside the model's folder counts as inside.
     std::filesystem::create_directory_symlink("sub", folder_.path("inner"));
     expect_read("inner/data.bin");
     std::filesystem::create_directory_symlink(elsewhere.path(""), folder_.path("link"));
@@ -367,7 +367,7 @@ TEST_F(GltfFiles, OnlyFilesOfItsOwnFolderAreOpened) {
         EXPECT_NE(text.find("outside"), std::string::npos) << text;
         expect_read(uri, allowed);
     }
-    // Whether such a file exists is not told.
+    // The message does not reveal whether the file exists.
     EXPECT_NE(expect_refused("../no-such-file.bin", ErrorCode::unsupported).find("outside"),
               std::string::npos);
     for (const char* const uri :
@@ -375,14 +375,15 @@ TEST_F(GltfFiles, OnlyFilesOfItsOwnFolderAreOpened) {
         expect_refused(uri, ErrorCode::unsupported);
     expect_refused("missing.bin", ErrorCode::malformed);
     expect_refused("sub", ErrorCode::malformed);
-    // The model itself may be reached through a link.
+    // The model itself may be opened through a link.
     (void)folder_.file("model.gltf", text_file("sub/data.bin"));
     std::filesystem::create_symlink(folder_.path("model.gltf"), elsewhere.path("linked.gltf"));
     error_of(elsewhere.path("linked.gltf"), ErrorCode::malformed); // sub is not beside the link
 }
 
 TEST_F(GltfFiles, SeveralBuffersAndExtraChunks) {
-    // Positions in a file, indices in the GLB's own part, a chunk of an unknown kind behind.
+    // Positions are in a file, indices in the GLB's binary chunk, and a chunk of unknown type
+    // follows.
     json document = tetrahedron_document({{{"name", "n"}, {"mesh", 0}}}, {0});
     const std::string bytes = tetrahedron_bytes();
     (void)folder_.file("positions.bin", bytes.substr(0, 48) + "more than is needed");

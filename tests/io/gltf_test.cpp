@@ -1,5 +1,5 @@
-// What nodes mean: transforms in double, names, instances; and that write_glb and read_scene are
-// inverse.
+// Nodes of glTF: transforms in double precision, names and instances. read_scene gives back what
+// write_glb wrote.
 
 #include "tests/io/support.h"
 
@@ -20,7 +20,7 @@ protected:
 };
 
 TEST_F(Gltf, MatricesKeepAllTheirDigits) {
-    // A building in survey coordinates: as floats, these would be off by a quarter of a metre.
+    // A building in survey coordinates; as floats these would be off by a quarter of a metre.
     const Scene scene = read({{{"name", "a"},
                                {"mesh", 0},
                                {"matrix",
@@ -33,8 +33,8 @@ TEST_F(Gltf, MatricesKeepAllTheirDigits) {
 }
 
 TEST_F(Gltf, TransformsAreComposedDownTheTree) {
-    // A quarter turn about z: x becomes y. Rotation is written as floats, hence not quite of unit
-    // length.
+    // A quarter turn about z takes x to y. The rotation is written in floats, so its length is not
+    // exactly one.
     const double half = 0.70710676908493042;
     const Scene scene = read({{{"children", {1, 2}}, {"translation", {1e7, 0, 0.1}}},
                               {{"name", "leaf"}, {"mesh", 0}, {"translation", {0.125, 0, 0}}},
@@ -71,7 +71,7 @@ TEST_F(Gltf, IdsAreUniqueAndExtrasGiveNameAndType) {
                                                            {"wall#4", "Wänd \"1\"", "IfcWall"},
                                                            {"odd", "odd", ""}};
     EXPECT_EQ(found, expected);
-    EXPECT_EQ(scene.meshes.size(), 1U); // all are instances
+    EXPECT_EQ(scene.meshes.size(), 1U); // all parts are instances of it
 }
 
 TEST_F(Gltf, PrimitivesOfAMeshAreOneMeshAndLinesAreSkipped) {
@@ -122,7 +122,7 @@ Scene sample_scene() {
     return scene;
 }
 
-TEST_F(Gltf, WhatIsWrittenIsReadBackEqual) {
+TEST_F(Gltf, WritingAndReadingGivesTheSameScene) {
     const Scene scene = sample_scene();
     const std::string path = folder_.path("written.glb");
     write_glb(scene, path);

@@ -62,7 +62,7 @@ TEST_F(Hostile, AFileWithoutPermission) {
 
 TEST_F(Hostile, GarbageInEveryFormat) {
     for (const auto& [name, content] : samples_) {
-        // No line of it says anything in OBJ, which then holds nothing.
+        // As OBJ the text has no known line, so the scene is empty.
         const ErrorCode code = name == "sample.obj" ? ErrorCode::bad_mesh : ErrorCode::malformed;
         refuse(name, std::string(300, '\x5a'), code);
         std::string noise;
@@ -113,13 +113,13 @@ TEST_F(Hostile, NumbersThatAreNotFinite) {
 TEST_F(Hostile, NothingButDegenerateTriangles) {
     refuse("line.off", "OFF\n3 2 0\n0 0 0\n0.1 0.1 0.1\n0.3 0.3 0.3\n3 0 1 2\n3 1 1 0\n",
            ErrorCode::bad_mesh);
-    // Its area, 1e-44, is nothing to a tolerance, but it is not zero.
+    // An area of 1e-44 is below any tolerance, but not zero.
     const TemporaryFolder folder;
     EXPECT_EQ(
         read_scene(folder.file("thin.off", "OFF\n3 1 0\n0 0 0\n1e-22 0 0\n0 1e-22 0\n3 0 1 2\n"))
             .parts.size(),
         1U);
-    // A scale of zero flattens what had an area.
+    // A scale of zero makes every triangle degenerate.
     document_["nodes"][0]["scale"] = {1, 0, 0};
     EXPECT_TRUE(contains(refuse_glb(document_, ErrorCode::bad_mesh), "degenerate"));
 }
@@ -234,7 +234,7 @@ TEST_F(Hostile, DamagedFilesAreReadOrRefused) {
             const std::string path = folder_.file(name, damaged);
             try {
                 const Scene scene = read_scene(path);
-                for (const auto& triangle : world_triangles(scene)) // at() finds a bad index
+                for (const auto& triangle : world_triangles(scene)) // at() throws for a bad index
                     for (const Vec3& p : triangle)
                         ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << name;
                 ++read;
@@ -249,7 +249,7 @@ TEST_F(Hostile, DamagedFilesAreReadOrRefused) {
     EXPECT_GT(refused, (read + refused) / 10);
 }
 
-TEST_F(Hostile, OfSeveralFilesTheFirstFaultCounts) {
+TEST_F(Hostile, TheFirstFaultOfSeveralFilesIsReported) {
     const std::string good = folder_.file("good.obj", samples_.at("sample.obj"));
     const std::string bad = folder_.file("bad.obj", "v 1 2\n");
     const std::string missing = folder_.path("missing.obj");

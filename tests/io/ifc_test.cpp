@@ -1,4 +1,4 @@
-// IFC 2x3 and 4 through web-ifc. Without Node.js or web-ifc these tests are skipped.
+// IFC 2x3 and 4 through web-ifc. Skipped without Node.js or web-ifc.
 
 #include "tests/io/support.h"
 #include "tests/support/paths.h"
@@ -23,7 +23,7 @@ std::vector<std::array<Vec3, 3>> triangles_of(const Scene& scene, const Part& pa
     return world_triangles(alone);
 }
 
-/// The volume that closed triangles enclose: a sixth of the sum of their triple products.
+/// The volume enclosed by closed triangles: a sixth of the sum of their triple products.
 double volume_of(const Scene& scene, const Part& part) {
     double sum = 0;
     for (const auto& [a, b, c] : triangles_of(scene, part))
@@ -32,7 +32,7 @@ double volume_of(const Scene& scene, const Part& part) {
     return sum / 6;
 }
 
-/// The box around one part.
+/// The bounding box of a part.
 Box3 bounds_of(const Scene& scene, const Part& part) {
     Box3 box;
     for (const auto& triangle : triangles_of(scene, part))
@@ -45,7 +45,7 @@ Box3 bounds_of(const Scene& scene, const Part& part) {
     return box;
 }
 
-/// web-ifc holds geometry as floats around its centre: some 1e-7 of its size remain.
+/// web-ifc keeps geometry as floats around its centre, with errors of about 1e-7 of its size.
 void expect_box(const Box3& box, const Vec3& lower, const Vec3& upper) {
     constexpr double kAccuracy = 5e-7;
     EXPECT_NEAR(box.lower.x, lower.x, kAccuracy);
@@ -84,12 +84,12 @@ TEST_F(Ifc, House2x3) {
     EXPECT_EQ(wall.name, "South wall");
     EXPECT_EQ(wall.type, "IfcWallStandardCase");
     EXPECT_EQ(scene.meshes[wall.mesh].triangles.size(), 12U);
-    EXPECT_EQ(scene.meshes[wall.mesh].positions.size(), 8U); // none is stored twice
+    EXPECT_EQ(scene.meshes[wall.mesh].positions.size(), 8U); // each vertex is stored once
     EXPECT_EQ(scene.up, UpAxis::z);
     EXPECT_EQ(scene.unit, 1);
     EXPECT_TRUE(scene.notes.empty());
     expect_box(bounds_of(scene, wall), {0, 0, 0}, {4, 0.2, 3});
-    // The same shape again, and with a hole: that one must not share the mesh.
+    // A wall of the same shape shares the mesh; one with a hole does not.
     const Part& plain = parts.at("1WallOfTheTests0000002");
     EXPECT_EQ(plain.mesh, wall.mesh);
     expect_box(bounds_of(scene, plain), {0, 5, 0}, {4, 5.2, 3});
@@ -107,7 +107,7 @@ TEST_F(Ifc, House2x3) {
     EXPECT_EQ(two.type, "IfcFurnishingElement");
     EXPECT_EQ(one.mesh, two.mesh);
     expect_box(bounds_of(scene, one), {1, 2, 0}, {1.5, 2.25, 1});
-    // Turned by a quarter about its origin at (3, 2, 0.5): x to y, y to -x.
+    // Rotated by a quarter turn about its origin at (3, 2, 0.5): x to y, y to -x.
     expect_box(bounds_of(scene, two), {2.75, 2, 0.5}, {3, 2.5, 1.5});
 }
 
@@ -129,7 +129,7 @@ TEST_F(Ifc, House4InMillimetresWithPartsOfTwoSolids) {
     expect_box(bounds_of(scene, two), {2.7, 1.5, 1}, {3.3, 2.5, 1.75});
 }
 
-TEST_F(Ifc, ItsUnitAndAxesAreOverruledByThePathAlone) {
+TEST_F(Ifc, OnlyAPathOverridesUnitAndAxes) {
     const char* const wall = "1WallOfTheTests0000001";
     ReadOptions options;
     options.unit = 1000;
@@ -142,7 +142,7 @@ TEST_F(Ifc, ItsUnitAndAxesAreOverruledByThePathAlone) {
     EXPECT_EQ(scene.unit, 1000);
     EXPECT_NEAR(bounds_of(scene, by_id(scene).at(wall)).upper.x, 4000, 1e-3);
     EXPECT_NEAR(bounds_of(scene, by_id(scene).at(wall)).upper.z, 3000, 1e-3);
-    // Its unit is the millimetre: taken as metres all is 1000 times as large.
+    // The file is in millimetres; taken as metres everything is 1000 times as large.
     const Scene large = read_scene(ModelPath{kFolder + "house_4.ifc", 1});
     EXPECT_NEAR(bounds_of(large, by_id(large).at("4WallOfTheTests0000001")).upper.x, 4000, 1e-3);
 }
@@ -161,7 +161,7 @@ std::string changed(const std::string& file,
 }
 
 TEST_F(Ifc, AProductThatItsOpeningCutsAwayHasANote) {
-    // The hole of 1 x 1 becomes one of 9 x 9 from below the wall on.
+    // The opening of 1 x 1 becomes 9 x 9, from below the wall on.
     const Scene scene = read_scene(folder_.file(
         "gone.ifc", changed("house_2x3.ifc", {{"#101,1.,1.)", "#101,9.,9.)"},
                                               {"#103=IFCCARTESIANPOINT((0.,0.,1.))",
@@ -177,7 +177,7 @@ TEST_F(Ifc, AProductThatItsOpeningCutsAwayHasANote) {
 }
 
 TEST_F(Ifc, AProductThatCannotBeBuiltHasANote) {
-    // The profile of the south wall, which two others show too, has no extent.
+    // The south wall's profile, which two other walls share, gets zero size.
     const Scene scene = read_scene(
         folder_.file("flat.ifc", changed("house_2x3.ifc", {{"#32,4.,0.2)", "#32,0.,0.)"}})));
     EXPECT_EQ(scene.parts.size(), 2U);
@@ -190,7 +190,7 @@ TEST_F(Ifc, AProductThatCannotBeBuiltHasANote) {
 }
 
 TEST_F(Ifc, APartThatLacksOneOfItsShapesHasANote) {
-    // The table's top has no extent.
+    // The table's top gets zero size.
     const Scene scene = read_scene(
         folder_.file("legs.ifc", changed("house_4.ifc", {{"#41,1000.,600.)", "#41,0.,0.)"}})));
     EXPECT_EQ(scene.parts.size(), 3U);
@@ -229,9 +229,9 @@ TEST_F(Ifc, SpacesAndZonesAreLeftOutUnlessAskedFor) {
     expect_box(bounds_of(all, parts.at("4TableOfTheTests000001")), {0.5, 1.7, 0}, {1.5, 2.3, 0.75});
 }
 
-TEST_F(Ifc, TrianglesOfNoAreaCloseTheSurfaceThatTheyAreIn) {
-    // A box of 2 x 1 x 1 m whose lower front edge has a vertex (9) in its middle on one side only: a
-    // triangle without area (1 9 2) joins both sides.
+TEST_F(Ifc, ZeroAreaTrianglesCloseSurfaces) {
+    // A box of 2 x 1 x 1 m. Its lower front edge has a vertex (9) in the middle on one side only; a
+    // zero-area triangle (1 9 2) closes the gap.
     const std::string set =
         "#34=IFCTRIANGULATEDFACESET(#900,$,.T.,((1,3,2),(1,4,3),(5,6,7),(5,7,8),(1,9,5),(9,6,5),"
         "(9,2,6),(1,2,9),(2,3,7),(2,7,6),(3,4,8),(3,8,7),(4,1,5),(4,5,8)),$);\n"
@@ -265,7 +265,7 @@ TEST_F(Ifc, ASolidWhoseSurfaceIsOpenHasANote) {
 }
 
 TEST_F(Ifc, ASiteFarFromTheOriginKeepsItsPrecision) {
-    // Millimetres: the site lies at (155,000.1234, 463,000.5678, 12.5) m.
+    // In millimetres: the site lies at (155,000.1234, 463,000.5678, 12.5) m.
     const Scene scene = read_scene(folder_.file(
         "far.ifc",
         changed("house_4.ifc", {{"#20=IFCLOCALPLACEMENT($,#13);",
@@ -280,9 +280,9 @@ TEST_F(Ifc, ASiteFarFromTheOriginKeepsItsPrecision) {
                {at.x + 2.7, at.y + 1.5, at.z + 1}, {at.x + 3.3, at.y + 2.5, at.z + 1.75});
 }
 
-/// house_4.ifc, which is in millimetres, with a map.
+/// house_4.ifc, which is in millimetres, with a map conversion.
 ///
-/// In          unit: of the map, as a STEP entity or $; numbers: from Eastings on.
+/// In          unit: unit of the map, as a STEP entity or $; numbers: arguments from Eastings on.
 std::string on_map(const std::string& unit, const std::string& numbers) {
     const std::string reference = unit == "$" ? "$" : "#900";
     return changed("house_4.ifc",
@@ -295,7 +295,7 @@ std::string on_map(const std::string& unit, const std::string& numbers) {
 const std::string kMetre = "IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)";
 constexpr const char* kWall = "4WallOfTheTests0000001"; // from (0, 0, 0) to (4, 0.2, 3) m
 
-/// The corners of a box from (0, 0, 0) to this one, turned about z and moved.
+/// The corners of a box from (0, 0, 0) to `size`, rotated about z and moved.
 std::vector<Vec3> placed_box(const Vec3& size, const Vec3& offset, double cosine, double sine) {
     std::vector<Vec3> corners;
     for (const double x : {0.0, size.x})
@@ -306,7 +306,7 @@ std::vector<Vec3> placed_box(const Vec3& size, const Vec3& offset, double cosine
     return corners;
 }
 
-/// Each corner is a vertex of the part, to within a micrometre.
+/// Expects each corner to be a vertex of the part, within a micrometre.
 void expect_corners(const Scene& scene, const Part& part, const std::vector<Vec3>& corners) {
     for (const Vec3& corner : corners) {
         double nearest = 1e300;
@@ -319,7 +319,7 @@ void expect_corners(const Scene& scene, const Part& part, const std::vector<Vec3
 }
 
 TEST_F(Ifc, AProjectLiesOnItsMap) {
-    // Turned by 30 degrees, 5,000 km from the map's origin.
+    // Rotated by 30 degrees, 5,000 km from the map's origin.
     const std::string numbers = "155000.1234,5463000.5678,-1.5,0.8660254037844387,0.5,0.001";
     const std::string file = folder_.file("map.ifc", on_map(kMetre, numbers));
     const Scene scene = read_scene(file);
@@ -333,7 +333,7 @@ TEST_F(Ifc, AProjectLiesOnItsMap) {
     options.map = false;
     const Scene plain = read_scene(file, options);
     expect_box(bounds_of(plain, by_id(plain).at(kWall)), {0, 0, 0}, {4, 0.2, 3});
-    // Only transforms differ.
+    // Only the transforms differ from the file without a map.
     ASSERT_EQ(plain.meshes.size(), scene.meshes.size());
     for (std::size_t i = 0; i < plain.meshes.size(); ++i)
         EXPECT_TRUE(std::equal(plain.meshes[i].positions.begin(), plain.meshes[i].positions.end(),
@@ -342,7 +342,7 @@ TEST_F(Ifc, AProjectLiesOnItsMap) {
                                }));
 }
 
-TEST_F(Ifc, UnitsAndScalesOfAMapAreTakenAsTheyAreMeant) {
+TEST_F(Ifc, UnitsAndScalesOfAMapAreApplied) {
     const std::string foot = "IFCCONVERSIONBASEDUNIT(#910,.LENGTHUNIT.,'FOOT',#911);\n"
                              "#910=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);\n"
                              "#911=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#912);\n#912=" +
@@ -369,7 +369,8 @@ TEST_F(Ifc, UnitsAndScalesOfAMapAreTakenAsTheyAreMeant) {
 }
 
 TEST_F(Ifc, FilesWithDifferentMapConversionsMeet) {
-    // The same wall: of one project at its origin, of the other at (100, 50) m and turned.
+    // The same wall in two projects: at the origin of one, and at (100, 50) m and rotated in the
+    // other.
     const Scene one =
         read_scene(folder_.file("one.ifc", on_map(kMetre, "155000.,5463000.,12.,1.,0.,0.001")));
     std::string text = on_map(kMetre, "154950.,5463100.,2.,6.123233995736766E-17,-1.,0.001");
@@ -381,13 +382,13 @@ TEST_F(Ifc, FilesWithDifferentMapConversionsMeet) {
     const auto others = by_id(other);
     const Part& part = others.at(kWall);
     expect_box(bounds_of(other, part), {155000, 5463000, 12}, {155004, 5463000.2, 15});
-    // A cosine of 6e-17 is none.
+    // A cosine of 6e-17 counts as zero.
     const auto parts = by_id(one);
     const auto& expected = parts.at(kWall).world_from_mesh.m;
     for (std::size_t i = 0; i < 9; ++i)
         EXPECT_NEAR(part.world_from_mesh.m.at(i), expected.at(i), 1e-15);
     for (std::size_t i = 9; i < 12; ++i)
-        EXPECT_NEAR(part.world_from_mesh.m.at(i), expected.at(i), 4e-9); // roundings of 5,000 km
+        EXPECT_NEAR(part.world_from_mesh.m.at(i), expected.at(i), 4e-9); // rounding at 5,000 km
 }
 
 TEST_F(Ifc, TheMapOfIfc2x3IsInPropertySets) {
@@ -404,7 +405,7 @@ TEST_F(Ifc, TheMapOfIfc2x3IsInPropertySets) {
         "#907=IFCPROPERTYSET('0SetOfTheTests00000002',$,'ePSet_ProjectedCRS',$,(#906));\n";
     const Scene scene =
         read_scene(folder_.file("map.ifc", changed("house_2x3.ifc", {{end, sets + end}})));
-    // x becomes y, y becomes -x.
+    // x becomes y, and y becomes -x.
     expect_box(bounds_of(scene, by_id(scene).at("1WallOfTheTests0000001")),
                {155000.3, 5463000.25, 7}, {155000.5, 5463004.25, 10});
 }
@@ -419,7 +420,8 @@ TEST_F(Ifc, AMapThatMakesNoSenseIsRefused) {
         options.map = false;
         EXPECT_EQ(read_scene(file, options).parts.size(), 3U);
     }
-    // Twice the same is no contradiction, and one of a drawing in the plane is none of the project.
+    // The same conversion twice is no contradiction. That of a 2D drawing context does not apply to
+    // the project.
     EXPECT_EQ(read_scene(
                   folder_.file(
                       "map.ifc",
@@ -432,7 +434,7 @@ TEST_F(Ifc, AMapThatMakesNoSenseIsRefused) {
 }
 
 TEST_F(Ifc, AShapeFarFromItsOriginKeepsItsPrecision) {
-    // A tetrahedron whose coordinates themselves are those of a map, in millimetres.
+    // A tetrahedron whose own coordinates are map coordinates in millimetres.
     const std::string set =
         "#34=IFCTRIANGULATEDFACESET(#900,$,.T.,((1,3,2),(1,2,4),(2,3,4),(3,1,4)),$);\n"
         "#900=IFCCARTESIANPOINTLIST3D(((155000000.123,463000000.456,12000.),(155002000.123,"
@@ -473,11 +475,11 @@ TEST_F(Ifc, ItsReaderIsIsolatedToo) {
         EXPECT_TRUE(contains(error_of(file, ErrorCode::reader_failed, options), "stopped"));
     }
     ReadOptions options;
-    options.memory_limit = std::uint64_t{20} << 20; // less than Node.js itself takes
+    options.memory_limit = std::uint64_t{20} << 20; // less than Node.js itself needs
     EXPECT_TRUE(contains(error_of(file, ErrorCode::reader_failed, options), "memory"));
 }
 
-TEST(IfcWithout, NodeOrWebIfcTheErrorSaysWhatToDo) {
+TEST(IfcConverter, AMissingConverterIsExplained) {
     const TemporaryFolder folder;
     const std::string file = kFolder + "house_4.ifc";
     std::filesystem::create_directories(folder.path("converter/node_modules/web-ifc"));

@@ -1,4 +1,4 @@
-// A reader that crashes, hangs, lies or eats memory becomes an error that names the file.
+// A reader that crashes, hangs, lies or takes too much memory gives an error that names the file.
 
 #include "io/process/scene_stream.h"
 #include "tests/io/sample_files.h"
@@ -22,7 +22,7 @@ protected:
         const Environment reader("ABUT_READER", folder_.script("reader", script));
         return error_of(model_, code, options);
     }
-    /// A reader that hands over these bytes.
+    /// A reader that returns these bytes.
     std::string fail_with_stream(const std::string& bytes, ErrorCode code) {
         return fail_with("cat '" + folder_.file("stream", bytes) + "' >&3\n", code);
     }
@@ -50,17 +50,17 @@ TEST_F(Isolation, AHangIsStopped) {
     options.time_limit = 0.25;
     EXPECT_TRUE(
         contains(fail_with("sleep 1000\n", ErrorCode::reader_failed, options), "after 0.25 s"));
-    // Nor does a reader that deafens itself, or one that closes everything.
+    // A reader that ignores signals is stopped too, and one that closes its outputs.
     fail_with("trap '' TERM INT HUP\nwhile :; do sleep 1000; done\n", ErrorCode::reader_failed,
               options);
     fail_with("exec 3>&- 4>&-\nsleep 1000\n", ErrorCode::reader_failed, options);
 }
 
-TEST_F(Isolation, WhatAReaderLeavesBehindIsGone) {
+TEST_F(Isolation, ChildrenOfAReaderAreKilled) {
     const std::string note = folder_.path("pid");
     fail_with("sleep 1000 & echo $! > '" + note + "'\nexit 0\n", ErrorCode::reader_failed);
     const int left = std::stoi(read_bytes(note));
-    // It belongs to another parent now; give that one a moment to reap it.
+    // The process now has another parent; give that one time to reap it.
     bool gone = false;
     for (int i = 0; i < 3000 && !gone; ++i) {
         const std::string status = read_bytes("/proc/" + std::to_string(left) + "/stat");
@@ -70,7 +70,7 @@ TEST_F(Isolation, WhatAReaderLeavesBehindIsGone) {
     EXPECT_TRUE(gone);
 }
 
-TEST_F(Isolation, AStopIsHeeded) {
+TEST_F(Isolation, AStopFlagEndsReading) {
     std::atomic<bool> stop = false;
     ReadOptions options;
     options.progress.stop = &stop;
@@ -79,7 +79,7 @@ TEST_F(Isolation, AStopIsHeeded) {
         stop = true;
     });
     fail_with("sleep 1000\n", ErrorCode::interrupted, options);
-    error_of(model_, ErrorCode::interrupted, options); // before anything begins, too
+    error_of(model_, ErrorCode::interrupted, options); // also before anything begins
 }
 
 TEST_F(Isolation, NoResultAndDamagedResults) {
@@ -90,7 +90,7 @@ TEST_F(Isolation, NoResultAndDamagedResults) {
     fail_with("echo chatter\necho more >&2\nexit 0\n", ErrorCode::reader_failed);
 }
 
-/// What abut-reader gives for the sample.
+/// The output of abut-reader for the sample.
 std::string sound_stream(const TemporaryFolder& folder, const std::string& model) {
     const std::string copy = folder.path("copy");
     const std::string reader = std::string(ABUT_BINARY_DIR) + "/bin/abut-reader";
@@ -101,7 +101,7 @@ std::string sound_stream(const TemporaryFolder& folder, const std::string& model
     return read_bytes(copy);
 }
 
-TEST_F(Isolation, NoPrefixAndNoSuffixOfAStreamIsTaken) {
+TEST_F(Isolation, PrefixesAndSuffixesOfAStreamAreRefused) {
     const std::string stream = sound_stream(folder_, model_);
     ASSERT_GT(stream.size(), 200U);
     for (std::size_t size = 0; size < stream.size(); size += 7)
@@ -123,7 +123,7 @@ TEST_F(Isolation, CountsAndIndicesOfAStreamAreNotTrusted) {
         fail_with_stream(changed(count, std::uint64_t{1} << 62), ErrorCode::reader_failed);
         fail_with_stream(changed(count, ~std::uint64_t{0}), ErrorCode::reader_failed);
     }
-    // Of the frame: the unit, the scale, what points up; then the number of notes.
+    // The frame's unit, scale and up axis, then the number of notes.
     for (const double value : {-1.0, std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::quiet_NaN()}) {
         fail_with_stream(changed(32, value), ErrorCode::reader_failed);
@@ -162,7 +162,7 @@ TEST_F(Isolation, AnErrorThatAReaderReportsIsPassedOnAsOneLine) {
 }
 
 TEST_F(Isolation, MemoryIsLimited) {
-    // A million triangles need some 300 MB.
+    // A million triangles take about 300 MB.
     constexpr int kTriangles = 1'000'000;
     std::string indices;
     for (int i = 0; i < kTriangles; ++i)
@@ -177,7 +177,7 @@ TEST_F(Isolation, MemoryIsLimited) {
     options.memory_limit = std::uint64_t{100} << 20;
     EXPECT_TRUE(contains(error_of(large, ErrorCode::reader_failed, options), "memory"));
     EXPECT_EQ(read_scene(model_, options).parts.size(), 1U);
-    // A program that sets itself no limit is watched.
+    // A program that does not limit itself is watched from outside.
     options.memory_limit = std::uint64_t{50} << 20;
     options.time_limit = 60;
     EXPECT_TRUE(
@@ -207,7 +207,7 @@ TEST_F(Isolation, ChildrenAreReapedAndNoDescriptorIsLeftOpen) {
         (void)read_scenes({model_, model_, model_});
     fail_with("kill -SEGV $$\n", ErrorCode::reader_failed);
     EXPECT_EQ(open_files(), before);
-    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1); // no child at all
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1); // no child is left
     rusage usage{};
     getrusage(RUSAGE_CHILDREN, &usage);
     EXPECT_GT(usage.ru_maxrss, 1000); // the reader's peak is known

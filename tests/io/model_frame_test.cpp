@@ -1,4 +1,4 @@
-// Units and axes: what a path may say of them, quarter turns, and how scenes come together.
+// Units and axes: suffixes of a path, quarter turns, and scenes in a common frame.
 
 #include "io/scene/model_frame.h"
 #include "math/transform.h"
@@ -34,7 +34,7 @@ TEST(ModelPath, MayEndWithAUnitAndAxes) {
                                                                   {"yd", 0.9144},
                                                                   {"1e-3", 0.001}})
         expect_path(parse_model_path("none.stl:" + word), "none.stl", unit, std::nullopt);
-    // A word that is neither a unit nor an axis is part of the name.
+    // A suffix that is neither a unit nor an axis is part of the name.
     for (const char* const name : {"none.stl:miles", "none.stl:0", "none.stl:-1", "none.stl:inf",
                                    "none.stl:nan", "none.stl:w-up", "none.stl:"})
         expect_path(parse_model_path(name), name, 0, std::nullopt);
@@ -42,7 +42,7 @@ TEST(ModelPath, MayEndWithAUnitAndAxes) {
     expect_path(parse_model_path(":mm"), ":mm", 0, std::nullopt);
 }
 
-TEST(ModelPath, IsAFileThatIsThereWhateverItsName) {
+TEST(ModelPath, IsAnExistingFileWhateverItsName) {
     const TemporaryFolder folder;
     const std::string odd = folder.file("odd:mm", "x"), plain = folder.file("plain.stl", "x");
     expect_path(parse_model_path(odd), odd, 0, std::nullopt);
@@ -53,7 +53,7 @@ TEST(ModelPath, IsAFileThatIsThereWhateverItsName) {
 }
 
 TEST(ModelFrame, TurnsAreThoseOfColladaAndExact) {
-    // The same three directions, right, up and towards the viewer, in each frame.
+    // The directions right, up and towards the viewer in each frame.
     const std::map<UpAxis, std::array<Vec3, 3>> directions{
         {UpAxis::x, {Vec3{0, -1, 0}, Vec3{1, 0, 0}, Vec3{0, 0, 1}}},
         {UpAxis::y, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}},
@@ -123,7 +123,7 @@ TEST(ModelFrame, ScenesComeIntoTheFrameOfTheFirst) {
     EXPECT_EQ(to_mesh(other[1]).positions.size(), 4U);
 }
 
-TEST(ModelFrame, WhatIsWrittenAsGlbIsReadBackIntoTheSameTransforms) {
+TEST(ModelFrame, WritingAsGlbKeepsTransforms) {
     const TemporaryFolder folder;
     for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
         Scene scene;

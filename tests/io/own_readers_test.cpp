@@ -1,5 +1,5 @@
-// The readers of our own run in the caller's process: they need no helper, heed limits and requests
-// to stop there, and take no more memory than the file justifies.
+// Our own readers run in the caller's process. They need no helper program, obey limits and stop
+// requests, and take no more memory than the file justifies.
 
 #include "io/scene/scene_source.h"
 #include "tests/io/sample_files.h"
@@ -15,7 +15,7 @@ const std::vector<std::string> kOwnFormats{"sample.obj", "sample.off", "text.stl
 
 class OwnReaders : public testing::Test {
 protected:
-    /// A file of 4 * count triangles in one of our own formats that holds text.
+    /// A file of 4 * count triangles.
     std::string large_obj(int count) {
         std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         for (int i = 0; i < count; ++i)
@@ -49,7 +49,7 @@ TEST_F(OwnReaders, MaterialLibrariesOutsideOfTheFolderAreRefused) {
     SourceOptions in_pieces;
     in_pieces.folder = folder_.path("");
     in_pieces.memory = std::uint64_t{1} << 20;
-    // The second is read in pieces too: one part, whose vertices come before its faces.
+    // The second file can be streamed: one part, with its vertices before its faces.
     for (const std::string& content : {text, std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")}) {
         for (const std::string library : {"a.mtl", "sub/my materials.mtl", "./a.mtl b.mtl", ""}) {
             const std::string path = folder_.file(
@@ -80,14 +80,14 @@ TEST_F(OwnReaders, StopOnRequestWhileTheyRead) {
     std::atomic<bool> stop = false;
     ReadOptions options;
     options.progress.stop = &stop;
-    // The request comes when the first of two files has been read.
+    // The stop is requested by the first report above 0.
     options.progress.report = [&](std::string_view, double fraction) { stop = fraction > 0; };
     const std::string small = folder_.file("small.obj", samples_.at("sample.obj"));
     EXPECT_THROW((void)read_scenes({path, small, path}, options), Error);
 }
 
 TEST_F(OwnReaders, TakeNoMoreMemoryThanTheyMay) {
-    const std::string path = large_obj(500'000); // some 100 MB in memory
+    const std::string path = large_obj(500'000); // about 100 MB in memory
     ReadOptions options;
     options.memory_limit = std::uint64_t{50} << 20;
     const std::string text = error_of(path, ErrorCode::reader_failed, options);
@@ -97,7 +97,7 @@ TEST_F(OwnReaders, TakeNoMoreMemoryThanTheyMay) {
 }
 
 TEST_F(OwnReaders, AGlbFileThatAsksForMoreMemoryThanThereIs) {
-    // One large buffer that a hundred thousand meshes use: 30 MB on the disk, terabytes in memory.
+    // One large buffer used by a hundred thousand meshes: 30 MB on disk, terabytes in memory.
     constexpr std::size_t kVertices = 1 << 20, kMeshes = 100'000;
     nlohmann::json document = tetrahedron_document(nlohmann::json::array(), {});
     document["accessors"][0]["count"] = kVertices;
@@ -134,7 +134,7 @@ TEST_F(OwnReaders, PartsOfAnObjFile) {
     const std::vector<std::pair<std::string, std::size_t>> expected{
         {"defaultobject", 1}, {"Pump 1", 1}, {"casing", 2}, {"bolts", 2}, {"Pump 1#2", 2}};
     EXPECT_EQ(found, expected);
-    // A mesh has the vertices of its own faces, in the order of their first use.
+    // A mesh has the vertices of its own faces, in the order of first use.
     const std::vector<Vec3> casing{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     EXPECT_EQ(scene.meshes[2].positions, casing);
 }

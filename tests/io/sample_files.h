@@ -9,7 +9,7 @@ namespace abut::test {
 /// both.
 std::map<std::string, std::string> sample_files();
 
-/// A unit cube of six quads as ASCII FBX, whose unit is a metre (100 cm).
+/// A unit cube of six quads as ASCII FBX with a unit of one metre (100 cm).
 std::string cube_fbx();
 
 } // namespace abut::test

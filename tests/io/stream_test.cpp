@@ -1,4 +1,4 @@
-// The streaming readers give the scene that read_scene gives, bit for bit; what they do not know is
+// Streaming readers give the scene of read_scene, bit for bit. Files that they do not support are
 // read whole.
 
 #include "io/scene/scene_source.h"
@@ -31,7 +31,7 @@ class Stream : public testing::Test {
 protected:
     void expect_same(const std::string& path, Way way, double unit = 0) {
         SCOPED_TRACE(path);
-        SourceOptions options; // as one temporary, GCC 12 takes a part of it to be uninitialised
+        SourceOptions options; // not one temporary: GCC 12 would warn that a part is uninitialised
         options.read.unit = unit;
         options.folder = folder_.path("");
         options.memory = std::uint64_t{1} << 20;
@@ -86,7 +86,7 @@ TEST_F(Stream, NodesOfAGlbFile) {
                tetrahedron_bytes(), Way::streamed);
 }
 
-TEST_F(Stream, WhatAGlbFileMayHold) {
+TEST_F(Stream, ContentsOfAGlbFile) {
     const json plain = tetrahedron_document({{{"name", "a"}, {"mesh", 0}}}, {0});
     const auto change = [&](const auto& how) {
         json document = plain;
@@ -96,12 +96,12 @@ TEST_F(Stream, WhatAGlbFileMayHold) {
     const auto expect = [&](Way way, const auto& how) {
         expect_glb(change(how), tetrahedron_bytes(), way);
     };
-    // No indices: four vertices are no triangles, so take the corners from the index bytes' place.
+    // Without indices, four vertices are no list of triangles, so the count is 3.
     expect(Way::streamed, [](json& d) {
         d["accessors"][0]["count"] = 3;
         d["meshes"][0]["primitives"][0].erase("indices");
     });
-    expect(Way::streamed, [](json& d) { // twice the same triangles
+    expect(Way::streamed, [](json& d) { // the same triangles twice
         d["meshes"][0]["primitives"].push_back(d["meshes"][0]["primitives"][0]);
     });
     expect(Way::streamed, [](json& d) { // the second mesh is used first
@@ -117,7 +117,7 @@ TEST_F(Stream, WhatAGlbFileMayHold) {
     expect(Way::streamed, [](json& d) { d["meshes"][0]["primitives"][0]["mode"] = 5; });
     expect(Way::streamed, [](json& d) { d.erase("scene"); });
     expect(Way::streamed, [](json& d) { d["nodes"][0]["name"] = "<" + std::string(2000, 'n'); });
-    expect(Way::streamed, [](json& d) { // in its rest pose
+    expect(Way::streamed, [](json& d) { // the skin is read in its rest pose
         d["skins"] = {{{"joints", {0}}}};
         d["nodes"][0]["skin"] = 0;
     });
@@ -128,7 +128,7 @@ TEST_F(Stream, ShortIndicesAndStrides) {
         std::string binary;
         for (const auto& corner : kCorners) {
             append(binary, corner);
-            append(binary, std::array<float, 2>{7, 7}); // something else between the positions
+            append(binary, std::array<float, 2>{7, 7}); // other data between the positions
         }
         for (const auto& face : kFaces)
             for (const std::uint32_t index : face)
@@ -146,7 +146,7 @@ TEST_F(Stream, ShortIndicesAndStrides) {
     }
 }
 
-/// Files that read_scene refuses are refused here with the same code.
+/// Files that read_scene refuses are refused with the same code.
 TEST_F(Stream, RefusesWhatReadSceneRefuses) {
     const json plain = tetrahedron_document({{{"name", "a"}, {"mesh", 0}}}, {0});
     std::size_t refused = 0;
@@ -244,7 +244,7 @@ TEST_F(Stream, ObjFilesOfAllKinds) {
         }
         text += "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\n"; // one that has an area
         if (random.chance(0.5))
-            text.pop_back(); // no end of the last line
+            text.pop_back(); // without the last line end
         expect_same(folder_.file("model.obj", text), Way::streamed);
         if (HasFailure()) {
             std::cout << text;
@@ -330,7 +330,7 @@ TEST_F(Stream, BinaryPlyFiles) {
             wide ? "float" : "float32", faces + 1, wide ? "ushort" : "int", wide ? "ex" : "ices");
         for (int i = 0; i < vertices; ++i)
             for (int axis = 0; axis < 3; ++axis) {
-                // The first three make a triangle of some area.
+                // The first three vertices form a triangle with an area.
                 const double value =
                     i < 3 ? (i == axis ? 1 : 0) : random.integer(-9, 9) * random.uniform(0.9, 1);
                 if (wide && axis < 2)

@@ -19,7 +19,7 @@
 
 namespace abut::test {
 
-/// A folder that is gone after the test.
+/// A temporary folder, removed after the test.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
@@ -33,7 +33,7 @@ public:
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-    /// Writes a file and gives its path.
+    /// Writes a file and returns its path.
     [[nodiscard]] std::string file(const std::string& name, const std::string& content) const {
         std::ofstream(path_ / name, std::ios::binary) << content;
         return path_ / name;
@@ -49,7 +49,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// While it lives, a process of root opens files as nobody, whom permissions bind.
+/// While it lives, a process of root opens files as nobody, because permissions do not bind root.
 class AsNobody {
 public:
     AsNobody() {
@@ -66,7 +66,7 @@ public:
     AsNobody& operator=(const AsNobody&) = delete;
 };
 
-/// An environment variable for the length of a test.
+/// Sets an environment variable while it lives.
 class Environment {
 public:
     Environment(const char* name, const std::string& value) : name_(name) {
@@ -93,8 +93,8 @@ inline std::string read_bytes(const std::string& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The error that an action on a file throws: its code is checked, it is one line and begins with
-/// the file's name.
+/// Expects an action on a file to throw an error with this code, on one line that begins with the
+/// file's name. Returns the message.
 inline std::string error_of(const std::string& path, ErrorCode code,
                             const std::function<void()>& action) {
     try {
@@ -113,7 +113,7 @@ inline std::string error_of(const std::string& path, ErrorCode code,
     return "";
 }
 
-/// The error that reading a scene throws.
+/// Expects read_scene to throw an error with this code. Returns the message.
 inline std::string error_of(const std::string& path, ErrorCode code,
                             const ReadOptions& options = {}) {
     return error_of(path, code, [&] { (void)read_scene(path, options); });
@@ -139,7 +139,7 @@ inline std::string glb(const nlohmann::json& document, std::string binary) {
     return bytes;
 }
 
-/// A tetrahedron: what every format's test holds.
+/// The tetrahedron that the sample of every format contains.
 inline constexpr std::array<std::array<float, 3>, 4> kCorners{
     {{0, 0, 0}, {1.25F, 0, 0}, {0, 2.5F, 0}, {0, 0, 0.1F}}};
 inline constexpr std::array<std::array<std::uint32_t, 3>, 4> kFaces{
@@ -153,7 +153,8 @@ inline std::string tetrahedron_bytes() {
     return bytes;
 }
 
-/// glTF of `nodes` that may use mesh 0, the tetrahedron; its buffer lies in the GLB file.
+/// A glTF document of `nodes` that may use mesh 0, the tetrahedron, whose buffer is the GLB's
+/// binary chunk.
 inline nlohmann::json tetrahedron_document(const nlohmann::json& nodes,
                                            const nlohmann::json& roots) {
     using nlohmann::json;

@@ -1,5 +1,5 @@
 // Text files as other programs write them: with byte-order marks, line ends of all systems, and
-// numbers that are none. What is meant is read; what cannot be is refused, with its line.
+// invalid numbers. Faulty lines are refused by their number.
 
 #include <abut/elementary_impact.h>
 #include <abut/frame.h>
@@ -43,11 +43,11 @@ protected:
     const std::vector<std::string> texts_{"sample.obj", "sample.off", "text.stl", "text.ply"};
 };
 
-TEST_F(Text, AByteOrderMarkIsPassedOver) {
+TEST_F(Text, AByteOrderMarkIsSkipped) {
     for (const std::string& name : texts_)
         expect_read(name, kMark + samples_.at(name));
     expect_read("little.ply", kMark + samples_.at("little.ply"));
-    // The first line counts: this one was lost, and all indices moved by one.
+    // The mark must not hide the first line, or all indices would shift by one.
     const Mesh mesh = read_mesh(
         folder_.file("first.obj", kMark + "v 5 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"));
     EXPECT_EQ(mesh.positions.at(0), (Vec3{5, 0, 0}));
@@ -57,7 +57,7 @@ TEST_F(Text, LinesEndAsOnAnySystem) {
     for (const std::string& name : texts_)
         for (const char* const end : {"\r\n", "\r"})
             expect_read(name, replaced_all(samples_.at(name), "\n", end));
-    // Put together from files of several systems.
+    // Files joined from files of several systems.
     const std::string obj = samples_.at("sample.obj");
     const std::size_t middle = obj.find("\nf ") + 1;
     for (const char* const first : {"\n", "\r\n", "\r"})
@@ -66,7 +66,7 @@ TEST_F(Text, LinesEndAsOnAnySystem) {
                                           replaced_all(obj.substr(middle), "\n", second));
 }
 
-TEST_F(Text, BlanksOfAllKindsPartWords) {
+TEST_F(Text, BlanksOfAllKindsSeparateWords) {
     for (const std::string& name : {std::string("sample.off"), std::string("text.ply")}) {
         const std::size_t body = samples_.at(name).find("0 0 0");
         for (const char* const blank : {"\t", "  ", "\f", " \v "})
@@ -95,14 +95,14 @@ TEST_F(Text, OtherEncodingsAreRefused) {
     for (const std::string& name : texts_) {
         refuse(name, utf_16(samples_.at(name)), "UTF-16");
         std::string bytes = samples_.at(name);
-        // As after a crash of the machine that wrote it.
+        // Zero bytes at the end, as after a crash of the machine that wrote the file.
         std::fill(bytes.end() - 20, bytes.end(), '\0');
         error_of(folder_.file(name, bytes), ErrorCode::malformed);
     }
     refuse("sample.obj", utf_16(samples_.at("sample.obj")).substr(2), "zero bytes");
 }
 
-TEST_F(Text, NumbersThatAreNoneAreRefusedWithTheirLine) {
+TEST_F(Text, InvalidNumbersAreRefusedWithTheirLine) {
     for (const char* const word :
          {"1,25", "1.25D0", "1.25d+0", "1.2.5", "0x1", "1.25f", "1e", "--1"}) {
         refuse("sample.obj", replaced_all(samples_.at("sample.obj"), "1.25", word), "line 3");

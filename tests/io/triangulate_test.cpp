@@ -1,5 +1,5 @@
-// Polygons of all kinds are cut into n - 2 triangles that turn as they do and have their area, with
-// work that grows little faster than the number of corners.
+// Polygons of all kinds are cut into n - 2 triangles with the polygon's orientation and area. The
+// work grows little faster than the number of corners.
 
 #include "io/polygon/triangulate.h"
 #include "tests/support/random.h"
@@ -14,7 +14,7 @@
 namespace abut::test {
 namespace {
 
-/// Corners on a grid of integers, so that areas are exact.
+/// Integer grid points, so that areas are exact.
 struct GridPoint {
     double x = 0, y = 0, z = 0;
 };
@@ -49,8 +49,8 @@ Cut cut(const Outline& outline) {
     return result;
 }
 
-/// Each triangle turns as the polygon does or is flat, and their areas add up to its own: as the
-/// polygon covers no point twice, neither do they.
+/// Expects no triangle to be oriented against the polygon, and the areas to add up to the
+/// polygon's. The polygon covers no point twice, so neither do the triangles.
 Cut expect_tiled(const Outline& outline, const std::string& what) {
     SCOPED_TRACE(what);
     Cut result = cut(outline);
@@ -71,7 +71,7 @@ Cut expect_tiled(const Outline& outline, const std::string& what) {
     return result;
 }
 
-/// A bounded number of visits a corner and level of the tree; n^2 would be 30 times as many.
+/// Expects O(n log n) visits; n^2 would be 30 times as many.
 void expect_little_work(const Outline& outline, const std::string& what) {
     const Cut result = expect_tiled(outline, what);
     const double n = static_cast<double>(outline.size());
@@ -84,8 +84,8 @@ Outline reversed(Outline outline) {
     return outline;
 }
 
-/// Points around the origin in the order of their angles, at changing distances, on a grid. No two
-/// neighbours are half a turn apart, so that no edge passes the origin on the wrong side.
+/// Grid points around the origin, sorted by angle, at varying distances. No two neighbours are half
+/// a turn apart, so that no edge passes the origin on the wrong side.
 Outline star(Random& random, std::size_t corners, int near, int far) {
     Outline outline{{double(far), 0}, {0, double(far)}, {-double(far), 0}, {0, -double(far)}};
     while (outline.size() < corners) {
@@ -119,7 +119,7 @@ Outline comb(std::size_t teeth, int slant) {
     return reversed(outline);
 }
 
-/// A corridor of width 1 that winds inwards.
+/// A corridor of width 1 that spirals inwards.
 Outline spiral(int turns) {
     Outline outward, inward;
     for (int i = 0; i < turns; ++i) {
@@ -134,7 +134,7 @@ Outline spiral(int turns) {
     return reversed(outline);
 }
 
-/// A square with holes, each joined to its left side by a slit there and back.
+/// A square with holes, each joined to its left side by a slit.
 Outline keyholes(int rows) {
     Outline outline{{0, 0, 0}, {100, 0, 0}, {100, 10.0 * rows, 0}, {0, 10.0 * rows, 0}};
     for (int i = rows; i-- > 0;) {
@@ -186,7 +186,7 @@ TEST(Triangulate, SmallPolygons) {
 }
 
 TEST(Triangulate, AreaIsKeptInEveryPlane) {
-    // A notch, seen from all sides; one that is not quite plane keeps the area of what is seen.
+    // A notched polygon seen from all sides. One that is not quite planar keeps its projected area.
     for (unsigned axis = 0; axis < 3; ++axis)
         for (const double sign : {1.0, -1.0}) {
             const Outline flat{{0, 0}, {6, 0}, {6, 6}, {3, 2}, {0, 6}};
@@ -231,7 +231,7 @@ TEST(Triangulate, RandomPolygonsAreTiled) {
     Random random(seed);
     std::size_t with_touching = 0;
     for (int round = 0; round < many(2000); ++round) {
-        // Few grid points: corners repeat, lie on lines and touch.
+        // Few grid points make corners repeat, lie on lines and touch.
         Outline outline = star(random, static_cast<std::size_t>(random.integer(5, 40)), 2, 12);
         std::set<std::pair<double, double>> distinct;
         for (const GridPoint& p : outline)

@@ -1,4 +1,4 @@
-// Models in ZIP archives: 3MF, and IFC as ifcZIP. And archives that promise what they do not hold.
+// Models in ZIP archives: 3MF and ifcZIP, and archives with false sizes.
 
 #include "tests/io/support.h"
 #include "tests/support/paths.h"
@@ -38,7 +38,7 @@ std::string zip(const std::vector<Entry>& entries, bool packs = true) {
             crc32(0, reinterpret_cast<const Bytef*>(entry.content.data()),
                   static_cast<uInt>(entry.content.size())));
         const auto at = static_cast<std::uint32_t>(bytes.size());
-        std::string facts; // the same in both records
+        std::string facts; // equal in both records
         append(facts, std::array<std::uint16_t, 5>{20, 0, std::uint16_t(packs ? 8 : 0), 0, 0});
         append(facts, checksum);
         append(facts, static_cast<std::uint32_t>(packed.size()));
@@ -116,7 +116,7 @@ TEST_F(Zip, A3mfFileHasAUnitComponentsAndBuildItems) {
         EXPECT_NE(scene.parts[0].id, scene.parts[1].id);
         const auto triangles = world_triangles(scene);
         ASSERT_EQ(triangles.size(), 12U);
-        // Corner 1, (1.25, 0, 0): the pair is turned by x to y, y to -x, then moved.
+        // Corner 1, (1.25, 0, 0): the pair is rotated by x to y and y to -x, then moved.
         const auto expect_near = [unit = metres](const Vec3& found, const Vec3& expected) {
             EXPECT_NEAR(found.x, expected.x * unit, 1e-6 * unit);
             EXPECT_NEAR(found.y, expected.y * unit, 1e-6 * unit);
@@ -139,10 +139,10 @@ TEST_F(Zip, A3mfFileThatIsDamaged) {
     refuse(file_3mf("no xml"));
     refuse(zip({{"3D/3dmodel.model", model_3mf("")}})); // without relationships
     refuse(zip({{"_rels/.rels", kRelations}}));         // without the model
-    // 4 GB promised, and a gigabyte of blanks that is there.
+    // The entry claims 4 GB.
     EXPECT_NE(refuse(zip({{"_rels/.rels", kRelations},
                           {"3D/3dmodel.model", model_3mf(""), 4'000'000'000U}}))
-                  .find("promises"),
+                  .find("claims"),
               std::string::npos);
     std::string damaged = whole;
     damaged[whole.find("3D/3dmodel.model") + 200] ^= 0x55;
@@ -153,7 +153,7 @@ TEST_F(Zip, A3mfFileThatIsDamaged) {
     }
 }
 
-TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrTurnInACircle) {
+TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrFormACycle) {
     const auto model = [](const std::string& components, const std::string& item) {
         std::string text = model_3mf("");
         text.insert(text.find("</resources>"), components);
@@ -162,7 +162,7 @@ TEST_F(Zip, A3mfFileWhoseComponentsMultiplyOrTurnInACircle) {
     const auto refuse = [&](const std::string& text) {
         return error_of(folder_.file("bad.3mf", file_3mf(text)), ErrorCode::malformed);
     };
-    // Ten of each object in the next one: two thousand millions of parts.
+    // Each object contains the one before ten times: 2 * 10^9 parts in all.
     std::string tower;
     for (int id = 3; id <= 11; ++id) {
         tower += "<object id=\"" + std::to_string(id) + "\"><components>";
@@ -195,7 +195,7 @@ protected:
     std::string text_ = read_bytes(std::string(ABUT_SOURCE_DIR) + "/tests/io/house_4.ifc");
 };
 
-TEST_F(IfcZip, IsTheFileWithinIt) {
+TEST_F(IfcZip, EqualsTheFileInTheArchive) {
     for (const bool packs : {true, false}) {
         const Scene scene = read_scene(folder_.file(
             "house.ifczip",
@@ -209,7 +209,7 @@ TEST_F(IfcZip, IsTheFileWithinIt) {
     }
 }
 
-TEST_F(IfcZip, ThatIsDamagedIsRefused) {
+TEST_F(IfcZip, DamagedArchivesAreRefused) {
     const std::string whole = zip({{"house.ifc", text_}});
     const auto refuse = [&](const std::string& bytes) {
         return error_of(folder_.file("bad.ifczip", bytes), ErrorCode::malformed);
@@ -218,7 +218,7 @@ TEST_F(IfcZip, ThatIsDamagedIsRefused) {
         refuse(whole.substr(0, size));
     refuse(zip({{"a.ifc", text_}, {"b.ifc", text_}}));
     refuse(zip({{"a.txt", text_}}));
-    EXPECT_NE(refuse(zip({{"a.ifc", text_, 4'000'000'000U}})).find("promises"), std::string::npos);
+    EXPECT_NE(refuse(zip({{"a.ifc", text_, 4'000'000'000U}})).find("claims"), std::string::npos);
     refuse(zip({{"a.ifc", text_, static_cast<std::uint32_t>(text_.size() - 1)}}));
     std::string damaged = whole;
     damaged[whole.size() / 3] ^= 0x55;

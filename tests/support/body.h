@@ -31,8 +31,9 @@ struct Outcome {
 inline Outcome meeting(const Body& a, const Body& b, const DepthSearch& options = {}) {
     Outcome m;
     Counters counters;
-    m.contacts = find_contacts(PlacedPair(a.model, a.placed.world(), b.model, b.placed.world()),
-                               ContactMode::all, counters);
+    m.contacts = find_contacts(
+        PlacedPair(a.model, a.placed.model().world(), b.model, b.placed.model().world()),
+        ContactMode::all, counters);
     if (m.contacts.empty())
         return m;
     m.go_in = examine_meeting(a.placed, b.placed, m.contacts).interpenetrate;

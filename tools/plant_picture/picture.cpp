@@ -1,5 +1,5 @@
-/// Draws a procedural plant as a binary PPM on standard output: a z-buffer, a sun with its shadow,
-/// two by two samples a pixel. A picture for the README, not a viewer.
+/// Draws a procedural plant as a binary PPM on standard output, with a z-buffer, a sun with its
+/// shadow, and four samples for each pixel. It makes a picture for the README and is not a viewer.
 #include "scenes/plant/plant.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct Triangle {
     Vec3 colour;
 };
 
-/// Right, up and forward of someone who looks along `forward`.
+/// The directions right, up and forward of a viewer who looks along `forward`.
 struct View {
     explicit View(const Vec3& direction)
         : forward(unit(direction)), right(unit(cross(forward, {0, 1, 0}))),
@@ -49,7 +49,7 @@ struct View {
     }
 };
 
-/// A square or oblong of depths; larger is nearer.
+/// A rectangular depth buffer; larger values are nearer.
 struct Depths {
     Depths(int w, int h, float far)
         : width(w), height(h), at(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), far) {}
@@ -61,7 +61,7 @@ struct Depths {
     }
 };
 
-/// Visits the pixels of a triangle that are nearer than what is there.
+/// Visits the pixels of a triangle where it is nearer than the current depth.
 template <class Visit>
 void draw(Depths& depths, const std::array<Vec3, 3>& q, Visit visit) {
     const double area =
@@ -157,8 +157,8 @@ int main() {
         }
         const Vec3 normal = cross(t.p[1] - t.p[0], t.p[2] - t.p[0]);
         if (nearest < 0.5 || dot(normal, normal) == 0) {
-            continue; // the eye stands clear of the plant: nothing needs clipping but the ground
-                      // behind it
+            continue; // the eye is outside the plant, so only ground behind the eye needs
+                      // clipping
         }
         const Vec3 n = unit(normal) * (dot(normal, eye - t.p[0]) < 0 ? -1 : 1);
         draw(depths, q, [&](int x, int y, double inverse) {

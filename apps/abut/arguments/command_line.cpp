@@ -55,7 +55,7 @@ std::size_t words_of_option(const std::vector<OptionFacts>& options, const Words
     return apart ? 2 : 1;
 }
 
-/// Whether all words before `end` are options of the verb with their values.
+/// Returns whether all words before `end` are options of the verb with their values.
 bool are_options(const CLI::App& verb, const Words& words, std::size_t end) {
     const std::vector<OptionFacts> options = all_options(verb);
     std::size_t at = 0;

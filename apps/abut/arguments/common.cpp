@@ -42,28 +42,29 @@ CLI::App* add_subcommand(CLI::App& root, CommonOptions& common, const VerbHelp& 
     app->formatter(root.get_formatter());
     const auto group = [](CLI::Option* option) { option->group(kCommonGroup); };
     group(app->add_flag("--json", common.json, "Print one JSON object on standard output"));
-    group(app->add_option("--threads", common.threads, "Threads to use (default 0: all)")
+    group(app->add_option("--threads", common.threads, "Number of threads (default 0: all)")
               ->check(whole_number(0, kMostThreads)));
     group(app->add_flag("--quiet", common.quiet,
-                        "Print nothing but errors (and the JSON, if asked for)"));
+                        "Print only errors (and the JSON object of --json)"));
     group(app->add_flag("--progress", common.progress,
-                        "Report each stage on standard error even if that is no terminal"));
+                        "Report each stage on standard error, even if it is not a terminal"));
     return app;
 }
 
 void add_read_options(CLI::App& app, ReadOptions& options) {
     constexpr std::array<Named<UpAxis>, 3> kAxes{
         {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}}};
-    app.add_option("--unit", options.unit,
-                   "Metres per unit of files whose format has none: OBJ, OFF, PLY, STL (default 1)")
+    app.add_option(
+           "--unit", options.unit,
+           "Metres per unit for files whose format defines no unit: OBJ, OFF, PLY, STL (default 1)")
         ->check(positive());
-    add_choice(app, "--up", options.up, kAxes,
-               "Axis that points up in files whose format does not say it");
-    app.add_flag("--spaces", options.spaces, "IFC: spaces and zones become parts too");
+    add_choice(app, "--up", options.up, kAxes, "Up axis for files whose format defines none");
+    app.add_flag("--spaces", options.spaces, "IFC: read spaces and zones as parts, too");
     app.add_flag("!--no-map", options.map,
-                 "IFC: coordinates of the project, not of the map (IfcMapConversion)");
-    app.add_flag("--allow-outside-files", options.allow_outside_files,
-                 "A model may name files outside of its folder (glTF: buffers, OBJ: mtllib)");
+                 "IFC: use project coordinates, not those of the map (IfcMapConversion)");
+    app.add_flag(
+        "--allow-outside-files", options.allow_outside_files,
+        "Allow models to refer to files outside their folders (glTF: buffers, OBJ: mtllib)");
 }
 
 std::vector<ModelPath> parse_model_paths(const std::vector<std::string>& texts) {
@@ -92,9 +93,9 @@ nlohmann::ordered_json to_json(const std::vector<SceneNote>& notes) {
 std::string in_words(const std::vector<SceneNote>& notes, const std::string& indent) {
     constexpr std::array<std::pair<NoteKind, const char*>, 4> kWords{
         {{NoteKind::space, "spaces and zones are left out (--spaces reads them)"},
-         {NoteKind::cut_away, "products have no part: their openings leave nothing of them"},
+         {NoteKind::cut_away, "products have no part: their openings remove all of them"},
          {NoteKind::not_built, "products lack shapes that could not be built"},
-         {NoteKind::open, "parts have a surface that is not closed where a solid is meant"}}};
+         {NoteKind::open, "parts should be solids, but their surface is not closed"}}};
     constexpr std::size_t kMost = 3;
     std::string text;
     for (const auto& [kind, words] : kWords) {
@@ -159,13 +160,13 @@ std::vector<double> parse_numbers(const std::string& what, std::string_view text
         const auto number = is_length ? parse_length(word) : parse_number(word);
         if (!number)
             throw Error(ErrorCode::bad_argument,
-                        fmt::format("{}: '{}' is no finite number", what, word));
+                        fmt::format("{}: '{}' is not a finite number", what, word));
         numbers.push_back(*number);
         begin = comma + 1;
     }
     const auto wanted = static_cast<std::size_t>(std::count(form.begin(), form.end(), ',')) + 1;
     if (numbers.size() != wanted)
-        throw Error(ErrorCode::bad_argument, fmt::format("{}: takes {} numbers {}, not {}", what,
+        throw Error(ErrorCode::bad_argument, fmt::format("{}: needs {} numbers {}, not {}", what,
                                                          wanted, form, numbers.size()));
     return numbers;
 }
@@ -214,9 +215,10 @@ CLI::Validator length() {
         [](std::string& text) {
             const std::optional<double> metres = parse_length(text);
             if (!metres || *metres < 0)
-                return fmt::format("must be a length of at least 0, as 0.05 (metres), 50mm, 5cm, "
-                                   "2in or 1ft, not '{}'",
-                                   text);
+                return fmt::format(
+                    "must be a length of at least 0, such as 0.05 (metres), 50mm, 5cm, "
+                    "2in or 1ft, not '{}'",
+                    text);
             return std::string();
         },
         "LENGTH");
@@ -238,7 +240,7 @@ std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
         shift = -1;
     if (fault != std::errc() || shift < 0 || value > (~std::uint64_t{0} >> 1 >> shift))
         throw Error(ErrorCode::bad_argument,
-                    option + " must be a number of bytes, as 512M, not '" + text + "'");
+                    option + " must be a number of bytes such as 512M, not '" + text + "'");
     return value << shift;
 }
 

@@ -45,7 +45,7 @@ CLI::App* add_subcommand(CLI::App& root, CommonOptions& common, const VerbHelp& 
 
 /// The forms of a model file argument, for the help of commands that read models.
 inline constexpr const char* kModelHelp =
-    "FILE, or FILE:UNIT:AXIS as pump.stl:mm or part.obj:mm:y-up";
+    "FILE, or FILE:UNIT:AXIS such as pump.stl:mm or part.obj:mm:y-up";
 
 /// Declares --unit, --up, --spaces, --no-map and --allow-outside-files.
 void add_read_options(CLI::App& app, ReadOptions& options);

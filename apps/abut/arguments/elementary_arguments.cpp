@@ -17,18 +17,20 @@ ElementaryOptions ElementaryArguments::options() const {
     if (mode == "conservative")
         return {.absolute_error = delta.value_or(kDefaultDelta), .thickness = thickness};
     if (delta)
-        throw Error(ErrorCode::bad_argument, "--delta goes with --mode conservative");
+        throw Error(ErrorCode::bad_argument, "--delta needs --mode conservative");
     return {.thickness = thickness};
 }
 
 void add_elementary_arguments(CLI::App& app, ElementaryArguments& arguments) {
     app.add_option("--mode", arguments.mode,
-                   "exact (the default), or conservative: pairs nearer than delta may be hits")
+                   "exact (the default), or conservative: pairs nearer than delta may be reported "
+                   "without contact")
         ->check(CLI::IsMember({"exact", "conservative"}));
-    add_length(app, "--delta", arguments.delta,
-               fmt::format("Of the mode conservative (default {})", metres(kDefaultDelta)));
+    add_length(
+        app, "--delta", arguments.delta,
+        fmt::format("Error allowed in the mode conservative (default {})", metres(kDefaultDelta)));
     add_length(app, "--thickness", arguments.thickness,
-               "Features this near are hits (default 0: features that touch)");
+               "Report features that come this near (default 0: features that touch)");
 }
 
 const char* to_string(ElementaryKind kind) {

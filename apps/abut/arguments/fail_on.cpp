@@ -25,7 +25,8 @@ FailOn::FailOn(const std::string& words, bool from_store) {
             if (word == abut::to_string(status)) {
                 if (!from_store)
                     throw Error(ErrorCode::bad_argument, "--fail-on",
-                                "'" + word + "' is for a store alone: models have no earlier job");
+                                "'" + word +
+                                    "' applies only to a store: models have no earlier job");
                 statuses_.push_back(status);
             }
         if (word == "any")

@@ -14,8 +14,8 @@ std::string_view leading_digits(std::string_view text) {
     return text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
 }
 
-/// Whether a sorts before b if runs of digits are compared as numbers. Names that differ only in
-/// leading zeros are equal.
+/// Returns whether a sorts before b if runs of digits are compared as numbers. Names that differ
+/// only in leading zeros are equal.
 bool naturally_less(std::string_view a, std::string_view b) {
     while (!a.empty() && !b.empty()) {
         std::string_view number_a = leading_digits(a), number_b = leading_digits(b);
@@ -59,7 +59,7 @@ std::vector<std::string> frame_files(const std::vector<std::string>& arguments) 
     }
     if (files.size() < 2)
         throw Error(ErrorCode::bad_argument, files.front(),
-                    "is one frame only; a sequence has at least two");
+                    "is only one frame; a sequence needs at least two");
     return files;
 }
 

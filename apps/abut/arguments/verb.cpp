@@ -130,7 +130,7 @@ std::vector<ExitStatus> exit_statuses(const std::string& problem) {
     if (!problem.empty())
         statuses.push_back({"1", "done, and " + problem});
     statuses.push_back(
-        {"2", "bad usage or input: one line on standard error says what, and of which file"});
+        {"2", "bad usage or input: one line on standard error names the problem and the file"});
     statuses.push_back({"130", "interrupted"});
     return statuses;
 }
@@ -139,7 +139,7 @@ const std::vector<Example>& general_examples() {
     static const std::vector<Example> examples{
         {"abut info model.glb", "parts, triangles, bounds and defects of a model"},
         {"abut clash design.glb pipes.glb --clearance 50mm --out report",
-         "every clash between two models, with a page to look at: report/report.html"}};
+         "finds every clash between two models and writes the page report/report.html"}};
     return examples;
 }
 

@@ -14,7 +14,7 @@ inline constexpr const char* kTwoModels = "Two models";
 inline constexpr const char* kOneModel = "One model and a shape";
 inline constexpr const char* kClashes = "Clashes between the parts of models";
 inline constexpr const char* kDeforming = "Surfaces that deform";
-inline constexpr const char* kScenes = "Scenes to try";
+inline constexpr const char* kScenes = "Example scenes";
 
 /// The group of the options that all verbs have.
 inline constexpr const char* kCommonGroup = "Options of every verb";

@@ -141,7 +141,7 @@ std::string bash_completion(const CLI::App& root) {
            "_abut_nothing() { compopt +o default +o bashdefault 2>/dev/null; }\n"
            "_abut() {\n"
            "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
-           "    # bash takes --option=value for three words.\n"
+           "    # bash splits --option=value into three words.\n"
            "    [[ $current == = ]] && current=\n"
            "    [[ $previous == = ]] && previous=${COMP_WORDS[COMP_CWORD - 2]}\n"
            "    local verbs=\"" +

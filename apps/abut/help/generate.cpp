@@ -44,8 +44,8 @@ Subcommand add_generate(CLI::App& root, CommonOptions& common) {
     // The verb has no group, so that no list of verbs shows it. Only the build calls it.
     CLI::App* app = add_subcommand(
         root, common,
-        {"generate", "", "Write manual pages and completion for shells: the build does", {}, ""});
-    app->add_option("FOLDER", *out, "Where man1, bash and zsh are made")->required();
+        {"generate", "", "Write manual pages and shell completion (used by the build)", {}, ""});
+    app->add_option("FOLDER", *out, "Folder for man1, bash and zsh")->required();
     return {app, [&root, out] { return run(root, *out); }};
 }
 

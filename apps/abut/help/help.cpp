@@ -95,16 +95,16 @@ std::string general_help(const CLI::App& root) {
             text += section(group = verb->get_group());
         text += row(verb->get_name(), verb->get_description(), kVerbColumn);
     }
-    text += section(std::string(kCommonGroup) + ", before it or after it");
+    text += section(std::string(kCommonGroup) + ", before or after the verb");
     for (const OptionGroup& options : options_of(*verbs.front()))
         if (options.title == kCommonGroup)
             for (const OptionFacts& option : options.options)
                 text += option_row(option, kVerbColumn);
     text += section("Other options") + row("--version", "Print the version and exit", kVerbColumn);
     text += example_section(general_examples());
-    text += status_section("the answer is the one that --fail-on names");
+    text += status_section("the problem that --fail-on names was found");
     return text + "\n" +
-           wrapped("abut VERB --help and man abut-VERB have the options of a verb, and examples.",
+           wrapped("abut VERB --help and man abut-VERB list the options of a verb, with examples.",
                    0, 0);
 }
 
@@ -126,7 +126,7 @@ std::string help_of(const Verb& verb) {
 std::string note_on_lengths(const std::vector<OptionGroup>& groups) {
     for (const OptionGroup& group : groups)
         if (std::ranges::find(group.options, "LENGTH", &OptionFacts::value) != group.options.end())
-            return "A LENGTH is in metres, or has a unit: 50mm, 5cm, 0.05m, 2in, 1ft.";
+            return "A LENGTH is in metres unless it has a unit: 50mm, 5cm, 0.05m, 2in, 1ft.";
     return "";
 }
 

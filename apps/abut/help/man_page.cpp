@@ -108,7 +108,7 @@ std::string man_page(const CLI::App& root) {
                 text += option_entry(option);
         }
     return text + roff_examples(general_examples()) +
-           statuses("the answer is the one that --fail-on names") + roff_section("See also") +
+           statuses("the problem that --fail-on names was found") + roff_section("See also") +
            see_also;
 }
 

@@ -79,25 +79,25 @@ struct CollideQuery : PairQuery {
 
 Subcommand add_collide(CLI::App& root, CommonOptions& common) {
     auto query = std::make_shared<CollideQuery>();
-    CLI::App* app =
-        add_subcommand(root, common,
-                       {"collide",
-                        kTwoModels,
-                        "Do the surfaces of two models share a point?",
-                        {{"abut collide a.obj b.stl --pose-b 0,0,2,1,0,0,0 --fail-on contact",
-                          "is there a contact with B two metres higher? Exit status 1 if so"},
-                         {"abut collide a.obj b.stl --all --segments",
-                          "every pair of triangles that meet, and the points that they share"}},
-                        "the surfaces share a point (with --fail-on contact)"});
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"collide",
+         kTwoModels,
+         "Do the surfaces of two models share a point?",
+         {{"abut collide a.obj b.stl --pose-b 0,0,2,1,0,0,0 --fail-on contact",
+           "is there a contact with B two metres higher? Exit status 1 on contact"},
+          {"abut collide a.obj b.stl --all --segments",
+           "lists every pair of triangles that meet, and the points that they share"}},
+         "the surfaces share a point (with --fail-on contact)"});
     add_two_models(*app, query->models);
     add_poses(*app, query->poses);
     add_volume(*app, query->models);
     app->add_flag("--all", query->all, "List every pair of triangles that meet");
     app->add_flag("--segments", query->segments,
-                  "Also the points that each pair of triangles shares");
+                  "Also compute the points that each pair of triangles shares");
     add_fail_on(*app, query->fail_on, "contact");
-    CLI::Option* pieces =
-        app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
+    CLI::Option* pieces = app->add_flag("--pieces", query->pieces,
+                                        "Treat the models as solids made of convex pieces");
     for (const char* other : {"--segments", "--volume"})
         pieces->excludes(app->get_option(other));
     return {app, [query, &common] {

@@ -10,7 +10,7 @@ Convex hull_of(const Model& model) {
     return Convex(model.mesh().positions);
 }
 
-nlohmann::ordered_json describe_feature(Feature kind, std::uint32_t id) {
+nlohmann::ordered_json describe_hull_feature(Feature kind, std::uint32_t id) {
     return {{"kind", to_string(kind)}, {"id", id}};
 }
 
@@ -43,8 +43,8 @@ void ConvexDistanceQuery::add_answer(const ConvexGap& gap, nlohmann::ordered_jso
     json["point_a"] = to_json(gap.point_a);
     json["point_b"] = to_json(gap.point_b);
     if (gap.distance > 0) {
-        json["feature_a"] = describe_feature(gap.feature_a, gap.id_a);
-        json["feature_b"] = describe_feature(gap.feature_b, gap.id_b);
+        json["feature_a"] = describe_hull_feature(gap.feature_a, gap.id_a);
+        json["feature_b"] = describe_hull_feature(gap.feature_b, gap.id_b);
     }
     json["status"] = to_string(gap.status);
     json["counters"] = describe_work(gap.counters);
@@ -84,7 +84,7 @@ void ConvexPenetrationQuery::add_answer(const ConvexDepth& depth, nlohmann::orde
 std::string ConvexPenetrationQuery::in_words(const ConvexDepth& depth) {
     if (!depth.meet)
         return "apart\n";
-    return fmt::format("depth {}, out when B moves along {}\n", metres(depth.depth),
+    return fmt::format("depth {}, separated when B moves along {}\n", metres(depth.depth),
                        direction(depth.direction));
 }
 

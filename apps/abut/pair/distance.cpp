@@ -10,7 +10,7 @@ namespace abut::command {
 
 namespace {
 
-/// Whether the answer says only that the models are farther apart than --upper-bound.
+/// Returns whether the answer says only that the models are farther apart than --upper-bound.
 bool is_beyond_bound(const Gap& gap) {
     return gap.status == Status::bound_only && gap.distance >= 0 && !gap.out_of_steps;
 }
@@ -85,27 +85,26 @@ Subcommand add_distance(CLI::App& root, CommonOptions& common) {
     add_volume(*app, query->models);
     DistanceOptions& options = query->options;
     add_length(*app, "--absolute-error", options.absolute_error,
-               "Length by which the distance may be too large (default 0)");
+               "Absolute error allowed: a length (default 0)");
     app->add_option("--relative-error", options.relative_error,
-                    "Share of the distance by which it may be too large (default 0)")
+                    "Relative error allowed: a fraction of the distance (default 0)")
         ->check(not_negative());
     add_length(*app, "--upper-bound", options.upper_bound,
-               "Length beyond which the distance does not matter (default: none)");
+               "Stop when the distance is proven to be larger than this (default: none)");
     app->add_flag("--signed", options.signed_distance,
-                  "Negative, minus the depth, where the models go into each other");
-    app->add_option(
-           "--max-steps", options.max_steps,
-           "End the search after N steps (pairs of boxes, or points of a depth) and answer "
-           "what is proven by then (default: no limit)")
+                  "Give minus the depth where the models penetrate each other");
+    app->add_option("--max-steps", options.max_steps,
+                    "End the search after N steps (pairs of boxes, or points of a depth) and print "
+                    "what is proven so far (default: no limit)")
         ->type_name("N")
         ->check(not_negative());
     CLI::Option* convex =
-        app->add_flag("--convex", query->convex, "Of the convex hulls, as solids");
+        app->add_flag("--convex", query->convex, "Use the convex hulls of the models, as solids");
     for (const char* other :
          {"--relative-error", "--upper-bound", "--signed", "--volume", "--max-steps"})
         convex->excludes(app->get_option(other));
-    CLI::Option* pieces =
-        app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
+    CLI::Option* pieces = app->add_flag("--pieces", query->pieces,
+                                        "Treat the models as solids made of convex pieces");
     for (const char* other :
          {"--relative-error", "--signed", "--volume", "--convex", "--max-steps"})
         pieces->excludes(app->get_option(other));

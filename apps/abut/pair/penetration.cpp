@@ -82,34 +82,35 @@ struct PenetrationQuery : PairQuery {
 
 Subcommand add_penetration(CLI::App& root, CommonOptions& common) {
     auto query = std::make_shared<PenetrationQuery>();
-    CLI::App* app =
-        add_subcommand(root, common,
-                       {"penetration",
-                        kTwoModels,
-                        "How deep do two models go into each other, where, and which way is out?",
-                        {{"abut penetration a.obj b.stl --pose-b 0.9,0.2,0.3,1,0,0,0",
-                          "depth, regions of contact, and a translation of B that separates them"},
-                         {"abut penetration a.obj b.stl --accuracy 0.001 --fail-on penetration",
-                          "the depth to a thousandth; exit status 1 if there is one"}},
-                        "one model goes into the other (with --fail-on penetration)"});
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"penetration",
+         kTwoModels,
+         "How deep do two models penetrate each other, where, and what separates them?",
+         {{"abut penetration a.obj b.stl --pose-b 0.9,0.2,0.3,1,0,0,0",
+           "depth, regions of contact, and a translation of B that separates them"},
+          {"abut penetration a.obj b.stl --relative-error 0.001 --fail-on penetration",
+           "the depth to a thousandth; exit status 1 if the models penetrate"}},
+         "the models penetrate each other (with --fail-on penetration)"});
     add_two_models(*app, query->models);
     app->add_option("--relative-error,--accuracy", query->options.relative_error,
-                    "Relative accuracy of the depth (default: 0.01)")
+                    "Relative error allowed for the depth (default 0.01)")
         ->check(not_negative());
     app->add_flag_callback(
         "--no-separation", [&options = query->options] { options.separation = false; },
-        "Do not look for a translation that separates them");
+        "Do not search for a translation that separates the models");
     app->add_option("--max-steps", query->options.max_steps,
-                    "End the search after N steps (pairs of boxes or points) and answer what is "
-                    "proven by then (default: no limit)")
+                    "End the search after N steps (pairs of boxes or points) and print what is "
+                    "proven so far (default: no limit)")
         ->type_name("N")
         ->check(not_negative());
     add_fail_on(*app, query->fail_on, "penetration");
-    CLI::Option* convex = app->add_flag("--convex", query->convex, "Of the convex hulls");
+    CLI::Option* convex =
+        app->add_flag("--convex", query->convex, "Use the convex hulls of the models");
     for (const char* other : {"--relative-error", "--no-separation", "--max-steps"})
         convex->excludes(app->get_option(other));
-    CLI::Option* pieces =
-        app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces");
+    CLI::Option* pieces = app->add_flag("--pieces", query->pieces,
+                                        "Treat the models as solids made of convex pieces");
     for (const char* other : {"--relative-error", "--convex", "--max-steps"})
         pieces->excludes(app->get_option(other));
     return {app, [query, &common] {

@@ -186,7 +186,7 @@ std::string PiecesCollideQuery::in_words(const PiecesContacts& contacts) const {
 }
 
 std::string PiecesCollideQuery::in_a_line(const PiecesContacts& contacts) {
-    return contacts.contained ? "contact: one inside of the other\n"
+    return contacts.contained ? "contact: one inside the other\n"
            : contacts.meet
                ? fmt::format("contact: {} pairs of pieces\n", grouped(contacts.pairs.size()))
                : "no contact\n";

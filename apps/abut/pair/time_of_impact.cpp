@@ -93,26 +93,26 @@ Subcommand add_time_of_impact(CLI::App& root, CommonOptions& common) {
         root, common,
         {"time-of-impact",
          kTwoModels,
-         "When do two moving models first meet, from time 0 (their poses) to 1?",
+         "When do two moving models first meet between time 0 (their poses) and time 1?",
          {{"abut time-of-impact a.obj b.stl --pose-b 3,0,0,1,0,0,0 --end-b -3,0,0,0,0,0,1",
-           "B moves by six metres and turns half around"},
+           "B moves by six metres and makes half a turn"},
           {"abut time-of-impact a.obj b.stl --pose-b 3,0,0,1,0,0,0 --end-b 0,0,0,1,0,0,0 "
-           "--tolerance 1mm --fail-on impact",
-           "sooner, up to a millimetre before the contact; exit status 1 if there is one"}},
+           "--absolute-error 1mm --fail-on impact",
+           "faster, with a time up to a millimetre before the contact; exit status 1 on impact"}},
          "the models meet (with --fail-on impact)"});
     add_two_models(*app, arguments->pair.models);
-    app->add_option("--end-a", arguments->ends[0], "Pose of A at time 1 (default: A stands still)")
+    app->add_option("--end-a", arguments->ends[0], "Pose of A at time 1 (default: A does not move)")
         ->check(not_empty("POSE"));
-    app->add_option("--end-b", arguments->ends[1], "Pose of B at time 1 (default: B stands still)")
+    app->add_option("--end-b", arguments->ends[1], "Pose of B at time 1 (default: B does not move)")
         ->check(not_empty("POSE"));
     app->add_flag("--screw", arguments->screw,
-                  "Move along screws, not the models' origins along straight lines");
+                  "Move along screws; otherwise the models' origins move along straight lines");
     add_length(*app, "--absolute-error,--tolerance", arguments->tolerance,
-               "Distance that may be left at the time returned (default: a millionth of the larger "
+               "Largest distance left at the returned time (default: a millionth of the larger "
                "model's diagonal)");
     app->add_option("--max-steps", arguments->max_steps,
-                    "End the search after N steps (pairs of boxes or of triangles) and answer what "
-                    "is proven by then (default: no limit)")
+                    "End the search after N steps (pairs of boxes or of triangles) and print what "
+                    "is proven so far (default: no limit)")
         ->type_name("N")
         ->check(not_negative());
     add_fail_on(*app, arguments->pair.fail_on, "impact");

@@ -34,7 +34,7 @@ constexpr std::array<Named<Volume>, 10> kVolumes{{{"automatic", Volume::automati
 void add_two_models(CLI::App& app, TwoModelsOptions& options) {
     app.add_option("A", options.files[0], fmt::format("First model: {}", kModelHelp))->required();
     app.add_option("B", options.files[1],
-                   "Second model, likewise; it is turned into the frame of the first")
+                   "Second model, likewise; it is turned to the axes of the first")
         ->required();
     constexpr const char* kForm = "translation and quaternion x,y,z,qw,qx,qy,qz (default: none)";
     app.add_option("--pose-a", options.poses[0], fmt::format("Pose of A: {}", kForm))
@@ -46,7 +46,7 @@ void add_two_models(CLI::App& app, TwoModelsOptions& options) {
 
 void add_volume(CLI::App& app, TwoModelsOptions& options) {
     add_choice(app, "--volume", options.volume, kVolumes,
-               "Kind of the bounding volumes; the answer does not depend on it");
+               "Kind of bounding volume; it does not change the answer");
 }
 
 Pose parse_pose(const std::string& option, const std::string& text) {
@@ -103,7 +103,7 @@ TwoModels load(const TwoModelsOptions& options, const CommonOptions& common) {
 
 void add_poses(CLI::App& app, PosesOption& option) {
     app.add_option("--poses", option.file,
-                   "File with a pose of B in each row, as --pose-b: the answers of all, in order")
+                   "File with a pose of B in each row, as for --pose-b; one answer for each row")
         ->check(not_empty("FILE"))
         ->excludes("--pose-b");
 }

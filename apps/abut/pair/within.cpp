@@ -46,13 +46,13 @@ Subcommand add_within(CLI::App& root, CommonOptions& common) {
          {{"abut within a.obj b.stl --tolerance 5mm", "at most five millimetres apart?"},
           {"abut within a.obj b.stl --tolerance 0.5 --pose-b 1.5,0,0,1,0,0,0 --fail-on within",
            "with B moved by 1.5 m; exit status 1 if they are at most half a metre apart"}},
-         "the models are that near (with --fail-on within)"});
+         "the models are within the tolerance (with --fail-on within)"});
     add_two_models(*app, query->models);
     add_poses(*app, query->poses);
     add_volume(*app, query->models);
     add_length(*app, "--tolerance", query->tolerance, "Distance")->required();
     add_fail_on(*app, query->fail_on, "within");
-    app->add_flag("--pieces", query->pieces, "As solids, by convex pieces of their surfaces")
+    app->add_flag("--pieces", query->pieces, "Treat the models as solids made of convex pieces")
         ->excludes(app->get_option("--volume"));
     return {app, [query, &common] {
                 if (query->pieces)

@@ -45,7 +45,7 @@ Character first_character(std::string_view text) {
     return {bytes, code, true};
 }
 
-/// Whether a terminal interprets the character instead of showing it.
+/// Returns whether a terminal interprets the character instead of showing it.
 bool is_obeyed(char32_t c) {
     const bool control = c < 0x20 || (c >= 0x7F && c < 0xA0);
     const bool direction = c == 0x061C || c == 0x200E || c == 0x200F ||

@@ -25,7 +25,8 @@ enum class Colour : char { heading = 'h', bad = 'b', doubtful = 'd' };
 /// sequence, or remove it if colours are off. `shown` escapes marks in untrusted text.
 std::string coloured(Colour colour, std::string_view text);
 
-/// Whether colours are on: the stream is a terminal that is not dumb, and NO_COLOR is not set.
+/// Returns whether colours are on: the stream is a terminal that is not dumb, and NO_COLOR is not
+/// set.
 bool has_colours(std::FILE* stream);
 
 /// Returns the number of columns of the terminal; 0 if the stream is not a terminal.

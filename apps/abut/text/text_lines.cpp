@@ -20,9 +20,9 @@ void for_each_line(const std::string& file,
     if (stream.bad())
         throw Error(ErrorCode::unreadable, file, "cannot be read");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-        throw Error(ErrorCode::malformed, file, "is text in UTF-16: save it in UTF-8");
+        throw Error(ErrorCode::malformed, file, "is UTF-16 text: save it as UTF-8");
     if (text.find('\0') != std::string::npos)
-        throw Error(ErrorCode::malformed, file, "holds zero bytes: it is no text");
+        throw Error(ErrorCode::malformed, file, "contains zero bytes: it is not text");
     std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
     for (std::size_t number = 1; at < text.size(); ++number) {
         const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());

@@ -215,24 +215,24 @@ Subcommand add_ccd(CLI::App& root, CommonOptions& common) {
          {{"abut ccd 'frame-*.ply' --fail-on impacts",
            "each step of a sequence; exit status 1 if anything meets"},
           {"abut ccd frame-0.ply frame-1.ply --thickness 1mm --out impacts.csv",
-           "every pair that comes as near as a millimetre: which, when, where"}},
+           "every pair that comes within a millimetre: which, when and where"}},
          "features meet (with --fail-on impacts)"});
     app->add_option("FRAME", arguments->frames,
                     "PLY or OBJ files in order, or one pattern in quotes ('frame-*.ply'), whose "
-                    "matches are taken in the order of their numbers")
+                    "matches are sorted by number")
         ->required()
         ->check(not_empty("FRAME"));
     add_choice(*app, "--scheme", arguments->surface.scheme, kSchemes,
-               "How pairs of triangles become tests; the answer does not depend on it");
+               "How pairs of triangles become tests; it does not change the answer");
     add_choice(*app, "--assignment", arguments->surface.assignment, kAssignments,
-               "Which triangle represents a vertex or an edge; nor on this");
+               "Which triangle represents a vertex or an edge; it does not change the answer");
     add_choice(*app, "--culling", arguments->surface.culling, kCullings,
-               "How pairs of triangles are found; nor on this");
+               "How pairs of triangles are found; it does not change the answer");
     add_elementary_arguments(*app, arguments->elementary);
     app->add_flag("--allow-topology-changes", arguments->allow_topology_changes,
-                  "Start anew at a frame with other triangles, instead of refusing it");
+                  "Restart at a frame with other triangles instead of refusing it");
     app->add_option("--out", arguments->out,
-                    "FILE.csv or FILE.bin: every impact, written step by step")
+                    "Write every impact to FILE.csv or FILE.bin, step by step")
         ->check(impact_file_name());
     add_fail_on(*app, arguments->fail_on, "impacts");
     return {app, [arguments, &common] { return run(*arguments, common); }};

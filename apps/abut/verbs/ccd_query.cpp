@@ -173,7 +173,7 @@ int run(const QueryArguments& arguments, const CommonOptions& common) {
     const ElementaryOptions options = arguments.elementary.options();
     // The expected answers of a file are about features that touch, without a thickness.
     if (options.thickness > 0 && !arguments.truth_file.empty())
-        throw Error(ErrorCode::bad_argument, "--truth goes without --thickness");
+        throw Error(ErrorCode::bad_argument, "--truth cannot be combined with --thickness");
     std::vector<ElementaryQueries> queries;
     for (const std::string& file : arguments.files) {
         queries.push_back(read_elementary_queries(file, kind_of(arguments)));
@@ -215,8 +215,8 @@ Subcommand add_ccd_query(CLI::App& root, CommonOptions& common) {
         root, common,
         {"ccd-query",
          kDeforming,
-         "Elementary tests of continuous collision: answers against known ones, and what a test "
-         "costs",
+         "Elementary tests of continuous collision: compare answers with known ones, and measure "
+         "times",
          {{"abut ccd-query queries-vertex-face.csv",
            "do a vertex and a face meet between t = 0 and 1? Eight rows a query"},
           {"abut ccd-query queries.csv --kind edge-edge --mode conservative --delta 1e-6",
@@ -227,7 +227,7 @@ Subcommand add_ccd_query(CLI::App& root, CommonOptions& common) {
                     "JSON list of the answers to all queries, in their order")
         ->check(not_empty("JSON"));
     app->add_option("--kind", arguments->kind,
-                    "vertex-face or edge-edge (default: what the file's name says)")
+                    "vertex-face or edge-edge (default: taken from the file's name)")
         ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
     add_elementary_arguments(*app, arguments->elementary);
     return {app, [arguments, &common] { return run(*arguments, common); }};

@@ -58,26 +58,6 @@ void write_reports(OutputFiles& outputs, const ClashReport& report,
     outputs.commit();
 }
 
-/// Returns the JSON member about the out-of-core job, to be appended to those of the report.
-std::string out_of_core_member(const OutOfCoreCounters& c) {
-    std::string workers;
-    for (const OutOfCoreCounters::Worker& w : c.workers)
-        workers +=
-            fmt::format("{}{{\"units\": {}, \"pairs\": {}, \"mesh_loads\": {}, \"bytes_read\": {}, "
-                        "\"peak_model_bytes\": {}, \"processor_seconds\": {}, \"waiting_seconds\": "
-                        "{}, \"peak_rss_mib\": {}}}",
-                        workers.empty() ? "" : ", ", w.units, w.pairs, w.mesh_loads, w.bytes_read,
-                        w.peak_bytes, w.processor_seconds, w.waiting_seconds, w.peak_rss_mib);
-    return fmt::format(",\n\"out_of_core\": {{\"units\": {}, \"meshes\": {}, \"mesh_loads\": {}, "
-                       "\"blocks\": {}, \"block_loads\": {}, \"hierarchies_found\": {}, "
-                       "\"hierarchies_kept\": {}, \"bytes_needed\": {}, \"bytes_read\": "
-                       "{}, \"peak_model_bytes\": {}, \"kept\": {}, "
-                       "\"recalled_pairs\": {}, \"processes\": [{}]}}\n",
-                       c.units, c.meshes, c.mesh_loads, c.blocks, c.block_loads,
-                       c.hierarchies_found, c.hierarchies_kept, c.bytes_needed, c.bytes_read,
-                       c.peak_bytes, c.kept, c.recalled_pairs, workers);
-}
-
 std::string out_of_core_summary(const OutOfCoreCounters& c) {
     return fmt::format(
         "out of core {} units, {} meshes loaded for {} that are needed, {} bytes read "
@@ -86,12 +66,53 @@ std::string out_of_core_summary(const OutOfCoreCounters& c) {
         grouped(c.bytes_needed));
 }
 
+std::string text_of(const StoreClashReport& found, bool from_store,
+                    const std::optional<OutputFiles>& outputs) {
+    std::string text = summary(found.report, found.models);
+    if (from_store)
+        text += out_of_core_summary(found.counters);
+    if (outputs)
+        text += fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
+    return text;
+}
+
 /// Runs a helper, that is a process other than the first one that mpirun started. It works and
 /// prints nothing.
 int help(const ClashArguments& arguments, Crew& crew) {
     const InterruptScope scope(OnInterrupt::ask);
     help_find_clashes(arguments.files.front(), crew, {.report = {}, .stop = &interrupt_flag()});
     return kExitDone;
+}
+
+/// Refuses options that are only for a store, or only for models.
+void refuse_misplaced(const ClashArguments& arguments, bool from_store) {
+    if (arguments.no_hierarchies && !from_store)
+        throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
+                    "applies only to a store: without one, nothing is kept");
+    if (arguments.memory && !from_store)
+        throw Error(ErrorCode::bad_argument, "--memory",
+                    "applies only to a store: import the models with abut import");
+    if (arguments.read.up != ReadOptions().up && from_store)
+        throw Error(ErrorCode::bad_argument, "--up",
+                    "applies only to models: a store has the axes of its first import");
+    if (arguments.read.spaces && from_store)
+        throw Error(ErrorCode::bad_argument, "--spaces",
+                    "applies only to models: a store has the spaces of its import");
+    if (!arguments.read.map && from_store)
+        throw Error(ErrorCode::bad_argument, "--no-map",
+                    "applies only to models: a store has the coordinates of its import");
+    if (arguments.read.unit != 0 && from_store)
+        throw Error(ErrorCode::bad_argument, "--unit",
+                    "applies only to models: a store has the units of its import");
+}
+
+OutOfCoreOptions limits_of(const ClashArguments& arguments, Crew* crew) {
+    OutOfCoreOptions limits;
+    if (arguments.memory)
+        limits.memory = parse_bytes("--memory", *arguments.memory);
+    limits.keep_hierarchies = !arguments.no_hierarchies;
+    limits.crew = crew;
+    return limits;
 }
 
 int run(const ClashArguments& arguments, const CommonOptions& common) {
@@ -113,46 +134,20 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (!arguments.out.empty())
         outputs.emplace(arguments.out,
                         std::vector<std::string>{"report.html", "report.json", "report.csv"});
-
-    if (arguments.no_hierarchies && !from_store)
-        throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
-                    "is for a store: what was read of models is not kept");
-    if (arguments.memory && !from_store)
-        throw Error(ErrorCode::bad_argument, "--memory",
-                    "is for a store alone: bring the models into one with abut import");
-    if (arguments.read.up != ReadOptions().up && from_store)
-        throw Error(ErrorCode::bad_argument, "--up",
-                    "is for models alone: a store has the axes of its first import");
-    if (arguments.read.spaces && from_store)
-        throw Error(ErrorCode::bad_argument, "--spaces",
-                    "is for models alone: a store has those of its import");
-    if (!arguments.read.map && from_store)
-        throw Error(ErrorCode::bad_argument, "--no-map",
-                    "is for models alone: a store has the coordinates of its import");
-    if (arguments.read.unit != 0 && from_store)
-        throw Error(ErrorCode::bad_argument, "--unit",
-                    "is for models alone: a store has the one of its import");
+    refuse_misplaced(arguments, from_store);
     if (crew && !from_store)
         throw Error(ErrorCode::bad_argument, arguments.files.front(),
-                    "is no store: several processes share the work on a store alone");
+                    "is not a store: several processes can work only on a store");
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
-    std::vector<Scene> models;
-    ClashReport report;
-    std::optional<OutOfCoreCounters> out_of_core;
+    StoreClashReport found; // `counters` is filled in for a store only
+    ClashReport& report = found.report;
+    std::vector<Scene>& models = found.models;
     {
         const InterruptScope scope(OnInterrupt::ask);
         if (from_store) {
-            OutOfCoreOptions limits;
-            if (arguments.memory)
-                limits.memory = parse_bytes("--memory", *arguments.memory);
-            limits.keep_hierarchies = !arguments.no_hierarchies;
-            limits.crew = crew.get();
-            StoreClashReport found =
-                find_clashes(open_store(arguments.files.front()), options, limits);
-            report = std::move(found.report);
-            models = std::move(found.models);
-            out_of_core = std::move(found.counters);
+            found = find_clashes(open_store(arguments.files.front()), options,
+                                 limits_of(arguments, crew.get()));
             crew.reset(); // the helpers need not wait for the reports
         } else {
             ReadOptions read = arguments.read;
@@ -169,22 +164,10 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
 
     if (outputs)
         write_reports(*outputs, report, models);
-    if (common.json) {
-        std::string text = abut::to_json(report, models);
-        if (text.empty() || text.back() != '\n')
-            text += '\n';
-        if (out_of_core)
-            text.insert(text.rfind('}'), out_of_core_member(*out_of_core));
-        print_json(text);
-    } else if (!common.quiet) {
-        std::string text = summary(report, models);
-        if (out_of_core)
-            text += out_of_core_summary(*out_of_core);
-        if (outputs)
-            text +=
-                fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
-        print_text(text);
-    }
+    if (common.json)
+        print_json(from_store ? abut::to_json(found) : abut::to_json(report, models));
+    else if (!common.quiet)
+        print_text(text_of(found, from_store, outputs));
     return fail_on.is_problem(report) ? kExitProblem : kExitDone;
 }
 
@@ -200,33 +183,34 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
          {{"abut clash design.glb pipes.glb --clearance 50mm --out report",
            "between two models: report/report.html, report.json and report.csv"},
           {"abut clash model.glb --fail-on hard,contained",
-           "within one model; exit status 1 if anything goes into or is inside of another part"},
+           "within one model; exit status 1 if a part penetrates or contains another"},
           {"mpirun -n 2 abut clash site.abut --memory 1G",
-           "of a store, by two processes of at most a gigabyte each (as root, mpirun needs "
+           "on a store, with two processes of at most a gigabyte each (as root, mpirun needs "
            "--allow-run-as-root)"}},
-         "there is a clash that --fail-on names"});
+         "a clash that --fail-on names was found"});
     app->add_option("MODEL", arguments->files,
                     fmt::format("Models ({}), or a store of them (abut import)", kModelHelp))
         ->required();
     app->add_option("--memory", arguments->memory,
-                    "A store: bytes to keep to, with K, M or G (default 512M)")
+                    "For a store: limit of memory in bytes, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
     app->add_flag("--no-keep-hierarchies", arguments->no_hierarchies,
-                  "A store: do not keep there the hierarchies that are built");
+                  "For a store: do not keep the hierarchies that are built");
     add_length(*app, "--clearance", arguments->options.clearance,
                "Report parts that are nearer than this (default 0: off)");
     add_length(*app, "--touch", arguments->options.touch_tolerance,
                "Surfaces that meet no deeper than this only touch (default 0)");
     app->add_flag("--self", arguments->options.self,
-                  "With several models: also the pairs within each");
+                  "With several models: also test the pairs within each");
     app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")
         ->check(not_empty("FILE"));
     app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv")
         ->check(not_empty("FOLDER"));
-    app->add_option("--fail-on", arguments->fail_on,
-                    "Exit with status 1 if there is one of these kinds: hard, touch, contained, "
-                    "duplicate, clearance (comma-separated), or any; of a store one that is not "
-                    "approved, or one of these statuses: new, active, reviewed, approved")
+    app->add_option(
+           "--fail-on", arguments->fail_on,
+           "Exit with status 1 if there is a clash of these kinds: hard, touch, contained, "
+           "duplicate, clearance (comma-separated), or any; for a store, one that is not approved, "
+           "or has one of these statuses: new, active, reviewed, approved")
         ->check(not_empty("WORDS"));
     add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};

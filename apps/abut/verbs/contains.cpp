@@ -63,18 +63,19 @@ int run(const ContainsArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_contains(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ContainsArguments>();
-    CLI::App* app = add_subcommand(root, common,
-                                   {"contains",
-                                    kOneModel,
-                                    "Are points inside a model, outside, or on its surface?",
-                                    {{"abut contains a.obj --point 0.5,0.5,0.5", "one point"},
-                                     {"abut contains a.obj --points points.csv --fail-on inside",
-                                      "a line x,y,z each; exit status 1 if any lies inside"}},
-                                    "some point is where --fail-on says"});
+    CLI::App* app =
+        add_subcommand(root, common,
+                       {"contains",
+                        kOneModel,
+                        "Are points inside a model, outside, or on its surface?",
+                        {{"abut contains a.obj --point 0.5,0.5,0.5", "one point"},
+                         {"abut contains a.obj --points points.csv --fail-on inside",
+                          "one point x,y,z per line; exit status 1 if any lies inside"}},
+                        "a point lies where --fail-on says"});
     add_one_model(*app, arguments->model);
     add_points(*app, arguments->points);
     app->add_option("--fail-on", arguments->fail_on,
-                    "Exit with status 1 if some point is 'inside', 'outside' or 'on_surface'")
+                    "Exit with status 1 if a point is 'inside', 'outside' or 'on_surface'")
         ->check(CLI::IsMember({"inside", "outside", "on_surface"}));
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

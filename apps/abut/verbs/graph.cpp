@@ -51,14 +51,14 @@ std::string table(const GraphReport& graph, const std::string& store) {
     std::string text = fmt::format(
         "{}\n"
         "  nodes       {:>14}  parts, {} of them without an edge\n"
-        "  edges       {:>14}  pairs of parts in reach of each other\n"
+        "  edges       {:>14}  pairs of parts within the clearance\n"
         "  components  {:>14}  the largest of {} parts\n"
-        "  valence     {:>14.2f}  in the mean, {} at most\n"
-        "  models      {:>14}  bytes, of meshes and hierarchies that an edge needs\n"
-        "  large       {:>14}  bytes of them, of {} meshes of which few blocks are in "
-        "memory at a time\n"
-        "  units       {:>14}  pieces of work that fit into the memory\n"
-        "  cut         {:>14}  edges between them\n"
+        "  valence     {:>14.2f}  on average, {} at most\n"
+        "  models      {:>14}  bytes of meshes and hierarchies that edges need\n"
+        "  large       {:>14}  of these bytes, in {} meshes of which only a few blocks are in "
+        "memory\n"
+        "  units       {:>14}  work units, each of which fits into the memory\n"
+        "  cut         {:>14}  edges between units\n"
         "seconds     {:.2f}\n",
         shown(store), grouped(graph.nodes), grouped(graph.isolated), grouped(graph.edges),
         grouped(graph.components), grouped(graph.largest_component), graph.mean_valence,
@@ -115,29 +115,28 @@ int run(const GraphArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_graph(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<GraphArguments>();
-    CLI::App* app = add_subcommand(root, common,
-                                   {"graph",
-                                    kClashes,
-                                    "The overlap graph of a store's parts, and how it is cut into "
-                                    "pieces of work that fit into "
-                                    "the memory",
-                                    {{"abut graph site.abut --clearance 50mm --memory 2G",
-                                      "how a job with two gigabytes would be cut"},
-                                     {"abut graph site.abut --svg graph.svg", "a drawing of it"}},
-                                    ""});
-    app->add_option("STORE", arguments->store, "Made by abut import")->required();
+    CLI::App* app = add_subcommand(
+        root, common,
+        {"graph",
+         kClashes,
+         "The overlap graph of a store's parts, cut into work units that fit into the memory",
+         {{"abut graph site.abut --clearance 50mm --memory 2G",
+           "the work units of a job with two gigabytes"},
+          {"abut graph site.abut --svg graph.svg", "a drawing of the graph"}},
+         ""});
+    app->add_option("STORE", arguments->store, "A store (abut import)")->required();
     add_length(*app, "--clearance", arguments->options.clearance,
                "Parts nearer than this have an edge (default 0)");
     app->add_flag("--self", arguments->options.self,
-                  "With several models: also the pairs within each");
+                  "With several models: also test the pairs within each");
     app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")
         ->check(not_empty("FILE"));
     app->add_option("--memory", arguments->memory,
-                    "Bytes that a job may keep, with K, M or G (default 512M)")
+                    "Limit of a job's memory in bytes, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
     app->add_flag("--keep", arguments->keep,
-                  "Keep edges and pieces in the store, for questions in SQL");
-    app->add_option("--svg", arguments->svg, "Draw the graph, its pieces in colours")
+                  "Keep edges and units in the store, for queries in SQL");
+    app->add_option("--svg", arguments->svg, "Draw the graph, with one colour for each unit")
         ->check(not_empty("FILE"));
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

@@ -116,26 +116,25 @@ int run(const ImportArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_import(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ImportArguments>();
-    CLI::App* app = add_subcommand(
-        root, common,
-        {"import",
-         kModels,
-         "Bring models into a store, for jobs on more than fits into the memory",
-         {{"abut import design.glb pipes.glb site.abut",
-           "makes the store, or brings it up to date with files that have changed"},
-          {"abut import --remove pipes.glb site.abut", "takes a model out of it again"}},
-         ""});
-    app->add_option("FILES", arguments->files,
-                    fmt::format("Models ({}), and the store last: made if it is not there, else "
-                                "brought up to date",
-                                kModelHelp))
+    CLI::App* app =
+        add_subcommand(root, common,
+                       {"import",
+                        kModels,
+                        "Import models into a store, for jobs on models larger than the memory",
+                        {{"abut import design.glb pipes.glb site.abut",
+                          "creates the store, or updates it with files that have changed"},
+                         {"abut import --remove pipes.glb site.abut", "removes a model from it"}},
+                        ""});
+    app->add_option(
+           "FILES", arguments->files,
+           fmt::format("Models ({}), and last the store, which is created or updated", kModelHelp))
         ->required();
     app->add_option("--memory", arguments->memory,
-                    "Bytes to keep to, with K, M or G (default 512M)")
+                    "Limit of memory in bytes, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
     add_read_options(*app, arguments->read);
     app->add_flag("--remove", arguments->remove,
-                  "Take the models out of the store; their files need not be there");
+                  "Remove the models from the store; their files need not exist");
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

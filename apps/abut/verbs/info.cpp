@@ -136,7 +136,7 @@ std::string table(const Scene& scene, const std::vector<MeshReport>& reports, co
                     "  frame       {:>12}  up; metres ({} in a unit of the file)\n"
                     "  parts       {:>12}  ({} closed), {} meshes\n"
                     "  triangles   {:>12}  ({} stored)\n"
-                    "  degenerate  {:>12}  triangles of no area\n"
+                    "  degenerate  {:>12}  triangles of zero area\n"
                     "  duplicate   {:>12}  triangles\n"
                     "  edges       {:>12}  boundary, {} non-manifold, {} flipped\n"
                     "  bounds      {} to {}\n",
@@ -198,7 +198,7 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
     if (stores > 0)
         throw Error(ErrorCode::bad_argument, "info takes models or stores, not both at once");
     if (arguments.verify)
-        throw Error(ErrorCode::bad_argument, "--verify is for stores");
+        throw Error(ErrorCode::bad_argument, "--verify applies only to stores");
     ProgressBar bar(common.progress_style());
     std::vector<Scene> scenes;
     {
@@ -242,16 +242,16 @@ Subcommand add_info(CLI::App& root, CommonOptions& common) {
         add_subcommand(root, common,
                        {"info",
                         kModels,
-                        "What models or stores hold: parts, triangles, bounds, defects",
+                        "The contents of models or stores: parts, triangles, bounds, defects",
                         {{"abut info model.glb --parts", "totals, and a row for each part"},
-                         {"abut info site.abut --verify", "is all of a store sound?"}},
+                         {"abut info site.abut --verify", "checks a whole store for damage"}},
                         ""});
-    app->add_option("MODEL", arguments->files,
-                    fmt::format("Models ({}), or stores, to look at", kModelHelp))
+    app->add_option("MODEL", arguments->files, fmt::format("Models ({}), or stores", kModelHelp))
         ->required();
-    app->add_flag("--parts", arguments->parts, "A row for each part");
-    app->add_flag("--verify", arguments->verify, "Of stores: check every page, row and block");
-    app->add_flag("--pieces", arguments->pieces, "Into how many convex pieces each mesh falls");
+    app->add_flag("--parts", arguments->parts, "Print a row for each part");
+    app->add_flag("--verify", arguments->verify,
+                  "For stores: check every page, row and mesh block");
+    app->add_flag("--pieces", arguments->pieces, "Print the number of convex pieces of each mesh");
     add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

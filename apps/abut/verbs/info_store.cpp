@@ -59,12 +59,12 @@ std::string table(const StoreSummary& summary, bool verified) {
         fmt::format("{}\n"
                     "  store       {:>14}  version, generation {}, {}\n",
                     shown(summary.path), summary.version, summary.generation,
-                    summary.complete ? "complete" : "incomplete: import again to go on");
+                    summary.complete ? "complete" : "incomplete: import again to continue");
     for (const StoreSummary::Model& model : summary.models)
         text += fmt::format("  model       {:>14}  parts, {} triangles, {}, {} m a unit, {} up{}\n",
                             grouped(model.parts), grouped(model.triangles), shown(model.file),
                             number(model.unit), abut::to_string(model.up),
-                            model.complete ? "" : " (import has not ended)") +
+                            model.complete ? "" : " (import not finished)") +
                 in_words(model.notes, "    ");
     if (!summary.models.empty())
         text += fmt::format("  frame       {:>14}  up; metres\n", abut::to_string(summary.up));

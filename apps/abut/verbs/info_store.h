@@ -4,8 +4,8 @@
 
 namespace abut::command {
 
-/// Whether `abut info` should treat a file as a store, judged by its first bytes or else by its
-/// name.
+/// Returns whether `abut info` should treat a file as a store, judged by its first bytes or else by
+/// its name.
 bool looks_like_store(const std::string& file);
 
 /// Runs `abut info STORE…`. Returns the exit status.

@@ -56,7 +56,7 @@ Subcommand add_nearest(CLI::App& root, CommonOptions& common) {
         root, common,
         {"nearest",
          kOneModel,
-         "The points of a model's surface that are nearest to points",
+         "The points of a model's surface that are nearest to given points",
          {{"abut nearest a.obj --point 1,2,3 --signed",
            "the distance is negative if the point lies inside"},
           {"abut nearest a.obj --points points.csv", "for each line x,y,z of a file"}},

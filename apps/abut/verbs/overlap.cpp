@@ -39,7 +39,7 @@ auto with_shape(const OverlapArguments& arguments, const Answer& answer) {
     const auto n = parse_numbers("--box", arguments.box, "x0,y0,z0,x1,y1,z1", 6);
     const Box3 box{point_at(n, 0), point_at(n, 3)};
     if (n[0] > n[3] || n[1] > n[4] || n[2] > n[5])
-        throw Error(ErrorCode::bad_argument, "--box: takes the lower corner first");
+        throw Error(ErrorCode::bad_argument, "--box: the lower corner must come first");
     if (arguments.box_pose.empty())
         return answer(box);
     return answer(OrientedBox{box, parse_pose("--box-pose", arguments.box_pose)});
@@ -86,7 +86,7 @@ Subcommand add_overlap(CLI::App& root, CommonOptions& common) {
          kOneModel,
          "Does a model's surface meet a sphere, a box or a segment?",
          {{"abut overlap a.obj --sphere 0,0,0,50mm --all",
-           "the triangles that a ball of 50 mm about the origin meets"},
+           "the triangles that meet a ball of radius 50 mm at the origin"},
           {"abut overlap a.obj --box 0,0,0,1,1,1 --box-pose 0,0,2,1,0,0,0 --fail-on overlap",
            "a box two metres higher; exit status 1 if they meet"}},
          "they meet (with --fail-on overlap)"});

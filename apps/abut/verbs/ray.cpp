@@ -42,14 +42,15 @@ int run(const RayArguments& arguments, const CommonOptions& common) {
     const double seconds = watch.seconds();
 
     if (common.json) {
-        nlohmann::ordered_json answer{{"model", arguments.model.file},
-                                      {"frame", model.frame},
-                                      {"origin", to_json(ray.origin)},
-                                      {"direction", to_json(ray.direction)},
-                                      {"all", arguments.all},
-                                      {"meet", !hits.empty()},
-                                      {"hit", !hits.empty()}, // the name before 0.1, kept for scripts
-                                      {"hits", nlohmann::ordered_json::array()}};
+        nlohmann::ordered_json answer{
+            {"model", arguments.model.file},
+            {"frame", model.frame},
+            {"origin", to_json(ray.origin)},
+            {"direction", to_json(ray.direction)},
+            {"all", arguments.all},
+            {"meet", !hits.empty()},
+            {"hit", !hits.empty()}, // the name before 0.1, kept for scripts
+            {"hits", nlohmann::ordered_json::array()}};
         for (const RayHit& hit : hits)
             answer["hits"].push_back({{"t", hit.t},
                                       {"point", to_json(hit.point)},
@@ -86,12 +87,13 @@ Subcommand add_ray(CLI::App& root, CommonOptions& common) {
     app->add_option("--origin", arguments->origin, "Where the ray begins")
         ->required()
         ->check(not_empty("X,Y,Z"));
-    app->add_option("--direction", arguments->direction, "Any length but zero; t counts in it")
+    app->add_option("--direction", arguments->direction,
+                    "Direction of the ray, of any length except zero, which is the unit of t")
         ->required()
         ->check(not_empty("X,Y,Z"));
-    app->add_option("--range", arguments->range, "Least and greatest t (default: from 0 on)")
+    app->add_option("--range", arguments->range, "Smallest and largest t (default: 0 to infinity)")
         ->check(not_empty("T0,T1"));
-    app->add_flag("--all", arguments->all, "Every triangle that the ray meets, in order");
+    app->add_flag("--all", arguments->all, "List every triangle that the ray meets, in order");
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

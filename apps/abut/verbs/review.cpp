@@ -26,7 +26,7 @@ std::vector<std::uint64_t> parse_ids(const std::string& option,
         const auto id = parse_clash_id(text);
         if (!id)
             throw Error(ErrorCode::bad_argument, option,
-                        "'" + text + "' is no clash id: 16 hexadecimal digits, as in a report");
+                        "'" + text + "' is not a clash id: 16 hexadecimal digits, as in a report");
         ids.push_back(*id);
     }
     return ids;
@@ -86,21 +86,19 @@ std::string table(const ClashReview& review) {
 void print_list(const std::string& path, const std::vector<ClashStatus>& wanted,
                 const CommonOptions& common) {
     std::vector<ClashReview> reviews = review_clashes(open_store(path));
-    std::string json, text;
-    for (ClashReview& review : reviews) {
+    for (ClashReview& review : reviews)
         std::erase_if(review.clashes, [&](const ListedClash& clash) {
             return std::find(wanted.begin(), wanted.end(), clash.status) == wanted.end();
         });
-        json += (json.empty() ? "" : ",\n") + abut::to_json(review);
-        text += (text.empty() ? "" : "\n") + table(review);
+    if (common.json) {
+        print_json(abut::to_json(reviews, path));
+        return;
     }
-    if (common.json)
-        print_json(
-            "{\"store\": " +
-            nlohmann::json(path).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
-            ",\n\"questions\": [" + json + "]}\n");
-    else if (!common.quiet)
-        print_text(text.empty() ? shown(path) + ": no clash job has ended\n" : text);
+    std::string text;
+    for (const ClashReview& review : reviews)
+        text += (text.empty() ? "" : "\n") + table(review);
+    if (!common.quiet)
+        print_text(text.empty() ? shown(path) + ": no clash job has finished\n" : text);
 }
 
 int run(const ReviewArguments& arguments, const CommonOptions& common) {
@@ -111,7 +109,7 @@ int run(const ReviewArguments& arguments, const CommonOptions& common) {
     const std::size_t marked = changes.reviewed.size() + changes.approved.size();
     const bool is_change = marked + changes.cleared.size() > 0 || arguments.forget;
     if (!arguments.note.empty() && marked == 0)
-        throw Error(ErrorCode::bad_argument, "--note", "is of marks: give --approve or --reviewed");
+        throw Error(ErrorCode::bad_argument, "--note", "needs --approve or --reviewed");
     if (is_change) {
         const Store store = open_store(arguments.store, {.read_only = false});
         mark_clashes(store, changes);
@@ -137,31 +135,32 @@ int run(const ReviewArguments& arguments, const CommonOptions& common) {
 
 Subcommand add_review(CLI::App& root, CommonOptions& common) {
     auto arguments = std::make_shared<ReviewArguments>();
-    CLI::App* app = add_subcommand(
-        root, common,
-        {"review",
-         kClashes,
-         "Statuses of the clashes of a store: list them, mark clashes",
-         {{"abut review site.abut --status new,active", "those that nobody has looked at"},
-          {"abut review site.abut --approve 0123456789abcdef --note \"as built\"",
-           "a clash that may stay, by its id in a report"}},
-         ""});
+    CLI::App* app =
+        add_subcommand(root, common,
+                       {"review",
+                        kClashes,
+                        "List the clashes of a store by status, and mark them",
+                        {{"abut review site.abut --status new,active",
+                          "lists the clashes that nobody has reviewed"},
+                         {"abut review site.abut --approve 0123456789abcdef --note \"as built\"",
+                          "approves a clash, by its id in a report"}},
+                        ""});
     app->add_option("STORE", arguments->store, "A store (abut import)")
         ->required()
         ->check(not_empty("STORE"));
     const auto add_ids = [&](const char* name, std::vector<std::string>& ids, const char* what) {
         app->add_option(name, ids, what)->check(not_empty("ID"));
     };
-    add_ids("--approve", arguments->approved, "Clashes that may stay, by their ids");
-    add_ids("--reviewed", arguments->reviewed, "Clashes that someone has looked at");
-    add_ids("--clear", arguments->cleared, "Clashes whose mark is to be taken away");
-    app->add_option("--note", arguments->note, "Why, and by whom: kept with the marks")
+    add_ids("--approve", arguments->approved, "Approve clashes, by their ids");
+    add_ids("--reviewed", arguments->reviewed, "Mark clashes as reviewed, by their ids");
+    add_ids("--clear", arguments->cleared, "Remove the marks of clashes, by their ids");
+    app->add_option("--note", arguments->note, "Reason and author, stored with the marks")
         ->check(not_empty("TEXT"));
-    app->add_flag("--forget-resolved", arguments->forget, "Drop resolved clashes from the lists");
+    app->add_flag("--forget-resolved", arguments->forget, "Remove resolved clashes from the lists");
     app->add_flag("--list", arguments->list,
-                  "List the clashes, after changes too (without changes: the default)");
+                  "List the clashes, also after changes (default if there are none)");
     app->add_option("--status", arguments->status,
-                    "List those alone: new, active, reviewed, approved, resolved (comma-separated)")
+                    "List only these: new, active, reviewed, approved, resolved (comma-separated)")
         ->check(not_empty("STATUSES"));
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }

@@ -87,35 +87,33 @@ Subcommand add_scene(CLI::App& root, CommonOptions& common) {
         root, common,
         {"scene",
          kScenes,
-         "Make a procedural scene: a plant and the truth that it holds, or frames of a surface "
-         "that "
-         "deforms",
+         "Generate a scene: a plant with a list of its clashes, or frames of a deforming surface",
          {{"abut scene plant --triangles 50000 --clashes 20 --out plant.glb",
-           "a power plant, and in plant.truth.json the clashes that were planted"},
+           "a power plant, and its planted clashes in plant.truth.json"},
           {"abut scene twist --frames 5 --triangles 2000 --out frames",
-           "five frames of a tube that is twisted: frames/twist-0000.ply and so on"}},
+           "five frames of a twisting tube: frames/twist-0000.ply and so on"}},
          ""});
     app->add_option("NAME", arguments->name, scene_help())
         ->required()
         ->check(CLI::IsMember(scene_names()));
     app->add_option("--out", arguments->out,
-                    "plant: FILE.glb to write; the truth goes to FILE.truth.json. Frames: a folder "
-                    "for NAME-0000.ply and so on, or FILE.ply for FILE-0000.ply and so on")
+                    "plant: FILE.glb to write, with the clashes in FILE.truth.json. Frames: a "
+                    "folder for NAME-0000.ply and so on, or FILE.ply for FILE-0000.ply and so on")
         ->required()
         ->check(not_empty("FILE"));
-    app->add_option("--triangles", arguments->triangles, "About how many triangles")
+    app->add_option("--triangles", arguments->triangles, "Approximate number of triangles")
         ->check(whole_number(1, kMostTriangles));
-    app->add_option("--frames", arguments->frames, "How many frames; all but plant")
+    app->add_option("--frames", arguments->frames, "Number of frames; not for plant")
         ->check(whole_number(1, kMostFrames));
     app->add_option("--clashes", arguments->clashes,
-                    "How many clashes to plant, of the kinds in turn; plant")
+                    "Number of clashes to plant, of each kind in turn; only for plant")
         ->check(whole_number(0, kMostClashes));
-    app->add_option("--seed", arguments->seed, "Seed of everything random")
+    app->add_option("--seed", arguments->seed, "Seed of the random numbers")
         ->check(whole_number(0, std::numeric_limits<std::uint64_t>::max()));
     add_length(*app, "--clearance", arguments->clearance,
-               "Up to this clearance nothing but the planted pairs is near; plant");
+               "Clearance up to which only planted pairs are near; only for plant");
     app->add_flag("--distinct", arguments->distinct,
-                  "Every part has a mesh of its own, none is shared; plant");
+                  "Give every part its own mesh; only for plant");
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <string_view>
 
 /// Writes CSV as RFC 4180 defines it: a header, CRLF, quotes where a cell needs them; UTF-8 without
@@ -19,6 +20,13 @@
 namespace abut {
 
 namespace {
+
+/// Text under construction; fmt::format_to appends to it.
+using TextBuffer = fmt::memory_buffer;
+
+inline void append(TextBuffer& out, std::string_view text) {
+    out.append(text.data(), text.data() + text.size());
+}
 
 constexpr std::string_view kHeader =
     "id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,"

@@ -1,7 +1,7 @@
 #include <abut/clash.h>
 #include <abut/error.h>
 
-#include "clash/report/clash_status_text.h"
+#include "clash/report/clash_json.h"
 #include "clash/report/clash_text.h"
 #include "clash/report/report_page.h"
 #include "core/atomic_file.h"
@@ -42,15 +42,17 @@ public:
         }
     }
 
-    void append_to(TextBuffer& out) {
-        append(out, "{");
-        append_json_head(out, report_);
-        append_parts(out);
-        append_clashes(out);
+    [[nodiscard]] std::string json() const {
+        JsonLines out;
+        out.begin_object();
+        write_head(out, report_);
+        write_parts(out);
+        write_clashes(out);
         if (report_.statuses)
-            append_statuses(out);
-        append_json_tail(out, report_);
-        append(out, "}");
+            write_statuses(out);
+        write_tail(out, report_);
+        out.end_object();
+        return out.take();
     }
 
 private:
@@ -67,77 +69,57 @@ private:
         return entry->second;
     }
 
-    /// Appends `"name": [element(0),...,element(count - 1)],`.
-    template <typename Element>
-    static void append_column(TextBuffer& out, std::string_view name, std::size_t count,
-                              const Element& element) {
-        fmt::format_to(fmt::appender(out), "\"{}\": [", name);
-        for (std::size_t i = 0; i < count; ++i) {
-            if (i > 0)
-                out.push_back(',');
-            element(i);
-        }
-        append(out, "],\n");
+    /// Appends an array: of(row) for each row.
+    template <typename Row, typename Of>
+    static void write_column(JsonLines& out, std::string_view name, const std::vector<Row>& rows,
+                             const Of& of) {
+        nlohmann::ordered_json::array_t column;
+        column.reserve(rows.size());
+        for (const Row& row : rows)
+            column.push_back(of(row));
+        out.member(name, std::move(column));
     }
 
-    static void append_texts(TextBuffer& out, std::string_view name, const Table& table) {
-        append_column(out, name, table.values().size(),
-                      [&](std::size_t i) { append_json_string(out, *table.values()[i]); });
+    static void write_texts(JsonLines& out, std::string_view name, const Table& table) {
+        write_column(out, name, table.values(), [](const std::string* text) { return *text; });
     }
 
-    void append_parts(TextBuffer& out) {
-        append_texts(out, "types", types_);
-        append_texts(out, "files", files_);
-        append_texts(out, "rules", rules_);
-        const std::size_t count = part_order_.size();
-        append_column(out, "part_id", count,
-                      [&](std::size_t i) { append_json_string(out, part_order_[i]->id); });
-        append_column(out, "part_name", count,
-                      [&](std::size_t i) { append_json_string(out, part_order_[i]->name); });
-        append_column(out, "part_type", count, [&](std::size_t i) { put(out, part_type_[i]); });
-        append_column(out, "part_file", count, [&](std::size_t i) { put(out, part_file_[i]); });
+    void write_parts(JsonLines& out) const {
+        write_texts(out, "types", types_);
+        write_texts(out, "files", files_);
+        write_texts(out, "rules", rules_);
+        write_column(out, "part_id", part_order_, [](const Part* part) { return part->id; });
+        write_column(out, "part_name", part_order_, [](const Part* part) { return part->name; });
+        out.member("part_type", part_type_);
+        out.member("part_file", part_file_);
     }
 
-    void append_clashes(TextBuffer& out) {
-        const std::vector<Clash>& clashes = report_.clashes;
-        const std::size_t count = clashes.size();
-        const auto column = [&](std::string_view name, const auto& element) {
-            append_column(out, name, count, [&](std::size_t i) { element(i, clashes[i]); });
+    void write_clashes(JsonLines& out) const {
+        const auto column = [&](std::string_view name, const auto& of) {
+            write_column(out, name, report_.clashes, of);
         };
-        column("id", [&](std::size_t, const Clash& clash) {
-            fmt::format_to(fmt::appender(out), "\"{:016x}\"", clash.id);
-        });
-        column("kind", [&](std::size_t, const Clash& clash) {
-            put(out, static_cast<std::uint64_t>(clash.kind));
-        });
-        column("a", [&](std::size_t i, const Clash&) { put(out, part_index_[i][0]); });
-        column("b", [&](std::size_t i, const Clash&) { put(out, part_index_[i][1]); });
-        column("rule", [&](std::size_t i, const Clash&) { put(out, rule_index_[i]); });
-        column("distance",
-               [&](std::size_t, const Clash& clash) { append_json_number(out, clash.distance); });
-        column("triangle_pairs",
-               [&](std::size_t, const Clash& clash) { put(out, clash.triangle_pairs); });
-        column("point_a",
-               [&](std::size_t, const Clash& clash) { append_json_point(out, clash.point_a); });
-        column("point_b",
-               [&](std::size_t, const Clash& clash) { append_json_point(out, clash.point_b); });
-        column("direction",
-               [&](std::size_t, const Clash& clash) { append_json_point(out, clash.direction); });
+        const auto side = [&](std::string_view name, std::size_t k) {
+            write_column(out, name, part_index_, [&](const auto& parts) { return parts[k]; });
+        };
+        column("id", [](const Clash& clash) { return clash_id_text(clash.id); });
+        column("kind", [](const Clash& clash) { return static_cast<unsigned>(clash.kind); });
+        side("a", 0);
+        side("b", 1);
+        out.member("rule", rule_index_);
+        column("distance", [](const Clash& clash) { return json_number(clash.distance); });
+        column("triangle_pairs", [](const Clash& clash) { return clash.triangle_pairs; });
+        column("point_a", [](const Clash& clash) { return json_point(clash.point_a); });
+        column("point_b", [](const Clash& clash) { return json_point(clash.point_b); });
+        column("direction", [](const Clash& clash) { return json_point(clash.direction); });
     }
 
-    void append_statuses(TextBuffer& out) {
-        append_texts(out, "notes", notes_);
-        append_column(out, "note", note_index_.size(),
-                      [&](std::size_t i) { put(out, note_index_[i]); });
-        append_column(out, "status", report_.clashes.size(), [&](std::size_t i) {
-            put(out,
-                static_cast<std::uint64_t>(report_.clashes[i].status.value_or(ClashStatus::fresh)));
+    void write_statuses(JsonLines& out) const {
+        write_texts(out, "notes", notes_);
+        out.member("note", note_index_);
+        write_column(out, "status", report_.clashes, [](const Clash& clash) {
+            return static_cast<unsigned>(clash.status.value_or(ClashStatus::fresh));
         });
-        append_json_resolved(out, report_);
-    }
-
-    static void put(TextBuffer& out, std::uint64_t value) {
-        fmt::format_to(fmt::appender(out), "{}", value);
+        write_resolved(out, report_);
     }
 
     const ClashReport& report_;
@@ -151,9 +133,9 @@ private:
 };
 
 /// Appends the template up to the marker, then removes that text and the marker from `html`.
-void append_until(TextBuffer& out, std::string_view& html, std::string_view marker) {
+void append_until(std::string& out, std::string_view& html, std::string_view marker) {
     const std::size_t at = html.find(marker);
-    append(out, html.substr(0, at));
+    out += html.substr(0, at);
     html.remove_prefix(at + marker.size());
 }
 
@@ -161,16 +143,16 @@ void append_until(TextBuffer& out, std::string_view& html, std::string_view mark
 
 void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
                       const std::string& path) {
-    TextBuffer out;
+    std::string out;
     std::string_view html = report_page::html;
     append_until(out, html, "@STYLE@");
-    append(out, report_page::style);
+    out += report_page::style;
     append_until(out, html, "@DATA@");
-    PageData(report, models).append_to(out);
+    out += PageData(report, models).json();
     append_until(out, html, "@SCRIPT@");
-    append(out, report_page::script);
-    append(out, html);
-    write_file_atomically(path, {out.data(), out.size()});
+    out += report_page::script;
+    out += html;
+    write_file_atomically(path, out);
 }
 
 } // namespace abut

@@ -1,10 +1,131 @@
-#include <abut/clash.h>
+#include "clash/report/clash_json.h"
 
-#include "clash/report/clash_status_text.h"
+#include <abut/clash_review.h>
+
 #include "clash/report/clash_text.h"
 #include "core/atomic_file.h"
 
+#include <array>
+#include <ctime>
+#include <fmt/chrono.h>
+
 namespace abut {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json json_of(const Clash& clash, const std::vector<Scene>& models) {
+    constexpr std::size_t kMostMembers = 18;
+    const Part& a = part_of(clash, 0, models);
+    const Part& b = part_of(clash, 1, models);
+    ordered_json row = ordered_json::object();
+    row.get_ref<ordered_json::object_t&>().reserve(kMostMembers);
+    put(row, "id", clash_id_text(clash.id));
+    put(row, "kind", to_string(clash.kind));
+    put(row, "a", a.id);
+    put(row, "b", b.id);
+    put(row, "a_name", a.name);
+    put(row, "b_name", b.name);
+    put(row, "a_type", a.type);
+    put(row, "b_type", b.type);
+    put(row, "a_file", models[clash.model[0]].file);
+    put(row, "b_file", models[clash.model[1]].file);
+    put(row, "distance", json_number(clash.distance));
+    put(row, "point_a", json_point(clash.point_a));
+    put(row, "point_b", json_point(clash.point_b));
+    put(row, "direction", json_point(clash.direction));
+    put(row, "triangle_pairs", clash.triangle_pairs);
+    if (!clash.rule.empty())
+        put(row, "rule", clash.rule);
+    if (clash.status)
+        put(row, "status", to_string(*clash.status));
+    if (!clash.note.empty())
+        put(row, "note", clash.note);
+    return row;
+}
+
+/// Formats seconds since 1970 as "2026-11-22T10:00:00Z".
+std::string time_text(std::int64_t seconds) {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(seconds)));
+}
+
+ordered_json json_of(const ListedClash& clash) {
+    ordered_json row{{"id", clash_id_text(clash.id)},
+                     {"kind", to_string(clash.kind)},
+                     {"status", to_string(clash.status)},
+                     {"a", clash.part[0]},
+                     {"b", clash.part[1]},
+                     {"a_name", clash.name[0]},
+                     {"b_name", clash.name[1]},
+                     {"a_type", clash.type[0]},
+                     {"b_type", clash.type[1]},
+                     {"a_file", clash.file[0]},
+                     {"b_file", clash.file[1]},
+                     {"distance", json_number(clash.distance)}};
+    if (clash.resolved != 0)
+        put(row, "resolved", time_text(clash.resolved));
+    if (!clash.note.empty())
+        put(row, "note", clash.note);
+    return row;
+}
+
+ordered_json json_of(const SceneNote& note) {
+    return {{"kind", to_string(note.kind)},
+            {"id", note.id},
+            {"name", note.name},
+            {"type", note.type},
+            {"text", note.text}};
+}
+
+ordered_json json_of(const ClashReport::ModelSummary& model) {
+    ordered_json row{{"file", model.file},
+                     {"parts", model.parts},
+                     {"triangles", model.triangles},
+                     {"unit", json_number(model.unit)},
+                     {"up", to_string(model.up)}};
+    if (model.notes.empty())
+        return row;
+    ordered_json notes = ordered_json::array();
+    for (const SceneNote& note : model.notes)
+        notes.push_back(json_of(note));
+    put(row, "notes", std::move(notes));
+    return row;
+}
+
+/// Returns {name: number} for each kind or status, in the order of `keys`.
+template <typename Key>
+ordered_json json_of(const std::array<std::uint64_t, 5>& numbers, const std::array<Key, 5>& keys) {
+    ordered_json result = ordered_json::object();
+    for (const Key key : keys)
+        put(result, to_string(key), numbers[static_cast<std::size_t>(key)]);
+    return result;
+}
+
+/// Appends an array, each element on a line of its own.
+template <typename Element, typename... Others>
+void write_array(JsonLines& out, std::string_view name, const std::vector<Element>& elements,
+                 const Others&... others) {
+    out.key(name);
+    out.begin_array();
+    for (const Element& element : elements)
+        out.value(json_of(element, others...));
+    out.end_array();
+}
+
+void write_review(JsonLines& out, const ClashReview& review) {
+    out.begin_object();
+    out.members({{"clearance", json_number(review.clearance)},
+                 {"touch", json_number(review.touch_tolerance)},
+                 {"self", review.self},
+                 {"rules", review.rules},
+                 {"finished", review.finished == 0 ? "" : time_text(review.finished)},
+                 {"statuses", json_of(review.statuses, kClashStatuses)}});
+    write_array(out, "clashes", review.clashes);
+    out.end_object();
+}
+
+} // namespace
 
 const char* to_string(ClashKind kind) {
     switch (kind) {
@@ -22,67 +143,88 @@ const char* to_string(ClashKind kind) {
     return "unknown";
 }
 
-namespace {
-
-void append_clash(TextBuffer& out, const Clash& clash, const std::vector<Scene>& models) {
-    const Part& a = part_of(clash, 0, models);
-    const Part& b = part_of(clash, 1, models);
-    fmt::format_to(fmt::appender(out), "{{\"id\": \"{:016x}\", \"kind\": \"{}\"", clash.id,
-                   to_string(clash.kind));
-    const auto text = [&](std::string_view key, std::string_view value) {
-        fmt::format_to(fmt::appender(out), ", \"{}\": ", key);
-        append_json_string(out, value);
-    };
-    text("a", a.id);
-    text("b", b.id);
-    text("a_name", a.name);
-    text("b_name", b.name);
-    text("a_type", a.type);
-    text("b_type", b.type);
-    text("a_file", models[clash.model[0]].file);
-    text("b_file", models[clash.model[1]].file);
-    append(out, ", \"distance\": ");
-    append_json_number(out, clash.distance);
-    append(out, ", \"point_a\": ");
-    append_json_point(out, clash.point_a);
-    append(out, ", \"point_b\": ");
-    append_json_point(out, clash.point_b);
-    append(out, ", \"direction\": ");
-    append_json_point(out, clash.direction);
-    fmt::format_to(fmt::appender(out), ", \"triangle_pairs\": {}", clash.triangle_pairs);
-    if (!clash.rule.empty())
-        text("rule", clash.rule);
-    if (clash.status)
-        text("status", to_string(*clash.status));
-    if (!clash.note.empty())
-        text("note", clash.note);
-    out.push_back('}');
+const char* to_string(ClashStatus status) {
+    switch (status) {
+    case ClashStatus::fresh:
+        return "new";
+    case ClashStatus::active:
+        return "active";
+    case ClashStatus::reviewed:
+        return "reviewed";
+    case ClashStatus::approved:
+        return "approved";
+    case ClashStatus::resolved:
+        return "resolved";
+    }
+    return "unknown";
 }
 
-} // namespace
+void write_head(JsonLines& out, const ClashReport& report) {
+    write_array(out, "models", report.models);
+    out.members(
+        {{"frame", {{"up", to_string(report.frame.up)}, {"unit", "m"}, {"of", report.frame.of}}},
+         {"warnings", report.warnings},
+         {"clearance", json_number(report.clearance)},
+         {"touch", json_number(report.touch_tolerance)},
+         {"candidates", report.candidates},
+         {"counts", json_of(report.counts, kClashKinds)}});
+    if (report.statuses)
+        out.member("statuses", json_of(*report.statuses, kClashStatuses));
+}
 
-// Writes one clash per line, so that line tools can search, compare and cut a report.
+void write_resolved(JsonLines& out, const ClashReport& report) {
+    if (report.statuses)
+        write_array(out, "resolved", report.resolved);
+}
+
+void write_tail(JsonLines& out, const ClashReport& report) {
+    const ClashReport::Seconds& seconds = report.seconds;
+    out.members({{"seconds",
+                  {{"import", json_number(seconds.import)},
+                   {"build", json_number(seconds.build)},
+                   {"broad", json_number(seconds.broad)},
+                   {"narrow", json_number(seconds.narrow)},
+                   {"total", json_number(seconds.total)}}},
+                 {"peak_rss_mib", json_number(report.peak_rss_mib)}});
+}
+
+void write_report(JsonLines& out, const ClashReport& report, const std::vector<Scene>& models) {
+    write_head(out, report);
+    write_array(out, "clashes", report.clashes, models);
+    write_resolved(out, report);
+    write_tail(out, report);
+}
+
 std::string to_json(const ClashReport& report, const std::vector<Scene>& models) {
-    TextBuffer out;
-    append(out, "{\n");
-    append_json_head(out, report);
-    append(out, "\"clashes\": [");
-    const char* separator = "\n  ";
-    for (const Clash& clash : report.clashes) {
-        append(out, separator);
-        append_clash(out, clash, models);
-        separator = ",\n  ";
-    }
-    append(out, "\n],\n");
-    append_json_resolved(out, report);
-    append_json_tail(out, report);
-    append(out, "}\n");
-    return fmt::to_string(out);
+    JsonLines out;
+    out.begin_object();
+    write_report(out, report, models);
+    out.end_object();
+    return out.take() + "\n";
 }
 
 void write_clash_json(const ClashReport& report, const std::vector<Scene>& models,
                       const std::string& path) {
     write_file_atomically(path, to_json(report, models));
+}
+
+std::string to_json(const ClashReview& review) {
+    JsonLines out;
+    write_review(out, review);
+    return out.take();
+}
+
+std::string to_json(const std::vector<ClashReview>& reviews, const std::string& store) {
+    JsonLines out;
+    out.begin_object();
+    out.member("store", store);
+    out.key("questions");
+    out.begin_array();
+    for (const ClashReview& review : reviews)
+        write_review(out, review);
+    out.end_array();
+    out.end_object();
+    return out.take() + "\n";
 }
 
 } // namespace abut

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-/// The sources of the report page in src/massive/report, embedded by the build.
+/// The sources of the report page in src/clash/report/page, embedded by the build.
 namespace abut::report_page {
 
 /// Contains the markers @STYLE@, @DATA@ and @SCRIPT@, once each and in this order.

@@ -80,6 +80,7 @@ public:
         const double height = hn::GetLane(most);
         const std::uint32_t target = ring[k / RingBatch::kEdges].target[k % RingBatch::kEdges];
         bool higher = height > height_;
+        lead_ = height_ - height;
         vertex_ = higher ? target : vertex_;
         height_ = higher ? height : height_;
         if (HWY_UNLIKELY(vertex.degree > 2 * RingBatch::kEdges))
@@ -87,13 +88,17 @@ public:
         return higher;
     }
     [[nodiscard]] std::uint32_t vertex() const { return vertex_; }
+    /// After a step that did not move: by how much all neighbours are lower, at least.
+    [[nodiscard]] double lead() const { return lead_; }
 
 private:
     HWY_INLINE bool step_beyond(const HullVertex& vertex) {
         bool higher = false;
         for (std::uint32_t k = 2 * RingBatch::kEdges; k < vertex.degree; ++k) {
             const std::uint32_t e = vertex.first_edge + k;
-            if (const double h = abut::dot(direction_, polytope_.to(e)); h > height_)
+            const double h = abut::dot(direction_, polytope_.to(e));
+            lead_ = std::min(lead_, height_ - h);
+            if (h > height_)
                 height_ = h, vertex_ = polytope_.target(e), higher = true;
         }
         return higher;
@@ -103,7 +108,7 @@ private:
     const Vec3& direction_;
     V lanes_[3];
     std::uint32_t vertex_;
-    double height_;
+    double height_, lead_ = 0;
 };
 
 /// The farthest vertex, by looking at all of them.

@@ -1,9 +1,9 @@
 #include "convex/hull/coplanar_faces.h"
 
+#include "core/disjoint_sets.h"
 #include "math/predicates.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace abut {
 
@@ -32,25 +32,16 @@ std::vector<Side> sides_by_edge(std::span<const IndexTriangle> triangles) {
 
 std::vector<std::uint32_t> coplanar_groups(std::span<const Vec3> points,
                                            std::span<const IndexTriangle> triangles) {
-    std::vector<std::uint32_t> parent(triangles.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](std::uint32_t i) {
-        while (parent[i] != i)
-            i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    DisjointSets sets(triangles.size());
     const std::vector<Side> sides = sides_by_edge(triangles);
     for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
         const Side &s = sides[i], &t = sides[i + 1];
-        if (orient3d(points[s.low], points[s.high], points[s.apex], points[t.apex]) != 0)
-            continue;
-        // The first triangle of a group is its root.
-        const std::uint32_t i_root = root(s.triangle), j_root = root(t.triangle);
-        parent[std::max(i_root, j_root)] = std::min(i_root, j_root);
+        if (orient3d(points[s.low], points[s.high], points[s.apex], points[t.apex]) == 0)
+            sets.unite(s.triangle, t.triangle);
     }
     std::vector<std::uint32_t> group(triangles.size());
     for (std::uint32_t i = 0, count = 0; i < triangles.size(); ++i)
-        group[i] = root(i) == i ? count++ : group[root(i)];
+        group[i] = sets.root(i) == i ? count++ : group[sets.root(i)];
     return group;
 }
 

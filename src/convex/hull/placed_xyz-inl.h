@@ -21,8 +21,8 @@ namespace abut::HWY_NAMESPACE {
 class PlacedXyz {
 public:
     HWY_INLINE explicit PlacedXyz(const PlacedPolytope& placed)
-        : polytope_(placed.polytope), offset_(to_xyz(placed.offset)) {
-        const double* const m = placed.linear->m.data();
+        : polytope_(placed.polytope), linear_(placed.linear), offset_(to_xyz(placed.offset)) {
+        const double* const m = linear_->m.data();
         for (std::size_t i = 0; i < 3; ++i) {
             column_[i] = load_xyz(m + 3 * i);
             row_[i] = to_xyz({m[i], m[3 + i], m[6 + i]});
@@ -39,9 +39,14 @@ public:
     [[nodiscard]] HWY_INLINE Xyz pulled_back(const Xyz& n) const {
         return n.x() * row_[0] + n.y() * row_[1] + n.z() * row_[2];
     }
+    /// The same, of coordinates that lie in memory one by one.
+    [[nodiscard]] HWY_INLINE Vec3 pulled_back(const Vec3& n) const {
+        return pull_back(*linear_, n);
+    }
 
 private:
     const Polytope* polytope_;
+    const Transform* linear_;
     Xyz column_[3], row_[3], offset_;
 };
 

@@ -82,6 +82,7 @@ void find_closest_points_from_simplex(const PolytopePair& pair, double rounding,
     at.distance_sq = found.distance_sq, at.excess = found.excess;
     at.end = found.meeting ? WalkEnd::meeting : WalkEnd::closest;
     at.proven = found.meeting && found.proven;
+    at.of_features = false;
 }
 
 void find_closest_points(const PolytopePair& pair, double rounding, ClosestPointSearch& search) {

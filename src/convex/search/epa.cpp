@@ -71,7 +71,7 @@ public:
         for (;;) {
             const std::uint32_t f = nearest_face();
             const GrowingBoundary::Face& face = boundary_.faces()[f];
-            const VertexPair vertices = farthest_vertices(to_xyz(face.normal));
+            const VertexPair vertices = farthest_vertices(face.normal);
             const Xyz corner = placed(vertices);
             const double size = length(face.normal), scale = size > 0 ? 1 / size : 0;
             const double offset = scale * face.height;
@@ -127,9 +127,9 @@ private:
     [[nodiscard]] HWY_INLINE Xyz placed(const VertexPair& vertices) const {
         return b_.vertex(vertices.b) - a_.vertex(vertices.a);
     }
-    [[nodiscard]] HWY_INLINE VertexPair farthest_vertices(const Xyz& direction) const {
-        return rings::farthest_two(a_.polytope(), to_vec3(a_.pulled_back(-direction)),
-                                   b_.polytope(), to_vec3(b_.pulled_back(direction)));
+    [[nodiscard]] HWY_INLINE VertexPair farthest_vertices(const Vec3& direction) const {
+        return rings::farthest_two(a_.polytope(), a_.pulled_back(-direction), b_.polytope(),
+                                   b_.pulled_back(direction));
     }
     [[nodiscard]] bool is_corner_of(const GrowingBoundary::Face& face,
                                     const VertexPair& vertices) const {
@@ -166,7 +166,7 @@ private:
                                    : count == 2
                                        ? perpendicular(at(1) - at(0))
                                        : normalized_or_zero(cross(at(1) - at(0), at(2) - at(0)));
-            const VertexPair next = farthest_vertices(to_xyz(direction));
+            const VertexPair next = farthest_vertices(direction);
             const Xyz corner = placed(next);
             if (!(dot(direction, to_vec3(corner)) > rounding_)) {
                 flat.normal = direction;
@@ -334,9 +334,8 @@ private:
         const double height_sq = length_sq(face.normal) / edge_sq,
                      rounding_sq = rounding_ * rounding_,
                      least_behind = 0x1p118 * rounding_sq * rounding_sq;
-        const Xyz n = to_xyz(normal);
-        const double behind_a = behind(a_, to_vec3(a_.pulled_back(-n)), a, count_a),
-                     behind_b = behind(b_, to_vec3(b_.pulled_back(n)), b, count_b);
+        const double behind_a = behind(a_, a_.pulled_back(-normal), a, count_a),
+                     behind_b = behind(b_, b_.pulled_back(normal), b, count_b);
         return least_behind > 0x1p-900 && behind_a < 0 && behind_b < 0 &&
                behind_a * behind_a * height_sq >= least_behind &&
                behind_b * behind_b * height_sq >= least_behind;

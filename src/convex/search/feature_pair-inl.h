@@ -40,9 +40,10 @@ struct Measured {
 
 inline constexpr double kOfEdges = -1;
 
-/// Two edges as vectors.
+/// What is known of two edges once they are measured: the second one as a vector, and squares.
 struct EdgePair {
-    Xyz u, v;
+    Xyz v;
+    EdgeSquares squares;
 };
 
 HWY_INLINE Measured turned(const Measured& m) {
@@ -76,8 +77,8 @@ HWY_INLINE Corners corners_at(double parameter) {
 /// In          closest points as nearest_on_segments returns them.
 HWY_INLINE double spread_of_edges(const EdgePair& edges, const Xyz& gap, double gap_sq,
                                   Corners on_u, Corners on_v) {
-    const auto& [u, v] = edges;
-    const double uu = length_sq(u), vv = length_sq(v);
+    const auto& [v, squares] = edges;
+    const auto [uu, vv, nn] = squares;
     // The point on u was computed last, and so corrects the error of the point on v.
     if (on_v != 3)
         return on_u == 3 ? uu : std::numeric_limits<double>::infinity();
@@ -86,13 +87,15 @@ HWY_INLINE double spread_of_edges(const EdgePair& edges, const Xyz& gap, double 
         return 0;
     if (on_u != 3)
         return vv;
-    const double nn = length_sq(cross(u, v));
     return nn >= 0x1p-8 * uu * vv ? nn / std::max(uu, vv) : 0;
 }
 
-HWY_INLINE Measured measure_edge_edge(const Xyz& p0, const Xyz& p1, const Xyz& q0, const Xyz& q1) {
+/// Out         `edges`: for spread_of_edges.
+HWY_INLINE Measured measure_edge_edge(const Xyz& p0, const Xyz& p1, const Xyz& q0, const Xyz& q1,
+                                      EdgePair& edges) {
     const Xyz u = p1 - p0, v = q1 - q0, r = q0 - p0;
-    const SegmentPoints c = nearest_on_segments(u, v, r);
+    const SegmentPoints c = nearest_on_segments(u, v, r, edges.squares);
+    edges.v = v;
     const Xyz from = c.s * u, gap = r + c.t * v - from;
     return {p0 + from, gap, c.distance_sq, corners_at(c.s), corners_at(c.t), kOfEdges};
 }
@@ -161,19 +164,20 @@ inline HWY_NOINLINE void measure_face_edge(const XyzTriangle& t, const Xyz& q0, 
         if (const Foot<Xyz> foot = foot_on(first_is_nearer ? q1 : q0, t); foot.within)
             take(measured(foot.point, foot.gap, corners_of(foot), first_is_nearer ? 2 : 1,
                           foot.height_sq()));
-    std::size_t edge = 0;
+    EdgePair nearest_edges;
     Corners on_edge = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1);
+        EdgePair edges;
+        const Measured m = measure_edge_edge(t[k], t[(k + 1) % 3], q0, q1, edges);
         if (!(m.distance_sq < nearest.distance_sq))
             continue;
         nearest = m;
         nearest.a = kEdgeCorners[k][m.a];
-        edge = k, on_edge = m.a;
+        nearest_edges = edges, on_edge = m.a;
     }
     if (nearest.spread_sq == kOfEdges)
-        nearest.spread_sq = spread_of_edges({t[(edge + 1) % 3] - t[edge], q1 - q0}, nearest.gap,
-                                            nearest.distance_sq, on_edge, nearest.b);
+        nearest.spread_sq =
+            spread_of_edges(nearest_edges, nearest.gap, nearest.distance_sq, on_edge, nearest.b);
 }
 
 HWY_INLINE Xyz corner0(const PlacedXyz& side, const HullFeature& f) {
@@ -205,12 +209,9 @@ HWY_INLINE Measured measure(const PlacedXyz& side_a, const PlacedXyz& side_b, co
         return turned(measure_face_vertex(triangle(side_b, b), corner0(side_a, a)));
     case 3:
         return measure_edge_vertex(corner0(side_a, a), corner1(side_a, a), corner0(side_b, b));
-    case 4: {
-        const Xyz p0 = corner0(side_a, a), p1 = corner1(side_a, a), q0 = corner0(side_b, b),
-                  q1 = corner1(side_b, b);
-        edges = {p1 - p0, q1 - q0};
-        return measure_edge_edge(p0, p1, q0, q1);
-    }
+    case 4:
+        return measure_edge_edge(corner0(side_a, a), corner1(side_a, a), corner0(side_b, b),
+                                 corner1(side_b, b), edges);
     case 5: {
         Measured nearest;
         measure_face_edge(triangle(side_b, b), corner0(side_a, a), corner1(side_a, a), nearest);

@@ -8,6 +8,7 @@
 #include "convex/search/feature_pair-inl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
@@ -15,6 +16,9 @@ namespace abut::HWY_NAMESPACE {
 
 /// Shrinks a feature to the part of it whose corners hold the closest point.
 HWY_INLINE void shrink(const Polytope& p, Corners corners, HullFeature& f) {
+    // Most often all of the feature stays: of a vertex corner 1, of an edge 3, of a face 7.
+    if (corners == (2U << static_cast<std::uint32_t>(f.kind)) - 1) [[likely]]
+        return;
     const std::uint32_t next = f.kind == Feature::face ? p.after(p.vertices[f.vertex], f.edge) : 0;
     switch (corners) {
     case 1:
@@ -75,10 +79,29 @@ HWY_INLINE Growth grow(const PlacedXyz& side, const HullFeature& f, const Xyz& g
     }
     const bool is_face = f.kind == Feature::face;
     const rings::HighestNeighbour h = rings::highest_neighbour(p, v, n, is_face);
+    // Neighbours of a triangle that is seen from its front are no farther along its normal. What
+    // exceeds it is rounding of a short gap's direction.
+    if (is_face && -h.least > h.most)
+        return {0, f, false, h.least};
     return {h.excess,
             {f.vertex, h.edge, Feature::edge},
             h.excess > 0 && f.kind == Feature::vertex,
             is_face ? h.least : h.most};
+}
+
+/// Replaces a feature by its growth with the larger excess that has not been tried yet. Returns
+/// false if both have been tried.
+HWY_INLINE bool take_larger(Growth& grown_a, Growth& grown_b, HullFeature& a, HullFeature& b) {
+    if (grown_a.possible && !(grown_b.possible && grown_b.excess > grown_a.excess)) {
+        a = grown_a.feature;
+        grown_a.possible = false;
+        return true;
+    }
+    if (!grown_b.possible)
+        return false;
+    b = grown_b.feature;
+    grown_b.possible = false;
+    return true;
 }
 
 /// Returns whether the features' neighbours lie behind them by more than rounding explains
@@ -125,15 +148,8 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
             end = WalkEnd::limit;
             break;
         }
-        // Try the larger excess first. A growth that was tried is not possible again.
         next_a = a, next_b = b;
-        if (grown_a.possible && !(grown_b.possible && grown_b.excess > grown_a.excess)) {
-            next_a = grown_a.feature;
-            grown_a.possible = false;
-        } else if (grown_b.possible) {
-            next_b = grown_b.feature;
-            grown_b.possible = false;
-        } else {
+        if (!take_larger(grown_a, grown_b, next_a, next_b)) {
             end = WalkEnd::stuck;
             break;
         }
@@ -143,6 +159,7 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
     state.distance_sq = distance_sq, state.excess = excess;
     state.feature_pairs += count;
     state.end = end;
+    state.of_features = true;
     state.proven = false;
     if (end != WalkEnd::closest)
         return;
@@ -154,6 +171,93 @@ void walk_features(const PolytopePair& pair, double rounding, std::uint32_t limi
         is_proof(std::max(grown_a.most, grown_b.most), spread_sq, distance_sq, rounding_sq);
 }
 
+/// The most by which a neighbour lies further along n than the feature, which is perpendicular to
+/// n: negative if the body lies behind the feature.
+HWY_INLINE double excess_along(const PlacedXyz& side, const HullFeature& f, const Xyz& n) {
+    const Polytope& p = side.polytope();
+    const Vec3 direction = to_vec3(side.pulled_back(n));
+    const HullVertex& v = p.vertices[f.vertex];
+    if (f.kind == Feature::edge) {
+        const auto excess = [&](std::uint32_t edge)
+                                HWY_ATTR { return dot(direction, p.to(edge) - v.at); };
+        return std::max(excess(p.after(v, f.edge)), excess(p.before(v, f.edge)));
+    }
+    // All neighbours of a triangle lie on one side of it: the farthest one tells which.
+    const bool is_face = f.kind == Feature::face;
+    const rings::HighestNeighbour h = rings::highest_neighbour(p, v, direction, is_face);
+    return is_face ? h.least : h.most;
+}
+
+/// A direction perpendicular to two features, towards either side, and the square of a length s:
+/// rounding of the corners by e turns it by at most 32 e / s. Zero if there is none.
+struct Perpendicular {
+    Xyz n;
+    double spread_sq = 0;
+};
+
+HWY_INLINE Xyz edge_of(const PlacedXyz& side, const HullFeature& f) {
+    return corner1(side, f) - corner0(side, f);
+}
+
+/// To an edge, and to nothing else: the gap without its part along the edge.
+HWY_INLINE Perpendicular perpendicular_to_edge(const Xyz& u, const Xyz& gap) {
+    const double uu = length_sq(u);
+    const Xyz n = gap - (dot(gap, u) / uu) * u;
+    const double along = dot(n, u);
+    return {n, along * along <= 0x1p-98 * length_sq(n) * uu ? uu : 0};
+}
+
+HWY_INLINE Perpendicular perpendicular_to_edges(const Xyz& u, const Xyz& v) {
+    const Xyz n = cross(u, v);
+    return {n, length_sq(n) / std::max(length_sq(u), length_sq(v))};
+}
+
+HWY_INLINE Perpendicular perpendicular_to_triangle(const XyzTriangle& t) {
+    const Xyz u = t[1] - t[0], v = t[2] - t[0];
+    const Xyz n = cross(u, v);
+    const double longest_sq = std::max({length_sq(u), length_sq(v), length_sq(t[2] - t[1])});
+    return {n, length_sq(n) / longest_sq};
+}
+
+HWY_INLINE Perpendicular perpendicular_to(const PlacedXyz& side_a, const PlacedXyz& side_b,
+                                          const HullFeature& a, const HullFeature& b,
+                                          const Xyz& gap) {
+    switch (3 * static_cast<int>(a.kind) + static_cast<int>(b.kind)) {
+    case 0:
+        return {gap, std::numeric_limits<double>::infinity()};
+    case 1:
+        return perpendicular_to_edge(edge_of(side_b, b), gap);
+    case 2:
+        return perpendicular_to_triangle(triangle(side_b, b));
+    case 3:
+        return perpendicular_to_edge(edge_of(side_a, a), gap);
+    case 4:
+        return perpendicular_to_edges(edge_of(side_a, a), edge_of(side_b, b));
+    case 6:
+        return perpendicular_to_triangle(triangle(side_a, a));
+    default:
+        return {};
+    }
+}
+
+bool compare_across(const PolytopePair& pair, double rounding, const WalkState& state) {
+    const PlacedXyz side_a(pair.a), side_b(pair.b);
+    const Xyz gap = to_xyz(state.gap);
+    const Perpendicular across = perpendicular_to(side_a, side_b, state.a, state.b, gap);
+    const double rounding_sq = rounding * rounding, nn = length_sq(across.n),
+                 along = dot(across.n, gap), distance_sq = state.distance_sq;
+    const double least = std::sqrt(distance_sq) - 0.5 * rounding;
+    if (!(rounding > 0x1p-100 && across.spread_sq >= 0x1p20 * rounding_sq &&
+          distance_sq <= std::min(across.spread_sq, 0x1p90 * rounding_sq) && least > 0 &&
+          along * along >= nn * (least * least)))
+        return false;
+    const Xyz n = choose(along < 0, -across.n, across.n);
+    const double most =
+        std::max(excess_along(side_a, state.a, n), excess_along(side_b, state.b, -n));
+    return most < 0 && most * most > 0x1p10 * rounding_sq * nn &&
+           most * most * across.spread_sq > 0x1p123 * (rounding_sq * rounding_sq) * nn;
+}
+
 } // namespace abut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -161,9 +265,15 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(walk_features);
+HWY_EXPORT(compare_across);
 
 void walk(const PolytopePair& pair, double rounding, std::uint32_t limit, WalkState& state) {
     HWY_DYNAMIC_DISPATCH(walk_features)(pair, rounding, limit, state);
+}
+
+bool is_proven_across(const PolytopePair& pair, double rounding, const WalkState& state) {
+    return state.end == WalkEnd::closest && state.of_features &&
+           HWY_DYNAMIC_DISPATCH(compare_across)(pair, rounding, state);
 }
 
 } // namespace abut

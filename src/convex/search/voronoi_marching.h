@@ -42,6 +42,9 @@ struct WalkState {
     /// If closest: certainly no two points are nearer than the distance less eight roundings,
     /// provided that is_measurable(distance_sq, rounding).
     bool proven = false;
+    /// The points are the closest ones of the two features, which hold them in their inside; not
+    /// set by a search by simplices.
+    bool of_features = false;
 };
 
 /// Returns whether the distance is so much larger than rounding, and rounding so much larger than
@@ -69,6 +72,12 @@ inline constexpr std::uint32_t kNoLimit = 0xffffffffU;
 ///             planes; they need only the neighbours' positions and hold under any affine
 ///             transform. The measured distance must shrink, so the walk cannot cycle.
 void walk(const PolytopePair& pair, double rounding, std::uint32_t limit, WalkState& state);
+
+/// Proves what a walk has found at a short gap, whose direction has lost digits: neighbours are
+/// compared along the direction perpendicular to both features (docs/convex.md, "Proofs").
+///
+/// Out         if true, no two points are nearer than the distance less eight roundings.
+bool is_proven_across(const PolytopePair& pair, double rounding, const WalkState& state);
 
 inline HullFeature vertex_feature(std::uint32_t vertex) {
     return {vertex, 0, Feature::vertex};

@@ -130,6 +130,21 @@ HWY_INLINE Intervals<D> compare_intervals(D d, const LaneCut<D>& a, const LaneCu
         hn::And(certain, hn::Or(hn::Gt(a_before_b, bound_1), hn::Lt(a_to_b, hn::Neg(bound_2))))};
 }
 
+/// The gaps between the boxes of pairs of triangles along the axes, which certainly exist: those
+/// that exceed the margin, less the margin.
+template <class D>
+HWY_INLINE Lanes3<D> box_gaps(D d, const Lanes3<D>* a, const Lanes3<D>* b, hn::Vec<D> margin) {
+    const auto zero = hn::Zero(d);
+    const auto gap = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
+        const auto apart = hn::Max(hn::Sub(min3(p0, p1, p2), max3(q0, q1, q2)),
+                                   hn::Sub(min3(q0, q1, q2), max3(p0, p1, p2)));
+        return hn::Max(zero, hn::Sub(apart, margin));
+    };
+    return {gap(a[0].x, a[1].x, a[2].x, b[0].x, b[1].x, b[2].x),
+            gap(a[0].y, a[1].y, a[2].y, b[0].y, b[1].y, b[2].y),
+            gap(a[0].z, a[1].z, a[2].z, b[0].z, b[1].z, b[2].z)};
+}
+
 template <bool with_near, class D>
 HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const TriangleLeaf& leaf_b,
                                   const LeafPlacement& to_a, const LeafBound& bound) {
@@ -141,15 +156,7 @@ HWY_INLINE LeafPairs compare_with(D d, const TriangleLeaf& leaf_a, const Triangl
     for (std::size_t lane = 0; lane < kPairs; lane += hn::Lanes(d)) {
         Lanes3<D> a[3], b[3];
         load_pairs(d, leaf_a, turned, lane, a, b);
-        // A gap certainly exists if it exceeds the margin.
-        const auto gap = [&](auto p0, auto p1, auto p2, auto q0, auto q1, auto q2) HWY_ATTR {
-            const auto apart = hn::Max(hn::Sub(min3(p0, p1, p2), max3(q0, q1, q2)),
-                                       hn::Sub(min3(q0, q1, q2), max3(p0, p1, p2)));
-            return hn::Max(zero, hn::Sub(apart, margin));
-        };
-        const Lanes3<D> g{gap(a[0].x, a[1].x, a[2].x, b[0].x, b[1].x, b[2].x),
-                          gap(a[0].y, a[1].y, a[2].y, b[0].y, b[1].y, b[2].y),
-                          gap(a[0].z, a[1].z, a[2].z, b[0].z, b[1].z, b[2].z)};
+        const Lanes3<D> g = box_gaps(d, a, b, margin);
         auto meet = hn::Le(max3(g.x, g.y, g.z), zero);
         auto near = meet;
         if constexpr (with_near) {

@@ -18,7 +18,7 @@ constexpr std::size_t kBlock = std::size_t{1} << 18;
 
 } // namespace
 
-/// An open file; closes it.
+/// Owns the descriptor of an open file.
 class ByteStream::Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
@@ -26,7 +26,7 @@ public:
     Descriptor& operator=(const Descriptor&) = delete;
     ~Descriptor() { close(number_); }
 
-    /// How many bytes were read; 0 at the end.
+    /// Returns the number of bytes read; 0 at the end.
     std::size_t read_some(char* to, std::size_t most) const {
         ssize_t count = 0;
         do

@@ -26,12 +26,12 @@ std::string companion_path(const std::string& model, const std::string& referenc
         return path;
     std::error_code error;
     const fs::path real_folder = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
-    // A file that is missing, or a folder on the way to it, is told by whoever opens it.
+    // If the file or a folder on its path is missing, the caller that opens it reports that.
     const fs::path real = error ? fs::path() : fs::weakly_canonical(path, error);
     if (error || !is_within(real, real_folder))
         throw Fault(ErrorCode::unsupported,
                     "refers to " + reference.substr(0, 200) +
-                        ", which lies outside of its folder (to be allowed explicitly)");
+                        ", which lies outside its folder and must be allowed explicitly");
     return real;
 }
 

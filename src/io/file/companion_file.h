@@ -4,11 +4,11 @@
 
 namespace abut {
 
-/// Path of a file that a model refers to.
+/// Returns the path of a file that a model refers to.
 ///
-/// A model may come from anywhere, so what it refers to has to lie in the model's own folder or
-/// below it, also once symbolic links are followed. The model's own path is the user's: it may be
-/// a link, and then the folder is the one that the link lies in.
+/// A model is not trusted: each file that it refers to must lie in the model's folder or below it,
+/// also after symbolic links are followed. The model's own path comes from the user and may be a
+/// link; its folder is then the one that contains the link.
 ///
 /// In          reference: as in the model, relative to its folder.
 /// Errors      Fault unsupported if the file lies outside and allow_outside is false.

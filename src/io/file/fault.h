@@ -7,7 +7,7 @@
 
 namespace abut {
 
-/// A fault in a file's content; who knows the file's name makes an Error of it.
+/// A fault in a file's content. A caller that knows the file's name turns it into an Error.
 class Fault : public std::runtime_error {
 public:
     Fault(ErrorCode code, const std::string& what) : std::runtime_error(what), code_(code) {}

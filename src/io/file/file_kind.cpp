@@ -11,12 +11,12 @@ namespace abut {
 namespace {
 
 struct Mark {
-    std::string_view bytes;      ///< at the beginning of the file
-    std::string_view kind;       ///< for messages
-    std::string_view extensions; ///< that files of this kind may have, separated by blanks
+    std::string_view bytes;      ///< first bytes of the file
+    std::string_view kind;       ///< format name for messages
+    std::string_view extensions; ///< allowed extensions of this format, separated by blanks
 };
 
-// The rarer ones first: a longer mark may begin as a shorter one does.
+// Rarer marks come first, because a longer mark may begin like a shorter one.
 constexpr std::array kMarks{
     Mark{"glTF", "a GLB file", ".glb"},
     Mark{"ply\n", "a PLY file", ".ply"},
@@ -64,11 +64,6 @@ bool is_known(std::string_view extension) {
 
 } // namespace
 
-std::string_view kind_of_bytes(std::string_view first_bytes) {
-    const Mark* const mark = mark_of(first_bytes);
-    return mark == nullptr ? std::string_view() : mark->kind;
-}
-
 void check_file_kind(const std::string& path, std::string_view extension) {
     if (!is_known(extension))
         return;
@@ -76,7 +71,7 @@ void check_file_kind(const std::string& path, std::string_view extension) {
     (void)content.more();
     const std::string_view bytes = content.ahead();
     const Mark* const mark = mark_of(bytes);
-    // The 80 bytes before a binary STL's count may hold anything.
+    // The 80 bytes before a binary STL's count may hold any values.
     constexpr std::size_t kStlHeaderBytes = 84, kStlTriangleBytes = 50;
     if (extension == ".stl" && bytes.size() >= kStlHeaderBytes) {
         std::uint64_t count = 0;
@@ -91,7 +86,8 @@ void check_file_kind(const std::string& path, std::string_view extension) {
                        ? std::string()
                        : ", though its name ends in " + std::string(extension) + ": rename it"));
     if (std::all_of(bytes.begin(), bytes.end(), [](char c) { return c == '\0'; }))
-        malformed("begins with " + std::to_string(bytes.size()) + " zero bytes: it holds no model");
+        malformed("begins with " + std::to_string(bytes.size()) +
+                  " zero bytes: it contains no model");
 }
 
 } // namespace abut

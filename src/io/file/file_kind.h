@@ -5,18 +5,15 @@
 
 namespace abut {
 
-/// Throws if the first bytes of a file belong to another format than its extension says, or to
-/// none that the extension can stand for: "is a GLB file (its extension says .stl): rename it".
+/// Throws if the first bytes of a file belong to another format than its extension says, or to a
+/// format that has no such extension: "is a GLB file (its extension says .stl): rename it".
 ///
-/// The extension decides how a file is read, never its content: units and axes go by the format,
-/// and a wrong name is more often a mistake of whoever wrote the file than a wish.
+/// The extension, never the content, selects the reader, because units and axes depend on the
+/// format, and a wrong extension is usually a mistake.
 ///
-/// In          extension: lower case, with its dot. Nothing is said of unknown ones.
+/// In          extension: lower case, with its dot. Unknown extensions are accepted.
 /// Errors      Fault malformed; as readable_size.
-/// Cost        reads one block.
+/// Cost        reads one block of the file.
 void check_file_kind(const std::string& path, std::string_view extension);
-
-/// The format that a file's first bytes are the mark of, such as "a GLB file"; empty if none.
-std::string_view kind_of_bytes(std::string_view first_bytes);
 
 } // namespace abut

@@ -22,7 +22,7 @@ std::string lower_extension(const std::string& path) {
 }
 
 OpenFile open_readable(const std::string& path) {
-    // O_NONBLOCK: a named pipe without a writer must not hold us up.
+    // O_NONBLOCK, because opening a named pipe without a writer would block.
     const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) {
         if (errno == ENOENT || errno == ENOTDIR)

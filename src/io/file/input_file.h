@@ -5,7 +5,7 @@
 
 namespace abut {
 
-/// A path's extension in lower case, with its dot.
+/// Returns a path's extension in lower case, with its dot.
 std::string lower_extension(const std::string& path);
 
 /// A regular file, open for reading.
@@ -14,16 +14,16 @@ struct OpenFile {
     std::uint64_t size = 0;
 };
 
-/// Errors      as readable_size.
+/// Opens a regular file. Errors as readable_size.
 OpenFile open_readable(const std::string& path);
 
-/// Opens a file to learn whether it can be read; its size in bytes.
+/// Checks that a file can be opened, and returns its size in bytes.
 ///
-/// Errors      Fault: file_not_found; unreadable, if only because it is no regular file; malformed
-///             if it is empty.
+/// Errors      Fault: file_not_found; unreadable, also if it is not a regular file; malformed if it
+///             is empty.
 std::uint64_t readable_size(const std::string& path);
 
-/// All bytes of a file. Errors as readable_size.
+/// Returns all bytes of a file. Errors as readable_size.
 std::string read_file(const std::string& path);
 
 } // namespace abut

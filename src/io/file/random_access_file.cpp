@@ -34,7 +34,7 @@ void RandomAccessFile::read(std::uint64_t at, std::span<std::byte> bytes) const 
             throw Fault(ErrorCode::unreadable,
                         std::string("cannot be read: ") + std::strerror(errno));
         if (count == 0)
-            throw Fault(ErrorCode::unreadable, "has become shorter while it was read");
+            throw Fault(ErrorCode::unreadable, "became shorter while it was read");
         at += static_cast<std::uint64_t>(count);
         bytes = bytes.subspan(static_cast<std::size_t>(count));
     }

@@ -10,10 +10,10 @@ namespace abut {
 
 class ReadWatch;
 
-/// A file that is read at any place, from any thread.
+/// A file that any thread can read at any position.
 class RandomAccessFile {
 public:
-    /// In          watch: is asked whenever bytes are read; null: nobody is.
+    /// In          watch: checked whenever bytes are read; may be null.
     /// Errors      Fault as readable_size.
     explicit RandomAccessFile(const std::string& path,
                               std::shared_ptr<const ReadWatch> watch = nullptr);

@@ -28,7 +28,7 @@ void ReadWatch::require_memory(std::uint64_t bytes) const {
                          static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
     if (bytes > machine)
         throw Error(ErrorCode::reader_failed, file_,
-                    "would take " + std::to_string(bytes >> 20) +
+                    "would need " + std::to_string(bytes >> 20) +
                         " MiB of memory, which this machine does not have");
 }
 

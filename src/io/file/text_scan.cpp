@@ -10,11 +10,12 @@ namespace abut {
 namespace {
 
 constexpr std::size_t kLongestLine = std::size_t{64} << 20;
-/// The first line's end is looked for that far; without it, \n is taken to end lines.
+/// The end of the first line is searched for this far. Without one, lines are assumed to end with
+/// \n.
 constexpr std::size_t kFirstLine = std::size_t{64} << 10;
 
 [[noreturn]] void no_text(const std::string& place) {
-    malformed(place + ": holds zero bytes, so it is no text in UTF-8");
+    malformed(place + ": contains zero bytes, so it is not UTF-8 text");
 }
 
 } // namespace
@@ -23,10 +24,10 @@ void LineScan::begin() {
     (void)text_.has(4);
     const std::string_view first = text_.ahead();
     if (first.starts_with("\xff\xfe") || first.starts_with("\xfe\xff"))
-        malformed("is text in UTF-16: save it in UTF-8");
+        malformed("is UTF-16 text: save it as UTF-8");
     if (first.starts_with("\xef\xbb\xbf"))
         text_.take(3);
-    // Files of old programs end their lines with \r alone.
+    // Files of old programs end their lines with a single \r.
     std::size_t end = text_.ahead().find_first_of("\r\n");
     while (end == std::string_view::npos && text_.ahead().size() < kFirstLine && text_.more())
         end = text_.ahead().find_first_of("\r\n");
@@ -56,7 +57,7 @@ bool LineScan::next(std::string_view& line) {
     std::size_t taken = end == std::string_view::npos ? line.size() : end + 1;
     if (!line.empty() && end_ == '\n' && line.back() == '\r')
         line.remove_suffix(1);
-    // A file that was put together from several may mix the ends.
+    // A file that was joined from several may mix line ends.
     const std::size_t other = line.find(end_ == '\n' ? '\r' : '\n');
     if (other != std::string_view::npos) {
         line = line.substr(0, other);
@@ -76,12 +77,12 @@ std::string_view take_word(ByteStream& text) {
         std::string_view rest = text.ahead();
         std::string_view word = take_word(rest);
         text.take(text.ahead().size() - rest.size() - word.size()); // blanks
-        // A word that ends with the bytes in memory may go on in the file.
+        // A word at the end of the bytes in memory may continue in the file.
         if (rest.empty()) {
             if (word.size() > kLongestLine)
-                malformed("holds a word of more than 64 MiB");
+                malformed("contains a word of more than 64 MiB");
             if (word.find('\0') != std::string_view::npos)
-                malformed("holds zero bytes among its numbers");
+                malformed("contains zero bytes among its numbers");
             if (text.more())
                 continue;
             word = text.ahead();
@@ -100,7 +101,7 @@ std::optional<double> to_real(std::string_view word) {
         return std::nullopt;
     if (fault == std::errc())
         return value;
-    // Too large or too small: the exponent's sign tells, or where the first digit stands.
+    // Out of range: the sign of the exponent, or the position of the first digit, tells which way.
     const bool minus = word.front() == '-';
     const std::size_t exponent = word.find_first_of("eE");
     const std::size_t digit = word.find_first_of("123456789");

@@ -14,21 +14,21 @@
 
 namespace abut {
 
-/// Lines of a text, numbered from 1, without their ends (\n, \r\n or \r). A byte-order mark of
-/// UTF-8 is passed over.
+/// The lines of a text, numbered from 1, without their ends (\n, \r\n or \r). A UTF-8 byte-order
+/// mark is skipped.
 ///
-/// Errors      Fault malformed for what is no text in UTF-8 or ASCII: a zero byte, another
-///             byte-order mark, a line of more than 64 MiB.
+/// Errors      Fault malformed if the text is not UTF-8 or ASCII: a zero byte, another byte-order
+///             mark, or a line of more than 64 MiB.
 class LineScan {
 public:
-    /// In          text: must outlive the scan. What has not been taken as a line stays there.
+    /// In          text: must outlive the scan. Bytes after the last line taken stay in it.
     explicit LineScan(ByteStream& text) : text_(text) {}
 
-    /// False at the end of the text. The line stays where it is until the next one is asked for.
+    /// False at the end of the text. The line stays valid until the next call.
     bool next(std::string_view& line);
 
     [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
-    /// "line 12", for messages.
+    /// The current line for messages, such as "line 12".
     [[nodiscard]] std::string place() const { return "line " + std::to_string(number_); }
 
 private:
@@ -36,15 +36,15 @@ private:
 
     ByteStream& text_;
     std::uint64_t number_ = 0;
-    char end_ = '\n';           ///< of the first line; others may end otherwise
-    std::size_t known_end_ = 0; ///< where the next end_ is ahead, plus one; 0: not known
+    char end_ = '\n';           ///< end of the first line; others may differ
+    std::size_t known_end_ = 0; ///< position after the next end_ in memory; 0: not known
 };
 
 inline bool is_blank(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/// The next word of a text, taken off it; empty at its end. Line ends count as blanks.
+/// Removes the next word from a text and returns it; empty at the end. Line ends count as blanks.
 inline std::string_view take_word(std::string_view& text) {
     std::size_t start = 0;
     while (start < text.size() && is_blank(text[start]))
@@ -57,13 +57,12 @@ inline std::string_view take_word(std::string_view& text) {
     return word;
 }
 
-/// The same of a text that comes piece by piece. The word stays where it is until the next one is
-/// asked for.
+/// As above for a stream. The word stays valid until the next call.
 ///
-/// Errors      Fault malformed for a word of more than 64 MiB or one with zero bytes.
+/// Errors      Fault malformed for a word of more than 64 MiB or with a zero byte.
 std::string_view take_word(ByteStream& text);
 
-/// Without the blanks at its ends.
+/// Returns the text without the blanks at its ends.
 inline std::string_view trimmed(std::string_view text) {
     while (!text.empty() && is_blank(text.front()))
         text.remove_prefix(1);
@@ -72,7 +71,7 @@ inline std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// A whole word as a number; none if it is beyond the range of the type.
+/// Converts a whole word to a number; none if it is not one or exceeds the type's range.
 template <typename Number>
 std::optional<Number> to_number(std::string_view word) {
     if (!word.empty() && word.front() == '+')
@@ -84,13 +83,13 @@ std::optional<Number> to_number(std::string_view word) {
     return value;
 }
 
-/// A whole word as a real number: a decimal point, an exponent after e or E, nan, inf. Beyond the
-/// range of doubles it is infinite or zero.
+/// Converts a whole word to a real number: with a decimal point, an exponent after e or E, nan or
+/// inf. A number beyond the range of doubles becomes infinite or zero.
 std::optional<double> to_real(std::string_view word);
 
-/// The three numbers that a vertex begins with.
+/// Takes the three numbers that a vertex begins with.
 ///
-/// Errors      Fault malformed, naming the line and the word that is no number.
+/// Errors      Fault malformed, naming the line and the word that is not a number.
 Vec3 take_position(std::string_view& rest, const LineScan& lines);
 
 } // namespace abut

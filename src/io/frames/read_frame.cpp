@@ -5,11 +5,42 @@
 #include "io/file/file_kind.h"
 #include "io/file/input_file.h"
 #include "io/frames/frame_formats.h"
+#include "io/polygon/obj_scan.h"
+#include "io/polygon/ply_body.h"
 #include "mesh/topology.h"
 
 #include <limits>
 
 namespace abut {
+
+void read_obj_frame(ByteStream& content, std::vector<Vec3>& positions, FrameFaces& faces) {
+    scan_obj(
+        content, [&](const Vec3& position) { positions.push_back(position); },
+        [&](auto corners) { faces.take(corners); });
+}
+
+void read_ply_frame(ByteStream& content, std::vector<Vec3>& positions, FrameFaces& faces) {
+    const PlyHeader header = read_ply_header(content);
+    PlyBody body(header, content);
+    for (const PlyElement& element : header.elements) {
+        if (element.name == "vertex") {
+            positions.reserve(positions.size() + body.most(element));
+            take_ply_vertices(body, element,
+                              [&](const Vec3& position) { positions.push_back(position); });
+        } else if (element.name == "face") {
+            faces.expect(body.most(element));
+            take_ply_faces(body, element, header.vertices(),
+                           [&](auto corners) { faces.take(corners); });
+        } else if (element.name == "tristrips") {
+            throw Fault(ErrorCode::unsupported, "holds triangle strips");
+        } else {
+            skip_ply_elements(body, element);
+        }
+    }
+    // A header that contradicts its data shows in nothing else: bytes of any type are numbers.
+    if (!body.at_end())
+        malformed("goes on after its last element");
+}
 
 void require_frame(const Mesh& mesh, const std::string& path) {
     if (mesh.positions.size() > std::numeric_limits<std::uint32_t>::max())
@@ -38,7 +69,7 @@ void read_unchecked(const std::string& path, std::vector<Vec3>& positions, Frame
     }
 }
 
-/// Compares with the triangles of another frame.
+/// Compares faces with the triangles of another frame.
 class SameFaces : public FrameFaces {
 public:
     explicit SameFaces(std::span<const std::array<std::uint32_t, 3>> triangles)
@@ -50,7 +81,7 @@ public:
                 rest_ = rest_.subspan(1);
         });
     }
-    /// All of them, and no more.
+    /// Returns whether all triangles were equal and none is left.
     [[nodiscard]] bool same() const { return same_ && rest_.empty(); }
 
 private:
@@ -65,7 +96,7 @@ Mesh read_frame(const std::string& path) {
     CollectedFaces faces(mesh.triangles);
     read_unchecked(path, mesh.positions, faces);
     require_frame(mesh, path);
-    // Many frames may be held: no more of each than it needs.
+    // Many frames may be in memory at once, so spare capacity is freed.
     mesh.positions.shrink_to_fit();
     mesh.triangles.shrink_to_fit();
     return mesh;

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A part of a file as a stream, through a small buffer.
+/// A section of a file as a stream with a small buffer.
 class ChunkBuffer : public std::streambuf {
 public:
     ChunkBuffer(const RandomAccessFile& file, std::uint64_t at, std::uint64_t size)
@@ -47,16 +47,16 @@ struct Chunk {
     std::uint64_t at = 0, bytes = 0;
 };
 
-/// The JSON chunk, which is the first, and the first binary one.
+/// Finds the JSON chunk, which is the first, and the first binary chunk.
 std::array<Chunk, 2> find_chunks(const RandomAccessFile& file) {
     if (file.size() < kGlbHeaderBytes + kChunkHeaderBytes)
         malformed("is too short for a GLB file");
     const auto [magic, version, length] = file.value<std::array<std::uint32_t, 3>>(0);
     if (magic != kGlbMagic)
-        malformed("is no GLB file");
+        malformed("is not a GLB file");
     if (version != 2)
         throw Fault(ErrorCode::unsupported,
-                    "is glTF version " + std::to_string(version) + ", only 2 is read");
+                    "is glTF version " + std::to_string(version) + "; only version 2 is supported");
     if (length > file.size())
         malformed("is truncated: " + std::to_string(file.size()) + " of " + std::to_string(length) +
                   " bytes");
@@ -69,7 +69,7 @@ std::array<Chunk, 2> find_chunks(const RandomAccessFile& file) {
             malformed("is truncated: a chunk reaches beyond its end");
         if (number == 0 && kind != kJsonChunk)
             malformed("its first chunk is not JSON");
-        // Chunks of other kinds are to be ignored.
+        // The format requires that other kinds of chunks are ignored.
         Chunk& chunk = chunks.at(number == 0 ? 0 : 1);
         if (chunk.at == 0 && (number == 0 || kind == kBinaryChunk))
             chunk = {at, size};
@@ -87,7 +87,7 @@ std::uint32_t index_or_none(const json& object, const char* key) {
     return found->get<std::uint32_t>();
 }
 
-/// An extension of an element; null where it has none of that name.
+/// Returns an extension of an element; null if it has none of that name.
 const json* extension_of(const json& element, std::string_view name) {
     const auto extensions = element.find("extensions");
     if (extensions == element.end())
@@ -96,13 +96,13 @@ const json* extension_of(const json& element, std::string_view name) {
     return found == extensions->end() || !found->is_object() ? nullptr : &*found;
 }
 
-/// The extension was taken into the standard under a second name.
+/// Returns the meshoptimizer extension, which was standardised under a second name.
 const json* meshopt_of(const json& element) {
     const json* const found = extension_of(element, kMeshoptExtensions[0]);
     return found != nullptr ? found : extension_of(element, kMeshoptExtensions[1]);
 }
 
-/// The place of a word in a list.
+/// Returns the index of a word in a list.
 template <typename Value, std::size_t count>
 Value named(const std::string& word, const std::array<const char*, count>& names,
             const char* what) {
@@ -113,17 +113,17 @@ Value named(const std::string& word, const std::array<const char*, count>& names
     return static_cast<Value>(found - names.begin());
 }
 
-/// Takes the elements of the JSON's lists as they end, and lets go of them.
+/// Stores the elements of the JSON's lists as they are parsed, and discards their JSON.
 class DocumentReader {
 public:
     DocumentReader(GlbDocument& document, bool is_text) : document_(document), is_text_(is_text) {}
 
-    /// As nlohmann::json's parser calls it. False: the element is not kept.
+    /// Callback of nlohmann::json's parser. False: the element is not kept.
     bool operator()(int depth, json::parse_event_t event, json& parsed) {
         using Event = json::parse_event_t;
         if (depth == 1 && event == Event::key) {
             section_ = parsed.get<std::string>();
-            // Parsers differ in which of two lists with one name counts.
+            // Parsers differ in which of two lists of the same name they use.
             if (!sections_.insert(section_).second)
                 malformed("its JSON has two lists " + section_.substr(0, 40));
         }
@@ -132,16 +132,16 @@ public:
         return true;
     }
 
-    /// In          rest: what is left of the document.
+    /// In          rest: the JSON that was kept.
     void finish(const json& rest) {
         if (!rest.is_object() || !rest.contains("asset"))
-            malformed("is no glTF file");
+            malformed("is not a glTF file");
         if (text_or_empty(rest["asset"], "version").rfind("2.", 0) != 0)
             throw Fault(ErrorCode::unsupported, "is not glTF 2");
         for (const char* list : {"nodes", "meshes", "accessors", "bufferViews", "buffers"})
             if (const auto found = rest.find(list);
                 found != rest.end() && (!found->is_array() || !found->empty()))
-                malformed(std::string("its JSON has ") + list + " that are no list of objects");
+                malformed(std::string("its JSON has ") + list + " that are not a list of objects");
         for (const json& extension : member_or_empty(rest, "extensionsRequired"))
             require(extension.get<std::string>());
         const json& scenes = member_or_empty(rest, "scenes");
@@ -168,7 +168,7 @@ private:
         else if (section_ == "buffers")
             take_buffer(element);
         else
-            // Materials and the like hold nothing that is asked for.
+            // Materials and the like are not needed.
             return section_ != "scenes" && section_ != "asset";
         return true;
     }
@@ -347,11 +347,11 @@ void read_glb_document(const RandomAccessFile& file, bool is_text, GlbDocument& 
                         });
         reader.finish(rest);
     } catch (const json::parse_error& error) {
-        malformed("its JSON breaks off or is wrong at byte " + std::to_string(error.byte));
+        malformed("its JSON is truncated or malformed at byte " + std::to_string(error.byte));
     } catch (const json::exception& error) {
         // "[json.exception.type_error.302] type must be string, but is number"
         const std::string_view what = error.what();
-        malformed("its JSON is not that of glTF: " +
+        malformed("its JSON is not valid glTF: " +
                   std::string(what.substr(std::min(what.find("] ") + 2, what.size()))));
     }
 }

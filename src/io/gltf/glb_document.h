@@ -10,26 +10,26 @@
 
 namespace abut {
 
-/// The JSON of a glTF 2 file, GLB or text, in a few bytes an element: nodes lie on the disk.
+/// The JSON of a glTF 2 file, GLB or text, in a few bytes an element. The nodes are on disk.
 ///
-/// Indices are those of the file and may be out of range, unless said otherwise.
+/// Indices are those of the file and may be out of range, unless stated otherwise.
 struct GlbDocument {
     static constexpr std::uint32_t kNone = 0xffffffff;
 
     struct Buffer {
         enum class Place : std::uint8_t {
-            none,      ///< no content: what refers to it has a compressed form
+            none,      ///< no content: a compressed form exists for whatever refers to it
             binary,    ///< the GLB file's binary chunk
-            data,      ///< a data: URI, decoded into `spool` from `at` on
-            companion, ///< a file beside the model, number `at` in `companions`
+            data,      ///< a data: URI, decoded into `spool` from position `at`
+            companion, ///< a file beside the model: entry `at` of `companions`
         };
         Place place = Place::none;
         std::uint64_t at = 0;
-        std::uint64_t bytes = 0; ///< that can be read: at most those that exist
+        std::uint64_t bytes = 0; ///< readable bytes; never more than exist
     };
     struct View {
         std::uint32_t buffer = kNone;
-        std::uint32_t stride = 0;         ///< 0: none given
+        std::uint32_t stride = 0;         ///< 0: not given
         std::uint32_t compressed = kNone; ///< index in `compressed`
         std::uint64_t offset = 0, bytes = 0;
     };
@@ -44,13 +44,13 @@ struct GlbDocument {
     };
     struct Accessor {
         std::uint64_t offset = 0, count = 0;
-        std::uint32_t view = kNone;   ///< kNone: zeros
+        std::uint32_t view = kNone;   ///< kNone: all zeros
         std::uint32_t sparse = kNone; ///< index in `sparse`
-        std::uint16_t component = 0;  ///< as glTF numbers types: 5126 is a float
+        std::uint16_t component = 0;  ///< component type, as glTF numbers it: 5126 is float
         std::uint8_t components = 0;  ///< 1 for SCALAR … 4 for VEC4; 0 for any other type
         bool is_normalized = false;
     };
-    /// Elements of an accessor that differ from its view.
+    /// Elements that replace those of an accessor's view.
     struct Sparse {
         std::uint64_t count = 0, index_offset = 0, value_offset = 0;
         std::uint32_t index_view = kNone, value_view = kNone;
@@ -65,9 +65,9 @@ struct GlbDocument {
     /// A primitive compressed by Draco.
     struct Draco {
         std::uint32_t view = kNone;
-        std::uint32_t position = kNone; ///< the attribute's unique id
+        std::uint32_t position = kNone; ///< unique id of the attribute
     };
-    /// Accessors that place a node's mesh many times.
+    /// Accessors that place a node's mesh several times.
     struct Instances {
         std::uint32_t node = kNone;
         std::uint32_t translation = kNone, rotation = kNone, scale = kNone;
@@ -75,8 +75,8 @@ struct GlbDocument {
 
     explicit GlbDocument(const std::string& folder) : spool(folder), nodes(folder) {}
 
-    std::uint64_t binary_at = 0, binary_bytes = 0; ///< of the binary chunk in the file
-    TemporaryFile spool;                           ///< contents of data: URIs
+    std::uint64_t binary_at = 0, binary_bytes = 0; ///< the binary chunk's place in the file
+    TemporaryFile spool;                           ///< decoded contents of data: URIs
     std::uint64_t spooled = 0;
     std::vector<std::string> companions; ///< URIs, decoded
     std::vector<Buffer> buffers;
@@ -85,14 +85,14 @@ struct GlbDocument {
     std::vector<Accessor> accessors;
     std::vector<Sparse> sparse;
     std::vector<Primitive> primitives;
-    std::vector<std::uint64_t> first_primitive{0}; ///< by mesh, and one past the last
+    std::vector<std::uint64_t> first_primitive{0}; ///< by mesh, with one entry past the last
     std::vector<Draco> draco;
-    /// A node's name, extras and mesh (kNone: none) as those of a part; its transform is
-    /// parent_from_node.
+    /// Each node as a part, with the node's name, extras and mesh (kNone: none). The part's
+    /// transform is parent_from_node.
     PartSpool nodes;
     std::vector<Instances> instances; ///< by node, ascending
     std::vector<std::uint32_t> children;
-    std::vector<std::uint64_t> first_child{0}; ///< by node, and one past the last
+    std::vector<std::uint64_t> first_child{0}; ///< by node, with one entry past the last
     std::vector<std::uint32_t> roots;
     bool requires_draco = false, requires_meshopt = false;
 
@@ -101,13 +101,13 @@ struct GlbDocument {
     }
 };
 
-/// Reads the JSON of a GLB file, or of a text file if is_text. The lengths of companions are not
-/// known yet.
+/// Reads the JSON of a GLB file, or of a text file if is_text is set. The lengths of companion
+/// files are not known yet.
 ///
-/// Errors      Fault malformed; unsupported for another version of glTF and for a required
-///             extension that may change geometry and is not read.
-/// Cost        one pass over the JSON, of which one element at a time is in memory; a data: URI is
-///             one element.
+/// Errors      Fault malformed; unsupported for another version of glTF, and for a required
+///             extension that may change geometry and is not supported.
+/// Cost        one pass over the JSON with one element in memory at a time; a data: URI is one
+///             element.
 void read_glb_document(const RandomAccessFile& file, bool is_text, GlbDocument& document);
 
 } // namespace abut

@@ -17,7 +17,7 @@ namespace abut {
 
 namespace {
 
-/// Nodes with a mesh, in the order of the tree; called with each node's number and its transform.
+/// Calls `take` with the number and the transform of each node that has a mesh, in tree order.
 template <typename Take>
 void walk(const GlbDocument& document, const Take& take) {
     struct Visit {
@@ -31,13 +31,13 @@ void walk(const GlbDocument& document, const Take& take) {
     const auto push = [&](std::uint32_t node, const Transform& world) {
         if (node >= nodes)
             malformed("its JSON refers to node " + std::to_string(node) + ", which does not exist");
-        // A node with two parents, or one that is its own ancestor, would be read forever.
+        // A node with two parents, or one that is its own ancestor, would never end.
         if (has_parent[node])
             malformed("node " + std::to_string(node) + " has two parents");
         has_parent[node] = true;
         open.push_back({node, world});
     };
-    // One root after the other: a plant may have a million.
+    // Roots are visited one after the other, because a plant may have a million of them.
     for (const std::uint32_t root : document.roots) {
         push(root, {});
         while (!open.empty()) {
@@ -45,7 +45,7 @@ void walk(const GlbDocument& document, const Take& take) {
             open.pop_back();
             const Part node = cursor.part(visit.node);
             Transform world = compose(visit.world_from_parent, node.world_from_mesh);
-            // Sums turn -0 into 0.
+            // Adding zero turns -0 into 0.
             for (std::size_t i = 0; i < 9; ++i)
                 world.m[i] += 0.0;
             for (std::uint64_t i = document.first_child[visit.node + 1];
@@ -61,7 +61,7 @@ void walk(const GlbDocument& document, const Take& take) {
     }
 }
 
-/// The transforms by which a node's mesh is placed many times (EXT_mesh_gpu_instancing).
+/// Reads the transforms that place a node's mesh several times (EXT_mesh_gpu_instancing).
 class InstanceReader {
 public:
     InstanceReader(const GltfGeometry& geometry, const GlbDocument::Instances& instances) {
@@ -80,7 +80,7 @@ public:
             malformed("a node has instances without attributes");
     }
 
-    /// Calls with each instance's node_from_instance.
+    /// Calls `take` with each instance's node_from_instance.
     template <typename Take>
     void for_each(const Take& take) const {
         constexpr std::uint64_t kPiece = 4096;
@@ -99,14 +99,14 @@ public:
     }
 
 private:
-    using Values = std::optional<GltfGeometry::Elements>;
+    using Values = std::optional<GltfElements>;
 
     static void read(const Values& values, std::uint64_t first, std::uint64_t count,
                      std::vector<double>& to) {
         if (!values)
             return;
         to.resize(count * values->components);
-        GltfGeometry::read(*values, first, std::span(to));
+        read_elements(*values, first, std::span(to));
     }
     template <std::size_t size>
     static std::array<double, size> values_at(const std::vector<double>& from, std::uint64_t i) {
@@ -178,7 +178,7 @@ private:
     static constexpr std::uint32_t kUnknown = 0xffffffff, kNoSurface = 0xfffffffe;
     using Mode = GlbDocument::Primitive::Mode;
 
-    /// Primitives with triangles; points and lines are left out.
+    /// Visits the primitives with triangles; points and lines are left out.
     template <typename Take>
     void for_each_surface(std::uint32_t gltf_mesh, const Take& take) const {
         for (std::uint64_t i = document_.first_primitive[gltf_mesh];
@@ -209,7 +209,7 @@ private:
         return corners / 3;
     }
 
-    /// The number of a mesh here, or kNoSurface.
+    /// Returns the number of a mesh in this source, or kNoSurface.
     std::uint32_t take_mesh(std::uint32_t gltf_mesh) {
         Size size;
         for_each_surface(gltf_mesh, [&](const GlbDocument::Primitive& primitive) {
@@ -227,29 +227,29 @@ private:
         return static_cast<std::uint32_t>(sizes_.size() - 1);
     }
 
-    static void read_positions(const GltfGeometry::Elements& elements, MeshSink& sink) {
+    static void read_positions(const GltfElements& elements, MeshSink& sink) {
         constexpr std::uint64_t kPiece = 16384;
         std::vector<float> numbers;
         std::vector<Vec3> piece;
         for (std::uint64_t i = 0; i < elements.count; i += kPiece) {
             piece.resize(std::min(kPiece, elements.count - i));
             numbers.resize(3 * piece.size());
-            GltfGeometry::read(elements, i, std::span(numbers));
+            read_elements(elements, i, std::span(numbers));
             for (std::size_t k = 0; k < piece.size(); ++k)
                 piece[k] = {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
             sink.vertices(piece);
         }
     }
 
-    /// The corners of a primitive, as vertices of the whole mesh.
+    /// The corners of a primitive, as vertex indices of the whole mesh.
     struct Corners {
-        std::optional<GltfGeometry::Elements> indices;
+        std::optional<GltfElements> indices;
         std::uint32_t first = 0, vertices = 0;
 
         [[nodiscard]] std::uint64_t count() const { return indices ? indices->count : vertices; }
         void read(std::uint64_t from, std::span<std::uint32_t> to) const {
             if (indices)
-                GltfGeometry::read(*indices, from, to);
+                read_elements(*indices, from, to);
             else
                 std::iota(to.begin(), to.end(), static_cast<std::uint32_t>(from));
             for (std::uint32_t& corner : to) {
@@ -280,7 +280,7 @@ private:
             } else if (mode == Mode::strip) {
                 read.resize(piece.size() + 2);
                 corners.read(first, std::span(read));
-                // Every other triangle is turned round, so that all have one orientation.
+                // Every other triangle of a strip is reversed, so that all have one orientation.
                 for (std::size_t i = 0; i < piece.size(); ++i)
                     piece[i] = (first + i) % 2 == 0 ? std::array{read[i], read[i + 1], read[i + 2]}
                                                     : std::array{read[i + 1], read[i], read[i + 2]};
@@ -296,8 +296,8 @@ private:
 
     RandomAccessFile file_;
     GlbDocument document_;
-    std::optional<GltfGeometry> geometry_; ///< always
-    std::vector<std::uint32_t> meshes_;    ///< of glTF, by their number here
+    std::optional<GltfGeometry> geometry_; ///< always set
+    std::vector<std::uint32_t> meshes_;    ///< glTF mesh for each mesh of this source
     std::vector<Size> sizes_;
 };
 

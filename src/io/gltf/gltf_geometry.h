@@ -3,13 +3,12 @@
 #include "core/temporary_file.h"
 #include "io/file/random_access_file.h"
 #include "io/gltf/glb_document.h"
+#include "io/gltf/gltf_elements.h"
 #include "io/scene/scene_source.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -29,38 +28,26 @@ public:
     GltfGeometry(const std::string& path, const RandomAccessFile& file, const GlbDocument& document,
                  const SourceOptions& options);
 
-    /// Elements of one kind of numbers, all of them within their place.
-    struct Elements {
-        const RandomAccessFile* file = nullptr; ///< else `temporary`; none of both: zeros
-        const TemporaryFile* temporary = nullptr;
-        std::uint64_t at = 0, count = 0, stride = 0;
-        std::uint16_t component = 0;
-        std::uint8_t components = 0;
-        bool is_normalized = false;
-        std::shared_ptr<const std::array<Elements, 2>> sparse; ///< indices and values
-    };
-
     /// Errors      Fault malformed, unsupported.
-    [[nodiscard]] Elements positions(const GlbDocument::Primitive& primitive) const;
+    [[nodiscard]] GltfElements positions(const GlbDocument::Primitive& primitive) const;
     /// Empty if the primitive has no indices.
-    [[nodiscard]] std::optional<Elements> indices(const GlbDocument::Primitive& primitive) const;
+    [[nodiscard]] std::optional<GltfElements>
+    indices(const GlbDocument::Primitive& primitive) const;
     /// The elements of an accessor. Throws if it has another number of components.
-    [[nodiscard]] Elements values(std::uint32_t accessor, std::uint8_t components) const;
-
-    /// Numbers of elements, one element after the other; normalised integers as the quotients that
-    /// glTF defines, which are rounded to double, and then to float if these are asked for.
-    ///
-    /// In          to: a number for each component.
-    static void read(const Elements& elements, std::uint64_t first, std::span<float> to);
-    static void read(const Elements& elements, std::uint64_t first, std::span<double> to);
-    /// Reads elements that are unsigned integers of one component.
-    static void read(const Elements& elements, std::uint64_t first, std::span<std::uint32_t> to);
+    [[nodiscard]] GltfElements values(std::uint32_t accessor, std::uint8_t components) const;
 
 private:
-    struct Place;
+    /// Bytes in a file.
+    struct Place {
+        const RandomAccessFile* file = nullptr; ///< else `temporary`
+        const TemporaryFile* temporary = nullptr;
+        std::uint64_t at = 0;
+    };
     struct DecodedPrimitive {
         std::uint64_t positions = 0, corners = 0;
     };
+
+    class Decoding;
 
     void decode(const std::string& path, const SourceOptions& options);
     [[nodiscard]] bool is_decoded_view(const GlbDocument::View& view) const;
@@ -69,16 +56,17 @@ private:
     [[nodiscard]] const GlbDocument::View& view(std::uint32_t index) const;
     [[nodiscard]] Place place(std::uint32_t buffer, std::uint64_t offset,
                               std::uint64_t bytes) const;
-    /// Elements of a view; zeros if it is GlbDocument::kNone.
-    [[nodiscard]] Elements elements(std::uint32_t view, std::uint64_t offset, std::uint64_t count,
-                                    std::uint16_t component, std::uint8_t components) const;
-    [[nodiscard]] Elements elements(const GlbDocument::Accessor& accessor) const;
+    /// The elements of a view; zeros if it is GlbDocument::kNone.
+    [[nodiscard]] GltfElements elements(std::uint32_t view, std::uint64_t offset,
+                                        std::uint64_t count, std::uint16_t component,
+                                        std::uint8_t components) const;
+    [[nodiscard]] GltfElements elements(const GlbDocument::Accessor& accessor) const;
 
     const RandomAccessFile& file_;
     const GlbDocument& document_;
     std::vector<std::unique_ptr<RandomAccessFile>> companions_;
     std::unique_ptr<TemporaryFile> decoded_;      ///< none if nothing is compressed
-    std::vector<std::uint64_t> decoded_view_;     ///< by GlbDocument::compressed: where in decoded_
+    std::vector<std::uint64_t> decoded_view_;     ///< by GlbDocument::compressed: place in decoded_
     std::vector<DecodedPrimitive> decoded_draco_; ///< by GlbDocument::draco
 };
 

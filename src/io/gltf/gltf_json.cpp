@@ -20,7 +20,7 @@ std::array<double, count> numbers(const json& node, const char* key,
     if (found == node.end())
         return fallback;
     if (!found->is_array() || found->size() != count)
-        malformed(std::string("a node's ") + key + " has not " + std::to_string(count) +
+        malformed(std::string("a node's ") + key + " does not have " + std::to_string(count) +
                   " numbers");
     return found->get<std::array<double, count>>();
 }
@@ -44,7 +44,7 @@ std::uint64_t number_or(const json& object, const char* key, std::uint64_t fallb
     const auto found = object.find(key);
     if (found == object.end())
         return fallback;
-    // A double or a negative number is no index.
+    // A double or a negative number is not a valid index.
     if (!found->is_number_unsigned())
         malformed(std::string("its JSON gives a wrong number for ") + key);
     return found->get<std::uint64_t>();
@@ -69,7 +69,7 @@ Transform gltf_transform(const std::array<double, 3>& t, const std::array<double
     const double length = std::sqrt(x * x + y * y + z * z + w * w);
     if (!(length > 0))
         malformed("a node's rotation has zero length");
-    // Written as floats, a unit quaternion is off by 1e-8; its length carries no meaning.
+    // A unit quaternion stored as floats is off by 1e-8; its length carries no meaning.
     x /= length, y /= length, z /= length, w /= length;
     return Transform({s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
                       s[0] * 2 * (x * z - y * w), s[1] * 2 * (x * y - z * w),

@@ -24,21 +24,23 @@ inline constexpr std::uint64_t kChunkHeaderBytes = 8;
 inline constexpr std::uint16_t kByte = 5120, kUnsignedByte = 5121, kShort = 5122,
                                kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 
-/// A member of an object; an empty array where there is none.
+/// Returns a member of an object; an empty array if it is missing.
 const nlohmann::json& member_or_empty(const nlohmann::json& object, const char* key);
 
-/// Errors      Fault malformed if it is there and no number that an index or a size can be.
+/// Returns a member that is an index or a size, or `fallback` if it is missing.
+///
+/// Errors      Fault malformed if the member is not a valid index or size.
 std::uint64_t number_or(const nlohmann::json& object, const char* key, std::uint64_t fallback);
 
-/// Empty where it is not there, or is no text.
+/// Returns a text member; empty if it is missing or not a text.
 std::string text_or_empty(const nlohmann::json& object, const char* key);
 
-/// parent_from_node, from the node's matrix or its translation, rotation and scale.
+/// Returns parent_from_node, from the node's matrix or from its translation, rotation and scale.
 ///
-/// Errors      Fault malformed: other counts of numbers, a projective matrix, a rotation of zero
+/// Errors      Fault malformed: a wrong count of numbers, a projective matrix, a rotation of zero
 ///             length.
 Transform gltf_transform(const nlohmann::json& node);
-/// Scale, then rotation by the quaternion x y z w, then translation.
+/// Scales, then rotates by the quaternion x y z w, then translates.
 ///
 /// Errors      Fault malformed for a rotation of zero length.
 Transform gltf_transform(const std::array<double, 3>& translation,
@@ -50,8 +52,8 @@ inline constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression"
 inline constexpr std::array<std::string_view, 2> kMeshoptExtensions{"EXT_meshopt_compression",
                                                                     "KHR_meshopt_compression"};
 
-/// Whether a file may require an extension: one whose geometry is read, or one that changes none,
-/// such as materials, lights, textures and metadata.
+/// Returns whether a file may require an extension: one whose geometry is read, or one that does
+/// not change geometry, such as materials, lights, textures and metadata.
 bool is_known_gltf_extension(std::string_view name);
 
 } // namespace abut

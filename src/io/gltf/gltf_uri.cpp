@@ -21,7 +21,7 @@ std::uint8_t base64_digit(char c) {
         for (const char digit :
              std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
             digits[static_cast<unsigned char>(digit)] = value++;
-        // The alphabet for URLs (RFC 4648, 5), which some writers use.
+        // The URL-safe alphabet (RFC 4648, 5), which some writers use.
         digits['-'] = 62, digits['_'] = 63;
         return digits;
     }();
@@ -32,7 +32,7 @@ std::vector<std::byte> from_base64(std::string_view text) {
     for (int padding = 0; padding < 2 && text.ends_with('='); ++padding)
         text.remove_suffix(1);
     if (text.size() % 4 == 1)
-        malformed("a data: URI breaks off");
+        malformed("a data: URI is truncated");
     std::vector<std::byte> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     std::uint32_t word = 0;
@@ -60,8 +60,8 @@ std::optional<unsigned> hexadecimal(char c) {
     return std::nullopt;
 }
 
-/// Whether the text begins with a scheme: a letter, then letters, digits, "+-.", then a colon. A
-/// drive of Windows looks like one.
+/// Returns whether the text begins with a scheme: a letter, then letters, digits, "+-.", then a
+/// colon. A Windows drive looks like a scheme.
 bool has_scheme(std::string_view uri) {
     const std::size_t colon = uri.find(':');
     return colon != std::string_view::npos && colon > 0 &&
@@ -106,7 +106,7 @@ std::string path_of_uri(std::string_view uri) {
             i += 2;
         }
         if (c == '\0')
-            malformed("a URI holds a zero byte");
+            malformed("a URI contains a zero byte");
         path += c;
     }
     return path;

@@ -124,7 +124,7 @@ void write_glb(const Scene& scene, const std::string& path) {
                                 {"byteLength", binary.size() - vertex_bytes},
                                 {"target", kElementArrayBuffer}}};
 
-    // Bytes that are no UTF-8 are replaced: JSON holds none.
+    // Bytes that are not UTF-8 are replaced, because JSON cannot contain them.
     std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     constexpr std::size_t kHeaders = 12 + 8 + 8;

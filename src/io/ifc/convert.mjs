@@ -1,11 +1,12 @@
-// node convert.mjs FILE.ifc spaces|no-spaces map|no-map: writes FILE's products to descriptor 3 as the scene stream of
-// ../scene_stream.h.
+// node convert.mjs FILE.ifc spaces|no-spaces map|no-map: writes FILE's products to descriptor 3, as
+// the scene stream of ../process/scene_stream.h.
 //
-// One part a product with triangles: id = GlobalId, name = Name, type = its IFC class. Metres, Z up, as IFC has it; on
-// the map that the file names, unless `no-map`. Openings are left out, and spaces and zones unless they are asked for.
-// Every product with a body is a part or has a note that says why it is none. Products that are placed copies of the
-// same geometry share a mesh. Geometry is what web-ifc computes: floats around the geometry's own centre, placed by a
-// double matrix.
+// Each product with triangles becomes one part: id = GlobalId, name = Name, type = its IFC class.
+// Coordinates are in metres with z up, as in IFC, and on the map that the file names unless
+// `no-map` is given. Openings are left out; so are spaces and zones unless `spaces` is given. Every
+// product with a body is a part or has a note with the reason why it is not. Products that are
+// placed copies of the same geometry share a mesh. web-ifc computes the geometry: floats around the
+// geometry's own centre, placed by a double matrix.
 
 import crypto from 'node:crypto';
 import fs from 'node:fs';
@@ -27,17 +28,18 @@ const SPACE = 0;
 const CUT_AWAY = 1;
 const NOT_BUILT = 2;
 const NOT_CLOSED = 3;
-// Holes of a surface are closed that are not wider than this, or than some roundings of the largest coordinate.
+// Holes of a surface are closed up to this width, or up to a few roundings of the largest
+// coordinate.
 const SLIT_METRES = 1e-6;
 const SLIT_ROUNDINGS = 8 * 2 ** -24;
-// Two products share a mesh of several geometries if these lie alike to within this: what is left of a placement in
-// survey coordinates after double arithmetic is some 1e-9 m.
+// Products share a mesh of several geometries if these are placed alike to within this. In survey
+// coordinates, double arithmetic leaves errors of about 1e-9 m in a placement.
 const SAME_PLACE_METRES = 1e-7;
 const SAME_DIRECTION = 1e-9;
 
 /**
- * Vertices at equal positions (-0 equals 0) as one, in the order of their first occurrence: web-ifc parts vertices by
- * their normals.
+ * Joins vertices at equal positions (-0 equals 0), in the order of their first occurrence, because
+ * web-ifc separates vertices by their normals.
  */
 function withJoinedVertices({positions, triangles}) {
     const distinct = positions.map(value => value + 0); // -0 + 0 is 0
@@ -90,7 +92,7 @@ class Output {
         this.#position += bytes.length;
     }
 
-    /** positions: Float32Array or Float64Array; triangles: Uint32Array. Returns the mesh's number. */
+    /** positions: Float32Array or Float64Array; triangles: Uint32Array. Returns the mesh number. */
     mesh(positions, triangles) {
         const counts = Uint32Array.of(positions.length / 3, triangles.length / 3,
                                       positions.BYTES_PER_ELEMENT);
@@ -116,7 +118,7 @@ class Output {
         header.writeBigUInt64LE(BigInt(meshes), 16);
         header.writeBigUInt64LE(BigInt(parts), 24);
         header.writeDoubleLE(unit, 32);
-        header.writeDoubleLE(1, 40); // web-ifc gives metres
+        header.writeDoubleLE(1, 40); // web-ifc returns metres
         header.writeUInt32LE(Z_UP, 48);
         header.writeUInt32LE(notes, 52);
         this.#write(header, 0);
@@ -166,12 +168,12 @@ function inverse(m) {
             -(n[2] * x + n[5] * y + n[8] * z), 1];
 }
 
-/** web-ifc turns IFC's axes (z up) so that y is up; this turns them back, exactly. */
+/** web-ifc turns IFC's axes (z up) to y up. This turns them back, exactly. */
 const zUp = m => m.map((v, i) => i % 4 === 1 ? 0 - m[i + 1] : i % 4 === 2 ? m[i - 1] : v);
 
 const transformOf = m => [m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10], m[12], m[13], m[14]];
 
-/** One geometry of web-ifc, which keeps six floats a vertex (position, normal) and three indices a triangle. */
+/** Reads a geometry: six floats a vertex (position, normal), three indices a triangle. */
 function geometryOf(api, model, id, metresPerUnit) {
     const geometry = api.GetGeometry(model, id);
     const vertices = api.GetVertexArray(geometry.GetVertexData(), geometry.GetVertexDataSize());
@@ -185,13 +187,14 @@ function geometryOf(api, model, id, metresPerUnit) {
     const reach = whole.positions.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
     whole.triangles = withClosedSlits(whole.positions, whole.triangles,
                                       Math.max(SLIT_METRES / metresPerUnit, SLIT_ROUNDINGS * reach));
-    // Not the express id tells geometries apart: a wall with an opening has that of the same wall without one.
+    // The express id does not identify a geometry: a wall has the same one with and without
+    // openings.
     const hash =
         crypto.createHash('sha256').update(whole.positions).update(whole.triangles).digest('base64');
     return {hash, ...whole};
 }
 
-/** Several geometries as one mesh in the frame of the first; doubles, so that no position is rounded again. */
+/** Joins several geometries to one mesh in the frame of the first, in doubles to avoid rounding. */
 function joined(pieces) {
     const vertices = pieces.reduce((sum, piece) => sum + piece.geometry.positions.length, 0);
     const corners = pieces.reduce((sum, piece) => sum + piece.geometry.triangles.length, 0);
@@ -212,7 +215,7 @@ function joined(pieces) {
     return {positions, triangles};
 }
 
-/** What two products have in common if their meshes are the same: geometries and where they lie, rounded. */
+/** A key that is equal for products with equal meshes: geometries and rounded placements. */
 function keyOf(pieces, metresPerUnit) {
     const step = SAME_PLACE_METRES / metresPerUnit;
     return pieces
@@ -221,14 +224,14 @@ function keyOf(pieces, metresPerUnit) {
         .join(';');
 }
 
-/** The length of a column: metres per unit of what the matrix places. */
+/** The length of a column: metres per unit of the coordinates that the matrix places. */
 const scaleOf = m => Math.hypot(m[0], m[1], m[2]);
 
 class Converter {
     #meshOf = new Map();
-    #seen = new Set(); // express ids of the products that web-ifc gives
+    #seen = new Set(); // express ids of the products that web-ifc returns
 
-    /** map: of mapFromProject, or null. */
+    /** map: the result of mapFromProject, or null. */
     constructor(api, model, output, products, map) {
         this.map = map;
         this.api = api;
@@ -241,7 +244,7 @@ class Converter {
         const about = this.products.about(product.expressID);
         this.#seen.add(product.expressID);
         if (about.isLeftOut)
-            return this.#note(about, SPACE, 'is a space or a zone: no part of what is built');
+            return this.#note(about, SPACE, 'is a space or a zone, which is not built');
         const placed = [];
         for (let i = 0; i < product.geometries.size(); ++i) {
             const {geometryExpressID, flatTransformation} = product.geometries.get(i);
@@ -262,13 +265,13 @@ class Converter {
             this.#checkClosed(about, placed);
     }
 
-    /** Notes for the products with a body that web-ifc has not given. */
+    /** Adds notes for the products with a body that web-ifc has not returned. */
     noteOthers() {
         for (const expressID of this.products.withBody())
             if (!this.#seen.has(expressID)) {
                 const about = this.products.about(expressID);
                 if (about.isLeftOut)
-                    this.#note(about, SPACE, 'is a space or a zone: no part of what is built');
+                    this.#note(about, SPACE, 'is a space or a zone, which is not built');
                 else
                     this.#missing(about);
             }
@@ -279,9 +282,9 @@ class Converter {
     #missing(about) {
         if (about.openings > 0)
             this.#note(about, CUT_AWAY,
-                       `${about.openings === 1 ? 'its opening leaves' : `its ${about.openings} openings leave`} nothing of it`);
+                       `${about.openings === 1 ? 'its opening removes' : `its ${about.openings} openings remove`} all of it`);
         else
-            this.#note(about, NOT_BUILT, 'has a body, of which no triangle could be built');
+            this.#note(about, NOT_BUILT, 'has a body, but none of its triangles could be built');
     }
 
     #checkClosed(about, placed) {
@@ -322,17 +325,17 @@ class Converter {
     }
 }
 
-/** web-ifc reads what it finds of a truncated file: it has to end as it should. Its schema is in the header. */
+/** Checks that the file is complete, because web-ifc also reads a truncated one, and its schema. */
 function checkFile(file) {
     const read = (length, position) => file.read(length, position).toString('latin1');
     const header = read(1 << 16, 0);
     if (!header.includes('ISO-10303-21;'))
-        throw new Fault(MALFORMED, 'is no IFC file (STEP text)');
+        throw new Fault(MALFORMED, 'is not an IFC file (STEP text)');
     if (!/END-ISO-10303-21\s*;\s*$/.test(read(1024, Math.max(0, file.size - 1024))))
         throw new Fault(MALFORMED, 'is truncated: it does not end with END-ISO-10303-21;');
     const schema = /FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'/i.exec(header)?.[1];
     if (schema !== undefined && !/^IFC(2X3|4)/i.test(schema))
-        throw new Fault(UNSUPPORTED, `has the schema ${schema}, IFC2X3 and IFC4 are read`);
+        throw new Fault(UNSUPPORTED, `has the schema ${schema}; only IFC2X3 and IFC4 are supported`);
 }
 
 async function convert(path, withSpaces, withMap, output) {
@@ -353,11 +356,11 @@ async function convert(path, withSpaces, withMap, output) {
         try {
             fault ?? converter.add(product);
         } catch (error) {
-            fault = error; // not through the frames of WebAssembly
+            fault = error; // thrown later, not through the frames of WebAssembly
         }
     };
     api.StreamAllMeshes(model, take);
-    if (withSpaces) // the others are among all meshes
+    if (withSpaces) // StreamAllMeshes returns the other types
         api.StreamAllMeshesWithTypes(model, [api.GetTypeCodeFromName('IFCSPACE')], take);
     if (fault !== null)
         throw fault;
@@ -372,5 +375,5 @@ try {
     output.error(error instanceof Fault ? error.code : MALFORMED,
                  error instanceof Fault ? error.message : `cannot be read by web-ifc: ${error.message ?? error}`);
 }
-// web-ifc would otherwise take the model apart.
+// Ends at once; otherwise web-ifc would first delete the model.
 process.exit(0);

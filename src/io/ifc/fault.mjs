@@ -2,7 +2,7 @@
 export const MALFORMED = 3;
 export const UNSUPPORTED = 4;
 
-/** What is wrong with a file, as one line. */
+/** A fault of a file, described in one line. */
 export class Fault extends Error {
     constructor(code, text) {
         super(text);

@@ -1,18 +1,20 @@
-// Where an IFC project lies on its map: IfcMapConversion of IFC 4, or in IFC 2x3 the property sets ePSet_MapConversion
-// and ePSet_ProjectedCRS, which stand for it by convention.
+// The map position of an IFC project: IfcMapConversion of IFC 4, or in IFC 2x3 the property sets
+// ePSet_MapConversion and ePSet_ProjectedCRS, which replace it by convention.
 //
 //     (easting, northing, height) = offset + scale * (turned about z: (x, y, z) of the project)
 //
-// The offset is in units of the map. `Scale` is the ratio of the units times the scale of the map's projection.
+// The offset is in units of the map. `Scale` is the ratio of the units times the scale of the map's
+// projection.
 
 import {Fault, MALFORMED} from './fault.mjs';
 import {metresOf, metresOfName} from './units.mjs';
 
 const PROPERTY_SETS = {conversion: 'EPSET_MAPCONVERSION', projection: 'EPSET_PROJECTEDCRS'};
-// Metres on the map per metre of the project. Projections in use stay within these; no two units of length do.
+// Metres on the map per metre of the project. Common projections stay within these bounds; the
+// ratio of two different units of length does not.
 const SMALLEST_SCALE = 0.4;
 const LARGEST_SCALE = 2.5;
-// A direction that is so near to an axis is that axis: cosines of 90 degrees in double precision are 6e-17.
+// A direction this near to an axis is that axis: in doubles, the cosine of 90 degrees is 6e-17.
 const SAME_AXIS = 1e-15;
 
 const isScale = value => value >= SMALLEST_SCALE && value <= LARGEST_SCALE;
@@ -20,17 +22,17 @@ const isScale = value => value >= SMALLEST_SCALE && value <= LARGEST_SCALE;
 const lines = (api, model, type) =>
     [...api.GetLineIDsWithType(model, api.GetTypeCodeFromName(type), true)].map(id => api.GetLine(model, id, true));
 
-/** A number, or undefined where the file has none. */
+/** Returns a number, or undefined if the file has none. */
 function numberOf(value, name) {
     if (value === undefined || value === null)
         return undefined;
     const number = Number(value);
     if (!Number.isFinite(number))
-        throw new Fault(MALFORMED, `has a map conversion whose ${name} is no number`);
+        throw new Fault(MALFORMED, `has a map conversion whose ${name} is not a number`);
     return number;
 }
 
-/** The cosine and sine of the project's x axis on the map. */
+/** Returns the cosine and sine of the project's x axis on the map. */
 function axisOf(abscissa, ordinate) {
     if (abscissa === undefined && ordinate === undefined)
         return [1, 0];
@@ -44,10 +46,11 @@ function axisOf(abscissa, ordinate) {
 }
 
 /**
- * Metres per unit of the map, and metres on the map per metre of the project.
+ * Returns metres per unit of the map, and metres on the map per metre of the project.
  *
- * `scale` should hold the ratio of the units. Well-known exporters leave that out, or leave out the map's unit: what
- * would make a building a thousand times as large is not taken literally.
+ * `scale` should include the ratio of the units. Well-known exporters omit that ratio, or the map's
+ * unit. A value that would make a building a thousand times as large is therefore not used
+ * literally.
  */
 function unitAndScale(scale, mapUnit, projectUnit) {
     if (mapUnit !== undefined) {
@@ -56,15 +59,19 @@ function unitAndScale(scale, mapUnit, projectUnit) {
             return [mapUnit, isScale(literal) ? literal : scale];
     } else {
         if (isScale(scale))
-            return [projectUnit, scale]; // IFC 4: the unit of the project
+            return [projectUnit, scale]; // IFC 4: the map has the project's unit
         if (isScale(scale / projectUnit))
-            return [1, scale / projectUnit]; // the scale says that the map is in metres
+            return [1, scale / projectUnit]; // the scale implies that the map is in metres
     }
-    throw new Fault(MALFORMED, `has a map conversion whose scale, ${scale}, no units explain; it can be left out ` +
+    throw new Fault(MALFORMED, `has a map conversion with the scale ${scale}, which no units explain; the map can be ignored ` +
                                    '(ReadOptions::map, --no-map)');
 }
 
-/** In: attributes of IfcMapConversion; mapUnit: metres, or undefined. A column-major 4x4 matrix. */
+/**
+ * Returns a column-major 4x4 matrix.
+ *
+ * In: attribute: attributes of IfcMapConversion; mapUnit: metres, or undefined.
+ */
 function matrixOf(attribute, mapUnit, projectUnit) {
     const number = name => numberOf(attribute(name), name);
     const [unit, scale] = unitAndScale(number('Scale') ?? 1, mapUnit, projectUnit);
@@ -86,7 +93,7 @@ function fromConversions(api, model, projectUnit) {
     return found[0] ?? null;
 }
 
-/** Whether a file's text holds a word in capitals or not. */
+/** Returns whether a file's text contains a word, in any case. */
 function holds(file, word) {
     const BLOCK = 1 << 20;
     for (let at = 0; at < file.size; at += BLOCK)
@@ -95,7 +102,7 @@ function holds(file, word) {
     return false;
 }
 
-/** The properties of the first set of this name, as a function of their names; null: there is none. */
+/** Returns the first property set of this name as a function of property names; null if none. */
 function propertiesOf(sets, name) {
     const set = sets.find(set => set.Name?.value?.toUpperCase() === name);
     return set === undefined ? null : property => {
@@ -105,7 +112,7 @@ function propertiesOf(sets, name) {
 }
 
 function fromPropertySets(api, model, file, projectUnit) {
-    if (!holds(file, PROPERTY_SETS.conversion)) // files have a hundred thousand other property sets
+    if (!holds(file, PROPERTY_SETS.conversion)) // saves reading up to 100,000 other property sets
         return null;
     const sets = lines(api, model, 'IFCPROPERTYSET');
     const conversion = propertiesOf(sets, PROPERTY_SETS.conversion);
@@ -114,13 +121,13 @@ function fromPropertySets(api, model, file, projectUnit) {
     const name = propertiesOf(sets, PROPERTY_SETS.projection)?.('MapUnit');
     const unit = name === undefined ? undefined : metresOfName(String(name));
     if (name !== undefined && unit === undefined)
-        throw new Fault(MALFORMED, `has a map in units of '${name}', which is no known length`);
+        throw new Fault(MALFORMED, `has a map in units of '${name}', which is not a known length`);
     return matrixOf(conversion, unit, projectUnit);
 }
 
 /**
- * From metres of the project, z up, to metres on its map (easting, northing, height), as a column-major 4x4 matrix;
- * null: the file has no map.
+ * Returns the matrix from metres of the project, z up, to metres on its map (easting, northing,
+ * height), column-major 4x4; null if the file has no map.
  *
  * In: file: {size, read} of zip.mjs; projectUnit: metres.
  */

@@ -1,25 +1,25 @@
-// What an IFC file says of its products, besides their geometry.
+// Data of an IFC file about its products, besides their geometry.
 
-// Volumes in which things are, not things.
+// Volumes that contain things but are not things themselves.
 const SPACES = ['IFCSPACE', 'IFCSPATIALZONE', 'IFCEXTERNALSPATIALELEMENT'];
-// What is cut out of other products.
+// Volumes that are subtracted from other products.
 const FEATURES = ['IFCFEATUREELEMENTSUBTRACTION'];
-// Identifiers of representations that are no body [IFC 4, IfcShapeRepresentation].
+// Identifiers of representations that are not a body [IFC 4, IfcShapeRepresentation].
 const NO_BODY = ['Axis', 'FootPrint', 'Profile', 'Surface', 'Reference', 'Box', 'Annotation', 'Plan', 'Boundary',
                  'WalkingLine', 'Clearance', 'Lighting', 'CoG', 'Coverage', 'SurveyPoints'];
 // Types of representations that hold surfaces or solids.
 const BODY_TYPES = ['SweptSolid', 'AdvancedSweptSolid', 'Brep', 'AdvancedBrep', 'CSG', 'Clipping', 'SolidModel',
                     'Tessellation', 'SurfaceModel', 'Surface3D', 'SectionedSpine', 'MappedRepresentation'];
 const SOLIDS = ['IFCSOLIDMODEL', 'IFCBOOLEANRESULT', 'IFCCSGPRIMITIVE3D'];
-// Mapped items within mapped items, of a file that is not at fault.
+// Maximum nesting of mapped items in a valid file.
 const DEEPEST = 32;
 
 export class Products {
-    #withBody = new Map(); // express id: the representations that are its body
+    #withBody = new Map(); // express id: representations of its body
     #leftOut = new Set();
     #openings = new Map(); // express id: number of its openings
     #solids;
-    #shapes = new Map(); // express id of a representation or an item: of its shapes
+    #shapes = new Map(); // express id of a representation or an item: its shapes
     #codeOf;
 
     constructor(api, model, withSpaces) {
@@ -42,7 +42,7 @@ export class Products {
         }
     }
 
-    /** Express ids. */
+    /** Returns the express ids of products with a body. */
     withBody() { return this.#withBody.keys(); }
 
     about(expressID) {
@@ -56,13 +56,13 @@ export class Products {
         };
     }
 
-    /** Whether all shapes of a product's body are solids, so that its surface should be closed. */
+    /** Returns whether all shapes of a body are solids, so that its surface should be closed. */
     isSolid(expressID) {
         const shapes = this.#shapesOfBody(expressID);
         return shapes.length > 0 && shapes.every(shape => this.#isSolidShape(shape));
     }
 
-    /** How many shapes a product's body has. */
+    /** Returns the number of shapes of a product's body. */
     shapes(expressID) { return this.#shapesOfBody(expressID).length; }
 
     #line(reference) { return this.api.GetLine(this.model, reference); }
@@ -83,7 +83,7 @@ export class Products {
         return (this.#withBody.get(expressID) ?? []).flatMap(representation => this.#shapesOf(representation, 0));
     }
 
-    /** The items of a representation; mapped ones are what they map. */
+    /** Returns the items of a representation. Mapped items are replaced by those that they map. */
     #shapesOf(id, depth) {
         const known = this.#shapes.get(id);
         if (known !== undefined)
@@ -101,7 +101,7 @@ export class Products {
     #isSolidShape(id) {
         if (this.#solids.has(id))
             return true;
-        const {Closed: closed} = this.#line(id); // of a tessellated face set
+        const {Closed: closed} = this.#line(id); // set for a tessellated face set
         return closed?.value === true || closed?.value === 'T';
     }
 }

@@ -1,9 +1,9 @@
-// The edges of a triangle mesh, and the closing of holes of no width.
+// The edges of a triangle mesh, and the closing of holes without width.
 
-// Of a larger mesh the edges are not looked at: a Map holds 2^24 entries at most.
+// The edges of a larger mesh are not examined, because a Map holds at most 2^24 entries.
 const MOST_TRIANGLES = 2 ** 23;
 
-/** How triangles use edges, by edgeKey: [uses, uses as low -> high less uses as high -> low]. */
+/** Uses of edges by edgeKey: [uses, uses as low -> high minus uses as high -> low]. */
 function edgesOf(triangles) {
     const edges = new Map();
     if (triangles.length > 3 * MOST_TRIANGLES)
@@ -27,7 +27,7 @@ function edgesOf(triangles) {
 const KEY_BASE = 2 ** 26;
 const edgeKey = (a, b) => Math.min(a, b) * KEY_BASE + Math.max(a, b);
 
-/** How many edges have one triangle, and how many more than two. */
+/** Returns the numbers of edges with one triangle, and with more than two. */
 export function edgeFaults(triangles) {
     let open = 0;
     let crowded = 0;
@@ -38,7 +38,7 @@ export function edgeFaults(triangles) {
     return {open, crowded};
 }
 
-/** The half-edges a -> b that miss just one triangle with b -> a: [a, b, a, b, ...]. */
+/** Returns the half-edges a -> b that lack just one triangle with b -> a: [a, b, a, b, ...]. */
 function openHalfEdges(edges) {
     const open = [];
     for (const [key, [, net]] of edges) {
@@ -52,9 +52,9 @@ function openHalfEdges(edges) {
     return open;
 }
 
-/** Simple loops [v0, v1, ...] of half-edges, each the way they run; what forms none is left out. */
+/** Returns simple loops [v0, v1, ...] of half-edges; other half-edges are left out. */
 function loopsOf(edges) {
-    const next = new Map(); // vertex: where half-edges lead from it
+    const next = new Map(); // vertex: ends of the half-edges from it
     for (let i = 0; i < edges.length; i += 2)
         next.set(edges[i], [...next.get(edges[i]) ?? [], edges[i + 1]]);
     const loops = [];
@@ -83,11 +83,11 @@ function loopsOf(edges) {
 
 const difference = (p, a, b) => [p[3 * a] - p[3 * b], p[3 * a + 1] - p[3 * b + 1], p[3 * a + 2] - p[3 * b + 2]];
 
-/** The largest distance of a loop's vertices from the line through two of them that are far apart. */
+/** Returns the largest distance of a loop's vertices from the line through two distant ones. */
 function widthOf(loop, positions) {
     let from = loop[0];
     let to = from;
-    for (let pass = 0; pass < 2; ++pass) { // the farthest from the first, and the farthest from that
+    for (let pass = 0; pass < 2; ++pass) { // the vertex farthest from the first, then from that one
         let most = -1;
         for (const v of loop) {
             const length = Math.hypot(...difference(positions, v, from));
@@ -112,12 +112,13 @@ function widthOf(loop, positions) {
     return width;
 }
 
-// A longer loop is filled from any vertex: looking for a better one takes the square of its length.
+// A longer loop is filled from any vertex, because the search for a better one takes quadratic
+// time.
 const MOST_APICES = 64;
 
-/** Triangles that fill a loop, so that each of its edges is used the other way too. */
+/** Returns triangles that fill a loop and use each of its edges in the other direction. */
 function fillOf(loop, edges) {
-    // The diagonals from the apex should not be edges already.
+    // The diagonals from the apex should not already be edges.
     const apex = loop.length > MOST_APICES ? 0 : loop.findIndex((v, i) => loop.every((w, k) => {
         const apart = (k - i + loop.length) % loop.length;
         return apart < 2 || apart === loop.length - 1 || !edges.has(edgeKey(v, w));
@@ -130,8 +131,9 @@ function fillOf(loop, edges) {
 }
 
 /**
- * The triangles, and those of no area that close holes of no width: loops of edges whose vertices lie on one line, to
- * within `tolerance`. web-ifc drops triangles of no area, and leaves T-junctions where it cuts solids.
+ * Returns the triangles, and triangles of zero area that close holes without width: loops of edges
+ * whose vertices lie on one line to within `tolerance`. Such holes occur because web-ifc drops
+ * triangles of zero area, and leaves T-junctions where it cuts solids.
  *
  * In: vertices joined by position. No vertex is added or moved.
  */

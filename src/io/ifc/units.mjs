@@ -1,10 +1,10 @@
-// Lengths of an IFC file in metres.
+// Units of length of an IFC file, in metres.
 
 const SI_PREFIXES = {EXA: 1e18, PETA: 1e15, TERA: 1e12, GIGA: 1e9, MEGA: 1e6, KILO: 1e3, HECTO: 1e2, DECA: 1e1,
                      DECI: 1e-1, CENTI: 1e-2, MILLI: 1e-3, MICRO: 1e-6, NANO: 1e-9, PICO: 1e-12, FEMTO: 1e-15,
                      ATTO: 1e-18};
 
-/** Metres of an IfcNamedUnit of length. */
+/** Returns the metres of an IfcNamedUnit of length. */
 export function metresOf(unit) {
     if (unit?.Name?.value === 'METRE')
         return SI_PREFIXES[unit.Prefix?.value] ?? 1;
@@ -12,7 +12,7 @@ export function metresOf(unit) {
     return factor ? factor.ValueComponent.value * metresOf(factor.UnitComponent) : 1;
 }
 
-/** Metres of a unit of length by its name ('METRE', 'MILLIMETRE', 'FOOT'); undefined: no name of one. */
+/** Returns the metres of a unit by its name ('METRE', 'FOOT'); undefined if it is not a length. */
 export function metresOfName(name) {
     const word = name.toUpperCase().replaceAll(/[\s_-]/g, '').replace(/METER/, 'METRE').replace(/S$/, '');
     const metre = /^([A-Z]*)METRE$/.exec(word);
@@ -22,7 +22,7 @@ export function metresOfName(name) {
             USSURVEYFOOT: 1200 / 3937, USSURVEYFEET: 1200 / 3937}[word];
 }
 
-/** The length unit of the project; metres where the file has none. */
+/** Returns the project's unit of length; metres if the file has none. */
 export function metresPerUnit(api, model) {
     const projects = api.GetLineIDsWithType(model, api.GetTypeCodeFromName('IFCPROJECT'));
     if (projects.size() === 0)

@@ -1,11 +1,11 @@
-// The one IFC file of a ZIP archive (.ifczip), as a file that is read at any place.
+// The only IFC file in a ZIP archive (.ifczip), read at any position.
 //
 //     entry      local header "PK\3\4" … name, extra | bytes, raw or deflated
 //     directory  one record "PK\1\2" an entry: method, sizes, name, where the entry begins
 //     end        "PK\5\6" … how many records, where the directory begins | comment
 //
-// Nothing that the archive says is trusted: sizes are compared with the file's, and what an entry
-// promises with the most that its bytes can hold.
+// The archive is not trusted: sizes are compared with the file's, and the stated size of an entry
+// with the most that its bytes can hold.
 
 import fs from 'node:fs';
 import zlib from 'node:zlib';
@@ -16,11 +16,12 @@ const LOCAL_BYTES = 30;
 const LARGEST_COMMENT = 0xffff;
 const STORED = 0;
 const DEFLATED = 8;
-// IFC text becomes 4 to 15 times smaller. A longer promise is an archive that is made to fill the memory.
+// IFC text is compressed by a factor of 4 to 15. A higher ratio means an archive made to fill
+// memory.
 const LARGEST_RATIO = 100;
 const SMALLEST_BOUND = 1 << 26;
 
-/** A file on the disk. read(length, position): its bytes there, fewer at its end. */
+/** A file on disk. read(length, position) returns the bytes there, fewer at the file's end. */
 export function plainFile(path) {
     const file = fs.openSync(path, 'r');
     const size = fs.fstatSync(file).size;
@@ -31,7 +32,7 @@ export function plainFile(path) {
     return {size, read};
 }
 
-/** Bytes in memory, read like a file. */
+/** Bytes in memory that can be read like a file. */
 function fileOf(bytes) {
     return {size: bytes.length, read: (length, position) => bytes.subarray(position, position + length)};
 }
@@ -40,21 +41,21 @@ function directoryOf(archive, fail) {
     const tail = archive.read(END_BYTES + LARGEST_COMMENT, Math.max(0, archive.size - END_BYTES - LARGEST_COMMENT));
     const end = tail.lastIndexOf('PK\u0005\u0006', tail.length - END_BYTES, 'latin1');
     if (end < 0)
-        fail('is no ZIP archive, or is truncated');
+        fail('is not a ZIP archive, or is truncated');
     const count = tail.readUInt16LE(end + 10);
     const size = tail.readUInt32LE(end + 12);
     const at = tail.readUInt32LE(end + 16);
     if (count === 0xffff || size === 0xffffffff || at === 0xffffffff)
-        fail('is a ZIP64 archive, which is not read');
+        fail('is a ZIP64 archive, which is not supported');
     if (at + size > archive.size)
         fail('is truncated: its directory lies beyond its end');
     return {count, bytes: archive.read(size, at)};
 }
 
-// What macOS adds to an archive beside each file.
+// Files that macOS adds to an archive beside each file.
 const COMPANION = /(^|\/)(__MACOSX\/|\._[^/]*$)/;
 
-/** The entries whose names end with .ifc. */
+/** Returns the entries whose names end in .ifc. */
 function models({count, bytes}, fail) {
     const entries = [];
     for (let i = 0, at = 0; i < count; ++i) {
@@ -90,17 +91,17 @@ function checksumOf(bytes) {
     return ~checksum >>> 0;
 }
 
-/** fail(text): throws that the archive is malformed. */
+/** fail(text) throws an error that the archive is malformed. */
 export function zippedFile(path, fail) {
     const archive = plainFile(path);
     const entries = models(directoryOf(archive, fail), fail);
     if (entries.length !== 1)
-        fail(`holds ${entries.length} IFC files: one is needed`);
+        fail(`contains ${entries.length} IFC files instead of one`);
     const {encrypted, method, checksum, packed, size, at} = entries[0];
     if (encrypted || (method !== STORED && method !== DEFLATED))
-        fail('holds an IFC file that is encrypted, or compressed in a way that is not read');
+        fail('contains an IFC file that is encrypted, or has an unsupported compression');
     if (size > Math.max(SMALLEST_BOUND, LARGEST_RATIO * packed))
-        fail(`promises ${size} bytes from ${packed}, more than IFC can be compressed`);
+        fail(`claims ${size} bytes from ${packed}, more than IFC can be compressed`);
     const local = archive.read(LOCAL_BYTES, at);
     if (local.length < LOCAL_BYTES || local.readUInt32LE(0) !== 0x04034b50)
         fail('has a damaged directory');
@@ -110,9 +111,9 @@ export function zippedFile(path, fail) {
         if (method === DEFLATED)
             content = size === 0 ? Buffer.alloc(0) : zlib.inflateRawSync(bytes, {maxOutputLength: size});
     } catch {
-        fail('holds an IFC file that is damaged');
+        fail('contains a damaged IFC file');
     }
     if (bytes.length !== packed || content.length !== size || checksumOf(content) !== checksum)
-        fail('holds an IFC file that is damaged');
+        fail('contains a damaged IFC file');
     return fileOf(content);
 }

@@ -15,8 +15,8 @@ bool is_comment(std::string_view line) {
     return first != std::string_view::npos && line[first] == '#';
 }
 
-/// A line with those that its final backslash joins to it; a comment may end in one by chance, as
-/// a folder's name does.
+/// Takes a line and those that a final backslash joins to it. A comment may end in a backslash by
+/// accident, for example in a folder's name.
 bool next_logical(LineScan& lines, std::string_view& line, std::string& joined) {
     if (!lines.next(line))
         return false;
@@ -32,10 +32,10 @@ bool next_logical(LineScan& lines, std::string_view& line, std::string& joined) 
     return true;
 }
 
-/// The corners of faces as indices from 0.
+/// Reads the corners of faces as indices from 0.
 class CornerReader {
 public:
-    /// In          rest: what follows `f` on its line; vertices: how many have come before it.
+    /// In          rest: the text after `f` on its line; vertices: their number so far.
     std::span<const std::uint64_t> read(std::string_view rest, std::uint64_t vertices,
                                         const LineScan& lines) {
         corners_.clear();
@@ -43,7 +43,7 @@ public:
              corner = take_word(rest)) {
             const auto number = to_number<std::int64_t>(corner.substr(0, corner.find('/')));
             if (!number)
-                malformed(lines.place() + ": a face has the corner " + std::string(corner));
+                malformed(lines.place() + ": a face has the invalid corner " + std::string(corner));
             corners_.push_back(index_of(*number, vertices, lines));
         }
         if (corners_.size() < 3)
@@ -51,8 +51,8 @@ public:
         return corners_;
     }
 
-    /// In          vertices: of the whole file.
-    /// Errors      Fault bad_mesh if there are too few of them.
+    /// In          vertices: their number in the whole file.
+    /// Errors      Fault bad_mesh if a corner exceeds it.
     void check(std::uint64_t vertices) const {
         if (largest_ > vertices)
             throw Fault(ErrorCode::bad_mesh,
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// Numbers count from 1, or backwards from -1, which is the last vertex so far.
+    /// A number counts from 1, or backwards from -1, which is the last vertex so far.
     std::uint64_t index_of(std::int64_t number, std::uint64_t vertices, const LineScan& lines) {
         const auto forward = static_cast<std::uint64_t>(number);
         const std::uint64_t back = 0 - forward;

@@ -14,8 +14,8 @@ namespace abut {
 
 namespace {
 
-/// Every corner of a face is a vertex of its own, in the order of the file: as Assimp has it, and
-/// then vertices that no face uses are not there.
+/// Every corner of a face is a separate vertex, in the order of the file, as with Assimp. Vertices
+/// that no face uses are left out.
 class ObjSource : public OnePartSource {
 public:
     ObjSource(const ModelPath& path, const SourceOptions& options)
@@ -62,8 +62,7 @@ public:
 private:
     static constexpr std::size_t kPiece = 8192;
 
-    /// Looks whether the file is one part whose faces come after their vertices, and how large it
-    /// is.
+    /// Checks that the file is one part whose faces come after their vertices, and finds its size.
     void scan(bool allow_outside) {
         ByteStream content = ByteStream::open(path_, watch_);
         ObjParts parts;
@@ -90,7 +89,7 @@ private:
         set_part(parts.ids().front(), size);
     }
 
-    /// Calls take(corners' positions) for each face.
+    /// Calls take(positions of the corners) for each face.
     template <typename Take>
     void for_each_face(PagedArray<FloatPosition>& positions, const Take& take) const {
         ByteStream content = ByteStream::open(path_, watch_);
@@ -100,14 +99,14 @@ private:
             content,
             [&](const Vec3& p) {
                 if (vertices >= positions.size())
-                    throw Fault(ErrorCode::unreadable, "has changed while it was read");
+                    throw Fault(ErrorCode::unreadable, "changed while it was read");
                 positions.set(vertices++, {to_float(p.x), to_float(p.y), to_float(p.z)});
             },
             [&](auto corners) {
                 polygon.clear();
                 for (const std::uint64_t corner : corners) {
                     if (corner >= vertices)
-                        throw Fault(ErrorCode::unreadable, "has changed while it was read");
+                        throw Fault(ErrorCode::unreadable, "changed while it was read");
                     const FloatPosition p = positions.get(corner);
                     polygon.push_back({p.x, p.y, p.z});
                 }
@@ -116,7 +115,7 @@ private:
     }
 
     std::uint64_t memory_;
-    std::uint64_t vertices_ = 0; ///< `v` lines
+    std::uint64_t vertices_ = 0; ///< number of `v` lines
     bool only_triangles_ = true;
 };
 

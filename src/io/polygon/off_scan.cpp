@@ -10,7 +10,7 @@ namespace abut {
 
 namespace {
 
-/// The next line with content, without its comment.
+/// Takes the next line with content, without its comment.
 bool next_content(LineScan& lines, std::string_view& rest) {
     while (lines.next(rest)) {
         rest = rest.substr(0, rest.find('#'));
@@ -21,16 +21,16 @@ bool next_content(LineScan& lines, std::string_view& rest) {
     return false;
 }
 
-/// The numbers of vertices and faces.
+/// Reads the numbers of vertices and faces.
 std::array<std::uint64_t, 2> read_header(LineScan& lines) {
     std::string_view rest;
     if (!next_content(lines, rest))
-        malformed("is no OFF file");
+        malformed("is not an OFF file");
     const std::string keyword(take_word(rest));
     if (!keyword.ends_with("OFF"))
-        malformed("is no OFF file");
+        malformed("is not an OFF file");
     if (keyword.find_first_of("4n") != std::string::npos)
-        throw Fault(ErrorCode::unsupported, "is an OFF file of other than three dimensions");
+        throw Fault(ErrorCode::unsupported, "is an OFF file that is not three-dimensional");
     std::string_view copy = rest;
     if (take_word(copy) == "BINARY")
         throw Fault(ErrorCode::unsupported, "is a binary OFF file");
@@ -47,7 +47,7 @@ std::array<std::uint64_t, 2> read_header(LineScan& lines) {
     return counts;
 }
 
-/// In          rest: a face's line. In/out corners: all in range.
+/// In          rest: a face's line. Out corners: indices, all in range.
 void read_corners(std::string_view rest, std::uint64_t vertices, const LineScan& lines,
                   std::vector<std::uint64_t>& corners) {
     const auto count = to_number<std::uint64_t>(take_word(rest));

@@ -8,19 +8,19 @@
 
 namespace abut {
 
-/// A position as files of one mesh have it.
+/// A position as files with one mesh store it.
 struct FloatPosition {
     float x = 0, y = 0, z = 0;
 };
 
-/// A file of one mesh, which one part shows.
+/// A file with one mesh and one part.
 class OnePartSource : public SceneSource {
 public:
     [[nodiscard]] std::uint32_t meshes() const override { return 1; }
     [[nodiscard]] Size size(std::uint32_t) const override { return size_; }
 
 protected:
-    /// The formats of one mesh have neither a unit nor axes.
+    /// The formats with one mesh define neither a unit nor axes.
     OnePartSource(const ModelPath& path, const SourceOptions& options)
         : SceneSource(FormatFrame{}, path, options), path_(path.path), watch_(options.watch) {}
 
@@ -32,7 +32,7 @@ protected:
         finish();
     }
 
-    /// Triangles of vertices 0 1 2, 3 4 5, …
+    /// Sends triangles of the vertices 0 1 2, 3 4 5, …
     static void send_separate_triangles(std::uint64_t count, MeshSink& sink) {
         constexpr std::uint64_t kPiece = 4096;
         std::vector<std::array<std::uint32_t, 3>> piece;
@@ -46,7 +46,7 @@ protected:
         }
     }
 
-    std::string path_;                       // NOLINT: read by those who know the format
+    std::string path_;                       // NOLINT: read by the format's reader
     std::shared_ptr<const ReadWatch> watch_; // NOLINT: likewise
 
 private:

@@ -12,7 +12,7 @@ bool PlyBody::skip(const PlyType& type, std::uint64_t count) {
             if (word.empty())
                 return false;
             if (!to_real(word))
-                malformed("has " + std::string(word.substr(0, 40)) + " for a number");
+                malformed("has " + std::string(word.substr(0, 40)) + " in place of a number");
         }
         return true;
     }
@@ -47,7 +47,7 @@ bool PlyBody::take_length(const PlyProperty& property, std::uint64_t& length) {
 
 std::uint64_t PlyBody::most(const PlyElement& element) const {
     std::uint64_t bytes = 0;
-    // A list may be empty; in text a value is one character or more.
+    // A list may be empty; in text, a value has at least one character.
     for (const PlyProperty& property : element.properties)
         bytes += is_text() ? 1 : (property.is_list ? property.length : property.value).bytes;
     return bytes == 0 ? 0 : std::min(element.count, data_.left() / bytes);
@@ -59,7 +59,7 @@ bool PlyBody::at_end() {
 
 namespace {
 
-/// The list of a face's vertices; null if faces have none.
+/// Returns the list of a face's vertices; null if faces have none.
 const PlyProperty* corner_list(const PlyElement& element) {
     for (const PlyProperty& property : element.properties)
         if (property.is_list &&
@@ -68,7 +68,7 @@ const PlyProperty* corner_list(const PlyElement& element) {
     return nullptr;
 }
 
-/// False at the end of the data.
+/// Takes a face's corners. False at the end of the data.
 bool take_corners(PlyBody& body, const PlyProperty& list, std::uint64_t vertices,
                   std::vector<std::uint64_t>& corners) {
     std::uint64_t length = 0;
@@ -87,7 +87,7 @@ bool take_corners(PlyBody& body, const PlyProperty& list, std::uint64_t vertices
     return true;
 }
 
-/// The properties x, y and z.
+/// The properties x, y and z of a vertex.
 using Axes = std::array<const PlyProperty*, 3>;
 
 Axes axes_of(const PlyElement& vertex) {
@@ -103,7 +103,7 @@ Axes axes_of(const PlyElement& vertex) {
     return axes;
 }
 
-/// False at the end of the data.
+/// Takes a vertex. False at the end of the data.
 bool take_vertex(PlyBody& body, const PlyElement& element, const Axes& axes, Vec3& position) {
     for (const PlyProperty& property : element.properties) {
         const bool taken = &property == axes[0]   ? body.take(property.value, position.x)

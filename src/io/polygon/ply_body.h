@@ -19,37 +19,37 @@
 
 namespace abut {
 
-/// Takes values off the data of a PLY file one by one, text or binary.
+/// Takes values one by one from the data of a PLY file, text or binary.
 ///
-/// Errors      Fault malformed for a word that is no number, unsupported for a count or an index
-///             that is a real number. The end of the data is no fault here, but false.
+/// Errors      Fault malformed for a word that is not a number, unsupported for a count or an index
+///             that is a real number. The end of the data is not an error; it returns false.
 class PlyBody {
 public:
-    /// In          data: what follows the header; must outlive the body.
+    /// In          data: the bytes after the header; must outlive the body.
     PlyBody(const PlyHeader& header, ByteStream& data) : data_(data), encoding_(header.encoding) {}
 
-    /// One integer: the length of a list, or an index. False at the end of the data.
+    /// Takes one integer: the length of a list, or an index. False at the end of the data.
     bool take(const PlyType& type, std::int64_t& value);
 
-    /// One number of any type; of text, rounded to that type. False at the end of the data.
+    /// Takes one number of any type; in text, rounded to that type. False at the end of the data.
     bool take(const PlyType& type, double& value);
 
-    /// A property of any kind. False at the end of the data.
+    /// Skips a property of any kind. False at the end of the data.
     bool skip(const PlyProperty& property);
 
-    /// The length of a list. False at the end of the data.
+    /// Takes the length of a list. False at the end of the data.
     bool take_length(const PlyProperty& property, std::uint64_t& length);
 
-    /// More of these elements cannot follow, whatever their count says.
+    /// Upper bound of the number of these elements that can follow, whatever their count says.
     [[nodiscard]] std::uint64_t most(const PlyElement& element) const;
 
-    /// Nothing follows; in text, nothing but blanks.
+    /// Returns whether nothing follows; in text, nothing but blanks.
     [[nodiscard]] bool at_end();
 
 private:
     [[nodiscard]] bool is_text() const { return encoding_ == PlyEncoding::text; }
     bool skip(const PlyType& type, std::uint64_t count);
-    /// In the lowest bits. False at the end of the data.
+    /// Takes a value into the lowest bits. False at the end of the data.
     bool take_bits(const PlyType& type, std::uint64_t& bits);
     template <typename Number>
     bool take_word_as(Number& value);
@@ -58,31 +58,31 @@ private:
     PlyEncoding encoding_;
 };
 
-/// Takes the vertices: their properties x, y and z.
+/// Takes the vertices with their properties x, y and z.
 ///
-/// Errors      as PlyBody; Fault malformed if the data ends before or one of the three is missing.
+/// Errors      as PlyBody; Fault malformed if the data ends early or a property is missing.
 void take_ply_vertices(PlyBody& body, const PlyElement& element,
                        const std::function<void(const Vec3&)>& vertex);
 
-/// Takes a face's corners: indices of vertices, any number of them.
+/// Receives a face's corners: any number of vertex indices.
 using PlyFace = std::function<void(std::span<const std::uint64_t> corners)>;
 
-/// Takes all elements of a kind, faces that have a list of vertices.
+/// Takes all faces: the elements of a kind that have a list of vertices.
 ///
-/// Errors      as PlyBody; Fault malformed if the data ends before, bad_mesh if a corner is not
-///             among so many vertices.
+/// Errors      as PlyBody; Fault malformed if the data ends early, bad_mesh if a corner is not
+///             below `vertices`.
 void take_ply_faces(PlyBody& body, const PlyElement& element, std::uint64_t vertices,
                     const PlyFace& face);
 
-/// Passes over all elements of a kind. Errors as PlyBody; Fault malformed if the data ends before.
+/// Skips all elements of a kind. Errors as PlyBody; Fault malformed if the data ends early.
 void skip_ply_elements(PlyBody& body, const PlyElement& element);
 
 /// Calls `take`, which returns false at the end of the data, for each element of a kind.
 ///
-/// Errors      Fault malformed if the data ends before.
+/// Errors      Fault malformed if the data ends early.
 template <typename Take>
 void take_ply_elements(const PlyElement& element, const Take& take) {
-    // Without properties it has no data, however many of it there are.
+    // Without properties, elements have no data, whatever their count.
     if (element.properties.empty())
         return;
     for (std::uint64_t i = 0; i < element.count; ++i)
@@ -117,21 +117,22 @@ bool PlyBody::take_word_as(Number& value) {
     }();
     if (!number)
         malformed("has " + std::string(word.substr(0, 40)) +
-                  (std::numeric_limits<Number>::is_integer ? " for an integer" : " for a number"));
+                  (std::numeric_limits<Number>::is_integer ? " in place of an integer"
+                                                           : " in place of a number"));
     value = *number;
     return true;
 }
 
 inline bool PlyBody::take(const PlyType& type, std::int64_t& value) {
     if (type.is_real)
-        throw Fault(ErrorCode::unsupported, "counts with real numbers");
+        throw Fault(ErrorCode::unsupported, "has a real number as a count or an index");
     if (is_text())
         return take_word_as(value);
     std::uint64_t bits = 0;
     if (!take_bits(type, bits))
         return false;
     const std::size_t unused = 64 - 8 * type.bytes;
-    // Shifted to the top and back, arithmetically where the sign is to be kept.
+    // Shifted to the top and back; the shift is arithmetic if the sign must be kept.
     value = type.is_signed ? static_cast<std::int64_t>(bits << unused) >> unused
                            : static_cast<std::int64_t>(bits);
     return true;

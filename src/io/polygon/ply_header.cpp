@@ -80,7 +80,7 @@ PlyHeader read_ply_header(ByteStream& content) {
     std::string_view line;
     PlyHeader header;
     if (!lines.next(line) || line.substr(0, 3) != "ply")
-        malformed("is no PLY file");
+        malformed("is not a PLY file");
     bool has_format = false;
     while (lines.next(line)) {
         std::string_view rest = line;

@@ -19,26 +19,28 @@ struct PlyType {
 struct PlyProperty {
     std::string name;
     bool is_list = false;
-    PlyType length; ///< of a list
+    PlyType length; ///< type of a list's length
     PlyType value;
 };
 
 struct PlyElement {
     std::string name;
-    std::uint64_t count = 0; ///< by the file's own account
+    std::uint64_t count = 0; ///< as stated by the file
     std::vector<PlyProperty> properties;
 };
 
-/// What a PLY file says of itself before its data.
+/// The header of a PLY file.
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::text;
     std::vector<PlyElement> elements; ///< in the order of their data
 
-    /// How many vertices there are; 0 if the file says nothing of any.
+    /// The number of vertices; 0 if the header names none.
     [[nodiscard]] std::uint64_t vertices() const;
 };
 
-/// In/out      content: the file from its beginning; afterwards, its data are ahead.
+/// Reads the header.
+///
+/// In/out      content: the file from its beginning; afterwards its data follow.
 /// Errors      Fault malformed.
 /// Source      [Turk 1994, The PLY Polygon File Format]; names of types with their sizes (float32)
 ///             are a later custom.

@@ -10,7 +10,7 @@ namespace {
 
 using TakeFace = std::function<void(std::span<const std::uint64_t> corners)>;
 
-/// The triangles of strips, which index -1 parts; every second one turns the other way.
+/// The triangles of strips, which the index -1 separates. Every second triangle is reversed.
 class Strip {
 public:
     Strip(std::uint64_t vertices, const TakeFace& face) : vertices_(vertices), face_(face) {}
@@ -28,7 +28,7 @@ public:
         if (length_ >= 2) {
             const bool odd = length_ % 2 == 1;
             const std::array triangle{last_[odd ? 1 : 0], last_[odd ? 0 : 1], corner};
-            // A repeated corner only leads from one strip to the next.
+            // A repeated corner only connects one strip with the next.
             if (triangle[0] != triangle[1] && corner != last_[0] && corner != last_[1])
                 face_(triangle);
         }

@@ -13,8 +13,8 @@ namespace abut {
 
 namespace {
 
-/// Vertices with x, y, z, all of them real numbers, and then faces of one list: what scanners and
-/// simulations write. In text they are read whole.
+/// Accepts vertices with real numbers x, y, z, followed by faces with one list, as scanners and
+/// simulations write them. A file in text is read whole.
 void check_header(const PlyHeader& header) {
     const auto& elements = header.elements;
     if (header.encoding == PlyEncoding::text || elements.size() != 2 ||
@@ -33,7 +33,7 @@ void check_header(const PlyHeader& header) {
         throw NotStreamable();
 }
 
-/// All vertices as the file has them, used or not.
+/// All vertices as in the file, used or not.
 class PlySource : public OnePartSource {
 public:
     PlySource(const ModelPath& path, const SourceOptions& options)
@@ -82,7 +82,7 @@ private:
                 if (!(to != nullptr ? body.take(property.value, *to) : body.skip(property)))
                     return false;
             }
-            // Narrowed to float, as read_scene gives it.
+            // Narrowed to float, as read_scene does.
             const Vec3 narrow{to_float(p.x), to_float(p.y), to_float(p.z)};
             if (positions)
                 positions->set(number++,

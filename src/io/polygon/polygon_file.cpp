@@ -15,8 +15,8 @@ namespace abut {
 
 namespace {
 
-/// The id of a part without a name: its number in the tree of nodes that other formats have, where
-/// the root is node 0.
+/// Returns the id of a part without a name: its number in the node tree of other formats, where the
+/// root is node 0.
 std::string node(std::uint64_t number) {
     return "node " + std::to_string(number);
 }

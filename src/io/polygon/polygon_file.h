@@ -10,10 +10,10 @@ namespace abut {
 
 class ReadWatch;
 
-/// Reads an OBJ, OFF, PLY or STL file (this one in text) into memory. Ids as in the file, they may
-/// occur twice; names are empty; the unit is that of the file.
+/// Reads an OBJ, OFF, PLY or text STL file into memory. Ids are those of the file and may repeat;
+/// names are empty; the unit is that of the file.
 ///
-/// None for another extension, and for a binary STL file.
+/// Returns none for another extension, and for a binary STL file.
 ///
 /// In          allow_outside: as ReadOptions::allow_outside_files.
 /// Errors      Fault; Error of the watch.

@@ -119,7 +119,7 @@ Scene PolygonScene::finish(Vertices vertices) {
         watch_.check();
         const std::uint64_t count =
             vertices == Vertices::all ? pool_.size() : std::min(pool_.size(), faces.corners.size());
-        // The mesh, what joins its vertices, their numbers.
+        // The mesh, the table that joins its vertices, and their numbers.
         require((sizeof(Vec3) + 20) * count + 8 * faces.corners.size());
         Mesh& mesh = scene.meshes.emplace_back();
         add_positions(faces, vertices, mesh);

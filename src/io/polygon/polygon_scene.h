@@ -12,19 +12,21 @@ namespace abut {
 
 class ReadWatch;
 
-/// Puts a scene together from vertices, faces and parts as a file of polygons has them.
+/// Builds a scene from the vertices, faces and parts of a polygon file.
 class PolygonScene {
 public:
     /// In          watch: must outlive this.
     explicit PolygonScene(const ReadWatch& watch) : watch_(watch) {}
 
-    /// Is narrowed to float. Errors: Fault unsupported beyond 2^32 - 2 vertices; Error of the watch.
+    /// Adds a vertex, narrowed to float.
+    ///
+    /// Errors      Fault unsupported beyond 2^32 - 2 vertices; Error of the watch.
     void vertex(const Vec3& position);
 
-    /// Returns the part's number.
+    /// Adds a part and returns its number.
     std::size_t add_part(std::string id);
 
-    /// In          corners: numbers of vertices, which may come later; less than three are no face.
+    /// In          corners: vertex numbers, which may be added later. Fewer than three are ignored.
     /// Errors      as vertex.
     void face(std::size_t part, std::span<const std::uint64_t> corners);
 
@@ -32,12 +34,12 @@ public:
 
     enum class Vertices : std::uint8_t { used, all };
 
-    /// The parts that have faces, polygons cut into triangles, vertices at equal positions joined;
-    /// ids as they were given. To be called once.
+    /// Returns the parts that have faces. Polygons are cut into triangles, vertices at equal
+    /// positions are joined, and ids are as given. Call it once.
     ///
-    /// In          vertices: whether a mesh has only those that its faces use, in the order of their
-    ///             first use, or all that there are.
-    /// Errors      Fault bad_mesh for a corner that is no vertex; as vertex.
+    /// In          vertices: whether a mesh has only the vertices that its faces use, in the order
+    ///             of their first use, or all vertices.
+    /// Errors      Fault bad_mesh for a corner without a vertex; as `vertex`.
     Scene finish(Vertices vertices);
 
 private:
@@ -46,8 +48,8 @@ private:
     };
     struct Faces {
         std::string id;
-        std::vector<std::uint32_t> corners; ///< of one face after the other
-        std::vector<std::uint32_t> sizes;   ///< of the faces; empty: all are triangles
+        std::vector<std::uint32_t> corners; ///< of all faces, one after the other
+        std::vector<std::uint32_t> sizes;   ///< corners of each face; empty: all are triangles
     };
     template <typename Value>
     void push(std::vector<Value>& values, Value value);
@@ -58,7 +60,7 @@ private:
     const ReadWatch& watch_;
     std::vector<FloatPosition> pool_;
     std::vector<Faces> parts_;
-    std::vector<std::uint32_t> number_of_; ///< in the current mesh, of each vertex of the pool
+    std::vector<std::uint32_t> number_of_; ///< number of each pool vertex in the current mesh
     std::uint64_t bytes_ = 0;
 };
 

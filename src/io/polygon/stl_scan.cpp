@@ -11,7 +11,7 @@ namespace abut {
 
 namespace {
 
-/// Keywords are small letters, but capitals are met too.
+/// Compares without regard to case: keywords are lower case, but some files use capitals.
 bool is_keyword(std::string_view word, std::string_view keyword) {
     return word == keyword ||
            std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
@@ -32,7 +32,7 @@ bool is_text_stl(const std::string& path) {
         if (content.left() == kStlHeaderBytes + triangles * kStlTriangleBytes)
             return false;
     }
-    // Text has no zero byte; the count and the flags of a binary file have many.
+    // Text contains no zero byte; the count and the flags of a binary file contain many.
     std::string_view text = bytes;
     if (text.starts_with("\xef\xbb\xbf"))
         text.remove_prefix(3);
@@ -42,8 +42,9 @@ bool is_text_stl(const std::string& path) {
         return true;
     if (bytes.size() < kStlHeaderBytes)
         malformed("is truncated: too short for an STL file");
-    malformed("is no STL file, or truncated: its header promises " + std::to_string(triangles) +
-              " triangles in " + std::to_string(kStlHeaderBytes + triangles * kStlTriangleBytes) +
+    malformed("is not an STL file, or is truncated: its header states " +
+              std::to_string(triangles) + " triangles in " +
+              std::to_string(kStlHeaderBytes + triangles * kStlTriangleBytes) +
               " bytes, but it has " + std::to_string(content.left()));
 }
 
@@ -54,7 +55,7 @@ void scan_text_stl(ByteStream& content, const std::function<void(std::string_vie
     std::uint64_t facets = 0, vertices = 0;
     bool open_solid = false;
     while (lines.next(rest)) {
-        // Statements may share a line, but a name takes the rest of its own.
+        // Several statements may share a line, but a name extends to the end of its line.
         for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
             if (is_keyword(word, "vertex")) {
                 if (++vertices > 3 * facets)
@@ -63,7 +64,7 @@ void scan_text_stl(ByteStream& content, const std::function<void(std::string_vie
             } else if (is_keyword(word, "facet")) {
                 if (!open_solid || vertices != 3 * facets)
                     malformed(lines.place() + (open_solid ? ": a facet needs three vertices"
-                                                          : ": a facet lies outside of a solid"));
+                                                          : ": a facet lies outside a solid"));
                 ++facets;
             } else if (is_keyword(word, "endfacet") && vertices != 3 * facets) {
                 malformed(lines.place() + ": a facet needs three vertices");
@@ -80,7 +81,7 @@ void scan_text_stl(ByteStream& content, const std::function<void(std::string_vie
         }
     }
     if (open_solid || vertices != 3 * facets)
-        malformed("is truncated: its solid is not closed by endsolid");
+        malformed("is truncated: its solid does not end with endsolid");
 }
 
 } // namespace abut

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kMostTriangles = (std::numeric_limits<std::uint32_t>::max() - 1) / 3;
 constexpr std::size_t kBlockTriangles = 4096;
 
-/// Every triangle has three vertices of its own, in the order of the file.
+/// Every triangle has three separate vertices, in the order of the file.
 class StlSource : public OnePartSource {
 public:
     StlSource(const ModelPath& path, const SourceOptions& options)
@@ -62,9 +62,10 @@ private:
         }
     }
 
-    /// In/out      name: of the solid; sink: takes the vertices, if there is one. The number of
-    ///             triangles.
-    /// Errors      NotStreamable for a second solid, which is a second part.
+    /// Returns the number of triangles.
+    ///
+    /// Out         name: of the solid; sink: receives the vertices unless it is null.
+    /// Errors      NotStreamable for a second solid, because it is a second part.
     std::uint64_t scan_text(std::string& name, MeshSink* sink) const {
         ByteStream content = ByteStream::open(path_, watch_);
         std::uint64_t vertices = 0;

@@ -1,7 +1,6 @@
 #include "io/polygon/triangulate.h"
 
 #include <algorithm>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -17,31 +16,36 @@ struct Point {
     bool operator==(const Point&) const = default;
 };
 
-/// Twice the signed area. Its sign is exact for points that were floats of like size.
+/// Twice the signed area. Its sign is exact for points that were floats of similar magnitude.
 double turn(const Point& a, const Point& b, const Point& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// A triangle that turns left, for questions about what lies in it.
+/// A counter-clockwise triangle, for tests of points and boxes against it.
 struct Ear {
     std::array<Point, 3> corner;
+    Point low, high; ///< its box
 
-    /// On the inner side of edge i, which begins at corner i; 0 on its line.
+    explicit Ear(const std::array<Point, 3>& corners)
+        : corner(corners), low{std::min({corner[0].x, corner[1].x, corner[2].x}),
+                               std::min({corner[0].y, corner[1].y, corner[2].y})},
+          high{std::max({corner[0].x, corner[1].x, corner[2].x}),
+               std::max({corner[0].y, corner[1].y, corner[2].y})} {}
+
+    /// Positive on the inner side of edge i, which begins at corner i; 0 on its line.
     [[nodiscard]] double side(std::size_t i, const Point& p) const {
-        return turn(corner.at(i), corner.at((i + 1) % 3), p);
+        return turn(corner[i], corner[i == 2 ? 0 : i + 1], p);
     }
-    /// Whether a box lies wholly on the outer side of an edge, or beyond the triangle's own box: a
-    /// thin triangle's edges nearly lie on one line, and that is long.
-    [[nodiscard]] bool misses(const Point& low, const Point& high) const {
-        const auto& [p, q, r] = corner;
-        if (std::max({p.x, q.x, r.x}) < low.x || std::min({p.x, q.x, r.x}) > high.x ||
-            std::max({p.y, q.y, r.y}) < low.y || std::min({p.y, q.y, r.y}) > high.y)
+    /// Returns whether a box lies wholly on the outer side of an edge, or outside the triangle's
+    /// own box. A thin triangle needs the second test: its edges lie almost on one long line.
+    [[nodiscard]] bool misses(const Point& box_low, const Point& box_high) const {
+        if (high.x < box_low.x || low.x > box_high.x || high.y < box_low.y || low.y > box_high.y)
             return true;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Point& a = corner.at(i);
-            const Point& b = corner.at((i + 1) % 3);
-            // The box's corner that lies farthest on the inner side.
-            const Point far{b.y > a.y ? low.x : high.x, b.x > a.x ? high.y : low.y};
+            const Point& a = corner[i];
+            const Point& b = corner[i == 2 ? 0 : i + 1];
+            // The corner of the box that lies farthest towards the inner side.
+            const Point far{b.y > a.y ? box_low.x : box_high.x, b.x > a.x ? box_high.y : box_low.y};
             if (turn(a, b, far) < 0)
                 return true;
         }
@@ -49,22 +53,33 @@ struct Ear {
     }
 };
 
-/// The corners that are left, as a k-d tree over where they lie.
+/// The remaining corners, in a k-d tree over their positions.
 class CornerTree {
 public:
-    explicit CornerTree(const std::vector<Point>& points) : points_(points), order_(points.size()) {
-        std::iota(order_.begin(), order_.end(), 0U);
+    explicit CornerTree(const std::vector<Point>& points) : corners_(points.size()) {
+        for (std::size_t i = 0; i < points.size(); ++i)
+            corners_[i] = {points[i], static_cast<std::uint32_t>(i)};
         nodes_.reserve(2 * points.size() / kLeafCorners + 2);
         leaf_of_.resize(points.size());
         build(0, static_cast<std::uint32_t>(points.size()), kNoCorner);
     }
 
+    /// Removes a corner. The boxes around it shrink to the corners that remain.
     void remove(std::uint32_t corner) {
-        for (std::uint32_t node = leaf_of_[corner]; node != kNoCorner; node = nodes_[node].parent)
-            --nodes_[node].left;
+        std::uint32_t at = leaf_of_[corner];
+        Node& leaf = nodes_[at];
+        Corner* const begin = &corners_[leaf.begin];
+        Corner* const end = std::remove_if(begin, begin + leaf.left,
+                                           [&](const Corner& c) { return c.number == corner; });
+        leaf.left = static_cast<std::uint32_t>(end - begin);
+        bool shrinks = set_box(leaf, begin, end);
+        while ((at = nodes_[at].parent) != kNoCorner) {
+            --nodes_[at].left;
+            shrinks = shrinks && enclose_children(at);
+        }
     }
 
-    /// The first corner in or on the ear for which `blocks` says yes; kNoCorner if there is none.
+    /// Returns the first corner in or on the ear for which `blocks` is true; kNoCorner if none is.
     template <typename Blocks>
     std::uint32_t find(const Ear& ear, std::uint64_t& visits, const Blocks& blocks) const {
         std::array<std::uint32_t, 64> open{};
@@ -80,10 +95,11 @@ public:
                 open.at(count++) = static_cast<std::uint32_t>(&node - nodes_.data()) + 1;
                 continue;
             }
-            for (std::uint32_t i = node.begin; i < node.end; ++i) {
-                ++visits;
-                if (blocks(order_[i]))
-                    return order_[i];
+            visits += node.left;
+            for (std::uint32_t i = 0; i < node.left; ++i) {
+                const Corner& corner = corners_[node.begin + i];
+                if (blocks(corner.number, corner.point))
+                    return corner.number;
             }
         }
         return kNoCorner;
@@ -92,50 +108,71 @@ public:
 private:
     static constexpr std::uint32_t kLeafCorners = 8;
 
+    struct Corner {
+        Point point;
+        std::uint32_t number = 0;
+    };
+
     struct Node {
-        Point low, high;
-        std::uint32_t begin = 0, end = 0; ///< in order_
-        std::uint32_t left = 0;           ///< corners that have not been removed
+        Point low, high;         ///< box of the corners that are left
+        std::uint32_t begin = 0; ///< of a leaf: its corners are the first `left` from here
+        std::uint32_t left = 0;  ///< number of corners not yet removed
         std::uint32_t parent = kNoCorner;
         std::uint32_t second =
-            kNoCorner; ///< child; the first one is the next node. kNoCorner: a leaf
+            kNoCorner; ///< second child; the first one is the next node. kNoCorner: a leaf
     };
+
+    /// All three return whether the box has changed.
+    static bool replace_box(Node& node, const Point& low, const Point& high) {
+        const bool changes = !(low == node.low && high == node.high);
+        node.low = low;
+        node.high = high;
+        return changes;
+    }
+    static bool set_box(Node& node, const Corner* begin, const Corner* end) {
+        Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+        for (const Corner* c = begin; c != end; ++c) {
+            low = {std::min(low.x, c->point.x), std::min(low.y, c->point.y)};
+            high = {std::max(high.x, c->point.x), std::max(high.y, c->point.y)};
+        }
+        return replace_box(node, low, high);
+    }
+    bool enclose_children(std::uint32_t at) {
+        const Node &a = nodes_[at + 1], &b = nodes_[nodes_[at].second];
+        const Point low{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)};
+        const Point high{std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)};
+        return replace_box(nodes_[at], low, high);
+    }
 
     void build(std::uint32_t begin, std::uint32_t end, std::uint32_t parent) {
         const auto number = static_cast<std::uint32_t>(nodes_.size());
         Node node;
         node.begin = begin;
-        node.end = end;
         node.left = end - begin;
         node.parent = parent;
-        node.low = node.high = points_[order_[begin]];
-        for (std::uint32_t i = begin; i < end; ++i) {
-            const Point& p = points_[order_[i]];
-            node.low = {std::min(node.low.x, p.x), std::min(node.low.y, p.y)};
-            node.high = {std::max(node.high.x, p.x), std::max(node.high.y, p.y)};
-        }
+        set_box(node, corners_.data() + begin, corners_.data() + end);
         nodes_.push_back(node);
         if (end - begin <= kLeafCorners) {
             for (std::uint32_t i = begin; i < end; ++i)
-                leaf_of_[order_[i]] = number;
+                leaf_of_[corners_[i].number] = number;
             return;
         }
         const bool wide = node.high.x - node.low.x >= node.high.y - node.low.y;
         const std::uint32_t middle = begin + (end - begin) / 2;
-        // Equal coordinates in the polygon's order, so that halves are neighbours there too.
-        std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                         [&](std::uint32_t a, std::uint32_t b) {
-                             const double p = wide ? points_[a].x : points_[a].y;
-                             const double q = wide ? points_[b].x : points_[b].y;
-                             return p < q || (p == q && a < b);
+        // Equal coordinates keep the polygon's order, so that halves stay neighbours along it.
+        std::nth_element(corners_.begin() + begin, corners_.begin() + middle,
+                         corners_.begin() + end, [&](const Corner& a, const Corner& b) {
+                             const double p = wide ? a.point.x : a.point.y;
+                             const double q = wide ? b.point.x : b.point.y;
+                             return p < q || (p == q && a.number < b.number);
                          });
         build(begin, middle, number);
         nodes_[number].second = static_cast<std::uint32_t>(nodes_.size());
         build(middle, end, number);
     }
 
-    const std::vector<Point>& points_;
-    std::vector<std::uint32_t> order_, leaf_of_;
+    std::vector<Corner> corners_;
+    std::vector<std::uint32_t> leaf_of_;
     std::vector<Node> nodes_;
 };
 
@@ -182,15 +219,15 @@ public:
     }
 
 private:
-    /// In the order in which candidates are cut. Flat ones lose no area, but a triangle that has
-    /// one is better; blocked and turned ones are cut only where the polygon crosses itself.
+    /// The order in which candidates are cut. A flat ear loses no area, but an ear with an area is
+    /// preferred. Blocked and turned ears are cut only where the polygon crosses itself.
     enum class Rank : std::uint8_t { untested, flat, blocked, turned };
 
     struct Link {
         std::uint32_t before = 0, after = 0;
-        std::uint32_t version = 0; ///< candidates of another one are out of date
+        std::uint32_t version = 0; ///< candidates with another version are out of date
         bool is_cut = false;
-        /// Lists in waiting_: candidates that this corner blocks, from inside and by touching.
+        /// Lists in waiting_: candidates that this corner blocks from inside, and by touching.
         std::uint32_t first_waiting = kNoCorner, first_touched = kNoCorner;
     };
 
@@ -202,7 +239,7 @@ private:
         Rank rank = Rank::untested;
         double length = 0; ///< of the diagonal, squared
         std::uint32_t corner = 0, version = 0;
-        bool operator<(const Candidate& other) const { // the top of a queue is its greatest
+        bool operator<(const Candidate& other) const { // a queue's top is its greatest element
             return std::tie(other.rank, other.length, other.corner) <
                    std::tie(rank, length, corner);
         }
@@ -217,7 +254,7 @@ private:
     }
 
     [[nodiscard]] Ear ear_of(std::uint32_t tip) const {
-        return {{points_[links_[tip].before], points_[tip], points_[links_[tip].after]}};
+        return Ear({points_[links_[tip].before], points_[tip], points_[links_[tip].after]});
     }
 
     void offer(std::uint32_t tip) {
@@ -225,8 +262,8 @@ private:
         const auto& [a, b, c] = ear.corner;
         const double area = turn(a, b, c);
         const double dx = c.x - a.x, dy = c.y - a.y;
-        // A corner where the outline turns back on itself, or repeats, can go at once; left alone, it
-        // would let an ear be cut off that the outline covers once there and once back.
+        // A corner where the outline turns back on itself, or repeats, can be removed at once.
+        // Otherwise an ear could be cut off that the outline covers once in each direction.
         const bool turns_back =
             area == 0 && (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y) >= 0;
         const Rank rank = turns_back || area > 0 ? Rank::untested
@@ -235,28 +272,30 @@ private:
         candidates_.push({rank, turns_back ? 0 : dx * dx + dy * dy, tip, links_[tip].version});
     }
 
-    /// A corner that keeps an ear from being cut; kNoCorner if it is free.
+    /// Returns a corner that prevents an ear from being cut; kNoCorner if there is none.
     ///
-    /// A corner inside does. One on the ear's boundary, be it at a corner of the ear, does if an
-    /// edge leads from it into the ear's interior: else the polygon only touches the ear there.
-    /// Out         touches: the corner lies on the ear's boundary.
+    /// A corner inside the ear does. A corner on the ear's boundary, even at one of its corners,
+    /// does if an edge leads from it into the ear's interior; otherwise the polygon only touches
+    /// the ear there.
+    ///
+    /// Out         touches: whether the corner lies on the ear's boundary.
     std::uint32_t blocker_of(std::uint32_t tip, bool& touches) {
         ++work_.tests;
         const Ear ear = ear_of(tip);
         if (!(turn(ear.corner[0], ear.corner[1], ear.corner[2]) > 0))
             return kNoCorner;
         const Link& own = links_[tip];
-        return tree_.find(ear, work_.visits, [&](std::uint32_t other) {
-            const Link& link = links_[other];
-            if (link.is_cut || other == tip || other == own.before || other == own.after)
-                return false;
+        return tree_.find(ear, work_.visits, [&](std::uint32_t other, const Point& point) {
             std::array<bool, 3> on_line{};
             for (std::size_t i = 0; i < 3; ++i) {
-                const double side = ear.side(i, points_[other]);
+                const double side = ear.side(i, point);
                 if (side < 0)
                     return false;
                 on_line.at(i) = side == 0;
             }
+            if (other == tip || other == own.before || other == own.after)
+                return false;
+            const Link& link = links_[other];
             const auto leads_inside = [&](std::uint32_t neighbour) {
                 for (std::size_t i = 0; i < 3; ++i)
                     if (on_line.at(i) && !(ear.side(i, points_[neighbour]) > 0))
@@ -289,7 +328,7 @@ private:
         }
     }
 
-    /// The candidates of a list may be free now.
+    /// Tests the candidates of a list again, because they may be free now.
     void release(std::uint32_t& first) {
         for (std::uint32_t entry = std::exchange(first, kNoCorner); entry != kNoCorner;) {
             const Waiting waiting = waiting_[entry];
@@ -312,8 +351,8 @@ private:
     std::priority_queue<Candidate> candidates_;
 };
 
-/// Cuts a quadrilateral along the diagonal that lies inside, the one from its first corner if both
-/// do. False if none does, strictly.
+/// Cuts a quadrilateral along the diagonal that lies inside it; if both do, along the one from its
+/// first corner. False if no diagonal lies strictly inside.
 bool cut_quadrilateral(std::span<const PlaneCorner> q,
                        std::vector<std::array<std::uint32_t, 3>>& triangles) {
     for (std::size_t i = 0; i < 2; ++i) {

@@ -11,32 +11,32 @@ namespace abut {
 
 /// A corner of a polygon in a plane.
 struct PlaneCorner {
-    std::uint32_t vertex = 0; ///< is handed on
+    std::uint32_t vertex = 0; ///< copied to the triangles
     double x = 0, y = 0;
 };
 
-/// Work of a triangulation, counted.
+/// The work of a triangulation.
 struct TriangulationWork {
-    std::uint64_t tests = 0;  ///< of corners for being ears
-    std::uint64_t visits = 0; ///< of corners and of groups of them by these tests
+    std::uint64_t tests = 0;  ///< corners tested for being ears
+    std::uint64_t visits = 0; ///< corners, and groups of corners, that these tests visited
 };
 
-/// A polygon in a plane, counter-clockwise, as exactly n - 2 triangles.
+/// Cuts a polygon in a plane, counter-clockwise, into exactly n - 2 triangles.
 ///
-/// In/out      corners: n >= 3; appends to triangles, in the polygon's orientation; adds to work, if
-///             there is one.
-/// Degenerate  corners may repeat, lie on a line, touch other corners or edges (a hole that two
-///             coincident edges join to the outline is a part of it): no triangle is turned over,
-///             and their areas add up to the polygon's. A polygon that crosses itself is cut
-///             somehow; signed areas add up to its own even then.
-/// Cost        O(n log n) for polygons met in practice; O(n^2) at worst.
-/// Source      ear clipping [Meisters 1975], shortest diagonal first. Differs: a k-d tree finds what
-///             lies in an ear; an ear that is not free waits for the corner that it is not free of.
+/// In/out      corners: n >= 3. triangles: appended to, in the polygon's orientation. work: added
+///             to, unless null.
+/// Degenerate  corners may repeat, lie on a line, or touch other corners or edges; a hole that two
+///             coincident edges connect to the outline is part of it. No triangle is reversed, and
+///             the areas add up to the polygon's. A polygon that crosses itself gets some
+///             triangulation whose signed areas add up to its own.
+/// Cost        O(n log n) for polygons in practice; O(n^2) at worst.
+/// Source      ear clipping [Meisters 1975], shortest diagonal first. Differs: a k-d tree finds the
+///             corners in an ear; a blocked ear waits for the corner that blocks it.
 void triangulate_in_plane(std::span<const PlaneCorner> corners,
                           std::vector<std::array<std::uint32_t, 3>>& triangles,
                           TriangulationWork* work = nullptr);
 
-/// A polygon in space, cut in the plane of two axes in which its area is largest; see
+/// Cuts a polygon in space, in the plane of the two axes in which its area is largest; see
 /// triangulate_in_plane.
 ///
 /// In/out      corners: n >= 3 indices in range of positions, which have members x, y, z of type
@@ -45,7 +45,7 @@ template <typename Position>
 void triangulate(std::span<const std::uint32_t> corners, const Position* positions,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-/// Corners seen along the axis in which Newell's normal is longest, counter-clockwise.
+/// Projects corners along the axis in which Newell's normal is longest, counter-clockwise.
 template <typename Position>
 std::vector<PlaneCorner> project_polygon(std::span<const std::uint32_t> corners,
                                          const Position* positions) {
@@ -53,7 +53,7 @@ std::vector<PlaneCorner> project_polygon(std::span<const std::uint32_t> corners,
         const Position& p = positions[vertex];
         return std::array<double, 3>{p.x, p.y, p.z};
     };
-    // Relative to a corner: far from the origin, the products of coordinates would swallow the area.
+    // Relative to a corner, because far from the origin cancellation would destroy the area.
     const auto origin = at(corners[0]);
     const auto relative = [&](std::uint32_t vertex) {
         auto p = at(vertex);

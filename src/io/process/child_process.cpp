@@ -26,10 +26,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMilliseconds = 20;
-/// The child's end of the pipe that closes when the child is gone.
+/// The child's end of a pipe that closes when the child has ended.
 constexpr int kAliveFile = scene_stream::kResultFile + 1;
-/// Descriptors handed to a child are moved above those that it will see, so that dup2 overwrites
-/// none.
+/// Descriptors handed to a child are first moved above those that it will use, so that dup2
+/// overwrites none of them.
 constexpr int kFirstFreeFile = kAliveFile + 1;
 
 class Descriptor {
@@ -91,8 +91,8 @@ private:
     posix_spawnattr_t attributes_{};
 };
 
-/// This process's environment, with large pages for the child's heap unless the user tunes glibc
-/// himself: a reader takes a lot of memory once, and a third of its time would go into page faults.
+/// Returns this process's environment, with large pages for the child's heap unless the user tunes
+/// glibc. A reader allocates much memory once, and page faults would take a third of its time.
 std::vector<char*> child_environment() {
     static char large_pages[] = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1";
     std::vector<char*> variables;
@@ -115,15 +115,15 @@ std::uint64_t resident_bytes(pid_t child) {
     return statm ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
-/// True if the child has ended; it is left for wait4, so that its process group's number stays its
-/// own.
+/// Returns whether the child has ended. It stays unreaped until wait4, so that no other process can
+/// get the number of its process group.
 bool has_ended(pid_t child) {
     siginfo_t info{};
     const int answer = waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT);
     return answer == 0 && info.si_pid == child;
 }
 
-/// Why a child that still runs must end, or `exited` if it has ended.
+/// Waits; returns why a running child must end, or `exited` if it has ended.
 ChildEnd wait_for_end(pid_t child, int alive, const ChildLimits& limits,
                       const std::function<bool()>& should_stop) {
     const Clock::time_point start = Clock::now();
@@ -131,9 +131,9 @@ ChildEnd wait_for_end(pid_t child, int alive, const ChildLimits& limits,
     pollfd watched{alive, 0, 0};
     bool hung_up = false;
     while (true) {
-        // The pipe hangs up when the last process that holds it is gone: from then on it is a
-        // matter of moments until the child can be reaped. A descendant may hold it for longer than
-        // the child lives, hence has_ended.
+        // The pipe hangs up when the last process that holds it has ended. The child can then be
+        // reaped within moments. A descendant may hold the pipe after the child's end, hence
+        // has_ended.
         if (hung_up)
             nanosleep(&moment, nullptr);
         else

@@ -9,22 +9,21 @@
 
 namespace abut {
 
-/// How a child process ended.
+/// The way in which a child process ended.
 enum class ChildEnd : std::uint8_t {
-    exited,       ///< by itself; `status` is its exit status
-    killed,       ///< by a signal; `status` is its number
-    time_limit,   ///< stopped here after `seconds`
-    memory_limit, ///< stopped here for its resident memory
-    stopped,      ///< stopped here because should_stop said so
+    exited,       ///< on its own; `status` is its exit status
+    killed,       ///< by a signal; `status` is the signal's number
+    time_limit,   ///< stopped by run_child after `seconds`
+    memory_limit, ///< stopped by run_child for its resident memory
+    stopped,      ///< stopped by run_child on the request of should_stop
 };
 
 struct ChildLimits {
-    double seconds = 0;      ///< 0: none
-    std::uint64_t bytes = 0; ///< of resident memory; 0: none
+    double seconds = 0;      ///< 0: no limit
+    std::uint64_t bytes = 0; ///< of resident memory; 0: no limit
 };
 
-/// Memory shared with a child, which writes its result to it. Closed and unmapped by the
-/// destructor.
+/// Memory shared with a child, which writes its result there. The destructor closes and unmaps it.
 class ResultMemory {
 public:
     /// Errors      Error{reader_failed} if the machine has no memory for it.
@@ -34,11 +33,10 @@ public:
     ResultMemory& operator=(const ResultMemory&) = delete;
 
     [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
-    /// The bytes written, once the child is gone. They are sealed first: nobody can change or
-    /// shrink them any more.
+    /// Returns the bytes written, after the child has ended. They are first sealed, so that no
+    /// process can change or shrink them.
     ///
-    /// Errors      Error{reader_failed} if a process still has them open for writing through a
-    ///             mapping.
+    /// Errors      Error{reader_failed} if a process still has a writable mapping of them.
     std::span<const std::byte> bytes();
 
 private:
@@ -52,15 +50,15 @@ struct ChildReport {
     int status = 0;
 };
 
-/// Runs a program and waits for it. It finds the file for its result, descriptor `result` here, on
-/// descriptor scene_stream::kResultFile.
+/// Runs a program and waits for it. The child finds its result file, descriptor `result` of this
+/// process, at descriptor scene_stream::kResultFile.
 ///
-/// The child gets a process group of its own, /dev/null for its standard streams, and is dead and
-/// reaped, with all that it started, on return. Never forks without exec: the caller may have
-/// threads.
+/// The child gets its own process group, and /dev/null for its standard streams. On return it and
+/// all its descendants are dead and reaped. The function never forks without exec, because the
+/// caller may have threads.
 ///
-/// In/out      arguments: the program's path and its arguments; should_stop: polled some 50 times a
-///             second.
+/// In/out      arguments: the program's path and its arguments. should_stop: polled about 50 times
+///             a second.
 /// Errors      Error{unsupported} if the program cannot be started.
 ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimits& limits,
                       const std::function<bool()>& should_stop, int result);

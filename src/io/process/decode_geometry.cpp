@@ -15,7 +15,7 @@ namespace abut {
 
 namespace {
 
-/// Decoders and filters work on whole words.
+/// Rounds up, because decoders and filters work on whole words.
 constexpr std::uint64_t aligned(std::uint64_t bytes) {
     return (bytes + 15) / 16 * 16;
 }
@@ -82,7 +82,7 @@ std::unique_ptr<TemporaryFile> DecodeJobs::run(const std::string& model,
     }
     check_end(report, model, limits);
     if (file->read_some(0, std::as_writable_bytes(std::span(&header, 1))) != sizeof header)
-        throw Error(ErrorCode::reader_failed, model, "its reader gave a damaged result");
+        throw Error(ErrorCode::reader_failed, model, "its reader returned a damaged result");
     if (header.done != jobs_.size())
         malformed("its compressed geometry is damaged" +
                   (header.done < jobs_.size()
@@ -90,7 +90,7 @@ std::unique_ptr<TemporaryFile> DecodeJobs::run(const std::string& model,
                              std::string(jobs_[header.done].kind == decode_request::Kind::draco
                                              ? "Draco"
                                              : "meshoptimizer") +
-                             ", piece " + std::to_string(header.done + 1) + " of " +
+                             ", item " + std::to_string(header.done + 1) + " of " +
                              std::to_string(jobs_.size()) + ")"
                        : ""));
     return file;

@@ -13,23 +13,23 @@
 
 namespace abut {
 
-/// Compressed geometry, decoded by third-party code in a process of its own.
+/// Decodes compressed geometry with third-party code in a separate process.
 class DecodeJobs {
 public:
-    /// Reads compressed bytes from a place in the input.
+    /// Reads compressed bytes at a position of the input.
     using Input = std::function<void(std::uint64_t at, std::span<std::byte> to)>;
 
-    /// In          job: without its places. Returns its number.
+    /// Returns the job's number. In: job, without its positions in the file.
     std::size_t add(const decode_request::Job& job, std::uint64_t input_bytes, Input input);
 
     [[nodiscard]] bool empty() const noexcept { return jobs_.empty(); }
     [[nodiscard]] const decode_request::Job& job(std::size_t number) const { return jobs_[number]; }
 
-    /// A temporary file with the outputs at the places that the jobs name; all of their bytes
-    /// exist, and none is to be trusted.
+    /// Returns a temporary file with the outputs at the positions that the jobs name. All of these
+    /// bytes exist, but none is trusted.
     ///
     /// Errors      Fault malformed for data that cannot be decoded. Error, naming the model:
-    ///             unsupported without the program, reader_failed, interrupted; cannot_write.
+    ///             unsupported if the program is missing, reader_failed, interrupted; cannot_write.
     std::unique_ptr<TemporaryFile> run(const std::string& model, const SourceOptions& options);
 
 private:

@@ -20,7 +20,7 @@ constexpr std::uint32_t kPartHeaderBytes = 112;
 constexpr std::uint32_t kNoteHeaderBytes = 20;
 
 [[noreturn]] void not_sound(const std::string& file) {
-    throw Error(ErrorCode::reader_failed, file, "its reader gave a damaged result");
+    throw Error(ErrorCode::reader_failed, file, "its reader returned a damaged result");
 }
 
 class Cursor {
@@ -107,7 +107,7 @@ Part decode_part(Cursor& cursor, std::size_t meshes, const std::string& file) {
     return part;
 }
 
-/// Text of a reader on one line.
+/// Puts a reader's text on one line.
 std::string one_line(std::string text) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < ' ')
@@ -156,7 +156,7 @@ Scene decode_scene(std::span<const std::byte> stream, const ModelPath& path,
                    const ReadOptions& options) {
     const std::string& file = path.path;
     if (stream.empty())
-        throw Error(ErrorCode::reader_failed, file, "its reader gave no result");
+        throw Error(ErrorCode::reader_failed, file, "its reader returned no result");
     Cursor cursor(stream, file);
     const auto header = cursor.value<scene_stream::Header>();
     if (std::memcmp(header.magic, scene_stream::kMagic, sizeof header.magic) != 0)

@@ -8,16 +8,16 @@
 
 namespace abut {
 
-/// A reader's result (scene_stream.h) as a scene; every count, offset and value is checked before
-/// it is used.
+/// Decodes a reader's result (scene_stream.h). Every count, offset and value is checked before it
+/// is used.
 ///
-/// In/out      path: its name is that of Scene::file and of errors; its unit and axes, else the
-///             format's, else those of the options hold, and the unit is applied to the transforms.
-///             A part id that occurs again gets "#2", "#3", …; an empty name
-///             becomes the id.
-/// Errors      the error that the stream holds; Error{reader_failed} if the stream is not whole and
-///             sound; Error{bad_mesh} for an index out of range, a number that is not finite, no
-///             triangle at all or only degenerate ones.
+/// In/out      path: its name is used for Scene::file and for errors. The unit and axes are those
+///             of the path; else of the format; else of the options. The unit is applied to the
+///             transforms. A repeated part id gets the suffix "#2", "#3", …; an empty name becomes
+///             the id.
+/// Errors      the error in the stream; Error{reader_failed} if the stream is incomplete or
+///             inconsistent; Error{bad_mesh} for an index out of range, a number that is not
+///             finite, no triangles or only degenerate ones.
 Scene decode_scene(std::span<const std::byte> stream, const ModelPath& path,
                    const ReadOptions& options);
 

@@ -6,9 +6,9 @@
 
 namespace abut {
 
-/// Throws if a reader's process ended in any way but with a whole result.
+/// Throws unless a reader's process ended with a complete result.
 ///
-/// In          limits: those that it ran under.
+/// In          limits: those of the process.
 /// Errors      Error, naming the file: reader_failed; Error{interrupted}.
 void check_end(const ChildReport& report, const std::string& file, const ChildLimits& limits);
 

@@ -41,7 +41,7 @@ std::string find_reader(const std::string& file) {
         if (is_program(chosen))
             return chosen;
         throw Error(ErrorCode::unsupported, file,
-                    "cannot be read: ABUT_READER names no program: " + chosen);
+                    "cannot be read: ABUT_READER does not name a program: " + chosen);
     }
     const fs::path here = program_folder();
     for (const fs::path& candidate :
@@ -60,7 +60,7 @@ std::string find_node(const std::string& file, const fs::path& converter) {
         if (is_program(chosen))
             return chosen;
         throw Error(ErrorCode::unsupported, file,
-                    "cannot be read: ABUT_NODE names no program: " + chosen);
+                    "cannot be read: ABUT_NODE does not name a program: " + chosen);
     }
     const std::string path = environment("PATH");
     for (const char* const name : {"node", "nodejs"}) {
@@ -85,7 +85,7 @@ fs::path find_converter(const std::string& file) {
         if (is_there(fs::path(chosen) / "convert.mjs"))
             return chosen;
         throw Error(ErrorCode::unsupported, file,
-                    "cannot be read: ABUT_IFC_CONVERTER names no folder with convert.mjs: " +
+                    "cannot be read: ABUT_IFC_CONVERTER does not name a folder with convert.mjs: " +
                         chosen);
     }
     const std::array candidates{program_folder().parent_path() / "libexec/abut/ifc",
@@ -113,8 +113,8 @@ std::vector<std::string> reader_command(const std::string& file, const ReadOptio
         if (!is_there(converter / "node_modules/web-ifc"))
             throw Error(ErrorCode::unsupported, file,
                         "IFC needs web-ifc: run `npm ci` in " + converter.string());
-        // No limit of address space: Node.js reserves far more than it uses. run_child watches what
-        // it uses.
+        // No limit of address space, because Node.js reserves far more than it uses. run_child
+        // watches the resident memory.
         return {find_reader(file),
                 parent,
                 "0",

@@ -2,18 +2,18 @@
 
 #include <cstdint>
 
-/// What a reader in a process of its own hands back. Written by `abut-reader` and by
-/// ifc/convert.mjs, decoded by decode_scene, which trusts none of it. Byte order is the machine's;
-/// nothing is aligned or padded.
+/// The result that a reader in a separate process returns. `abut-reader` and ifc/convert.mjs write
+/// it; decode_scene checks and decodes it. Byte order is the machine's; nothing is aligned or
+/// padded.
 ///
 ///     header   char[8] magic "abutscn2"
 ///              u32     status: 0 a scene follows; 1 + ErrorCode: an error follows
 ///              u32     bytes of the error's text (0 for a scene)
 ///              u64     meshes
 ///              u64     parts
-///              f64     metres per unit of the file by its format; 0: the format has no unit
-///              f64     metres per coordinate as sent, by its format
-///              u32     what points up: 0 the format does not say it, 1 + UpAxis
+///              f64     metres per unit of the file, as its format defines; 0: not defined
+///              f64     metres per coordinate as sent, as the format defines
+///              u32     up axis: 0 if the format defines none, else 1 + UpAxis
 ///              u32     notes
 ///     error    the text: one line without the file's name
 ///     mesh     u32 vertices | u32 triangles | u32 bytes of a coordinate, 4 or 8
@@ -23,8 +23,8 @@
 ///     note     u32 NoteKind | u32 id, u32 name, u32 type, u32 text: bytes | the four texts
 ///     end      char[8] "abut-end", and nothing after it
 ///
-/// All meshes come before all parts, all parts before all notes. Positions are floats because that is what both readers
-/// deliver.
+/// All meshes come before all parts, and all parts before all notes. Positions are floats, as both
+/// readers deliver them, or doubles where the IFC converter joins several geometries.
 namespace abut::scene_stream {
 
 inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '2'};
@@ -43,15 +43,15 @@ struct Header {
 };
 static_assert(sizeof(Header) == 56);
 
-/// Written for an index that its primitive does not hold, so that it is out of range in the whole
-/// mesh too.
+/// Written for an index that its primitive does not contain, so that it is out of range in the
+/// whole mesh, too.
 inline constexpr std::uint32_t kBadIndex = 0xffffffff;
 
-/// The result is written to this descriptor.
+/// The descriptor that the result is written to.
 inline constexpr int kResultFile = 3;
 
-/// Exit status of a reader that ran out of memory. 0: the stream is complete, be it a scene or an
-/// error.
+/// Exit status of a reader that ran out of memory. Status 0 means that the stream is complete, with
+/// a scene or an error.
 inline constexpr int kOutOfMemory = 12;
 
 } // namespace abut::scene_stream

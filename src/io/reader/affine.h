@@ -6,7 +6,7 @@
 
 namespace abut {
 
-/// First b, then a: world_from_parent and parent_from_child give world_from_child.
+/// Applies b, then a: world_from_parent and parent_from_child give world_from_child.
 inline Transform compose(const Transform& a, const Transform& b) {
     Transform result;
     for (std::size_t row = 0; row < 3; ++row)

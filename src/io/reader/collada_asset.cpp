@@ -29,7 +29,7 @@ struct Tag {
     std::string_view content; ///< text up to the next tag
 };
 
-/// The next tag; false at the end. Comments and declarations are passed over.
+/// Takes the next tag; false at the end. Comments and declarations are skipped.
 bool next_tag(std::string_view& text, Tag& tag) {
     while (skip_past(text, "<")) {
         if (text.starts_with("!--")) {
@@ -57,7 +57,7 @@ bool next_tag(std::string_view& text, Tag& tag) {
     return false;
 }
 
-/// The value of an attribute; empty if it is not there.
+/// Returns the value of an attribute; empty if it is missing.
 std::string attribute(std::string_view attributes, std::string_view name) {
     for (std::size_t at = attributes.find(name); at != std::string_view::npos;
          at = attributes.find(name, at + 1)) {
@@ -77,7 +77,7 @@ double metres(const std::string& meter) {
     char* end = nullptr;
     const double unit = std::strtod(meter.c_str(), &end);
     if (!trimmed(end).empty() || !std::isfinite(unit) || unit <= 0)
-        malformed("has a unit that is no positive number of metres: " + meter.substr(0, 40));
+        malformed("has a unit that is not a positive number of metres: " + meter.substr(0, 40));
     return unit;
 }
 

@@ -7,13 +7,13 @@
 
 namespace abut {
 
-/// What the `asset` element of a COLLADA document says of unit and axes; metres and y up where it
-/// says nothing, as the format has it [COLLADA 1.4.1].
+/// Reads the unit and axes from the `asset` element of a COLLADA document. Defaults: metres and y
+/// up [COLLADA 1.4.1].
 ///
 /// In          text: the document, or its beginning.
 FormatFrame collada_frame(std::string_view text);
 
-/// Of a file, from its first MiB: `asset` is the first child of the root.
+/// As above for the first MiB of a file. `asset` is the first child of the root.
 FormatFrame read_collada_frame(const std::string& file);
 
 } // namespace abut

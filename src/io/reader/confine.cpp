@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number of a system call, or what one returns.
+/// The number or the result of a system call.
 using Call = long; // NOLINT(google-runtime-int): as the C library has it
 
 #if defined(__x86_64__)
@@ -39,7 +39,7 @@ constexpr std::uint64_t kRead = LANDLOCK_ACCESS_FS_READ_FILE;
 constexpr std::uint64_t kReadBelow = kRead | LANDLOCK_ACCESS_FS_READ_DIR;
 constexpr std::uint64_t kExecute = kRead | LANDLOCK_ACCESS_FS_EXECUTE;
 
-/// Files that can be opened, by Landlock.
+/// The files that can be opened, enforced by Landlock.
 class FileRules {
 public:
     FileRules() {
@@ -47,7 +47,7 @@ public:
             syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
         if (version < 1)
             return;
-        // The accesses that each version added, as bits from 0 on.
+        // The number of access bits that each version of Landlock defines.
         constexpr std::array<int, 5> kBits{13, 14, 15, 15, 16};
         const int bits = kBits.at(static_cast<std::size_t>(std::min<Call>(version, 5) - 1));
         handled_ = (std::uint64_t{1} << bits) - 1;
@@ -63,7 +63,7 @@ public:
     FileRules(const FileRules&) = delete;
     FileRules& operator=(const FileRules&) = delete;
 
-    /// A path that does not exist is left out.
+    /// Allows a path. A path that does not exist is ignored.
     void allow(const std::string& path, std::uint64_t access) const {
         if (rules_ < 0)
             return;
@@ -71,7 +71,7 @@ public:
         if (place < 0)
             return;
         struct stat status {};
-        // Rights of folders are refused for a file.
+        // Landlock refuses folder rights for a file.
         if (fstat(place, &status) == 0 && !S_ISDIR(status.st_mode))
             access &= kExecute;
         landlock_path_beneath_attr rule{};
@@ -90,7 +90,7 @@ private:
     int rules_ = -1;
 };
 
-/// A filter of system calls, checked one after the other; the first that matches decides.
+/// A filter of system calls. Its rules are checked in order; the first that matches decides.
 class CallFilter {
 public:
     CallFilter() {
@@ -104,11 +104,11 @@ public:
     void refuse(Call call, int error = EPERM) {
         on(call, SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error));
     }
-    /// Only with this value of an argument's lower half; else it is refused.
+    /// Allows a call only with this value in an argument's lower half; otherwise it is refused.
     void allow_if_equal(Call call, std::size_t argument, std::uint32_t value) {
         conditional(call, argument, BPF_JEQ, value, SECCOMP_RET_ALLOW, kRefuse);
     }
-    /// Only without any of these bits in an argument; else it is refused.
+    /// Allows a call only without any of these bits in an argument; otherwise it is refused.
     void allow_without(Call call, std::size_t argument, std::uint32_t bits) {
         conditional(call, argument, BPF_JSET, bits, kRefuse, SECCOMP_RET_ALLOW);
     }
@@ -149,7 +149,7 @@ private:
     std::vector<sock_filter> code_;
 };
 
-/// What a reader with one thread, its memory and its open descriptors needs.
+/// Allows what a reader needs with one thread, its memory and its open descriptors.
 void allow_computing(CallFilter& filter) {
     for (const Call call : {
              SYS_read, SYS_readv, SYS_pread64, SYS_write, SYS_writev, SYS_pwrite64, SYS_lseek,
@@ -167,14 +167,14 @@ void allow_computing(CallFilter& filter) {
 #endif
          })
         filter.allow(call);
-    // No new code.
+    // No new code may become executable.
     filter.allow_without(SYS_mmap, 2, PROT_EXEC);
     filter.allow_without(SYS_mprotect, 2, PROT_EXEC);
     filter.allow_if_equal(SYS_tgkill, 0, static_cast<std::uint32_t>(getpid())); // abort()
     filter.allow_if_equal(SYS_prlimit64, 0, 0);
 }
 
-/// What no reader needs, not even one that runs threads and makes code.
+/// Refuses what no reader needs, not even one that runs threads and generates code.
 void refuse_escapes(CallFilter& filter) {
     for (const Call call : {
              SYS_socket, SYS_socketpair, SYS_connect, SYS_bind, SYS_listen, SYS_accept, SYS_accept4,
@@ -191,8 +191,8 @@ void refuse_escapes(CallFilter& filter) {
 #endif
          })
         filter.refuse(call);
-    // Their arguments lie in memory, where a filter cannot look: the library falls back on calls
-    // without.
+    // Their arguments lie in memory, which a filter cannot inspect. The C library falls back on
+    // other calls.
     filter.refuse(SYS_clone3, ENOSYS);
     filter.refuse(SYS_io_uring_setup, ENOSYS);
     filter.allow_with(SYS_clone, 0, CLONE_THREAD);
@@ -233,8 +233,8 @@ Confinement confine_program(const std::string& program, const std::vector<std::s
         return {};
     Confinement result;
     const FileRules rules;
-    // What the dynamic linker, the C library and the program's own libraries look into.
-    // A script may stand for the program; what it executes is confined as well.
+    // The dynamic linker, the C library and the program's own libraries read these folders. A
+    // script may stand for the program; the program that it executes is confined, too.
     for (const char* const system : {"/usr", "/lib", "/lib64", "/bin", "/opt"})
         rules.allow(system, kReadBelow | kExecute);
     for (const char* const system :

@@ -50,7 +50,7 @@ private:
     int descriptor_;
 };
 
-/// Bytes without a value: a count that a file promises touches no memory before it is kept.
+/// Uninitialised bytes: a count that a file states touches no memory before it is checked.
 class Bytes {
 public:
     explicit Bytes(std::uint64_t size)
@@ -152,7 +152,7 @@ void decode_geometry(int descriptor) {
     RequestHeader header{};
     file.read(0, std::as_writable_bytes(std::span(&header, 1)));
     if (std::memcmp(header.magic, decode_request::kMagic, sizeof header.magic) != 0)
-        throw std::runtime_error("is no file of requests");
+        throw std::runtime_error("is not a file of requests");
     std::vector<Job> jobs(header.jobs);
     file.read(sizeof header, std::as_writable_bytes(std::span(jobs)));
     for (const Job& job : jobs) {

@@ -2,11 +2,11 @@
 
 namespace abut {
 
-/// Decodes the geometry that a file holds as decode_request.h says, with Draco and meshoptimizer,
-/// until one piece cannot be decoded.
+/// Decodes the geometry in a file that decode_request.h describes, with Draco and meshoptimizer.
+/// Stops at the first job that cannot be decoded.
 ///
 /// Errors      std::bad_alloc; std::runtime_error if the file cannot be read or written.
-/// Cost        one piece in memory at a time.
+/// Cost        one job in memory at a time.
 void decode_geometry(int descriptor);
 
 } // namespace abut

@@ -11,7 +11,7 @@ namespace abut {
 
 namespace {
 
-/// A row of a turn: an axis of the file's, with its sign.
+/// A row of a quarter turn: one of the file's axes, with a sign.
 struct Axis {
     std::int32_t number = 0, sign = 1;
     friend bool operator==(const Axis&, const Axis&) = default;
@@ -28,7 +28,8 @@ Axis axis(const aiMetadata* settings, const char* number, const char* sign, Axis
     return result;
 }
 
-/// The double that is written as this float is: 2.54 of the float next to it.
+/// Returns the double whose shortest text is that of this float: for example 2.54 for the float
+/// next to it.
 double as_written(float value) {
     std::array<char, 32> text{};
     const auto [end, fault] = std::to_chars(text.data(), text.data() + text.size(), value);
@@ -40,12 +41,12 @@ double as_written(float value) {
 
 double metres_per_unit(const aiMetadata* settings) {
     double centimetres = 1;
-    float single = 0; // Assimp narrows it
+    float single = 0; // Assimp narrows the value to float
     if (settings != nullptr && !settings->Get("UnitScaleFactor", centimetres) &&
         settings->Get("UnitScaleFactor", single))
         centimetres = as_written(single);
     if (!std::isfinite(centimetres) || centimetres <= 0)
-        malformed("its settings have a unit that is no positive number");
+        malformed("its settings have a unit that is not a positive number");
     return centimetres / 100;
 }
 

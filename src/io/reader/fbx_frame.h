@@ -8,9 +8,9 @@
 
 namespace abut {
 
-/// The unit and axes of an FBX file, from its GlobalSettings: centimetres and y up where it says
-/// nothing. A file with other axes than the usual two, y up or z up with the front at -y, is turned
-/// to y up: its parts' transforms are, exactly.
+/// Reads the unit and axes of an FBX file from its GlobalSettings. Defaults: centimetres and y up.
+/// A file with axes other than the two usual ones, y up or z up with the front at -y, is turned to
+/// y up: the transforms of its parts are changed, exactly.
 FormatFrame read_fbx_frame(const aiScene& scene, std::vector<NodePart>& parts);
 
 } // namespace abut

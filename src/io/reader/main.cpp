@@ -5,8 +5,8 @@
 // abut-reader PARENT MEMORY --exec PROGRAM SCRIPT FILE …
 //     becomes another reader, under the same precautions; it may read SCRIPT's folder and FILE
 //
-// Not for users: the library starts it. PARENT is the process that it dies with; MEMORY the bytes
-// of address space that it may take, 0 for any.
+// The library starts this program; users do not. PARENT is the process with which it dies. MEMORY
+// is the number of bytes of address space that it may use, 0 for no limit.
 
 #include "io/file/fault.h"
 #include "io/process/scene_stream.h"
@@ -48,8 +48,8 @@ void take_precautions(pid_t parent, std::uint64_t memory) {
     }
 }
 
-/// This process reads one file and ends: memory that is freed soon comes back, so none is given
-/// back to the system. Importing takes half the time or less.
+/// Keeps freed memory. This process reads one file and ends, and reuses freed memory soon.
+/// Importing then takes half the time or less.
 void keep_freed_memory() {
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
@@ -74,7 +74,7 @@ void keep_freed_memory() {
     } catch (const std::exception& error) {
         writer.error(abut::ErrorCode::malformed, error.what());
     }
-    // Nothing is destroyed: the system takes all of it back at once.
+    // Nothing is destroyed: the system frees all memory at once.
     _exit(0);
 }
 
@@ -92,10 +92,10 @@ void keep_freed_memory() {
     _exit(0);
 }
 
-/// In          arguments: the program, its script, the file …
+/// Becomes another reader. In: arguments, the program, its script, the file …
 [[noreturn]] void become(char** arguments) {
     const std::filesystem::path folder = std::filesystem::path(arguments[1]).parent_path();
-    // The modules may lie elsewhere, behind a link.
+    // A link may place the modules elsewhere.
     abut::confine_program(arguments[0], {folder, folder / "node_modules", arguments[2]});
     execv(arguments[0], arguments);
     _exit(kCannotStart);

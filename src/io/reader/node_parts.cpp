@@ -27,8 +27,8 @@ std::vector<unsigned> surfaces(const aiScene& scene, const aiNode& node) {
     return meshes;
 }
 
-/// The node's name; empty for names that Assimp made up for formats without names, such as
-/// "<STL_BINARY>".
+/// Returns the node's name; empty for a name that Assimp invented, such as "<STL_BINARY>", because
+/// the format has no names.
 std::string own_name(const aiNode& node) {
     const std::string_view name(node.mName.data, node.mName.length);
     const bool made_up = name.size() > 2 && name.front() == '<' && name.back() == '>';
@@ -42,7 +42,7 @@ std::string metadata(const aiNode& node, const char* key) {
     return "";
 }
 
-/// What is still to be visited, the next one last: no recursion, since files set the depth.
+/// Nodes to visit, the next one last. Recursion is avoided because the file determines the depth.
 struct Visit {
     const aiNode* node = nullptr;
     Transform world_from_parent;

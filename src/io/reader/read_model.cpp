@@ -26,8 +26,8 @@ namespace {
 
 constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
 
-/// Gives Assimp the model and no other file: it would follow a path anywhere, for materials that
-/// nobody asks for.
+/// Lets Assimp open the model and no other file. Otherwise it would follow any path to materials,
+/// which are not needed.
 class OnlyTheModel : public Assimp::DefaultIOSystem {
 public:
     explicit OnlyTheModel(std::string model) : model_(std::move(model)) {}
@@ -43,7 +43,8 @@ private:
 };
 
 const aiScene& import(Assimp::Importer& importer, const std::string& file) {
-    // No step of Assimp's: they join, drop and move vertices. Polygons are cut here.
+    // Without Assimp's post-processing, which joins, drops and moves vertices. Polygons are cut
+    // here.
     const aiScene* const scene = importer.ReadFile(file, 0);
     if (scene == nullptr) {
         if (const std::exception_ptr& fault = importer.GetException()) {
@@ -71,7 +72,7 @@ std::uint64_t triangle_count(const aiMesh& mesh) {
     return count;
 }
 
-/// Meshes of Assimp's that are one mesh of the scene: a node's primitives, in order.
+/// The meshes of Assimp that form one mesh of the scene: a node's primitives, in order.
 using MeshList = std::vector<unsigned>;
 
 struct Sizes {
@@ -90,7 +91,7 @@ Sizes sizes_of(const aiScene& scene, const MeshList& list) {
     return sizes;
 }
 
-/// number_of: the number that each of the mesh's vertices is written under.
+/// In          number_of: the index under which each of the mesh's vertices is written.
 void write_faces(const aiMesh& mesh, std::span<const std::uint32_t> number_of,
                  StreamWriter& writer) {
     const auto written = [&](std::uint32_t index) {
@@ -132,7 +133,7 @@ void write_mesh(const aiScene& scene, const MeshList& list, const Sizes& sizes,
     }
 }
 
-/// Assimp's nodes are called "Object_" and the object's id.
+/// Assimp names a node "Object_" followed by the object's id.
 std::string name_in_3mf(const ThreemfModel& model, const std::string& node) {
     constexpr std::string_view kPrefix = "Object_";
     const auto name = node.starts_with(kPrefix) ? model.names.find(node.substr(kPrefix.size()))
@@ -146,19 +147,19 @@ void read_model(const std::string& file, StreamWriter& writer) {
     const std::string extension = lower_extension(file);
 
     const ThreemfModel model_of_3mf = extension == ".3mf" ? read_3mf_model(file) : ThreemfModel();
-    // Never destroyed: the process ends without taking the scene apart.
+    // Never destroyed: the process ends without deleting the scene.
     auto* const importer = new Assimp::Importer;    // NOLINT(cppcoreguidelines-owning-memory)
     importer->SetIOHandler(new OnlyTheModel(file)); // NOLINT: the importer's from now on
     importer->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer->SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     FormatFrame frame;
-    // First: Assimp's message on a unit that is none would not name it.
+    // Read first, because Assimp's message about an invalid unit would not name the unit.
     if (extension == ".dae")
         frame = read_collada_frame(file);
     const aiScene& scene = import(*importer, file);
 
     std::vector<NodePart> parts = assimp_parts(scene);
-    double applied = 1; // of COLLADA: Assimp puts the unit into the root
+    double applied = 1; // for COLLADA, Assimp applies the unit to the root
     if (extension == ".fbx") {
         frame = read_fbx_frame(scene, parts);
         applied = frame.unit;

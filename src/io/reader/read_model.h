@@ -6,9 +6,9 @@
 
 namespace abut {
 
-/// Reads a model file with Assimp and writes its parts, one a node with triangles.
+/// Reads a model file with Assimp and writes one part for each node with triangles.
 ///
-/// Nothing is written before the whole file is known to be readable.
+/// Nothing is written before the whole file has been read successfully.
 ///
 /// Errors      Fault; std::exception from the libraries.
 void read_model(const std::string& file, StreamWriter& writer);

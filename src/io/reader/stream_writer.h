@@ -21,7 +21,7 @@ class StreamWriter {
 public:
     explicit StreamWriter(int descriptor);
 
-    /// applied: metres per coordinate that is written, as scale_of takes it.
+    /// In          applied: metres per coordinate that is written, as scale_of expects it.
     void begin(const FormatFrame& frame, double applied, std::uint64_t meshes, std::uint64_t parts);
     void begin_mesh(std::uint32_t vertices, std::uint32_t triangles);
     void positions(const float* xyz, std::size_t vertices);
@@ -29,7 +29,7 @@ public:
     void part(const Transform& world_from_mesh, std::uint32_t mesh, std::string_view id,
               std::string_view name, std::string_view type);
     void end();
-    /// Instead of all else: nothing may have been written before.
+    /// Writes an error in place of everything else; nothing may have been written before.
     void error(ErrorCode code, std::string_view text);
 
 private:

@@ -30,17 +30,17 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/// A start tag: its local name and what follows it.
+/// A start tag: its local name and the rest of its text.
 struct Tag {
     std::string_view name, attributes;
 };
 
-/// The start tags of an XML text; comments are passed over. End tags come with an empty name.
+/// The start tags of an XML text; comments are skipped. An end tag comes with an empty name.
 class Tags {
 public:
     explicit Tags(std::string_view text) : rest_(text) {}
 
-    /// False if there are no more.
+    /// Takes the next tag; false if there are none left.
     bool next(Tag& tag) {
         while (true) {
             const std::size_t open = rest_.find('<');
@@ -68,7 +68,7 @@ private:
     std::string_view rest_;
 };
 
-/// An attribute's value; empty if there is none.
+/// Returns an attribute's value; empty if it is missing.
 std::string_view attribute(std::string_view tag, std::string_view name) {
     for (std::size_t at = tag.find(name); at != std::string_view::npos;
          at = tag.find(name, at + 1)) {
@@ -117,13 +117,13 @@ std::string model_entry(const ZipArchive& archive) {
     malformed("names no model among its relationships");
 }
 
-/// Counts the parts that a model builds, before anything is built: components of components grow
-/// exponentially.
+/// Counts the parts that a model builds, before anything is built, because nested components
+/// multiply exponentially.
 class PartCount {
 public:
-    /// In          the model's tags in their order.
-    /// Errors      Fault malformed for an object that is used before it is there, and for too many
-    ///             parts.
+    /// In          tag: the model's tags, in order.
+    /// Errors      Fault malformed for an object that is used before it is defined, and for too
+    ///             many parts.
     void take(const Tag& tag) {
         if (tag.name == "object")
             current_ = &parts_[attribute(tag.attributes, "id")];
@@ -146,12 +146,12 @@ private:
             malformed("builds more than " + std::to_string(kMost) + " parts");
     }
 
-    /// The sum, or kMost + 1 where it is larger: an object that is not built may hold any number.
+    /// The sum, capped at kMost + 1, because an object that is never built may have any count.
     static std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
         return std::min(a + b, kMost + 1);
     }
 
-    /// An object of another model in the archive (`path`) counts as one part.
+    /// Parts of an object. An object of another model in the archive (`path`) counts as one part.
     std::uint64_t of_object(std::string_view attributes) const {
         const std::string_view id = attribute(attributes, "objectid");
         const auto found = parts_.find(id);
@@ -159,7 +159,7 @@ private:
             return found->second;
         if (attributes.find("path") != std::string_view::npos)
             return 1;
-        malformed("refers to object " + std::string(id.substr(0, 40)) + " before it is there");
+        malformed("refers to object " + std::string(id.substr(0, 40)) + " before it is defined");
     }
 
     std::map<std::string_view, std::uint64_t> parts_; ///< by an object's id

@@ -8,14 +8,14 @@
 
 namespace abut {
 
-/// What Assimp leaves out of a 3MF file: its unit, and the names of its objects.
+/// The data of a 3MF file that Assimp leaves out: its unit, and the names of its objects.
 struct ThreemfModel {
     FormatFrame frame;                        ///< z up [3MF Core 1.3, 3.3]
-    std::map<std::string, std::string> names; ///< by the objects' ids
+    std::map<std::string, std::string> names; ///< by object id
 };
 
-/// Errors      Fault malformed: no archive, no model in it, an unknown unit, sizes that no model
-///             can have.
+/// Errors      Fault malformed: not an archive, no model in it, an unknown unit, or sizes that no
+///             model can have.
 ThreemfModel read_3mf_model(const std::string& file);
 
 } // namespace abut

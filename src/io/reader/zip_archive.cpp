@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kEndBytes = 22, kRecordBytes = 46, kLocalBytes = 30;
 constexpr std::uint32_t kRecordMark = 0x02014b50, kLocalMark = 0x04034b50;
 constexpr std::uint16_t kStored = 0, kDeflated = 8;
-// Text of models becomes 4 to 30 times smaller.
+// The text of models is compressed by a factor of 4 to 30.
 constexpr std::uint64_t kLargestRatio = 200, kSmallestBound = std::uint64_t{1} << 26;
 
 std::string in_lower_case(std::string_view text) {
@@ -37,7 +37,7 @@ std::string inflated(std::string_view packed, std::uint32_t size) {
     const int end = inflate(&stream, Z_FINISH);
     inflateEnd(&stream);
     if (end != Z_STREAM_END || stream.total_out != size)
-        malformed("holds an entry that is damaged");
+        malformed("has a damaged entry");
     return content;
 }
 
@@ -46,7 +46,7 @@ std::string inflated(std::string_view packed, std::uint32_t size) {
 ZipArchive::ZipArchive(const std::string& path) : bytes_(read_file(path)) {
     const std::size_t end = bytes_.rfind("PK\x05\x06");
     if (end == std::string::npos || end + kEndBytes > bytes_.size())
-        malformed("is no ZIP archive, or is truncated");
+        malformed("is not a ZIP archive, or is truncated");
     const std::uint32_t count = number(end + 10, 2), start = number(end + 16, 4);
     if (count == 0xffff || start == std::numeric_limits<std::uint32_t>::max())
         throw Fault(ErrorCode::unsupported, "is a ZIP64 archive");
@@ -68,7 +68,7 @@ ZipArchive::ZipArchive(const std::string& path) : bytes_(read_file(path)) {
         entries_.push_back(std::move(entry));
     }
     if (promised > std::max(kSmallestBound, kLargestRatio * bytes_.size()))
-        malformed("promises " + std::to_string(promised) + " bytes from " +
+        malformed("claims " + std::to_string(promised) + " bytes from " +
                   std::to_string(bytes_.size()) + ", more than a model can be compressed");
 }
 
@@ -98,7 +98,7 @@ std::string ZipArchive::content(std::string_view name) const {
     if (entry->method == kDeflated)
         return inflated(packed, entry->size);
     if (entry->method != kStored || entry->packed != entry->size)
-        throw Fault(ErrorCode::unsupported, "has an entry compressed in a way that is not read");
+        throw Fault(ErrorCode::unsupported, "has an entry with an unsupported compression");
     return std::string(packed);
 }
 

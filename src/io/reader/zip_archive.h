@@ -19,13 +19,13 @@ class ZipArchive {
 public:
     /// Reads the directory.
     ///
-    /// Errors      Fault malformed, also if the entries promise more than some hundred times the
-    ///             archive's size: it would be made to fill the memory.
+    /// Errors      Fault malformed, also if the entries claim more than some hundred times the
+    ///             archive's size, because such an archive is made to fill the memory.
     explicit ZipArchive(const std::string& path);
 
-    /// An entry's content; names are compared without regard to case.
+    /// Returns an entry's content. Names are compared without regard to case.
     ///
-    /// Errors      Fault malformed if there is none, or it is damaged; unsupported.
+    /// Errors      Fault malformed if the entry is missing or damaged; unsupported.
     [[nodiscard]] std::string content(std::string_view name) const;
 
 private:

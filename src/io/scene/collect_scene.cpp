@@ -35,7 +35,7 @@ std::uint64_t bytes_of(const SceneSource::Size& size) {
     return size.vertices * sizeof(Vec3) + size.triangles * sizeof(std::array<std::uint32_t, 3>);
 }
 
-/// Bytes of the meshes, and of the tables that join the vertices of the largest.
+/// Bytes of all meshes, and of the tables that join the vertices of the largest mesh.
 std::uint64_t bytes_in_memory(const SceneSource& source) {
     constexpr std::uint64_t kTableBytes = 20; // a vertex, at most
     std::uint64_t bytes = 0, largest = 0;

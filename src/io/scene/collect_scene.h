@@ -16,12 +16,12 @@ class ReadWatch;
 /// In          indices in range.
 void join_vertices(Mesh& mesh);
 
-/// One mesh of a source, its vertices joined.
+/// Reads one mesh of a source and joins its vertices.
 ///
 /// Errors      as SceneSource::read; Fault bad_mesh for an index out of range.
 Mesh collect_mesh(const SceneSource& source, std::uint32_t mesh);
 
-/// All of a source in memory, as read_scene gives it.
+/// Reads a whole source into memory, as read_scene returns it.
 ///
 /// Errors      as collect_mesh; Error of read_scene, naming the file; Error of the watch.
 Scene collect_scene(const SceneSource& source, const std::string& file, const ReadWatch& watch);

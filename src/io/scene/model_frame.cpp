@@ -14,14 +14,14 @@ namespace abut {
 
 namespace {
 
-/// A row of a turn: coordinate `from` of the old world, with its sign.
+/// A row of a quarter turn: coordinate `from` of the old world, with a sign.
 struct Row {
     std::size_t from;
     bool negated;
 };
 using Turn = std::array<Row, 3>;
 
-/// To the world with y up from one with `up` up [COLLADA 1.4.1, up_axis].
+/// The turn from a world with this up axis to one with y up [COLLADA 1.4.1, up_axis].
 Turn to_y_up(UpAxis up) {
     switch (up) {
     case UpAxis::x:
@@ -41,7 +41,7 @@ Turn inverse(const Turn& turn) {
     return result;
 }
 
-/// First b, then a.
+/// Applies b, then a.
 Turn compose(const Turn& a, const Turn& b) {
     Turn result{};
     for (std::size_t row = 0; row < 3; ++row) {
@@ -61,7 +61,7 @@ constexpr std::array<std::pair<std::string_view, double>, 9> kUnits{{{"um", 1e-6
                                                                      {"ft", 0.3048},
                                                                      {"yd", 0.9144}}};
 
-/// 0 if the word is no unit.
+/// Metres per unit; 0 if the word is not a unit.
 double unit_of(std::string_view word) {
     for (const auto& [name, unit] : kUnits)
         if (word == name)
@@ -79,7 +79,7 @@ std::optional<UpAxis> up_of(std::string_view word) {
     return std::nullopt;
 }
 
-/// Whether a word is a unit or an axis; `path` takes it.
+/// Stores a word in `path` if it is a unit or an axis; false if it is neither.
 ///
 /// Errors      Error{bad_argument}, naming the file, if it has one already.
 bool take_unit_or_axis(const std::string& word, const std::string& file, ModelPath& path) {
@@ -89,7 +89,7 @@ bool take_unit_or_axis(const std::string& word, const std::string& file, ModelPa
         return false;
     if (unit > 0 ? path.unit > 0 : path.up.has_value())
         throw Error(ErrorCode::bad_argument, file,
-                    "'" + word + "' says once more what its unit or its axis is");
+                    "'" + word + "' gives its unit or its axis a second time");
     if (unit > 0)
         path.unit = unit;
     else
@@ -125,7 +125,7 @@ const char* to_string(NoteKind kind) {
 ModelPath parse_model_path(const std::string& text) {
     if (is_there(text))
         return {text};
-    // The longest name of a file that is there; else what is left without units and axes.
+    // The file is the longest prefix that exists, or what remains without units and axes.
     std::size_t file_end = text.rfind(':');
     while (file_end != std::string::npos && file_end > 0 && !is_there(text.substr(0, file_end)))
         file_end = text.rfind(':', file_end - 1);
@@ -137,10 +137,11 @@ ModelPath parse_model_path(const std::string& text) {
         if (!take_unit_or_axis(word, is_file ? text.substr(0, file_end) : text, result)) {
             if (!is_file)
                 break;
-            throw Error(ErrorCode::bad_argument, text.substr(0, file_end),
-                        "'" + word +
-                            "' is no unit (um, mm, cm, dm, m, km, in, ft, yd, metres as a number) "
-                            "and no axis (x-up, y-up, z-up)");
+            throw Error(
+                ErrorCode::bad_argument, text.substr(0, file_end),
+                "'" + word +
+                    "' is neither a unit (um, mm, cm, dm, m, km, in, ft, yd, metres as a number) "
+                    "nor an axis (x-up, y-up, z-up)");
         }
         result.path.resize(colon);
         if (is_file && colon == file_end)

@@ -37,7 +37,7 @@ bool has_area(const Mesh& mesh, const Transform& world_from_mesh) {
 const char* coordinate_fault(const Vec3& p) {
     constexpr double kLargestFloat = std::numeric_limits<float>::max();
     const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    // A comparison with NaN is false, and max may drop one.
+    // Comparisons with NaN are false, and max may drop a NaN.
     if (largest <= kLargestCoordinate && !std::isnan(p.x + p.y + p.z))
         return nullptr;
     return largest <= kLargestFloat && !std::isnan(p.x + p.y + p.z)
@@ -86,7 +86,7 @@ void check_scene(const Scene& scene, const MeshFaults& faults) {
     }
     if (!any_triangle)
         throw Error(ErrorCode::bad_mesh, scene.file, "holds no triangles");
-    // In any usual file the first triangle has an area.
+    // In most files the first triangle has an area.
     const bool any_area =
         std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
             return has_area(scene.meshes[part.mesh], part.world_from_mesh);

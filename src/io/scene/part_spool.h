@@ -9,25 +9,27 @@
 
 namespace abut {
 
-/// Parts on the disk, in order: some models have millions, and their texts and transforms would not
-/// fit into the memory.
+/// Parts on disk, in order. Some models have millions of parts, whose texts and transforms would
+/// not fit into memory.
 class PartSpool {
 public:
-    /// In          folder: of the temporary files. Errors: Error{cannot_write}, naming it.
+    /// In          folder: for the temporary files. Errors: Error{cannot_write}, naming it.
     explicit PartSpool(const std::string& folder);
 
-    /// Errors      Error{cannot_write} if the disk is full; Error{bad_argument} for a text of 4 GiB.
+    /// Errors      Error{cannot_write} if the disk is full; Error{bad_argument} for a text of 4
+    ///             GiB.
     void append(const Part& part);
-    /// To be called after the last append and before a part is read.
+    /// Call it after the last append and before a part is read.
     void finish();
 
     [[nodiscard]] std::uint64_t size() const noexcept { return count_; }
-    /// From any thread.
+    /// Reads a part, from any thread.
     [[nodiscard]] Part part(std::uint64_t number) const;
-    /// Without its texts.
+    /// Reads a part without its texts.
     [[nodiscard]] Part placement(std::uint64_t number) const;
 
-    /// Reads parts one after the other, or nearly so, in a fraction of the time. One thread.
+    /// Reads parts in ascending or nearly ascending order in a fraction of the time. For one
+    /// thread.
     class Cursor {
     public:
         explicit Cursor(const PartSpool& spool) : records_(spool.records_), texts_(spool.texts_) {}

@@ -13,7 +13,7 @@ namespace abut {
 
 namespace {
 
-/// A scene in memory.
+/// A scene that is completely in memory.
 class WholeScene : public SceneSource {
 public:
     WholeScene(Scene scene, const SourceOptions& options)

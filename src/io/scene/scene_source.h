@@ -19,10 +19,11 @@ namespace abut {
 
 class ReadWatch;
 
-/// The most vertices, and the most triangles, of one mesh.
+/// The largest number of vertices, and of triangles, of one mesh.
 inline constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
 
-/// Takes a mesh as its file has it: all vertices, then all triangles, in pieces of any size.
+/// Receives a mesh as its file stores it: all vertices, then all triangles, in portions of any
+/// size.
 class MeshSink {
 public:
     virtual ~MeshSink() = default;
@@ -31,26 +32,26 @@ public:
 };
 
 struct SourceOptions {
-    ReadOptions read{};            ///< its limits are for processes that read or decode
-    std::optional<UpAxis> world{}; ///< of the parts' world; none: the file's own
+    ReadOptions read{};            ///< its limits apply to processes that read or decode
+    std::optional<UpAxis> world{}; ///< up axis of the parts' world; none: the file's own
     std::string folder;            ///< for temporary files, or kInMemory
-    std::uint64_t memory = 0;      ///< bytes that a reader of its own may use, roughly
-    /// Is asked while a file is read, now and by SceneSource::read; null: nobody is.
+    std::uint64_t memory = 0;      ///< approximate bytes that a streaming reader may use
+    /// Checked while a file is read, now and by SceneSource::read; may be null.
     std::shared_ptr<const ReadWatch> watch = nullptr;
 };
 
-/// A model file that is read in pieces: parts from a temporary file, geometry mesh by mesh. It is
-/// the scene that read_scene gives, but for vertices at equal positions, which are not joined yet.
+/// A model file that is read step by step: parts from a temporary file, geometry mesh by mesh. The
+/// scene equals that of read_scene, except that vertices at equal positions are not yet joined.
 class SceneSource {
 public:
     virtual ~SceneSource() = default;
     SceneSource(const SceneSource&) = delete;
     SceneSource& operator=(const SceneSource&) = delete;
 
-    /// As in Scene::parts: ids are unique, names filled, the unit applied. They lie in the world that
-    /// SourceOptions::world asks for.
+    /// As Scene::parts: ids are unique, names are filled in, and the unit is applied. The parts lie
+    /// in the world of SourceOptions::world.
     [[nodiscard]] const PartSpool& parts() const noexcept { return parts_; }
-    /// The unit and axes that the file is taken in.
+    /// The unit and up axis that are used for the file.
     [[nodiscard]] const ModelFrame& frame() const noexcept { return frame_; }
     /// As Scene::notes.
     [[nodiscard]] const std::vector<SceneNote>& notes() const noexcept { return notes_; }
@@ -59,18 +60,18 @@ public:
         std::uint64_t vertices = 0; ///< before they are joined
         std::uint64_t triangles = 0;
     };
-    /// Of temporary files.
+    /// The folder of temporary files.
     [[nodiscard]] const std::string& folder() const noexcept { return folder_; }
 
     [[nodiscard]] virtual std::uint32_t meshes() const = 0;
-    /// Both are below 2^32 - 1.
+    /// The size of a mesh. Both numbers are below 2^32 - 1.
     [[nodiscard]] virtual Size size(std::uint32_t mesh) const = 0;
-    /// From any thread.
+    /// Sends a mesh to the sink. May be called from any thread.
     ///
-    /// Errors      Fault: bad_mesh for an index out of range; malformed, unreadable. Coordinates are
-    ///             not checked.
+    /// Errors      Fault: bad_mesh for an index out of range; malformed, unreadable. Coordinates
+    ///             are not checked.
     virtual void read(std::uint32_t mesh, MeshSink& sink) const = 0;
-    /// Whether geometry stays in the file until it is asked for.
+    /// Returns whether geometry stays in the file until it is read.
     [[nodiscard]] virtual bool streams() const { return true; }
 
 protected:
@@ -78,12 +79,12 @@ protected:
         : SceneSource(model_frame(format, path, options.read), options) {
         factor_ = scale_of(format, format.unit, frame_);
     }
-    /// Of a scene whose parts are in metres already.
+    /// For a scene whose parts are already in metres.
     SceneSource(const ModelFrame& frame, const SourceOptions& options)
         : folder_(options.folder), frame_(frame), world_(options.world.value_or(frame.up)),
           parts_(options.folder) {}
 
-    /// In          a part as the file has it, in the file's unit and axes.
+    /// In          part: as the file stores it, in the file's unit and axes.
     void append(Part part) {
         scale(part.world_from_mesh, factor_);
         part.world_from_mesh = turned(part.world_from_mesh, frame_.up, world_);
@@ -91,7 +92,7 @@ protected:
     }
     void finish() { parts_.finish(); }
 
-    std::vector<SceneNote> notes_; // NOLINT: filled by those who know the format
+    std::vector<SceneNote> notes_; // NOLINT: filled by the format's reader
 
 private:
     std::string folder_;
@@ -101,25 +102,27 @@ private:
     PartSpool parts_;
 };
 
-/// Opens a model by a streaming reader of our own, where there is one for what the file holds; else
-/// by read_scene, and then the whole model is in memory.
+/// Opens a model with a streaming reader if one supports the file's content. Otherwise read_scene
+/// reads the whole model into memory.
 ///
 /// Errors      Error as read_scene.
 std::unique_ptr<SceneSource> open_scene_source(const ModelPath& path, const SourceOptions& options);
 
-/// The streaming readers by the path's extension; null: none of them, or not for what it holds.
+/// Opens a model with the streaming reader for its extension. Null: there is none, or the reader
+/// does not support the content.
 ///
 /// Errors      Fault; Error of the watch.
 std::unique_ptr<SceneSource> open_own_source(const ModelPath& path, const SourceOptions& options);
 
-/// Thrown for a file that holds what the streaming readers leave to the isolated one, which also
-/// finds the words for what is wrong. Past the opening it can only mean what its text says.
+/// Thrown for a file whose content the streaming readers leave to the isolated reader, which also
+/// describes what is wrong with it. After the file has been opened, it can only mean what its text
+/// says.
 struct NotStreamable : Fault {
-    NotStreamable() : Fault(ErrorCode::unreadable, "has changed while it was read") {}
+    NotStreamable() : Fault(ErrorCode::unreadable, "changed while it was read") {}
 };
 
-/// The streaming readers. Null: the file has something that only the isolated reader knows, or
-/// judges.
+/// Open a file with a streaming reader. Null: the file has content that only the isolated reader
+/// supports or checks.
 ///
 /// Errors      Fault.
 std::unique_ptr<SceneSource> open_glb_source(const ModelPath& path, const SourceOptions& options);

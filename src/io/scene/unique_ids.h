@@ -13,8 +13,8 @@
 
 namespace abut {
 
-/// Makes the ids of parts unique, as decode_scene does it, in 16 bytes an id: it keeps their hashes
-/// in place of their texts. First announce() all, then unique() each, in order.
+/// Makes the ids of parts unique, as decode_scene does, in 16 bytes an id: it stores hashes in
+/// place of texts. First announce() all ids, then call unique() for each, in order.
 class UniqueIds {
 public:
     void announce(std::string_view id) { given_.push_back(hash_of(id)); }
@@ -24,7 +24,7 @@ public:
         used_.resize(given_.size());
     }
 
-    /// The first part of an id keeps it; those after it get "#2", "#3", …
+    /// The first part of an id keeps it; later ones get "#2", "#3", …
     std::string unique(const std::string& id) {
         const std::size_t place = place_of(hash_of(id));
         if (!used_[place]) {
@@ -49,7 +49,7 @@ private:
     }
 
     std::vector<Hash128> given_; ///< sorted
-    std::vector<bool> used_;     ///< of given_
+    std::vector<bool> used_;     ///< for each hash in given_
     std::set<Hash128> made_;
     std::unordered_map<std::string, std::uint64_t> repeats_;
 };

@@ -38,7 +38,7 @@ HistoryRow read_row(Database& database, const Statement& row, std::int64_t quest
     clash.resolved = row.integer(13);
     if (!id || !kind || result.checksum() != static_cast<std::uint64_t>(row.integer(14)))
         damaged_job(database,
-                    "the history of clash " + row.text(0) + " is not what its checksum says");
+                    "the history of clash " + row.text(0) + " does not match its checksum");
     return result;
 }
 

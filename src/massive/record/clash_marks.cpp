@@ -33,7 +33,7 @@ Marks read_marks(Database& database) {
         if (!id || mark != to_string(row.mark) ||
             row.checksum() != static_cast<std::uint64_t>(rows.integer(5)))
             damaged_job(database,
-                        "the mark of clash " + rows.text(1) + " is not what its checksum says");
+                        "the mark of clash " + rows.text(1) + " does not match its checksum");
         tally.add(row.checksum());
         marks.emplace(*id, std::move(row));
     }

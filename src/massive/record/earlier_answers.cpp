@@ -1,6 +1,6 @@
 #include "massive/record/earlier_answers.h"
 
-#include "clash/classify_by_id.h"
+#include "clash/classify_pair.h"
 
 #include <algorithm>
 #include <span>

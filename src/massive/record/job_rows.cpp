@@ -58,7 +58,7 @@ JobRow read_job(Database& database, const Statement& row) {
     job.planned = row.integer(8) != 0;
     job.finished = row.integer(9);
     if (job.checksum() != static_cast<std::uint64_t>(row.integer(10)))
-        damaged_job(database, "job " + std::to_string(job.job) + " is not what its checksum says");
+        damaged_job(database, "job " + std::to_string(job.job) + " does not match its checksum");
     return job;
 }
 
@@ -123,7 +123,7 @@ std::vector<QuestionRow> read_questions(Database& database) {
         row.rules = static_cast<std::uint64_t>(rows.integer(5));
         if (row.checksum() != static_cast<std::uint64_t>(rows.integer(6)))
             damaged_job(database, "question " + std::to_string(row.question) +
-                                      " is not what its checksum says");
+                                      " does not match its checksum");
         result.push_back(row);
         // Questions are never removed, so their numbers have no gaps.
         if (row.question != static_cast<std::int64_t>(result.size()))

@@ -93,7 +93,7 @@ void for_each_clash(Database& database, std::int64_t job,
         unpack(exact.front(), row.clash);
         const std::uint64_t sum = checksum(job, row);
         if (sum != static_cast<std::uint64_t>(rows.integer(7)))
-            damaged_job(database, "a clash of a job is not what its checksum says");
+            damaged_job(database, "a clash of a job does not match its checksum");
         tally.add(sum);
         take(std::move(row));
     }

@@ -1,7 +1,7 @@
 #include "massive/work/task_tester.h"
 
 #include "clash/clash_identity.h"
-#include "clash/classify_by_id.h"
+#include "clash/classify_pair.h"
 #include "core/parallel.h"
 #include "core/resources.h"
 

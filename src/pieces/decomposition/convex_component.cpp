@@ -111,7 +111,7 @@ private:
         bool alone = true;
         model_.for_each_overlap(box, [&](std::uint32_t slot) {
             alone = alone && std::binary_search(sorted.begin(), sorted.end(),
-                                                model_.model().triangle_at(slot));
+                                                model_.data().triangle_at(slot));
         });
         return alone;
     }

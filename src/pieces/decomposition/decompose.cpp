@@ -101,7 +101,7 @@ private:
         bool free = true;
         Vec3 last;
         placed_.for_each_overlap_outside(hull_.gained(), [&](std::uint32_t slot) {
-            const std::uint32_t t = placed_.model().triangle_at(slot);
+            const std::uint32_t t = placed_.data().triangle_at(slot);
             if (!free || t == added || piece_of_[t] == next_piece())
                 return PlacedModel::HalfSpace{};
             const auto outside = hull_.outside(surface_.corners[t], t);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace abut {
 
@@ -36,6 +37,19 @@ struct HullTriangles {
     std::vector<std::uint32_t> left_of;
 };
 
+using FaceTriangle = std::pair<std::uint32_t, std::uint32_t>; ///< a face, and a triangle of it
+
+/// Lists the triangles of each face, in ascending order.
+void list_triangles(std::vector<FaceTriangle> found, std::uint32_t face_count, PieceFaces& faces) {
+    std::sort(found.begin(), found.end());
+    faces.begin.assign(face_count + 1, 0);
+    for (const auto& [face, t] : found) {
+        ++faces.begin[face + 1];
+        faces.triangles.push_back(t);
+    }
+    std::partial_sum(faces.begin.begin(), faces.begin.end(), faces.begin.begin());
+}
+
 } // namespace
 
 PieceFaces find_piece_faces(const SurfaceGraph& surface, const Polytope& hull,
@@ -50,7 +64,7 @@ PieceFaces find_piece_faces(const SurfaceGraph& surface, const Polytope& hull,
     for (const std::uint32_t t : hull_triangles.left_of)
         faces.face_of_edge.push_back(t == kNoEdge ? kNoEdge : face_of[t]);
 
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> found; // face, triangle
+    std::vector<FaceTriangle> found;
     std::vector<std::uint32_t> order(source.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
@@ -90,15 +104,9 @@ PieceFaces find_piece_faces(const SurfaceGraph& surface, const Polytope& hull,
                 break;
             }
     }
-    std::sort(found.begin(), found.end());
     const std::uint32_t count =
         face_of.empty() ? 0 : 1 + *std::max_element(face_of.begin(), face_of.end());
-    faces.begin.assign(count + 1, 0);
-    for (const auto& [face, t] : found) {
-        ++faces.begin[face + 1];
-        faces.triangles.push_back(t);
-    }
-    std::partial_sum(faces.begin.begin(), faces.begin.end(), faces.begin.begin());
+    list_triangles(std::move(found), count, faces);
     return faces;
 }
 

@@ -1,6 +1,7 @@
 #include <abut/model.h>
 
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "mesh/topology.h"
 #include "rigid/model/model_data.h"
 #include "rigid/model/tree_frame.h"
@@ -37,7 +38,8 @@ std::vector<Vec3> tree_positions(const Mesh& mesh, const Box3& bounds,
 } // namespace
 
 ModelData::ModelData(Mesh mesh, const ModelOptions& options)
-    : mesh_(std::move(mesh)), options_(options) {
+    : mesh_(std::move(mesh)), volume_(options.volume) {
+    const StopScope scope(options.progress);
     build(nullptr);
 }
 
@@ -62,9 +64,9 @@ void ModelData::build(const ModelOutline* outline) {
         model_from_tree_.m[i] *= scale;
     const std::vector<Vec3> positions = tree_positions(mesh_, bounds, model_from_tree_, scale);
     const TreeMesh tree_mesh{positions, mesh_.triangles};
-    tree_ = outline == nullptr ? build_tree(tree_mesh, options_.volume != Volume::aabb)
+    tree_ = outline == nullptr ? build_tree(tree_mesh, volume_ != Volume::aabb)
                                : build_tree(tree_mesh, outline->tree);
-    volumes_ = build_volume_tree(options_.volume, tree_, tree_mesh);
+    volumes_ = build_volume_tree(volume_, tree_, tree_mesh);
     sort_vertices();
     if (!tree_.empty())
         first_in_tree_ = positions[mesh_.triangles[tree_.order[0]][0]];
@@ -103,7 +105,7 @@ Model baked(const Model& model, const Transform& world) {
     Mesh mesh = model.mesh();
     for (Vec3& p : mesh.positions)
         p = apply(world, p);
-    return Model(std::move(mesh), model.data().options());
+    return Model(std::move(mesh), {.volume = model.data().volume()});
 }
 
 Model::Model(Mesh mesh, const ModelOptions& options)

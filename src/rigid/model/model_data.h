@@ -40,7 +40,7 @@ public:
     [[nodiscard]] ModelOutline outline() const { return {axes_, outline_of(tree_)}; }
     [[nodiscard]] const Mesh& mesh() const { return mesh_; }
     [[nodiscard]] const Tree& tree() const { return tree_; }
-    [[nodiscard]] const ModelOptions& options() const { return options_; }
+    [[nodiscard]] Volume volume() const { return volume_; }
     /// The bounding volumes that replace the tree's boxes; null if none were asked for.
     [[nodiscard]] const VolumeTree* volumes() const { return volumes_.get(); }
     /// Bounds on the extent of the triangles along any direction, in the mesh's frame.
@@ -75,7 +75,7 @@ private:
     void sort_vertices();
 
     Mesh mesh_;
-    ModelOptions options_;
+    Volume volume_ = Volume::automatic; ///< as asked for
     TreeAxes axes_{};
     SupportBound support_{{}};
     Transform model_from_tree_;

@@ -43,20 +43,20 @@ bool PlacedModel::make_frame(bool has_origin) {
     // Beyond these, cubes of terms in the inverse leave the range of doubles; or one direction is
     // so much shorter than another that rounding hides it.
     constexpr double kLeastStretch = 0x1p-300, kMostStretch = 0x1p300, kLeastRatio = 0x1p-30;
-    world_from_tree_ = compose(world_, model().model_from_tree());
+    world_from_tree_ = compose(world_, data().model_from_tree());
     tree_from_world_ = inverse(world_from_tree_);
     const auto [least, most] = stretch_of(world_from_tree_);
     least_stretch_ = least, most_stretch_ = most;
     half_ = 0;
-    if (!model().tree().empty())
+    if (!data().tree().empty())
         for (std::size_t k = 0; k < 3; ++k)
-            half_ = std::max({half_, std::abs(double{model().tree().bounds.lower[k]}),
-                              std::abs(double{model().tree().bounds.upper[k]})});
+            half_ = std::max({half_, std::abs(double{data().tree().bounds.lower[k]}),
+                              std::abs(double{data().tree().bounds.upper[k]})});
     reach_ = most_stretch_ * 2 * half_;
     world_extent_ = magnitude(middle()) + reach_;
     if (has_origin)
         move_to_origin();
-    return model().tree().empty() ||
+    return data().tree().empty() ||
            (least_stretch_ > kLeastStretch && most_stretch_ < kMostStretch &&
             least_stretch_ > kLeastRatio * most_stretch_ && margin(0) < 1e18);
 }
@@ -70,9 +70,9 @@ void PlacedModel::move_to_origin() {
     const double least = 0x1p-18 * half_,
                  needed = 128 * 0x1p-53 * (world_extent_ + magnitude(origin_)) / least_stretch_;
     origin_margin_ = std::max(least, needed);
-    if (model().tree().empty())
+    if (data().tree().empty())
         return;
-    const Vec3 to_first = apply_linear(world_from_tree_, model().first_in_tree());
+    const Vec3 to_first = apply_linear(world_from_tree_, data().first_in_tree());
     const Vec3 middle = world_slot(0)[0] - to_first;
     world_from_tree_.m[9] = middle.x, world_from_tree_.m[10] = middle.y;
     world_from_tree_.m[11] = middle.z;
@@ -121,7 +121,7 @@ std::optional<std::uint32_t> PlacedModel::triangle_at(const Vec3& point) const {
     const Triangle as_triangle{point, point, point};
     std::optional<std::uint32_t> least;
     for_each_overlap({point, point}, [&](std::uint32_t slot) {
-        const std::uint32_t triangle = model().triangle_at(slot);
+        const std::uint32_t triangle = data().triangle_at(slot);
         if ((!least || triangle < *least) &&
             triangle_triangle_intersect(as_triangle, world_slot(slot)) != TriangleContact::none)
             least = triangle;

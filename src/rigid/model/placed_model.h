@@ -39,20 +39,18 @@ public:
 
     /// The model that owns the tree, under world(): the given one, or its transformed copy. Both
     /// have the same triangles.
-    [[nodiscard]] const Model& public_model() const { return model_; }
-    [[nodiscard]] const ModelData& model() const { return model_.data(); }
+    [[nodiscard]] const Model& model() const { return model_; }
+    [[nodiscard]] const ModelData& data() const { return model_.data(); }
     [[nodiscard]] const Transform& world() const { return world_; }
     [[nodiscard]] const Vec3& origin() const { return origin_; }
-    /// No two points of the model are farther apart than this.
-    [[nodiscard]] double world_size() const { return 2 * reach_; }
     [[nodiscard]] Vec3 world_vertex(std::uint32_t vertex) const {
-        return apply(world_, model().mesh().positions[vertex]) - origin_;
+        return apply(world_, data().mesh().positions[vertex]) - origin_;
     }
     [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const {
-        return seen(model().world_triangle(triangle, world_));
+        return seen(data().world_triangle(triangle, world_));
     }
     [[nodiscard]] Triangle world_slot(std::uint32_t slot) const {
-        return seen(model().world_slot(slot, world_));
+        return seen(data().world_slot(slot, world_));
     }
     [[nodiscard]] const Transform& world_from_tree() const { return world_from_tree_; }
     [[nodiscard]] const Transform& tree_from_world() const { return tree_from_world_; }
@@ -87,7 +85,7 @@ public:
     void for_each_on_segment(const Vec3& from, const Vec3& to, const Visit& visit) const;
 
     /// Calls visit(slot) for triangles, the nearest box first. visit returns the squared distance
-    /// beyond which triangles do not matter; a negative value ends the search.
+    /// beyond which triangles do not matter, or kStopTraversal.
     template <typename Visit>
     void for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const;
 
@@ -133,14 +131,14 @@ inline double magnitude(const Vec3& p) {
 
 template <typename Visit>
 void PlacedModel::for_each_overlap(const Box3& box, const Visit& visit) const {
-    abut::for_each_overlap(model().tree(), tree_box(box), visit);
+    abut::for_each_overlap(data().tree(), tree_box(box), visit);
 }
 
 template <typename Visit>
 void PlacedModel::for_each_overlap_outside(const Box3& box, const Visit& visit) const {
     TreeHalfSpaces outside;
     std::size_t latest = 0;
-    abut::for_each_overlap(model().tree(), tree_box(box), outside, [&](std::uint32_t slot) {
+    abut::for_each_overlap(data().tree(), tree_box(box), outside, [&](std::uint32_t slot) {
         const HalfSpace space = visit(slot);
         if (space.normal == Vec3{})
             return;
@@ -154,14 +152,14 @@ void PlacedModel::for_each_overlap_outside(const Box3& box, const Visit& visit) 
 template <typename Visit>
 void PlacedModel::for_each_on_segment(const Vec3& from, const Vec3& to, const Visit& visit) const {
     if (const auto segment = tree_segment(from, to))
-        abut::for_each_on_segment(model().tree(), segment->segment, visit);
+        abut::for_each_on_segment(data().tree(), segment->segment, visit);
 }
 
 template <typename Visit>
 void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit& visit) const {
     const auto tree_bound_sq = [&](double world_sq) {
         if (world_sq < 0)
-            return -1.0F;
+            return static_cast<float>(kStopTraversal);
         const double d = std::sqrt(world_sq) / least_stretch_;
         return round_up(d * d * (1 + 0x1p-20));
     };
@@ -169,12 +167,12 @@ void PlacedModel::for_each_near(const Vec3& point, double bound_sq, const Visit&
     const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     // Squares must stay finite in single precision.
     if (!(largest < 1e18)) {
-        for (std::uint32_t slot = 0; slot < model().mesh().triangles.size(); ++slot)
+        for (std::uint32_t slot = 0; slot < data().mesh().triangles.size(); ++slot)
             if (visit(slot) < 0)
                 return;
         return;
     }
-    abut::for_each_near(model().tree(), {to_float(p.x), to_float(p.y), to_float(p.z)},
+    abut::for_each_near(data().tree(), {to_float(p.x), to_float(p.y), to_float(p.z)},
                         round_up(margin(magnitude(point)) + 16 * 0x1p-24 * largest),
                         tree_bound_sq(bound_sq),
                         [&](std::uint32_t slot) { return tree_bound_sq(visit(slot)); });

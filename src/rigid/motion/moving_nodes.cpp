@@ -1,5 +1,6 @@
 #include "rigid/motion/moving_nodes.h"
 
+#include "core/set_bits.h"
 #include "math/rounding.h"
 #include "rigid/motion/node_motion.h"
 
@@ -147,19 +148,15 @@ void find_meeting_children(const TimeSpan& span, const NodeChildren& a, const No
     const std::uint32_t lanes_a = a.lanes & p.boxes.used, lanes_b = b.lanes & q.boxes.used;
     // Each child of the node with fewer children is compared with all of the other's.
     if (std::popcount(lanes_a) <= std::popcount(lanes_b)) {
-        for (std::uint32_t lanes = lanes_a; lanes != 0; lanes &= lanes - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+        for (const std::size_t i : SetBits(lanes_a)) {
             const std::uint64_t row = meet_row(p, i, q, begin, result.share[i]) & lanes_b;
             result.pairs |= row << (Node::kWidth * i);
         }
         return;
     }
-    for (std::uint32_t lanes = lanes_b; lanes != 0; lanes &= lanes - 1) {
-        const auto j = static_cast<std::size_t>(std::countr_zero(lanes));
+    for (const std::size_t j : SetBits(lanes_b)) {
         HWY_ALIGN float column[Node::kWidth];
-        for (std::uint32_t left = meet_row(q, j, p, begin, column) & lanes_a; left != 0;
-             left &= left - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        for (const std::size_t i : SetBits(meet_row(q, j, p, begin, column) & lanes_a)) {
             result.share[i][j] = column[i];
             result.pairs |= std::uint64_t{1} << (Node::kWidth * i + j);
         }

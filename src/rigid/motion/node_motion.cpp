@@ -97,6 +97,56 @@ AxesTurn best_turn(NodeSpeeds& x, const Vec3& velocity, double duration, double 
     return own <= other ? AxesTurn::with_own : AxesTurn::with_other;
 }
 
+/// In          turning: velocities of the nodes' origins about the bodies' centres.
+NodeSpeeds speeds_of(const FrameMotion& frame, const Node& own, const Node& other,
+                     const FrameMap& own_from_other, double turning_own, double turning_other) {
+    const auto& t = own_from_other.translation;
+    NodeSpeeds x;
+    x.rate_own = frame.rate_own, x.rate_other = frame.rate_other;
+    x.rate_between = frame.rate_between;
+    x.radius_own = kDiagonal * own.reach;
+    x.radius_other = kDiagonal * frame.own_from_other * other.reach;
+    x.reach_other = x.radius_other + length(Vec3{t[0], t[1], t[2]});
+    x.turning_own = turning_own + x.rate_own * x.radius_own;
+    x.turning_other = turning_other + x.rate_other * x.reach_other;
+    x.of_centres = frame.centres;
+    return x;
+}
+
+/// Sets how far the points may deviate from their linear motion: s^2 / 2 times the acceleration,
+/// and s^2 <= s duration.
+///
+/// In          m: its axes and turns are set.
+void set_spread(const FrameMotion& frame, const Node& own, const NodeSpeeds& x, double duration,
+                NodeMotion& m) {
+    const double half = 0.5 * duration;
+    if (m.axes == AxesTurn::none) {
+        // |n x spin| |spin x arm|
+        const double bend_own = half * x.turning_own, bend_other = half * x.turning_other;
+        for (std::size_t i = 0; i < 3; ++i)
+            m.spread[i] =
+                to_float(kMore * (m.turn_own[i] * bend_own + m.turn_other[i] * bend_other));
+        m.spread_any =
+            to_float(kMore * duration * (x.rate_own * bend_own + x.rate_other * bend_other));
+        return;
+    }
+    const bool with_own = m.axes == AxesTurn::with_own;
+    const double rate = with_own ? x.rate_own : x.rate_other;
+    const SeenMotion moving = with_own ? seen(x.turning_other, x.reach_other, rate, x, duration)
+                                       : seen(x.turning_own, x.radius_own, rate, x, duration);
+    const auto across_seen =
+        across_axes(in_node(own, duration * (with_own ? frame.spin_own : frame.spin_other)));
+    const auto& across_between = with_own ? m.turn_other : m.turn_own;
+    for (std::size_t i = 0; i < 3; ++i) {
+        // The axes turn, the difference of the spins does not.
+        const double most_between = across_between[i] + duration * x.rate_between * across_seen[i];
+        m.spread[i] =
+            to_float(kMore * half * moving.bend(most_between, across_seen[i], x.of_centres));
+    }
+    m.spread_any =
+        to_float(kMore * duration * half * moving.bend(x.rate_between, rate, x.of_centres));
+}
+
 } // namespace
 
 NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own, const Node& other,
@@ -114,17 +164,9 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
         kRounding * (std::abs(velocity.x) + std::abs(velocity.y) + std::abs(velocity.z)) +
         frame.margin;
     if (m.turns) {
-        const auto& t = own_from_other.translation;
         const Vec3 between = frame.spin_other - frame.spin_own;
-        NodeSpeeds x;
-        x.rate_own = frame.rate_own, x.rate_other = frame.rate_other;
-        x.rate_between = frame.rate_between;
-        x.radius_own = kDiagonal * own.reach;
-        x.radius_other = kDiagonal * frame.own_from_other * other.reach;
-        x.reach_other = x.radius_other + length(Vec3{t[0], t[1], t[2]});
-        x.turning_own = length(turning_own) + x.rate_own * x.radius_own;
-        x.turning_other = length(turning_other) + x.rate_other * x.reach_other;
-        x.of_centres = frame.centres;
+        NodeSpeeds x = speeds_of(frame, own, other, own_from_other, length(turning_own),
+                                 length(turning_other));
         m.axes = best_turn(x, velocity, duration, part);
         Vec3 spin_own = frame.spin_own, spin_other = frame.spin_other;
         double rate_own = x.rate_own, rate_other = x.rate_other;
@@ -139,35 +181,7 @@ NodeMotion motion_of(const FrameMotion& frame, double duration, const Node& own,
         // The points' positions are exact but for the margin.
         rounding += kRounding * (rate_own * x.radius_own + rate_other * x.reach_other) +
                     kDiagonal * (rate_own + rate_other) * own_from_other.margin;
-        // s^2 / 2 times the acceleration, with s^2 <= s duration.
-        const double half = 0.5 * duration;
-        if (m.axes == AxesTurn::none) {
-            // |n x spin| |spin x arm|
-            const double bend_own = half * x.turning_own, bend_other = half * x.turning_other;
-            for (std::size_t i = 0; i < 3; ++i)
-                m.spread[i] =
-                    to_float(kMore * (m.turn_own[i] * bend_own + m.turn_other[i] * bend_other));
-            m.spread_any =
-                to_float(kMore * duration * (x.rate_own * bend_own + x.rate_other * bend_other));
-        } else {
-            const bool with_own = m.axes == AxesTurn::with_own;
-            const double rate = with_own ? x.rate_own : x.rate_other;
-            const SeenMotion moving = with_own
-                                          ? seen(x.turning_other, x.reach_other, rate, x, duration)
-                                          : seen(x.turning_own, x.radius_own, rate, x, duration);
-            const auto across_seen = across_axes(
-                in_node(own, duration * (with_own ? frame.spin_own : frame.spin_other)));
-            const auto& across_between = with_own ? m.turn_other : m.turn_own;
-            for (std::size_t i = 0; i < 3; ++i) {
-                // The axes turn; the difference of the spins is constant.
-                const double most_between =
-                    across_between[i] + duration * x.rate_between * across_seen[i];
-                m.spread[i] = to_float(kMore * half *
-                                       moving.bend(most_between, across_seen[i], x.of_centres));
-            }
-            m.spread_any =
-                to_float(kMore * duration * half * moving.bend(x.rate_between, rate, x.of_centres));
-        }
+        set_spread(frame, own, x, duration, m);
     }
     rounding = kMore * (duration * rounding + kTooSmall);
     const float more =

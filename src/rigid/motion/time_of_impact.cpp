@@ -2,6 +2,7 @@
 #include <abut/motion.h>
 
 #include "core/arguments.h"
+#include "core/set_bits.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
@@ -186,8 +187,7 @@ private:
         find_meeting(span, {tree_a_.nodes[index_a], lanes_a}, {tree_b_.nodes[index_b], lanes_b},
                      found);
         counters_.volume_tests += std::uint64_t(std::popcount(lanes_a)) * std::popcount(lanes_b);
-        for (std::uint64_t left = found.pairs; left != 0; left &= left - 1) {
-            const auto bit = static_cast<std::uint32_t>(std::countr_zero(left));
+        for (const std::uint32_t bit : SetBits(found.pairs)) {
             const std::uint32_t i = bit / Node::kWidth, j = bit % Node::kWidth;
             boxes_.push(
                 {span.at(found.share[i][j]), child_name(index_a, i), child_name(index_b, j)});

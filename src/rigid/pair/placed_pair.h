@@ -3,12 +3,12 @@
 #include <abut/model.h>
 #include <abut/rigid.h>
 
+#include "core/set_bits.h"
 #include "geometry/leaf/triangle_leaf.h"
 #include "rigid/model/model_data.h"
 #include "tree/traverse_volumes.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -98,11 +98,9 @@ private:
 /// never did.
 template <typename Body>
 bool for_each_pair(std::uint32_t pairs, const Body& body) {
-    for (; pairs != 0; pairs &= pairs - 1) {
-        const auto bit = static_cast<std::uint32_t>(std::countr_zero(pairs));
+    for (const std::uint32_t bit : SetBits(pairs))
         if (!body(bit / TriangleLeaf::kLanes, bit % TriangleLeaf::kLanes))
             return false;
-    }
     return true;
 }
 

@@ -1,5 +1,6 @@
 #include "rigid/penetration/contact_regions.h"
 
+#include "core/disjoint_sets.h"
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_segment.h"
 
@@ -11,26 +12,6 @@
 namespace abut {
 
 namespace {
-
-/// Disjoint sets of contacts (union-find). The root of a set is its smallest member.
-class ContactSets {
-public:
-    explicit ContactSets(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t root(std::uint32_t i) {
-        while (parent_[i] != i)
-            i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void unite(std::uint32_t i, std::uint32_t j) {
-        const auto [low, high] = std::minmax({root(i), root(j)});
-        parent_[high] = low;
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// An edge of a triangle in contact, or a vertex of one (v = w).
 struct ContactFeature {
@@ -47,11 +28,11 @@ struct ContactFeature {
 /// Connects the contacts of one triangle across the edges and vertices of `other` that meet it.
 void connect_around(const Triangle& triangle, const PlacedSolid& other,
                     const std::vector<Contact>& contacts, std::span<const std::uint32_t> group,
-                    std::uint32_t TrianglePair::*side, ContactSets& sets) {
+                    std::uint32_t TrianglePair::*side, DisjointSets& sets) {
     std::vector<ContactFeature> features;
     const auto& vertex_of = other.solid().topology.vertex_of;
     for (const std::uint32_t c : group) {
-        const auto& t = other.model().mesh().triangles[contacts[c].pair.*side];
+        const auto& t = other.model().data().mesh().triangles[contacts[c].pair.*side];
         for (std::size_t k = 0; k < 3; ++k) {
             const auto [v, w] = std::minmax({vertex_of[t[k]], vertex_of[t[(k + 1) % 3]]});
             features.push_back({v, w, c});
@@ -63,7 +44,7 @@ void connect_around(const Triangle& triangle, const PlacedSolid& other,
         const ContactFeature &f = features[i - 1], &g = features[i];
         if (!f.same(g) || sets.root(f.contact) == sets.root(g.contact))
             continue;
-        const Vec3 p = other.world_vertex(f.v), q = other.world_vertex(f.w);
+        const Vec3 p = other.model().world_vertex(f.v), q = other.model().world_vertex(f.w);
         if (triangle_triangle_intersect(triangle, {p, q, q}) != TriangleContact::none)
             sets.unite(f.contact, g.contact);
     }
@@ -74,7 +55,7 @@ void connect_around(const Triangle& triangle, const PlacedSolid& other,
 void connect(const PlacedSolid& model, std::uint32_t TrianglePair::*of_model,
              const PlacedSolid& other, std::uint32_t TrianglePair::*of_other,
              const std::vector<Contact>& contacts, std::span<const std::uint32_t> order,
-             ContactSets& sets) {
+             DisjointSets& sets) {
     const auto triangle = [&](std::uint32_t c) { return contacts[c].pair.*of_model; };
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         poll_stop();
@@ -106,7 +87,7 @@ double distance_sq(const Box3& box, const Vec3& p) {
 
 std::vector<RegionContacts> find_regions(const PlacedSolid& a, const PlacedSolid& b,
                                          const std::vector<Contact>& contacts) {
-    ContactSets sets(contacts.size());
+    DisjointSets sets(contacts.size());
     std::vector<std::uint32_t> order(contacts.size());
     std::iota(order.begin(), order.end(), 0U);
     connect(a, &TrianglePair::a, b, &TrianglePair::b, contacts, order, sets);

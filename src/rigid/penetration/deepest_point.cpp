@@ -77,8 +77,8 @@ public:
         for (const std::uint32_t triangle : starts)
             for (const Vec3& corner : surface_.world_triangle(triangle))
                 try_point(corner, triangle, nullptr);
-        if (!surface_.model().tree().empty() && bounds_.box.lower[0] <= bounds_.box.upper[0])
-            add_box(NodeRef::node(0), surface_.model().tree().bounds, {}, {});
+        if (!surface_.data().tree().empty() && bounds_.box.lower[0] <= bounds_.box.upper[0])
+            add_box(NodeRef::node(0), surface_.data().tree().bounds, {}, {});
         while (!pieces_.empty() && !finished(pieces_.top().at_most)) {
             poll_stop();
             if (options_.steps != nullptr && !options_.steps->take())
@@ -116,11 +116,11 @@ private:
     // ---- pieces
 
     void open(const Piece& parent) {
-        const Tree& tree = surface_.model().tree();
+        const Tree& tree = surface_.data().tree();
         if (parent.box.is_leaf()) {
             const std::uint32_t first = parent.box.first();
             for (std::uint32_t slot = first; slot < first + parent.box.count(); ++slot)
-                if (part_.takes(surface_.model().triangle_at(slot)))
+                if (part_.takes(surface_.data().triangle_at(slot)))
                     add_clipped(slot, parent);
             return;
         }
@@ -321,7 +321,7 @@ private:
     /// Takes the sample of a part of a triangle if it is deeper than the best; then tries the
     /// corners.
     void try_points(const Piece& piece, const WorldSolid::Nearest& nearest) {
-        const std::uint32_t triangle = surface_.model().triangle_at(piece.slot);
+        const std::uint32_t triangle = surface_.data().triangle_at(piece.slot);
         if (!(nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle)))
             return;
         take(piece.middle, triangle, nearest);
@@ -332,8 +332,8 @@ private:
     /// Tries a vertex of a triangle in a box.
     void try_any_point(NodeRef box, std::uint32_t seed) {
         while (!box.is_leaf())
-            box = surface_.model().tree().nodes[box.index()].child[0];
-        try_point(surface_.world_slot(box.first())[0], surface_.model().triangle_at(box.first()),
+            box = surface_.data().tree().nodes[box.index()].child[0];
+        try_point(surface_.world_slot(box.first())[0], surface_.data().triangle_at(box.first()),
                   &seed);
     }
 

@@ -142,8 +142,8 @@ private:
     [[nodiscard]] ContactRegion contained_region() {
         ContactRegion result;
         // A surface without contained components contributes no triangles.
-        const std::vector<bool> none_of_a(a_.model().mesh().triangles.size()),
-            none_of_b(b_.model().mesh().triangles.size());
+        const std::vector<bool> none_of_a(a_.model().data().mesh().triangles.size()),
+            none_of_b(b_.model().data().mesh().triangles.size());
         const auto part = [](const std::vector<bool>& contained, const std::vector<bool>& none) {
             SurfacePart p;
             p.contained = contained.empty() ? &none : &contained;

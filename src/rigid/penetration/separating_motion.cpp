@@ -54,8 +54,8 @@ bool parted(const WorldSolid& a, const WorldSolid& b, const Vec3& shift) {
     bool apart = true;
     for_each_block_pair(
         a, b, shift, [&](const WorldSolid::Block& of_a, const WorldSolid::Block& of_b) {
-            const PlacedPair pair(of_a.model.public_model(), of_a.model.world(),
-                                  of_b.model.public_model(), translated(of_b.model.world(), shift));
+            const PlacedPair pair(of_a.model.model(), of_a.model.world(), of_b.model.model(),
+                                  translated(of_b.model.world(), shift));
             apart = find_contacts(pair, ContactMode::first, unused).empty();
             return apart;
         });

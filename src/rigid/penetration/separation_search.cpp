@@ -27,14 +27,14 @@ public:
     [[nodiscard]] bool separates(const Vec3& shift) const { return separates(shift, steps_); }
 
     [[nodiscard]] bool separates(const Vec3& shift, SearchSteps* steps) const {
-        const Transform moved = b_.world_moved(shift);
-        const PlacedPair pair(a_.public_model(), a_.world(), b_.public_model(), moved);
+        const Transform moved = b_moved(shift);
+        const PlacedPair pair(a_.model().model(), a_.model().world(), b_.model().model(), moved);
         if (!find_contacts(pair, ContactMode::first, counters_, steps).empty() ||
             (steps != nullptr && steps->ran_out()))
             return false;
         if (!a_.solid().solid && !b_.solid().solid)
             return true;
-        const PlacedSolid b(b_.public_model(), b_.solid(), moved);
+        const PlacedSolid b(b_.model().model(), b_.solid(), moved);
         return !any_component_inside(a_, b) && !any_component_inside(b, a_);
     }
 
@@ -43,7 +43,7 @@ public:
     void start_from_boxes() {
         std::vector<Vec3> axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (const PlacedSolid* s : {&a_, &b_}) {
-            const auto& m = s->world_from_tree().m;
+            const auto& m = s->model().world_from_tree().m;
             for (std::size_t k = 0; k < 9; k += 3)
                 axes.push_back(normalized_or_zero({m[k], m[k + 1], m[k + 2]}));
         }
@@ -127,13 +127,17 @@ public:
     [[nodiscard]] const Vec3& best() const { return best_; }
 
 private:
+    [[nodiscard]] Transform b_moved(const Vec3& shift) const {
+        return translated(b_.model().world(), shift);
+    }
     static std::vector<Vec3> box_corners(const PlacedSolid& s) {
-        const Aabb& box = s.model().tree().bounds;
+        const Aabb& box = s.model().data().tree().bounds;
         std::vector<Vec3> corners;
         for (unsigned i = 0; i < 8; ++i)
-            corners.push_back(apply(s.world_from_tree(), {i & 1U ? box.upper[0] : box.lower[0],
-                                                          i & 2U ? box.upper[1] : box.lower[1],
-                                                          i & 4U ? box.upper[2] : box.lower[2]}));
+            corners.push_back(
+                apply(s.model().world_from_tree(),
+                      {i & 1U ? box.upper[0] : box.lower[0], i & 2U ? box.upper[1] : box.lower[1],
+                       i & 4U ? box.upper[2] : box.lower[2]}));
         return corners;
     }
     static std::array<double, 2> extent(const std::vector<Vec3>& points, const Vec3& n) {
@@ -147,11 +151,11 @@ private:
     /// Directions that part some triangles in contact at `blocked_`, and their mean.
     [[nodiscard]] std::vector<Vec3> blocking_normals() const {
         constexpr std::size_t kContacts = 32, kNormals = 6;
-        const Transform moved = b_.world_moved(blocked_);
-        const PlacedPair pair(a_.public_model(), a_.world(), b_.public_model(), moved);
+        const Transform moved = b_moved(blocked_);
+        const PlacedPair pair(a_.model().model(), a_.model().world(), b_.model().model(), moved);
         const std::vector<Contact> contacts =
             find_contacts(pair, ContactMode::all, counters_, steps_);
-        const PlacedSolid b(b_.public_model(), b_.solid(), moved);
+        const PlacedSolid b(b_.model().model(), b_.solid(), moved);
         std::vector<Vec3> normals;
         Vec3 mean;
         const std::size_t count = std::min(kContacts, contacts.size());

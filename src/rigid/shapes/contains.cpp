@@ -14,7 +14,7 @@ class ContainmentQuery {
 public:
     ContainmentQuery(const Model& model, const Transform& world_from_model)
         : placed_(model, model.data().solid(), world_from_model),
-          model_from_world_(inverse(placed_.world())) {}
+          model_from_world_(inverse(placed_.model().world())) {}
 
     [[nodiscard]] Containment operator()(const Vec3& point) const {
         Containment result;
@@ -28,7 +28,7 @@ public:
             // An affine map moves mesh and point alike; a mirroring one changes the sign of the
             // number.
             const double number =
-                winding_number(placed_.model().mesh(), apply(model_from_world_, point));
+                winding_number(placed_.model().data().mesh(), apply(model_from_world_, point));
             result.winding_number = placed_.mirrored() ? -number : number;
             result.side = std::abs(number) >= 0.5 ? Side::inside : Side::outside;
         }

@@ -33,7 +33,7 @@ Nearest find_nearest(const PlacedModel& model, const Vec3& point, double upper_b
     std::uint32_t best = kNone;
     model.for_each_near(point, best_sq, [&](std::uint32_t slot) {
         const double sq = nearest_on_triangle(point, model.world_slot(slot)).distance_sq;
-        const std::uint32_t triangle = model.model().triangle_at(slot);
+        const std::uint32_t triangle = model.data().triangle_at(slot);
         if (sq < best_sq || (sq == best_sq && best != kNone && triangle < best))
             best_sq = sq, best = triangle;
         return best_sq;
@@ -66,7 +66,7 @@ public:
         : options_(options), placed_(model, solid_of(model, options), world_from_model) {}
 
     [[nodiscard]] Nearest operator()(const Vec3& point) const {
-        Nearest result = find_nearest(placed_, point, options_.upper_bound);
+        Nearest result = find_nearest(placed_.model(), point, options_.upper_bound);
         if (options_.signed_distance && result.distance > 0 && placed_.contains_off_surface(point))
             result.distance = -result.distance;
         return result;

@@ -28,7 +28,7 @@ public:
 
     void operator()(std::uint32_t slot) {
         if (!enough() && meets_(model_.world_slot(slot)))
-            found.push_back(model_.model().triangle_at(slot));
+            found.push_back(model_.data().triangle_at(slot));
     }
     [[nodiscard]] bool enough() const { return wanted_ == Wanted::one && !found.empty(); }
 
@@ -49,7 +49,7 @@ Triangles find(const PlacedModel& model, const Sphere& sphere, Wanted wanted) {
     const double bound_sq = sphere.radius * sphere.radius;
     model.for_each_near(sphere.centre, bound_sq, [&](std::uint32_t slot) {
         collect(slot);
-        return collect.enough() ? -1 : bound_sq;
+        return collect.enough() ? kStopTraversal : bound_sq;
     });
     return std::move(collect.found);
 }
@@ -115,7 +115,7 @@ Triangles find(const PlacedModel& model, const OrientedBox& box, Wanted wanted) 
         if (!overlap(bounds, box_of_t))
             return false;
         bool meet = false;
-        placed_box.for_each_overlap(box_of_t, [&](std::uint32_t slot) {
+        placed_box.model().for_each_overlap(box_of_t, [&](std::uint32_t slot) {
             meet = meet || triangle_triangle_intersect(placed_box.world_slot(slot), t) !=
                                TriangleContact::none;
         });

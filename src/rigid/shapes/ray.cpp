@@ -100,10 +100,10 @@ RayHit find_first(const PlacedModel& model, const Ray& ray) {
         return {};
     std::optional<Candidate> first;
     float bound = 1;
-    for_each_along_segment(model.model().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
+    for_each_along_segment(model.data().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
         const Triangle corners = model.world_slot(slot);
         if (const auto hit = ray_triangle_intersect(ray, corners)) {
-            const Candidate candidate{model.model().triangle_at(slot), corners, *hit};
+            const Candidate candidate{model.data().triangle_at(slot), corners, *hit};
             if (!first || before(ray, candidate, *first)) {
                 first = candidate;
                 bound = span.segment_parameter(hit->t);
@@ -146,10 +146,10 @@ std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_mod
     if (!span.clipped())
         return {};
     std::vector<Candidate> candidates;
-    for_each_on_segment(placed.model().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
+    for_each_on_segment(placed.data().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
         const Triangle corners = placed.world_slot(slot);
         if (const auto hit = ray_triangle_intersect(ray, corners))
-            candidates.push_back({placed.model().triangle_at(slot), corners, *hit});
+            candidates.push_back({placed.data().triangle_at(slot), corners, *hit});
     });
     std::sort(candidates.begin(), candidates.end(),
               [&](const Candidate& a, const Candidate& b) { return before(ray, a, b); });

@@ -7,7 +7,8 @@ namespace abut {
 namespace {
 
 bool inside(const PlacedSolid& inner, std::uint32_t triangle, const PlacedSolid& outer) {
-    return outer.winds_around(inner.world_vertex(inner.model().mesh().triangles[triangle][0]));
+    return outer.winds_around(
+        inner.model().world_vertex(inner.model().data().mesh().triangles[triangle][0]));
 }
 
 } // namespace
@@ -15,13 +16,13 @@ bool inside(const PlacedSolid& inner, std::uint32_t triangle, const PlacedSolid&
 std::vector<bool> contained_triangles(const PlacedSolid& inner, const PlacedSolid& outer,
                                       const std::vector<std::uint32_t>& touched) {
     const Solid& solid = inner.solid();
-    const auto& triangles = inner.model().mesh().triangles;
+    const auto& triangles = inner.model().data().mesh().triangles;
     if (!outer.solid().solid || (solid.components.size() == 1 && !touched.empty()))
         return {};
     if (touched.empty() && !any_component_inside(inner, outer))
         return {};
     const std::vector<std::uint32_t> component =
-        vertex_components(inner.model().mesh(), solid.topology);
+        vertex_components(inner.model().data().mesh(), solid.topology);
     enum class State : std::uint8_t { apart, meets, contained };
     std::vector<State> state(component.size(), State::apart);
     for (const std::uint32_t t : touched)

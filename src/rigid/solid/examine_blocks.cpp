@@ -16,7 +16,7 @@ namespace abut {
 
 namespace {
 
-/// A vertex of a block by its position: those at equal positions come after each other.
+/// A vertex of a block, sorted by position: vertices at equal positions are neighbours.
 struct VertexByPosition {
     std::array<std::uint64_t, 3> bits{};
     std::uint32_t block = 0, vertex = 0;
@@ -25,7 +25,7 @@ struct VertexByPosition {
     }
 };
 
-/// The number that a vertex of a block has once equal positions are merged.
+/// The number of a block's vertex after equal positions are merged.
 struct MergedVertex {
     std::uint32_t block = 0, vertex = 0, merged = 0;
     friend bool operator<(const MergedVertex& a, const MergedVertex& b) {
@@ -33,7 +33,7 @@ struct MergedVertex {
     }
 };
 
-/// A side of a triangle, between merged vertices.
+/// An edge of a triangle, between merged vertices.
 struct EdgeUse {
     std::uint32_t lower = 0, upper = 0, triangle = 0, upwards = 0;
     [[nodiscard]] bool same_edge(const EdgeUse& e) const {
@@ -44,7 +44,7 @@ struct EdgeUse {
     }
 };
 
-/// Disjoint sets of merged vertices, on the disk if need be.
+/// Disjoint sets of merged vertices. Unlike DisjointSets they go to disk if memory is short.
 class VertexSets {
 public:
     VertexSets(const std::string& folder, std::uint64_t count, std::size_t memory)
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    PagedArray<std::uint32_t> below_; ///< how far below a vertex its parent is; 0: it is a root
+    PagedArray<std::uint32_t> below_; ///< a vertex's number less that of its parent; 0 for a root
 };
 
 class BlocksExamination {
@@ -115,7 +115,7 @@ private:
         writer.flush();
     }
 
-    /// Calls visit(block, merged vertices of it) for one after the other.
+    /// Calls visit(block, its merged vertices) for each block in order.
     template <typename Visit>
     void for_each(const Visit& visit) {
         for (std::uint32_t i = 0; i < blocks_.size(); ++i) {
@@ -128,7 +128,7 @@ private:
         }
     }
 
-    /// Edges and components.
+    /// Counts the uses of edges, and joins components.
     void connect() {
         ExternalSort<EdgeUse> edges(folder_, share_);
         sets_.emplace(folder_, count_, share_);
@@ -148,7 +148,7 @@ private:
                 consider(mesh, t, block.numbers[t]);
             }
         });
-        std::uint64_t uses = 0; // of the edge at hand
+        std::uint64_t uses = 0; // of the current edge
         EdgeUse last;
         bool any = false, all_twice = true;
         edges.drain([&](const EdgeUse& edge) {
@@ -162,7 +162,7 @@ private:
         result_.closed = any && all_twice && uses == 2;
     }
 
-    /// The largest triangles, the least number first among equals.
+    /// Finds the largest triangles; among equals, those of the least numbers.
     void consider(const Mesh& mesh, std::size_t t, std::uint32_t number) {
         const auto& c = mesh.triangles[t];
         const Triangle triangle{mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]};
@@ -176,7 +176,7 @@ private:
                         large);
     }
 
-    /// A point of each component; the sign of the volume, if that says which side is in.
+    /// Finds a point of each component, and the sign of the volume if it tells inside from outside.
     void measure() {
         std::vector<bool> seen(count_);
         std::optional<Vec3> origin;
@@ -234,10 +234,10 @@ private:
     const std::string& folder_;
     std::size_t share_;
     TemporaryFile merged_;             ///< number of each vertex of each block
-    std::vector<std::uint64_t> first_; ///< of each block, in there
-    std::uint32_t count_ = 0;          ///< of merged vertices
+    std::vector<std::uint64_t> first_; ///< of each block: where it begins in merged_
+    std::uint32_t count_ = 0;          ///< number of merged vertices
     std::optional<VertexSets> sets_;
-    bool alternate_ = true; ///< the two uses of an edge run against each other
+    bool alternate_ = true; ///< the two uses of each edge run in opposite directions
     std::vector<Large> largest_;
     BlocksSolid result_;
 };

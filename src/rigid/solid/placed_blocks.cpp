@@ -17,7 +17,7 @@ std::size_t block_of(std::uint32_t name) {
     return name >> ModelBlocks::kTriangleBits;
 }
 
-/// A box that holds all world positions of the points of a box, as seen from the origin.
+/// Returns a box that encloses the world positions of a box's points, as seen from the origin.
 Box3 world_box_of(const Box3& box, const Transform& world, const Vec3& origin) {
     Box3 result;
     if (is_empty(box))
@@ -27,15 +27,15 @@ Box3 world_box_of(const Box3& box, const Transform& world, const Vec3& origin) {
                apply(world, {i & 1U ? box.upper.x : box.lower.x, i & 2U ? box.upper.y : box.lower.y,
                              i & 4U ? box.upper.z : box.lower.z}) -
                    origin);
-    // Far above the rounding of three products and sums; and as large wherever the box is, unless
-    // that is far away for its size.
+    // Far above the rounding of three products and sums. It does not depend on where the box is,
+    // unless the box is far away for its size.
     const double margin =
         0x1p-48 * (sum_of_sizes(world) * std::max(max_abs(box.lower), max_abs(box.upper)) +
                    max_abs({world.m[9], world.m[10], world.m[11]}) + max_abs(origin));
     return grown(result, std::max(margin, 0x1p-24 * length(result.upper - result.lower)));
 }
 
-/// Whether a segment may meet a box: false is certain.
+/// Returns whether a segment may meet a box: false is certain.
 bool may_meet(const Vec3& from, const Vec3& to, const Box3& box) {
     const double margin =
         0x1p-40 * (max_abs(from) + max_abs(to) + max_abs(box.lower) + max_abs(box.upper));
@@ -93,7 +93,7 @@ std::unique_ptr<WorldSolid> PlacedBlocks::seen_from(const Vec3& origin) const {
 
 std::shared_ptr<const PlacedBlocks::PlacedBlock> PlacedBlocks::placed(std::size_t i) const {
     if (last_ == nullptr || last_index_ != i) {
-        last_.reset(); // it may make room for the other
+        last_.reset(); // it may free memory for the new one
         last_ = std::make_shared<const PlacedBlock>(blocks_.block(i), world_, origin_);
         last_index_ = i;
     }
@@ -129,7 +129,7 @@ std::vector<EdgeFace> PlacedBlocks::faces_around(std::uint32_t triangle, std::si
         const auto block = placed(i);
         const Mesh& mesh = block->block->model.mesh();
         block->placed.for_each_overlap({at, at}, [&](std::uint32_t slot) {
-            const auto& t = mesh.triangles[block->placed.model().triangle_at(slot)];
+            const auto& t = mesh.triangles[block->placed.data().triangle_at(slot)];
             const Triangle v{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
             if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
                 return;
@@ -187,7 +187,7 @@ Triangle PlacedBlocks::world_slot(std::uint32_t slot) const {
 
 std::uint32_t PlacedBlocks::triangle_at(std::uint32_t slot) const {
     const auto block = placed(block_of(slot));
-    return block->block->numbers[block->placed.model().triangle_at(slot & kLocalMask)];
+    return block->block->numbers[block->placed.data().triangle_at(slot & kLocalMask)];
 }
 
 WorldSolid::Bounds PlacedBlocks::bounds() const {
@@ -219,7 +219,7 @@ std::optional<int> PlacedBlocks::crossings(const Vec3& from, const Vec3& to) con
 }
 
 double PlacedBlocks::winding(const Vec3& point) const {
-    // Asked for every part that lies in the box of a terrain: only of a solid all blocks are read.
+    // This is asked for every part in the box of a terrain, so all blocks are read only of a solid.
     if (!bounds_solid())
         return 0;
     double sum = 0;

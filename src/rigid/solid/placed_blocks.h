@@ -12,9 +12,10 @@
 
 namespace abut {
 
-/// A large mesh in blocks under its transform: the same answers as PlacedSolid, with few blocks in
-/// memory at a time; but that an open surface which bounds no solid winds around nothing. For one
-/// thread. The blocks must outlive it.
+/// A large mesh in mesh blocks, under its transform. It answers as PlacedSolid does, with few blocks
+/// in memory at a time. One answer differs: an open surface that bounds no solid winds around nothing.
+///
+/// Only one thread may use it. The blocks must outlive it.
 class PlacedBlocks final : public WorldSolid {
 public:
     /// Errors      Error{bad_argument} if the transform is not finite; of all members: those of the
@@ -29,11 +30,12 @@ public:
         return blocks_.block(i);
     }
 
-    /// Where triangles are that will be asked for by their numbers: sorted pairs of number and name.
+    /// Tells in which blocks the triangles lie that queries name by number: sorted pairs of a triangle's
+    /// number and its name.
     void set_known(std::vector<std::pair<std::uint32_t, std::uint32_t>> names) {
         known_ = std::move(names);
     }
-    /// Of triangle `local` of a block.
+    /// Returns the name of triangle `local` of a block: both numbers in one.
     static std::uint32_t name(std::size_t block, std::uint32_t local) {
         return static_cast<std::uint32_t>(block) << ModelBlocks::kTriangleBits | local;
     }
@@ -48,7 +50,7 @@ public:
     [[nodiscard]] Vec3 middle() const override { return middle_; }
     [[nodiscard]] double reach() const override { return reach_; }
     [[nodiscard]] Box3 world_box() const override { return box_; }
-    /// Of known triangles alone, like faces_around.
+    /// Answers only for triangles of set_known(), as faces_around() does.
     [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const override;
     [[nodiscard]] std::vector<EdgeFace> faces_around(std::uint32_t triangle,
                                                      std::size_t edge) const override;
@@ -73,7 +75,7 @@ private:
         std::shared_ptr<const ModelBlock> block;
         PlacedModel placed;
     };
-    /// The block that was asked for last is kept.
+    /// Returns a block. The last one is kept in memory.
     [[nodiscard]] std::shared_ptr<const PlacedBlock> placed(std::size_t i) const;
     [[nodiscard]] Vec3 to_world(const Vec3& p) const {
         return apply(world_, p) - origin_.value_or(Vec3{});

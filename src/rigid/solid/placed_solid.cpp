@@ -6,8 +6,8 @@ namespace abut {
 
 PlacedSolid::PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model,
                          const std::optional<Vec3>& origin)
-    : PlacedModel(model, world_from_model, origin), solid_(solid) {
-    const auto& m = world().m;
+    : model_(model, world_from_model, origin), solid_(solid) {
+    const auto& m = model_.world().m;
     mirrored_ = dot(cross({m[0], m[1], m[2]}, {m[3], m[4], m[5]}), {m[6], m[7], m[8]}) < 0;
 }
 
@@ -15,41 +15,43 @@ std::vector<Vec3> PlacedSolid::component_points() const {
     std::vector<Vec3> points;
     points.reserve(solid_.components.size());
     for (const std::uint32_t triangle : solid_.components)
-        points.push_back(world_vertex(model().mesh().triangles[triangle][0]));
+        points.push_back(model_.world_vertex(model_.data().mesh().triangles[triangle][0]));
     return points;
 }
 
 std::vector<EdgeFace> PlacedSolid::faces_around(std::uint32_t triangle, std::size_t edge) const {
-    const auto& t = model().mesh().triangles[triangle];
+    const auto& t = model_.data().mesh().triangles[triangle];
     const Topology& topology = solid_.topology;
     std::vector<EdgeFace> faces;
     for (const HalfEdge& h :
          topology.edge(topology.vertex_of[t[edge]], topology.vertex_of[t[(edge + 1) % 3]]))
-        faces.push_back({world_vertex(h.from), world_vertex(h.to), world_vertex(h.apex)});
+        faces.push_back(
+            {model_.world_vertex(h.from), model_.world_vertex(h.to), model_.world_vertex(h.apex)});
     return faces;
 }
 
 Box3 PlacedSolid::world_box() const {
-    const Aabb& b = model().tree().bounds;
+    const Aabb& b = model_.data().tree().bounds;
     Box3 box;
-    if (model().tree().empty())
+    if (model_.data().tree().empty())
         return box;
     for (unsigned i = 0; i < 8; ++i)
-        extend(box, apply(world_from_tree(),
+        extend(box, apply(model_.world_from_tree(),
                           {i & 1U ? b.upper[0] : b.lower[0], i & 2U ? b.upper[1] : b.lower[1],
                            i & 4U ? b.upper[2] : b.lower[2]}));
-    // The tree's frame is off by rounding.
+    // The tree's frame is inexact by rounding.
     return grown(box, 0x1p-40 * (reach() + max_abs(middle())));
 }
 
 void PlacedSolid::for_each_block(const Box3& /*region*/,
                                  const std::function<bool(const Block&)>& visit) const {
-    visit({*this, {}, world_box()});
+    visit({model_, {}, world_box()});
 }
 
 double PlacedSolid::winding(const Vec3& point) const {
     // The winding number does not change under an affine map that moves the mesh and the point.
-    return winding_number(model().mesh(), apply(inverse(world()), point + origin()));
+    return winding_number(model_.data().mesh(),
+                          apply(inverse(model_.world()), point + model_.origin()));
 }
 
 } // namespace abut

@@ -11,70 +11,66 @@
 
 namespace abut {
 
-/// A placed model that may bound a solid: what is inside, what is nearest. The solid must outlive
-/// it.
-class PlacedSolid final : public PlacedModel, public WorldSolid {
+/// A placed model that may bound a solid.
+class PlacedSolid final : public WorldSolid {
 public:
+    /// In          solid: of the model; it must outlive this.
     /// Errors      as PlacedModel.
     PlacedSolid(const Model& model, const Solid& solid, const Transform& world_from_model,
                 const std::optional<Vec3>& origin = {});
 
-    /// The transform with a translation added.
-    [[nodiscard]] Transform world_moved(const Vec3& shift) const {
-        return translated(world(), shift);
-    }
+    [[nodiscard]] const PlacedModel& model() const { return model_; }
     [[nodiscard]] const Solid& solid() const { return solid_; }
-
-    /// Whether world() turns left hands into right ones.
+    /// Returns whether the transform mirrors.
     [[nodiscard]] bool mirrored() const { return mirrored_; }
 
     [[nodiscard]] std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const override {
-        return std::make_unique<PlacedSolid>(public_model(), solid_, world(), origin);
+        return std::make_unique<PlacedSolid>(model_.model(), solid_, model_.world(), origin);
     }
     [[nodiscard]] bool closed() const override { return solid_.closed; }
     [[nodiscard]] bool bounds_solid() const override { return solid_.solid; }
-    /// solid().outward as seen in the world: a mirroring transform turns it round.
+    /// Returns solid().outward in the world: a mirroring transform reverses it.
     [[nodiscard]] int outward() const override {
         return mirrored_ ? -solid_.outward : solid_.outward;
     }
     [[nodiscard]] std::vector<Vec3> component_points() const override;
-    [[nodiscard]] Vec3 middle() const override { return PlacedModel::middle(); }
-    [[nodiscard]] double reach() const override { return PlacedModel::reach(); }
+    [[nodiscard]] Vec3 middle() const override { return model_.middle(); }
+    [[nodiscard]] double reach() const override { return model_.reach(); }
     [[nodiscard]] Box3 world_box() const override;
-    using WorldSolid::world_size;
     [[nodiscard]] Triangle world_triangle(std::uint32_t triangle) const override {
-        return PlacedModel::world_triangle(triangle);
+        return model_.world_triangle(triangle);
     }
     [[nodiscard]] std::vector<EdgeFace> faces_around(std::uint32_t triangle,
                                                      std::size_t edge) const override;
     [[nodiscard]] bool on_surface(const Vec3& point) const override {
-        return PlacedModel::on_surface(point);
+        return model_.on_surface(point);
     }
     using WorldSolid::nearest;
     [[nodiscard]] Nearest nearest(const Vec3& point, const NearestSearch& search) const override {
-        return nearest_point(*this, point, search);
+        return nearest_point(model_, point, search);
     }
-    /// Of the tree.
+    /// A slot is that of the tree.
     [[nodiscard]] Triangle world_slot(std::uint32_t slot) const override {
-        return PlacedModel::world_slot(slot);
+        return model_.world_slot(slot);
     }
     [[nodiscard]] std::uint32_t triangle_at(std::uint32_t slot) const override {
-        return model().triangle_at(slot);
+        return model_.data().triangle_at(slot);
     }
     [[nodiscard]] Bounds bounds() const override {
-        return {tree_from_world(), world_from_tree(), model().tree().bounds};
+        return {model_.tree_from_world(), model_.world_from_tree(), model_.data().tree().bounds};
     }
-    /// The model itself, wherever it is.
+    /// Visits the model, whatever the region.
     void for_each_block(const Box3& region,
                         const std::function<bool(const Block&)>& visit) const override;
 
 protected:
     [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override {
-        return abut::crossings(*this, from, to);
+        return abut::crossings(model_, from, to);
     }
     [[nodiscard]] double winding(const Vec3& point) const override;
 
 private:
+    PlacedModel model_;
     const Solid& solid_;
     bool mirrored_;
 };

@@ -1,5 +1,6 @@
 #include "rigid/solid/world_solid.h"
 
+#include "core/stop.h"
 #include "geometry/point_triangle_distance.h"
 #include "math/predicates.h"
 #include "rigid/model/solid.h"
@@ -10,7 +11,7 @@ namespace abut {
 
 namespace {
 
-/// Directions with no special relation to each other or to any axis; which one is tried k-th.
+/// Returns the k-th direction of a sequence with no special relation to each other or to an axis.
 Vec3 ray_direction(std::uint32_t k) {
     const double u = 0.7548776662466927 * (k + 1),
                  v = 0.5698402909980532 * (k + 1); // plastic number
@@ -28,7 +29,7 @@ bool WorldSolid::contains_off_surface(const Vec3& point) const {
     const double far = off + 2 * reach();
     const std::uint32_t wanted = closed() ? 1 : 3;
     std::uint32_t clear_rays = 0, odd_rays = 0;
-    // A ray is unclear with probability next to zero; the limit ends the loop on absurd input only.
+    // A ray is unclear with probability near zero, so only absurd input reaches the limit.
     for (std::uint32_t k = 0; k < 64 && clear_rays < wanted; ++k) {
         const std::optional<int> count = crossings(point, point + far * ray_direction(k));
         clear_rays += count ? 1 : 0;
@@ -70,6 +71,9 @@ std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const V
                   side_to = orient3d(t[0], t[1], t[2], to);
         if (side_from * side_to > 0)
             return;
+        // A triangle without an area separates nothing, and no sign tells where the segment passes.
+        if (side_from == 0 && side_to == 0 && collinear(t[0], t[1], t[2]))
+            return;
         const int u = orient3d(from, to, t[0], t[1]), v = orient3d(from, to, t[1], t[2]),
                   w = orient3d(from, to, t[2], t[0]);
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)))
@@ -84,10 +88,9 @@ WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
                                   const WorldSolid::NearestSearch& search) {
     WorldSolid::Nearest best;
     double best_sq = search.bound * search.bound;
-    // What matters from now on; negative: near enough.
     const auto bound_sq = [&](double distance) {
         const double d = distance / (1 + search.slack);
-        return distance <= search.enough ? -1 : d * d;
+        return distance <= search.enough ? kStopTraversal : d * d;
     };
     double next_sq = bound_sq(search.bound);
     const auto visit = [&](std::uint32_t slot) {

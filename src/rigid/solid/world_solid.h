@@ -13,13 +13,14 @@
 
 namespace abut {
 
-/// A face around an edge: the edge as the face runs along it, and its third vertex.
+/// A face at an edge: the edge in the direction in which the face runs along it, and the third
+/// vertex.
 struct EdgeFace {
     Vec3 from, to, apex;
 };
 
-/// A surface in the world that may bound a solid: what is asked of either of two that meet. It is
-/// one model (placed_solid.h), or a large one in blocks (placed_blocks.h).
+/// A surface in the world that may bound a solid, as penetration and containment query it. It is one
+/// model (placed_solid.h), or a large one in mesh blocks (placed_blocks.h).
 ///
 /// Frame       the world, or as seen from a point of it (PlacedModel::origin).
 class WorldSolid {
@@ -29,15 +30,17 @@ public:
     WorldSolid& operator=(const WorldSolid&) = delete;
     virtual ~WorldSolid() = default;
 
-    /// The same surface in a frame with another origin. In: `this` has the origin of the world.
+    /// Returns this surface in a frame with another origin.
+    ///
+    /// In          `this` has the world's origin.
     [[nodiscard]] virtual std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const = 0;
 
-    /// Every edge is used by exactly two triangles.
+    /// Returns whether every edge is used by exactly two triangles.
     [[nodiscard]] virtual bool closed() const = 0;
     [[nodiscard]] virtual bool bounds_solid() const = 0;
-    /// +1: normals point out; -1: they point in; 0: neither everywhere.
+    /// Returns +1 if all normals point out, -1 if all point in, else 0.
     [[nodiscard]] virtual int outward() const = 0;
-    /// A vertex of each connected component.
+    /// Returns a vertex of each connected component.
     [[nodiscard]] virtual std::vector<Vec3> component_points() const = 0;
 
     /// No point of the surface is farther than reach() from middle().
@@ -46,31 +49,30 @@ public:
     /// No two points of the surface are farther apart.
     [[nodiscard]] double world_size() const { return 2 * reach(); }
 
-    /// Holds the surface, more or less tightly.
+    /// Returns a box that encloses the surface, not always tightly.
     [[nodiscard]] virtual Box3 world_box() const = 0;
 
-    /// By its number in the whole.
+    /// In          triangle: its number in the whole mesh.
     [[nodiscard]] virtual Triangle world_triangle(std::uint32_t triangle) const = 0;
-    /// All faces at the edge of a triangle from its vertex number `edge` to the next.
+    /// Returns all faces at the edge of a triangle from its vertex number `edge` to the next.
     [[nodiscard]] virtual std::vector<EdgeFace> faces_around(std::uint32_t triangle,
                                                              std::size_t edge) const = 0;
 
-    /// Whether the point lies on the surface. Exact.
+    /// Returns whether the point lies on the surface. Exact.
     [[nodiscard]] virtual bool on_surface(const Vec3& point) const = 0;
-    /// Whether the point lies strictly inside, by the parity of crossings of a ray.
+    /// Returns whether the point lies strictly inside, by the parity of a ray's crossings.
     ///
-    /// Accuracy    exact for a closed surface; with T-junctions, the majority of three rays. False on
-    ///             the surface.
+    /// Accuracy    exact for a closed surface. With T-junctions, the majority of three rays decides.
     [[nodiscard]] bool contains(const Vec3& point) const {
         return !on_surface(point) && contains_off_surface(point);
     }
-    /// The same for a point that is known not to lie on the surface.
+    /// As contains(), for a point that is known not to lie on the surface.
     [[nodiscard]] bool contains_off_surface(const Vec3& point) const;
-    /// The same, where it is known of another point off the surface; fast where that is near.
+    /// As above, given the answer for another point off the surface. Fast if that point is near.
     [[nodiscard]] bool contains_off_surface(const Vec3& point, const Vec3& known,
                                             bool inside) const;
-    /// A part inside the other: for a surface that is not closed the winding number decides (1 to
-    /// rounding).
+    /// Returns whether the surface encloses the point. If it is not closed, the winding number decides
+    /// (1 to rounding).
     [[nodiscard]] bool winds_around(const Vec3& point) const;
 
     struct Nearest {
@@ -79,46 +81,46 @@ public:
         std::uint32_t slot = 0;
     };
     struct NearestSearch {
-        double bound = std::numeric_limits<double>::infinity(); ///< nothing farther matters
+        double bound = std::numeric_limits<double>::infinity(); ///< farther points do not matter
         double enough = 0;                   ///< a point no farther than this ends the search
-        double slack = 0;                    ///< the distance may be this much too large, relative
+        double slack = 0;                    ///< relative error allowed in the distance
         const std::uint32_t* seed = nullptr; ///< a slot that is likely near
     };
-    /// The surface's nearest point, if it is nearer than the bound.
+    /// Returns the nearest point of the surface, if it is nearer than the bound.
     [[nodiscard]] virtual Nearest nearest(const Vec3& point, const NearestSearch& search) const = 0;
     [[nodiscard]] Nearest nearest(const Vec3& point, double bound) const {
         return nearest(point, NearestSearch{.bound = bound});
     }
-    /// Slots are the surface's own numbers of triangles.
+    /// A slot is the surface's own number of a triangle.
     [[nodiscard]] virtual Triangle world_slot(std::uint32_t slot) const = 0;
     [[nodiscard]] virtual std::uint32_t triangle_at(std::uint32_t slot) const = 0;
 
-    /// A box that holds the surface, in a frame in which it is tight.
+    /// A box that encloses the surface, in a frame in which the box is tight.
     struct Bounds {
         Transform frame_from_world, world_from_frame;
         Aabb box;
     };
     [[nodiscard]] virtual Bounds bounds() const = 0;
 
-    /// A model that the surface consists of. numbers: of its triangles in the whole, ascending;
-    /// empty: they are the whole.
+    /// A model that is the surface, or one mesh block of it. `numbers` are those of its triangles in the
+    /// whole mesh, ascending; they are empty if the model is the whole mesh.
     struct Block {
         const PlacedModel& model;
         std::span<const std::uint32_t> numbers;
-        Box3 box; ///< holds it
+        Box3 box; ///< encloses it
 
         [[nodiscard]] std::uint32_t number(std::uint32_t triangle) const {
             return numbers.empty() ? triangle : numbers[triangle];
         }
     };
-    /// Calls visit(block) for all that may meet a box, in their order, until it returns false.
+    /// Calls visit(block) for all blocks that may meet a box, in order, until it returns false.
     virtual void for_each_block(const Box3& region,
                                 const std::function<bool(const Block&)>& visit) const = 0;
 
 protected:
-    /// As of one model, below.
+    /// Returns the signed crossings of a segment, as crossings() of one model does.
     [[nodiscard]] virtual std::optional<int> crossings(const Vec3& from, const Vec3& to) const = 0;
-    /// How often the surface winds around a point.
+    /// Returns the winding number of the surface around a point.
     [[nodiscard]] virtual double winding(const Vec3& point) const = 0;
 };
 

@@ -20,7 +20,7 @@ void require(bool sound, const std::string& store, const char* table, std::int64
     if (!sound)
         throw Error(ErrorCode::malformed, store,
                     std::string("is damaged: ") + table + " " + std::to_string(row) +
-                        " is not what its checksum says");
+                        " does not match its checksum");
 }
 
 template <std::size_t count>
@@ -249,7 +249,7 @@ void create_schema(Database& database) {
 void check_schema(Database& database) {
     database.require_pages();
     if (database.number("PRAGMA application_id") != kApplicationId)
-        throw Error(ErrorCode::malformed, database.path(), "is no store of Abut");
+        throw Error(ErrorCode::malformed, database.path(), "is not an Abut store");
     const std::int64_t version = database.number("PRAGMA user_version");
     if (version > kStoreVersion)
         throw Error(ErrorCode::unsupported, database.path(),
@@ -259,11 +259,11 @@ void check_schema(Database& database) {
     if (version == 1)
         throw Error(
             ErrorCode::unsupported, database.path(),
-            "is a store of version 1, which does not know its axes: import the models into a "
+            "is a store of version 1, which does not record its axes: import the models into a "
             "new one");
     if (version != kStoreVersion)
         throw Error(ErrorCode::malformed, database.path(),
-                    "is damaged: it says that its version is " + std::to_string(version));
+                    "is damaged: it gives its version as " + std::to_string(version));
 }
 
 Box3 without_negative_zero(const Box3& box) {

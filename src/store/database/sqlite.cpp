@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
+#include <memory>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
@@ -22,7 +25,7 @@ Verdict verdict_of(int status) {
     case SQLITE_CORRUPT:
         return {ErrorCode::malformed, "is damaged"};
     case SQLITE_NOTADB:
-        return {ErrorCode::malformed, "is no store of Abut, or its first page is damaged"};
+        return {ErrorCode::malformed, "is not an Abut store, or its first page is damaged"};
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return {ErrorCode::unreadable, "is in use by another process"};
@@ -49,7 +52,7 @@ Verdict verdict_of(int status) {
             return {ErrorCode::malformed, "is truncated"};
         return {ErrorCode::unreadable, "cannot be read"};
     default:
-        return {ErrorCode::malformed, "is damaged, or no store of Abut"};
+        return {ErrorCode::malformed, "is damaged, or is not an Abut store"};
     }
 }
 
@@ -71,6 +74,37 @@ std::string immutable_uri(const std::string& path) {
 }
 
 } // namespace
+
+std::string first_bytes(const std::string& path, std::size_t count) {
+    struct stat status {};
+    // Opening a named pipe would wait for a writer.
+    if (stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode))
+        return {};
+    count = std::min<std::size_t>(count, static_cast<std::size_t>(status.st_size));
+    sqlite3_initialize();
+    sqlite3_vfs& files = *sqlite3_vfs_find(nullptr);
+    std::string full(static_cast<std::size_t>(files.mxPathname) + 1, '\0');
+    if (files.xFullPathname(&files, path.c_str(), files.mxPathname + 1, full.data()) != SQLITE_OK)
+        return {};
+    const auto free_name = [](const char* name) { sqlite3_free_filename(name); };
+    const std::unique_ptr<const char, decltype(free_name)> name(
+        sqlite3_create_filename(full.c_str(), "", "", 0, nullptr), free_name);
+    const std::unique_ptr<void, void (*)(void*)> memory(sqlite3_malloc(files.szOsFile),
+                                                        sqlite3_free);
+    if (name == nullptr || memory == nullptr)
+        return {};
+    auto* const file = static_cast<sqlite3_file*>(memory.get());
+    std::memset(memory.get(), 0, static_cast<std::size_t>(files.szOsFile));
+    const int opened =
+        files.xOpen(&files, name.get(), file, SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB, nullptr);
+    std::string bytes(count, '\0');
+    const bool is_read =
+        opened == SQLITE_OK &&
+        file->pMethods->xRead(file, bytes.data(), static_cast<int>(count), 0) == SQLITE_OK;
+    if (file->pMethods != nullptr)
+        file->pMethods->xClose(file);
+    return is_read ? bytes : std::string();
+}
 
 std::string one_line(std::string text) {
     std::replace_if(
@@ -110,10 +144,6 @@ void Database::run(const char* sql) {
 std::int64_t Database::number(const char* sql) {
     Statement statement(*this, sql);
     return statement.step() ? statement.integer(0) : 0;
-}
-
-std::int64_t Database::last_row() const {
-    return sqlite3_last_insert_rowid(handle_);
 }
 
 void Database::require_pages() const {

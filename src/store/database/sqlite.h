@@ -27,6 +27,11 @@ inline constexpr const char* kEmptyStore = "is empty, or an import has just crea
 /// A text of SQLite's, made fit for one line: control characters become spaces.
 std::string one_line(std::string text);
 
+/// Returns up to `count` bytes from the beginning of a regular file; none if it cannot be read. They
+/// are read by SQLite: when other code closes a file, the system releases the locks that this
+/// process holds on it (POSIX, fcntl).
+std::string first_bytes(const std::string& path, std::size_t count);
+
 /// A connection to an SQLite file. One thread at a time may use it.
 ///
 /// Errors      of all members: Error, naming the file: malformed if it is damaged, unreadable if
@@ -48,7 +53,6 @@ public:
 
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] sqlite3* handle() const noexcept { return handle_; }
-    [[nodiscard]] std::int64_t last_row() const;
     [[noreturn]] void fail(int status) const;
 
 private:

@@ -25,8 +25,8 @@ void mend(const std::string& path) {
     } catch (const Error& error) {
         if (error.code() == ErrorCode::cannot_write)
             throw Error(ErrorCode::unreadable, path,
-                        "was left half written by a killed import, and cannot be mended here: it "
-                        "is read-only");
+                        "was left half written by a killed import, and cannot be repaired because "
+                        "it is read-only");
         throw;
     }
 }
@@ -174,12 +174,11 @@ StoredBlockData StoreFile::decode(const Statement& row) {
     const BlockRow block = read_block_row(row, path_);
     const std::span<const std::byte> data = read_block_data(row, block, path_);
     bytes_read_ += data.size();
-    ++blocks_read_;
     try {
         MeshBlock result = decode_block(data, block.raw_bytes);
         if (result.mesh.positions.size() != block.vertices ||
             result.mesh.triangles.size() != block.triangles)
-            malformed("it has other sizes than its row says");
+            malformed("its sizes differ from those in its row");
         return {block, std::move(result)};
     } catch (const Fault& fault) {
         throw Error(ErrorCode::malformed, path_,
@@ -265,12 +264,12 @@ private:
 
 Mesh StoreFile::whole_mesh(const MeshRow& row, MeshBlock block) const {
     if (block.mesh.positions.size() != row.vertices || block.mesh.triangles.size() != row.triangles)
-        damaged_mesh(path_, row.mesh, " has other sizes than its block");
+        damaged_mesh(path_, row.mesh, " has a block with other sizes");
     if (block.vertex_ids.empty() && block.triangle_ids.empty())
         return std::move(block.mesh);
     MeshAssembly assembly(row);
     if (!assembly.add(block) || !assembly.is_whole())
-        damaged_mesh(path_, row.mesh, " is not whole");
+        damaged_mesh(path_, row.mesh, " is incomplete");
     return assembly.take();
 }
 
@@ -286,13 +285,13 @@ Mesh StoreFile::read_mesh(std::int64_t mesh) {
         vertices += block.vertices, triangles += block.triangles;
     }
     if (row.vertices > vertices || row.triangles > triangles)
-        damaged_mesh(path_, mesh, " is not whole");
+        damaged_mesh(path_, mesh, " is incomplete");
     MeshAssembly assembly(row);
     for (std::uint64_t i = 0; i < row.blocks; ++i)
         if (!assembly.add(read_block(row.first_block + static_cast<std::int64_t>(i))))
             damaged_mesh(path_, mesh, " has a block that does not belong to it");
     if (!assembly.is_whole())
-        damaged_mesh(path_, mesh, " is not whole");
+        damaged_mesh(path_, mesh, " is incomplete");
     return assembly.take();
 }
 

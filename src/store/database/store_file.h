@@ -74,9 +74,8 @@ public:
     /// read: the caller can build it.
     std::optional<HierarchyRow> find_hierarchy(const BlockRow& block);
 
-    /// Counts since the store was opened: compressed bytes of blocks and hierarchies, and blocks.
+    /// Compressed bytes of mesh blocks and hierarchies that were read since the store was opened.
     [[nodiscard]] std::uint64_t bytes_read() const noexcept { return bytes_read_; }
-    [[nodiscard]] std::uint64_t blocks_read() const noexcept { return blocks_read_; }
 
     /// Runs work(database) with a connection of the pool.
     template <typename Work>
@@ -107,7 +106,7 @@ private:
     OpenMode mode_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<Connection>> idle_;
-    std::atomic<std::uint64_t> bytes_read_{0}, blocks_read_{0};
+    std::atomic<std::uint64_t> bytes_read_{0};
 };
 
 } // namespace abut

@@ -43,10 +43,10 @@ std::vector<ModelFile> check_files(const std::vector<ModelPath>& files, const st
     for (const auto& [file, unit, up] : files) {
         if (!std::isfinite(unit) || unit < 0)
             throw Error(ErrorCode::bad_argument, file, "unit must be a positive number of metres");
-        found.push_back(look_at(file));
         if (std::filesystem::equivalent(file, store, missing) || is_store(file))
             throw Error(ErrorCode::bad_argument, file,
                         "is a store: models are imported from their files");
+        found.push_back(look_at(file));
         for (std::size_t i = 0; i + 1 < found.size(); ++i)
             if (found[i].path == found.back().path)
                 throw Error(ErrorCode::bad_argument, file, "is given twice");
@@ -233,7 +233,7 @@ private:
         import_geometry(*source, file, memory * 3 / 4, options_.progress, writer_, geometry);
         const ModelFile after = look_at(file);
         if (after.bytes != model.bytes || after.modified != model.modified)
-            throw Error(ErrorCode::unreadable, file, "has changed while it was read");
+            throw Error(ErrorCode::unreadable, file, "changed while it was read");
         const PartChanges changes = merge_parts(*source, geometry, generation_, options_.progress,
                                                 model, writer_.database());
         may_have_unused_ = may_have_unused_ || changes.changed + changes.removed > 0;

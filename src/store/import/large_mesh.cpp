@@ -80,7 +80,7 @@ public:
         if (!number_)
             join();
         if (vertices_ != size_.vertices || triangles_ != size_.triangles)
-            malformed("has other numbers of vertices and triangles than it says");
+            malformed("its numbers of vertices and triangles differ from those that it states");
         MeshRow row;
         const Hash128 hash =
             mesh_hash(joined_, positions_hash_.value(), triangles_, corners_hash_.value());

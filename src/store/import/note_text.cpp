@@ -43,7 +43,7 @@ std::vector<SceneNote> parse_notes(const std::string& text, const std::string& s
             notes.push_back({kind_of(row.at("kind"), store), row.at("id"), row.at("name"),
                              row.at("type"), row.at("text")});
     } catch (const nlohmann::json::exception&) {
-        throw Error(ErrorCode::malformed, store, "is damaged: the notes of a model are no JSON");
+        throw Error(ErrorCode::malformed, store, "is damaged: the notes of a model are not JSON");
     }
     return notes;
 }

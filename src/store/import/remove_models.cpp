@@ -23,7 +23,7 @@ std::vector<ModelRow> find_models(Database& database, const std::vector<std::str
         const std::string path = absolute_path(file);
         find.bind(path, file);
         if (!find.step())
-            throw Error(ErrorCode::bad_argument, file, "is no model of " + database.path());
+            throw Error(ErrorCode::bad_argument, file, "is not a model of " + database.path());
         found.push_back(read_model_row(find, database.path()));
         if (find.step())
             throw Error(ErrorCode::bad_argument, file,

@@ -1,9 +1,9 @@
 #include "world/broad_phase/box_node.h"
 
+#include "core/set_bits.h"
 #include "math/vector.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -56,8 +56,7 @@ void find_meetings_simd(const BoxNode& a, std::uint32_t rows, const BoxNode& b,
     const V upper_b[3]{hn::Set(d, bounds_b.upper[0]), hn::Set(d, bounds_b.upper[1]),
                        hn::Set(d, bounds_b.upper[2])};
     meetings.rows = rows & meet_row(a, lower_b, upper_b).meet;
-    for (std::uint32_t rest = meetings.rows; rest != 0; rest &= rest - 1) {
-        const auto row = static_cast<std::size_t>(std::countr_zero(rest));
+    for (const std::size_t row : SetBits(meetings.rows)) {
         const V lower[3]{hn::Set(d, a.lower[0][row]), hn::Set(d, a.lower[1][row]),
                          hn::Set(d, a.lower[2][row])};
         const V upper[3]{hn::Set(d, a.upper[0][row]), hn::Set(d, a.upper[1][row]),

@@ -1,10 +1,10 @@
 #include "world/broad_phase/hub_rows.h"
 
 #include "core/parallel.h"
+#include "core/set_bits.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 
 namespace abut {
@@ -12,13 +12,6 @@ namespace abut {
 namespace {
 
 using Bits = std::uint32_t;
-
-/// Calls visit(lane) for each set bit.
-template <typename Visit>
-void for_each_lane(Bits bits, const Visit& visit) {
-    for (; bits != 0; bits &= bits - 1)
-        visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
-}
 
 constexpr Bits first_lanes(std::size_t count) {
     return (Bits{1} << count) - 1;
@@ -66,27 +59,25 @@ public:
             return;
         BoxNodeMeetings meetings;
         find_meetings(a.node, a.rows, b.node, b.bounds, meetings);
-        for_each_lane(a.rows, [&](std::uint32_t lane) {
+        for (const std::uint32_t lane : SetBits(a.rows)) {
             const bool any = (meetings.rows >> lane & 1) != 0;
             const Bits meet = any ? meetings.meet[lane] & b.above(a.boxes[lane]) : 0;
             const Bits unclear = meet != 0 ? meet & meetings.touch[lane] : 0;
             replace((row + lane) * now_.columns + column, meet, unclear, a.boxes[lane], b.boxes);
-        });
+        }
     }
 
 private:
     void replace(std::size_t at, Bits meet, Bits unclear, std::uint32_t box,
                  std::span<const std::uint32_t> partners) const {
-        for_each_lane(unclear, [&](std::uint32_t lane) {
+        for (const std::uint32_t lane : SetBits(unclear))
             if (!abut::meet(boxes_[box], boxes_[partners[lane]]))
                 meet &= ~(Bits{1} << lane);
-        });
         const Bits last = now_.bits[at];
         if (filter_)
-            for_each_lane(meet & ~last, [&](std::uint32_t lane) {
+            for (const std::uint32_t lane : SetBits(meet & ~last))
                 if (!filter_(box, partners[lane]))
                     meet &= ~(Bits{1} << lane);
-            });
         if (meet == last) // the bits in begun_ and ended_ are already zero
             return;
         now_.bits[at] = static_cast<std::uint16_t>(meet);

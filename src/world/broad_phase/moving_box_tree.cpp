@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::size_t kNodesOfTask = 256;
 
-Middle middle_of(const Aabb& box, std::uint32_t index) {
-    Middle middle{{}, index};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        middle.point[axis] = 0.5F * box.lower[axis] + 0.5F * box.upper[axis];
-    return middle;
-}
-
 /// Prefetches both cache lines that a box may lie in.
 void prefetch(const Box3* box) {
     hwy::Prefetch(&box->lower);
@@ -39,26 +32,16 @@ float size_of(const Aabb& box) {
 
 void MovingBoxTree::build(std::span<const Box3> boxes) {
     frame_ = NarrowFrame::about(boxes);
-    order_.resize(boxes.size()), lane_.resize(boxes.size());
-    std::vector<Middle> middles;
-    middles.reserve(boxes.size());
-    std::size_t last = boxes.size(); // empty boxes come last
-    for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        if (takes_part(boxes[i]))
-            middles.push_back(middle_of(frame_.narrow(boxes[i]), i));
-        else
-            order_[--last] = i;
-    order_by_medians(middles);
-    std::transform(middles.begin(), middles.end(), order_.begin(),
-                   [](const Middle& middle) { return middle.box; });
+    order_ = median_order(boxes.size(), [&](std::uint32_t i) { return frame_.narrow(boxes[i]); });
+    lane_.resize(boxes.size());
     for (std::uint32_t i = 0; i < order_.size(); ++i)
         lane_[order_[i]] = i;
     resize_levels();
     refit_all(boxes);
     mark(order_);
-    built_size_.resize(levels_[0].nodes.size());
+    built_size_.resize(levels_[0].size());
     for (std::size_t i = 0; i < built_size_.size(); ++i)
-        built_size_[i] = size_of(levels_[0].nodes[i].bounds());
+        built_size_[i] = size_of(levels_[0][i].bounds());
     wear_ = 0;
 }
 
@@ -81,19 +64,10 @@ void MovingBoxTree::refit(std::span<const Box3> boxes, std::span<const std::uint
 }
 
 void MovingBoxTree::resize_levels() {
-    std::size_t nodes = std::max<std::size_t>((order_.size() + kWidth - 1) / kWidth, 1);
-    std::size_t count = 1;
-    for (std::size_t n = nodes; n > 1; n = (n + kWidth - 1) / kWidth)
-        ++count;
-    BoxNode empty{};
-    for (std::size_t lane = 0; lane < kWidth; ++lane)
-        empty.set(lane, Aabb());
-    levels_.resize(count);
-    for (Level& level : levels_) {
-        level.nodes.resize(nodes, empty);
-        level.marks.resize(nodes, 0);
-        nodes = (nodes + kWidth - 1) / kWidth;
-    }
+    levels_.resize(order_.size());
+    marks_.resize(levels_.count());
+    for (std::size_t level = 0; level < levels_.count(); ++level)
+        marks_[level].resize(levels_[level].size(), 0);
 }
 
 void MovingBoxTree::append(std::size_t count) {
@@ -103,16 +77,15 @@ void MovingBoxTree::append(std::size_t count) {
               static_cast<std::uint32_t>(old));
     std::iota(lane_.begin() + static_cast<std::ptrdiff_t>(old), lane_.end(),
               static_cast<std::uint32_t>(old));
-    const std::size_t parents = levels_.size();
+    const std::size_t levels = levels_.count();
     resize_levels();
-    if (levels_.size() != parents) // a new root must take over the bounds of the old one
-        for (std::size_t level = 1; level < levels_.size(); ++level)
-            fit_parents(level);
-    built_size_.resize(levels_[0].nodes.size(), 0);
+    if (levels_.count() != levels) // a new root must take over the bounds of the old one
+        levels_.fit();
+    built_size_.resize(levels_[0].size(), 0);
 }
 
 void MovingBoxTree::fit_node(std::span<const Box3> boxes, std::size_t node) {
-    BoxNode& to = levels_[0].nodes[node];
+    BoxNode& to = levels_[0][node];
     const std::size_t first = node * kWidth, ahead = first + 2 * kWidth;
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
         // Neighbours in space are not neighbours in memory.
@@ -124,21 +97,8 @@ void MovingBoxTree::fit_node(std::span<const Box3> boxes, std::size_t node) {
 }
 
 void MovingBoxTree::refit_all(std::span<const Box3> boxes) {
-    parallel_for(levels_[0].nodes.size(), kNodesOfTask,
-                 [&](std::size_t node) { fit_node(boxes, node); });
-    for (std::size_t level = 1; level < levels_.size(); ++level)
-        fit_parents(level);
-}
-
-void MovingBoxTree::fit_parents(std::size_t level) {
-    const std::vector<BoxNode>& children = levels_[level - 1].nodes;
-    parallel_for(levels_[level].nodes.size(), kNodesOfTask, [&](std::size_t node) {
-        for (std::size_t lane = 0; lane < kWidth; ++lane) {
-            const std::size_t child = node * kWidth + lane;
-            levels_[level].nodes[node].set(lane, child < children.size() ? children[child].bounds()
-                                                                         : Aabb());
-        }
-    });
+    parallel_for(levels_[0].size(), kNodesOfTask, [&](std::size_t node) { fit_node(boxes, node); });
+    levels_.fit();
 }
 
 void MovingBoxTree::refit_some(std::span<const Box3> boxes,
@@ -148,42 +108,41 @@ void MovingBoxTree::refit_some(std::span<const Box3> boxes,
     lanes.reserve(changed.size());
     for (const std::uint32_t box : changed) {
         lanes.push_back(lane_[box]);
-        levels_[0].nodes[lane_[box] / kWidth].set(lane_[box] % kWidth, frame_.narrow(boxes[box]));
+        levels_[0][lane_[box] / kWidth].set(lane_[box] % kWidth, frame_.narrow(boxes[box]));
     }
-    for (std::size_t level = 0; level < levels_.size(); ++level) {
+    for (std::size_t level = 0; level < levels_.count(); ++level) {
         parents.clear();
         for (const std::size_t lane : lanes) {
-            std::uint32_t& marks = levels_[level].marks[lane / kWidth];
+            std::uint32_t& marks = marks_[level][lane / kWidth];
             if (marks == 0)
                 parents.push_back(lane / kWidth);
             marks |= 1U << lane % kWidth;
         }
-        if (level + 1 < levels_.size())
+        if (level + 1 < levels_.count())
             for (const std::size_t node : parents)
-                levels_[level + 1].nodes[node / kWidth].set(node % kWidth,
-                                                            levels_[level].nodes[node].bounds());
+                levels_[level + 1][node / kWidth].set(node % kWidth, levels_[level][node].bounds());
         std::swap(lanes, parents);
     }
 }
 
 void MovingBoxTree::forget_marks() {
-    for (Level& level : levels_)
-        std::fill(level.marks.begin(), level.marks.end(), 0);
+    for (std::vector<std::uint32_t>& marks : marks_)
+        std::fill(marks.begin(), marks.end(), 0);
 }
 
 void MovingBoxTree::mark(std::span<const std::uint32_t> changed) {
     if (changed.size() == order_.size()) {
-        for (Level& level : levels_)
-            std::fill(level.marks.begin(), level.marks.end(), BoxNode::kAllLanes);
+        for (std::vector<std::uint32_t>& marks : marks_)
+            std::fill(marks.begin(), marks.end(), BoxNode::kAllLanes);
         return;
     }
     forget_marks();
     for (const std::uint32_t box : changed)
-        levels_[0].marks[lane_[box] / kWidth] |= 1U << lane_[box] % kWidth;
-    for (std::size_t level = 1; level < levels_.size(); ++level)
-        for (std::size_t child = 0; child < levels_[level - 1].marks.size(); ++child)
-            if (levels_[level - 1].marks[child] != 0)
-                levels_[level].marks[child / kWidth] |= 1U << child % kWidth;
+        marks_[0][lane_[box] / kWidth] |= 1U << lane_[box] % kWidth;
+    for (std::size_t level = 1; level < levels_.count(); ++level)
+        for (std::size_t child = 0; child < marks_[level - 1].size(); ++child)
+            if (marks_[level - 1][child] != 0)
+                marks_[level][child / kWidth] |= 1U << child % kWidth;
 }
 
 double MovingBoxTree::excess(std::size_t node, const Aabb& bounds) const {
@@ -197,21 +156,21 @@ double MovingBoxTree::excess(std::size_t node, const Aabb& bounds) const {
 }
 
 void MovingBoxTree::add_wear() {
-    if (levels_.size() < 2)
+    if (levels_.count() < 2)
         return;
     for (std::size_t node = 0; node < built_size_.size(); ++node)
-        if (levels_[0].marks[node] != 0)
-            wear_ += excess(node, levels_[1].nodes[node / kWidth].box(node % kWidth));
+        if (marks_[0][node] != 0)
+            wear_ += excess(node, levels_[1][node / kWidth].box(node % kWidth));
 }
 
 double MovingBoxTree::sampled_wear(std::span<const Box3> boxes) {
     constexpr std::size_t kStride = 16;
-    if (levels_.size() < 2)
+    if (levels_.count() < 2)
         return 0;
     double sum = 0;
     for (std::size_t node = 0; node < built_size_.size(); node += kStride) {
         fit_node(boxes, node);
-        sum += excess(node, levels_[0].nodes[node].bounds());
+        sum += excess(node, levels_[0][node].bounds());
     }
     return sum * kStride;
 }

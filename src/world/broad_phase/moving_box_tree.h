@@ -2,7 +2,7 @@
 
 #include <abut/types.h>
 
-#include "world/broad_phase/box_node.h"
+#include "world/broad_phase/box_levels.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,20 +11,13 @@
 
 namespace abut {
 
-/// A tree over moving boxes. Level 0 consists of nodes of 16 boxes, in an order that keeps
-/// neighbours together. Lane i of node b at level k + 1 bounds node 16 b + i of level k. The last
-/// level is a single node. No links are stored.
+/// A tree over moving boxes, in an order that keeps neighbours together.
 ///
 /// Every lane has a mark, which says that its box, or a box below it, has changed since the last
 /// step.
 class MovingBoxTree {
 public:
     static constexpr std::size_t kWidth = BoxNode::kWidth;
-
-    struct Level {
-        std::vector<BoxNode> nodes;
-        std::vector<std::uint32_t> marks; ///< bit i belongs to lane i
-    };
 
     /// Orders the boxes and fits all nodes. All lanes are marked.
     void build(std::span<const Box3> boxes);
@@ -37,7 +30,11 @@ public:
     /// steps, cost more than a build.
     [[nodiscard]] bool is_worn() const;
 
-    [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
+    [[nodiscard]] const BoxLevels& levels() const { return levels_; }
+    /// The marks of each node of a level: bit i belongs to lane i.
+    [[nodiscard]] const std::vector<std::uint32_t>& marks(std::size_t level) const {
+        return marks_[level];
+    }
     /// The box in a lane of level 0.
     [[nodiscard]] std::uint32_t box_at(std::size_t node, std::size_t lane) const {
         return order_[node * kWidth + lane];
@@ -50,7 +47,6 @@ private:
     void refit_all(std::span<const Box3> boxes);
     void refit_some(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
     void fit_node(std::span<const Box3> boxes, std::size_t node);
-    void fit_parents(std::size_t level);
     void forget_marks();
     void mark(std::span<const std::uint32_t> changed);
     /// Number of additional pairs that a node with these bounds meets.
@@ -63,7 +59,8 @@ private:
     NarrowFrame frame_;
     std::vector<std::uint32_t> order_; ///< lane of level 0 -> box
     std::vector<std::uint32_t> lane_;  ///< box -> lane of level 0
-    std::vector<Level> levels_;
+    BoxLevels levels_;
+    std::vector<std::vector<std::uint32_t>> marks_; ///< [level][node]
     std::vector<float> built_size_; ///< size of each node of level 0 at the last build
     double wear_ = 0;               ///< additional node pairs, summed over the steps since the
                                     ///< build

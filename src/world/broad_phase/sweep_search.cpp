@@ -1,11 +1,11 @@
 #include "core/parallel.h"
+#include "core/set_bits.h"
 #include "math/vector.h"
 #include "world/broad_phase/box_node.h"
 #include "world/broad_phase/pair_search.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <numeric>
 
 namespace abut {
@@ -119,15 +119,12 @@ private:
                 return;
             BoxNodeMeetings meetings;
             find_meetings(nodes_[other], BoxNode::kAllLanes, nodes_[node], bounds, meetings);
-            for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
-                const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
+            for (const std::uint32_t row : SetBits(meetings.rows)) {
                 std::uint32_t meet = meetings.meet[row];
                 if (other == node)
                     meet &= (1U << row) - 1;
-                for (; meet != 0; meet &= meet - 1) {
-                    const auto lane = static_cast<std::uint32_t>(std::countr_zero(meet));
+                for (const std::uint32_t lane : SetBits(meet))
                     add(boxes, order_[other * kWidth + row], order_[node * kWidth + lane], found);
-                }
             }
         }
     }

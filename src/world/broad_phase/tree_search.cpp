@@ -1,10 +1,10 @@
 #include "core/parallel.h"
+#include "core/set_bits.h"
 #include "world/broad_phase/moving_box_tree.h"
 #include "world/broad_phase/pair_search.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 
 namespace abut {
@@ -38,15 +38,12 @@ public:
                                     const Visit& visit) {
         BoxNodeMeetings meetings;
         find(tree, level, pair, meetings);
-        for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
-            const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
+        for (const std::uint32_t row : SetBits(meetings.rows)) {
             std::uint32_t meet = meetings.meet[row] & marked_partners(tree, level, pair, row);
             if (pair.a == pair.b)
                 meet &= BoxNode::kAllLanes << row;
-            for (; meet != 0; meet &= meet - 1)
-                visit(BoxNodePair{pair.a * kWidth + row,
-                                  pair.b * kWidth +
-                                      static_cast<std::uint32_t>(std::countr_zero(meet))});
+            for (const std::uint32_t lane : SetBits(meet))
+                visit(BoxNodePair{pair.a * kWidth + row, pair.b * kWidth + lane});
         }
     }
 
@@ -55,19 +52,18 @@ private:
 
     static void find(const MovingBoxTree& tree, std::size_t level, BoxNodePair pair,
                      BoxNodeMeetings& meetings) {
-        const MovingBoxTree::Level& here = tree.levels()[level];
+        const std::vector<BoxNode>& nodes = tree.levels()[level];
+        const std::vector<std::uint32_t>& marks = tree.marks(level);
         // If no box of b has changed, only the changed boxes of a need testing.
-        const std::uint32_t rows =
-            here.marks[pair.b] != 0 ? BoxNode::kAllLanes : here.marks[pair.a];
-        const Aabb bounds =
-            level + 1 < tree.levels().size()
-                ? tree.levels()[level + 1].nodes[pair.b / kWidth].box(pair.b % kWidth)
-                : here.nodes[pair.b].bounds();
-        find_meetings(here.nodes[pair.a], rows, here.nodes[pair.b], bounds, meetings);
+        const std::uint32_t rows = marks[pair.b] != 0 ? BoxNode::kAllLanes : marks[pair.a];
+        const Aabb bounds = level + 1 < tree.levels().count()
+                                ? tree.levels()[level + 1][pair.b / kWidth].box(pair.b % kWidth)
+                                : nodes[pair.b].bounds();
+        find_meetings(nodes[pair.a], rows, nodes[pair.b], bounds, meetings);
     }
     static std::uint32_t marked_partners(const MovingBoxTree& tree, std::size_t level,
                                          BoxNodePair pair, std::uint32_t row) {
-        const std::vector<std::uint32_t>& marks = tree.levels()[level].marks;
+        const std::vector<std::uint32_t>& marks = tree.marks(level);
         return (marks[pair.a] >> row & 1) != 0 ? BoxNode::kAllLanes : marks[pair.b];
     }
 
@@ -75,13 +71,11 @@ private:
         BoxNodeMeetings meetings;
         find(tree_, 0, pair, meetings);
         std::size_t count = 0;
-        for (std::uint32_t rows = meetings.rows; rows != 0; rows &= rows - 1) {
-            const auto row = static_cast<std::uint32_t>(std::countr_zero(rows));
+        for (const std::uint32_t row : SetBits(meetings.rows)) {
             std::uint32_t meet = meetings.meet[row] & marked_partners(tree_, 0, pair, row);
             if (pair.a == pair.b)
                 meet &= BoxNode::kAllLanes << row << 1;
-            for (; meet != 0; meet &= meet - 1) {
-                const auto lane = static_cast<std::uint32_t>(std::countr_zero(meet));
+            for (const std::uint32_t lane : SetBits(meet)) {
                 const std::uint32_t i = tree_.box_at(pair.a, row), k = tree_.box_at(pair.b, lane);
                 const bool certain = (meetings.touch[row] >> lane & 1) == 0;
                 if (certain || meet_exactly(i, k))
@@ -142,7 +136,7 @@ private:
     /// Collects the pairs of marked boxes.
     void find(std::span<const Box3> boxes) {
         constexpr std::size_t kPairsOfTask = 16;
-        const std::size_t level = tree_.levels().size() > 1 ? 1 : 0;
+        const std::size_t level = tree_.levels().count() > 1 ? 1 : 0;
         const std::vector<BoxNodePair> pairs = node_pairs(level);
         const std::size_t tasks = (pairs.size() + kPairsOfTask - 1) / kPairsOfTask;
         found_.resize(std::max<std::size_t>(tasks, 1));
@@ -159,7 +153,7 @@ private:
     /// Pairs of nodes of a level that meet and have a mark.
     [[nodiscard]] std::vector<BoxNodePair> node_pairs(std::size_t level) const {
         std::vector<BoxNodePair> pairs{{0, 0}}, children;
-        for (std::size_t above = tree_.levels().size() - 1; above > level; --above) {
+        for (std::size_t above = tree_.levels().count() - 1; above > level; --above) {
             children.clear();
             for (const BoxNodePair pair : pairs)
                 MarkedPairs::for_each_child_pair(

@@ -1,6 +1,6 @@
-// Elementary tests of all sorts of pairs: against an oracle, against each other, and against the
-// same pair written differently. Each test prints how many cases it has seen;
-// ABUT_TEST_ROUNDS in the environment multiplies them (tools/elementary_soak).
+// Elementary impact tests of all kinds of pairs, checked against an exact oracle, against each
+// other, and against the same pair written differently. Each test prints how many cases it has
+// seen. ABUT_TEST_ROUNDS in the environment multiplies them (tools/elementary_soak).
 
 #include <abut/elementary_impact.h>
 #include <abut/progress.h>
@@ -23,7 +23,7 @@
 namespace abut::test {
 namespace {
 
-/// Counts what happened, so that a test can see that it has tested something.
+/// Counts the outcomes, so that a test can require enough of each.
 struct Tally {
     int cases = 0, hits = 0, intervals = 0, culled = 0;
 
@@ -49,11 +49,11 @@ ElementaryPair any_pair(Random& random) {
         return meeting_pair(random);
     case 3:
         return mutated(random, meeting_pair(random));
-    case 4: { // far from the origin: differences are rounded
+    case 4: { // far from the origin, where differences are rounded
         const Vec3 away{3000.5, -70000.25, 12};
         return changed(meeting_pair(random), [&](const Vec3& p) { return p + away; });
     }
-    case 5: { // over- and underflow of products
+    case 5: { // products overflow or underflow
         const double scale = std::pow(10, random.uniform(-160, 150));
         return changed(meeting_pair(random), [&](const Vec3& p) { return scale * p; });
     }
@@ -109,7 +109,7 @@ TEST(ElementaryImpact, PairsInGeneralPositionAgainstTheOracle) {
     EXPECT_GT(tally.share(tally.intervals), 0.4);
 }
 
-TEST(ElementaryImpact, WhatFilterAndIntervalsDecideIsExact) {
+TEST(ElementaryImpact, AnswersByFilterAndIntervalsAreExact) {
     Random random(703);
     Tally tally;
     int exact_hits = 0;
@@ -123,7 +123,7 @@ TEST(ElementaryImpact, WhatFilterAndIntervalsDecideIsExact) {
         }
         const ElementaryImpact exact = elementary_impact_exact(pair);
         ASSERT_EQ(impact.meet, exact.meet) << pair;
-        // Both are lower bounds of one time, and less than 1e-9 below it.
+        // Both times are lower bounds of the exact time, less than 1e-9 below it.
         ASSERT_NEAR(impact.time, exact.time, 1e-9) << pair;
         ASSERT_LE(impact.time, exact.time + 0x1p-44) << pair;
     }
@@ -178,7 +178,8 @@ TEST(ElementaryImpact, TheFilterOnEverySimdTarget) {
                 const bool is_possible = (possible >> lane & 1) != 0;
                 ++cases;
                 culled += is_possible ? 0 : 1;
-                // Fused operations may tell a little more, or less.
+                // Fused operations round differently, so a few answers may differ from the
+                // reference.
                 different += is_possible != ((reference >> lane & 1) != 0) ? 1 : 0;
                 ASSERT_EQ(is_possible, possible_impact(pair)) << pair;
                 ASSERT_TRUE(is_possible || !elementary_impact_exact(pair).meet) << pair;
@@ -239,7 +240,7 @@ TEST(ElementaryImpact, CrossingsOnEverySimdTarget) {
     });
 }
 
-TEST(ElementaryImpact, ManyAtOnceAreAsOneByOne) {
+TEST(ElementaryImpact, BatchesEqualSingleTests) {
     Random random(706);
     std::vector<ElementaryPair> pairs(5003);
     std::generate(pairs.begin(), pairs.end(), [&] { return any_pair(random); });
@@ -315,7 +316,7 @@ TEST(ElementaryImpact, PointsAndNormalsOfImpacts) {
         ASSERT_NEAR(face ? b[0] + b[1] + b[2] : 1 + b[2], 1, 1e-15);
         const auto [p, q] = impact_points(pair, impact);
         worst = std::max(worst, length(p - q) / size_of(pair));
-        // The normal is of unit length, across the features, and against the approach.
+        // The normal has unit length, is perpendicular to the features, and opposes the approach.
         const Vec3 n = impact.normal;
         if (n == Vec3{}) {
             ++flat;

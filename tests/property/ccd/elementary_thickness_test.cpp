@@ -1,6 +1,6 @@
-// Elementary tests with a thickness: against exact arithmetic at single times, against the same pair
-// written differently, and one lane against many. Each test prints how many cases it has seen;
-// ABUT_TEST_ROUNDS in the environment multiplies them (tools/elementary_soak).
+// Elementary tests with a thickness, checked against exact arithmetic at single times, against the
+// same pair written differently, and one lane against many. Each test prints how many cases it has
+// seen. ABUT_TEST_ROUNDS in the environment multiplies them (tools/elementary_soak).
 
 #include <abut/elementary_impact.h>
 
@@ -35,7 +35,7 @@ struct Tally {
     [[nodiscard]] double share(int count) const { return double(count) / cases; }
 };
 
-/// The largest coordinate of a vector between two vertices.
+/// The largest absolute coordinate difference between two of the vertices.
 double size_between(const ElementaryPair& pair) {
     Box3 start, end;
     for (std::size_t i = 0; i < 4; ++i)
@@ -43,7 +43,8 @@ double size_between(const ElementaryPair& pair) {
     return std::max(max_abs(start.upper - start.lower), max_abs(end.upper - end.lower));
 }
 
-/// Not farther apart at its time than promised, and never so near before.
+/// Checks that the features are within the promised distance at the reported time, and never within
+/// the thickness before it.
 void expect_as_promised(Random& random, const ElementaryPair& pair, const ElementaryImpact& impact,
                         const ElementaryOptions& options) {
     const double d = options.thickness;
@@ -65,7 +66,7 @@ void expect_as_promised(Random& random, const ElementaryPair& pair, const Elemen
     }
 }
 
-/// Edges that are nearly parallel, or a face that is a needle, all near each other.
+/// Edges that are nearly parallel, or a needle-shaped face, with all vertices near each other.
 ElementaryPair thin_pair(Random& random) {
     ElementaryPair pair = random_pair(random);
     const double width = std::pow(10, random.uniform(-15, -1)),
@@ -95,7 +96,7 @@ ElementaryPair any_pair(Random& random) {
         return meeting_pair(random);
     case 3:
         return mutated(random, meeting_pair(random));
-    case 4: { // far from the origin: differences are rounded
+    case 4: { // far from the origin, where differences are rounded
         const Vec3 away{3000.5, -70000.25, 12};
         return changed(meeting_pair(random), [&](const Vec3& p) { return p + away; });
     }
@@ -104,7 +105,7 @@ ElementaryPair any_pair(Random& random) {
     }
 }
 
-/// The first feature, moved off by somewhat more or less than a length.
+/// Moves the first feature by 0 to 2 times `length` in a random direction.
 ElementaryPair moved_off(Random& random, ElementaryPair pair, double length) {
     const Vec3 way = random.uniform(0, 2) * length * random.direction();
     for (std::size_t i = 0; i < (pair.kind == ElementaryKind::vertex_face ? 1U : 2U); ++i) {
@@ -114,7 +115,7 @@ ElementaryPair moved_off(Random& random, ElementaryPair pair, double length) {
     return pair;
 }
 
-TEST(ElementaryThickness, AsPromised) {
+TEST(ElementaryThickness, ImpactsAreAsNearAsPromised) {
     Random random(801);
     Tally tally;
     for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {
@@ -134,7 +135,7 @@ TEST(ElementaryThickness, AsPromised) {
     EXPECT_GT(tally.bound_only, 0);
 }
 
-TEST(ElementaryThickness, NoneIsMissed) {
+TEST(ElementaryThickness, NoContactIsMissed) {
     Random random(802);
     Tally tally;
     for (int i = 0; i < many(3000) && !HasFatalFailure(); ++i) {
@@ -156,8 +157,9 @@ TEST(ElementaryThickness, NoneIsMissed) {
     EXPECT_LT(tally.share(tally.hits), 0.9);
 }
 
-/// A corner of the first feature passes one of the second, along a straight line that is nearest,
-/// exactly `distance` away, at t = 1/2; all else is farther away.
+/// A corner of the first feature moves along a straight line past a corner of the second. Their
+/// distance is least at t = 1/2, where it is exactly `distance`. All other points are farther
+/// apart.
 struct Grazing {
     ElementaryPair pair;
     double distance = 0;
@@ -174,7 +176,8 @@ struct Grazing {
         const Leg& leg = legs.at(static_cast<std::size_t>(random.integer(0, 3)));
         distance = leg.length;
         pair.kind = any_kind(random);
-        // Beyond the plane across the gap: the first's corners above, the second's below.
+        // Other vertices lie beyond the plane across the gap: the first feature's above it, the
+        // second's below.
         const auto beyond = [&](double sign) {
             const Vec3 p = random.on_lattice(8) - Vec3{4, 4, 4};
             const double along = sign * dot(p, leg.gap);
@@ -227,8 +230,8 @@ TEST(ElementaryThickness, TheSamePairWrittenDifferently) {
         const ElementaryImpact one = elementary_impact(pair, {.thickness = d}),
                                two = elementary_impact(same, {.thickness = scale * d});
         tally.add(one);
-        // Either answer is right of a pair whose distance is between the thickness and what is
-        // allowed.
+        // Both answers are right for a pair whose distance lies between the thickness and the
+        // thickness plus the allowed error.
         different += one.meet != two.meet ? 1 : 0;
         if (one.meet != two.meet) {
             const auto& [hit, of] = one.meet ? std::pair(one, pair) : std::pair(two, same);
@@ -259,12 +262,12 @@ TEST(ElementaryThickness, AnySizeOfCoordinates) {
         tally.add(two);
         ASSERT_EQ(one.meet, two.meet) << d << pair;
         ASSERT_EQ(one.time, two.time) << d << pair;
-        // Of touching features it depends on a velocity, which loses digits to underflow.
+        // For touching features the normal depends on a velocity, which loses digits to underflow.
         if (exponent >= -1000) {
             ASSERT_EQ(one.normal, two.normal) << exponent << ' ' << d << pair;
         }
     }
-    // Sizes far apart.
+    // Coordinates and thickness of very different sizes.
     for (int i = 0; i < many(1000) && !HasFatalFailure(); ++i) {
         ElementaryPair pair = lattice_pair(random, 2);
         for (auto* points : {&pair.start, &pair.end})
@@ -349,7 +352,7 @@ TEST(ElementaryThickness, TheFilterOnEverySimdTarget) {
     });
 }
 
-TEST(ElementaryThickness, ManyAtOnceAreAsOneByOne) {
+TEST(ElementaryThickness, BatchesEqualSingleTests) {
     Random random(808);
     std::vector<ElementaryPair> pairs(3001);
     std::generate(pairs.begin(), pairs.end(), [&] { return any_pair(random); });
@@ -401,14 +404,14 @@ TEST(FeatureDistance, BoundsHoldAndAreTight) {
     EXPECT_GT(apart, cases / 2);
 }
 
-TEST(FeatureDistance, WhetherAreWithinIsExact) {
+TEST(FeatureDistance, AreWithinIsExact) {
     Random random(810);
     int within = 0, beyond = 0, open = 0;
     for (int i = 0; i < many(8000) && !HasFatalFailure(); ++i) {
         ElementaryPair pair = i % 4 == 0 ? lattice_pair(random, 4) : any_pair(random);
         if (i % 3 == 0)
             pair = mutated(random, pair);
-        if (i % 5 == 0) { // sizes at which squares underflow
+        if (i % 5 == 0) { // squares underflow at these sizes
             const double scale = std::ldexp(1, random.integer(-1010, -500));
             for (Vec3& p : pair.start)
                 p = scale * p;

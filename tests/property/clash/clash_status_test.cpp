@@ -1,5 +1,5 @@
-// Statuses of clashes over random re-imports, jobs and marks, against a model of the rules that keeps
-// all in maps.
+// Statuses of clashes over random imports, jobs and marks, against a reference that applies the
+// rules to maps in memory.
 
 #include <abut/clash_review.h>
 #include <abut/error.h>
@@ -26,7 +26,7 @@ struct Mark {
 };
 using Marks = std::map<std::uint64_t, Mark>;
 
-/// The rules, on one question.
+/// The reference: the rules of statuses, for one question.
 class Rules {
 public:
     explicit Rules(Marks& marks) : marks_(marks) {}
@@ -103,7 +103,8 @@ Listed listed_in(const ClashReview& review) {
     return result;
 }
 
-/// As the view of the store says it; it shows the note of a mark that has lapsed, too.
+/// The clashes as the store's SQL view lists them. The view shows the note of a lapsed mark too, so
+/// that note is dropped here.
 Listed listed_in_sql(const std::string& store, std::int64_t question) {
     Database database(store, OpenMode::read_only);
     Statement rows(database, "SELECT id, status, note FROM clash_status WHERE question = ?");
@@ -140,7 +141,7 @@ TEST(ClashStatus, FollowsItsRules) {
                 rules[q].end_job(found.report);
             answered.at(q) = key;
             ASSERT_EQ(listed_in(found.report), listed_by_rules(rules[q]));
-            // Asked again it is the same job.
+            // The same question again is the same job.
             found = find_clashes(open_store(site.store()), options);
             ASSERT_EQ(listed_in(found.report), listed_by_rules(rules[q]));
             found = find_clashes(open_store(site.store()), options, {.keep = false});

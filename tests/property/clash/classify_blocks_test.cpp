@@ -1,4 +1,5 @@
-// A large mesh in blocks is to another part what the whole is, however it is cut.
+// A large mesh in blocks gives the same classification of a pair as the whole mesh, however it is
+// cut.
 
 #include "clash/classify_pair.h"
 #include "clash/mesh_in_blocks.h"
@@ -19,7 +20,7 @@
 namespace abut::test {
 namespace {
 
-/// A wavy sheet, or one with sides and a floor.
+/// A wavy sheet.
 Mesh terrain_mesh(Random& random, int n) {
     const double waves = random.uniform(1, 6), height = random.uniform(0.02, 0.3);
     return grid_mesh(n, n, false, false, [&](double u, double v) {
@@ -27,7 +28,7 @@ Mesh terrain_mesh(Random& random, int n) {
     });
 }
 
-/// Two bodies in one mesh, the second often within the first.
+/// Two components in one mesh; the second often lies within the first.
 Mesh two_bodies(Random& random) {
     Mesh mesh = sphere_mesh(1, random.integer(6, 24), random.integer(4, 12));
     const Mesh inner = box_mesh({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2});
@@ -40,7 +41,7 @@ Mesh two_bodies(Random& random) {
     return mesh;
 }
 
-/// Each triangle has vertices of its own: edges meet by position alone.
+/// Gives each triangle vertices of its own, so that edges meet by position alone.
 Mesh taken_apart(const Mesh& mesh) {
     Mesh result;
     for (const auto& t : mesh.triangles) {
@@ -73,7 +74,7 @@ Mesh some_mesh(Random& random) {
     }
 }
 
-/// One mesh, whole and in blocks, at one place.
+/// One mesh at one place, as a whole model and in blocks.
 struct Body {
     Body(const Mesh& mesh, const Transform& world, std::uint64_t most)
         : model(mesh), blocks(in_blocks(mesh, most)), world_from_mesh(world),
@@ -90,7 +91,7 @@ struct Body {
 
 Transform some_place(Random& random) {
     Transform world = random.pose(random.chance(0.5) ? 1.5 : 0.3);
-    if (random.chance(0.3)) { // coplanar faces, shared edges
+    if (random.chance(0.3)) { // gives coplanar faces and shared edges
         world = {};
         world.m[9] = random.integer(-2, 2), world.m[10] = random.integer(-1, 1);
     }
@@ -105,7 +106,7 @@ Transform some_place(Random& random) {
     return world;
 }
 
-TEST(ClassifyBlocks, IsTheVerdictOfTheWhole) {
+TEST(ClassifyBlocks, EqualsTheClassificationOfWholeMeshes) {
     Random random(6201);
     std::array<std::size_t, 5> kinds{};
     std::size_t pairs = 0, deeper = 0, far_off = 0;
@@ -129,14 +130,14 @@ TEST(ClassifyBlocks, IsTheVerdictOfTheWhole) {
             continue;
         ++pairs;
         ++kinds.at(static_cast<std::size_t>(truth->kind));
-        // A depth next to the tolerance is on either side by the search's accuracy alone.
+        // If the depth is next to the tolerance, the search's accuracy decides the kind.
         if (std::abs(-truth->distance - touch) <= 0.05 * touch && truth->distance < 0)
             continue;
         ASSERT_EQ(found->kind, truth->kind) << "round " << round;
         ASSERT_EQ(found->triangle_pairs, truth->triangle_pairs);
         if (truth->kind == ClashKind::hard || truth->distance < 0) {
             if (truth->kind != ClashKind::contained) {
-                // Both are depths that are reached, near the largest.
+                // Each search reaches its own depth; both must be near the largest.
                 const double least = std::min(-found->distance, -truth->distance),
                              largest = std::max(-found->distance, -truth->distance);
                 deeper += least < largest ? 1 : 0;
@@ -157,8 +158,8 @@ TEST(ClassifyBlocks, IsTheVerdictOfTheWhole) {
     EXPECT_LT(far_off, kinds[0] / 20);
 }
 
-/// A translation by multiples of the grid moves every vertex exactly.
-TEST(ClassifyBlocks, DepthsAreTheSameWhereverTheModelsAre) {
+/// Translations are multiples of the grid, so they move every vertex exactly.
+TEST(ClassifyBlocks, DepthsAreInvariantUnderTranslation) {
     Random random(6204);
     constexpr double kGrid = 0x1p-12;
     const auto on_grid = [](const Vec3& p) {
@@ -199,19 +200,19 @@ TEST(ClassifyBlocks, DepthsAreTheSameWhereverTheModelsAre) {
     EXPECT_GT(deep, rounds / 4);
 }
 
-/// What the blocks say of the whole.
-TEST(ClassifyBlocks, TheSolidIsThatOfTheWhole) {
+/// The solid found from blocks equals that of the whole mesh.
+TEST(ClassifyBlocks, TheSolidEqualsThatOfTheWholeMesh) {
     Random random(6202);
     std::size_t closed = 0, solid = 0, on_disk = 0;
     for (int round = 0; round < many(900); ++round) {
         Mesh mesh = some_mesh(random);
-        if (random.chance(0.2)) // turned inside out, in part or as a whole
+        if (random.chance(0.2)) // some or all triangles reversed
             for (auto& t : mesh.triangles)
                 if (random.chance(0.9))
                     std::swap(t[0], t[1]);
         const Solid truth = examine_solid(mesh);
         const auto blocks = in_blocks(mesh, static_cast<std::uint64_t>(random.integer(1, 50)));
-        // So little that sets and edges lie on the disk.
+        // The memory is so small that the union-find sets and edges lie on disk.
         const bool little = random.chance(0.5);
         on_disk += little ? 1 : 0;
         const BlocksSolid found =
@@ -230,8 +231,8 @@ TEST(ClassifyBlocks, TheSolidIsThatOfTheWhole) {
     EXPECT_GT(on_disk, all / 4);
 }
 
-/// Points and segments against the whole.
-TEST(ClassifyBlocks, InsideAndNearestAreThoseOfTheWhole) {
+/// Queries of points, in blocks and on the whole mesh, agree.
+TEST(ClassifyBlocks, InsideAndNearestEqualThoseOfTheWholeMesh) {
     Random random(6203);
     std::size_t inside = 0, asked = 0;
     for (int round = 0; round < many(900); ++round) {
@@ -242,7 +243,7 @@ TEST(ClassifyBlocks, InsideAndNearestAreThoseOfTheWhole) {
         const PlacedBlocks cut(*body.blocks, body.world_from_mesh);
         for (int i = 0; i < 20; ++i) {
             const Vec3 p = random.chance(0.1)
-                               ? whole.world_vertex(mesh.triangles[0][0])
+                               ? whole.model().world_vertex(mesh.triangles[0][0])
                                : whole.middle() + whole.reach() * random.in_cube(0.6);
             ASSERT_EQ(cut.on_surface(p), whole.on_surface(p));
             ASSERT_EQ(cut.nearest(p, HUGE_VAL).distance, whole.nearest(p, HUGE_VAL).distance);

@@ -1,6 +1,5 @@
-// Rules asked of a table of parts against their definition, word for word.
+// The rule table against a direct implementation of the rules' definition.
 
-#include "clash/glob_match.h"
 #include "clash/rule_table.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
@@ -30,7 +29,8 @@ bool selects(const PartSelector& side, const NamedPart& part) {
            (side.type.empty() || matches(side.type, part.type));
 }
 
-/// The first rule that selects the pair; -1: none, -2: that rule ignores it.
+/// Index of the first rule that selects the pair; -1 if none does, -2 if that rule ignores the
+/// pair.
 int deciding(const std::vector<ClashRule>& rules, const NamedPart& a, const NamedPart& b) {
     for (std::size_t r = 0; r < rules.size(); ++r) {
         const ClashRule& rule = rules[r];
@@ -60,7 +60,7 @@ std::vector<std::string> globs(Random& random) {
     return result;
 }
 
-TEST(RuleTable, SaysOfPairsWhatTheRulesMean) {
+TEST(RuleTable, AgreesWithTheDefinitionOfTheRules) {
     Random random(6301);
     std::array<int, 3> seen{}; // a rule, none, ignored
     for (int round = 0; round < many(300); ++round) {
@@ -104,7 +104,7 @@ TEST(RuleTable, SaysOfPairsWhatTheRulesMean) {
         EXPECT_GT(count, many(300) * 144 / 20);
 }
 
-TEST(RuleTable, WithoutRulesAllPairsHaveTheTermsOfTheOptions) {
+TEST(RuleTable, WithoutRulesAllPairsUseTheOptions) {
     ClashOptions options;
     options.clearance = 0.5, options.touch_tolerance = 0.25;
     RuleTable table(options);

@@ -1,4 +1,4 @@
-// Penetration of convex bodies against all planes that could bound the difference of the two.
+// Penetration of convex bodies against all planes that can bound the Minkowski difference.
 
 #include <abut/convex.h>
 
@@ -17,8 +17,8 @@ std::vector<Vec3> placed(const Convex& c, const Transform& world) {
     return points;
 }
 
-/// The least n . b - n . a over the directions in which the difference of the two can have a face:
-/// the normals of either, and what is across an edge of each.
+/// The least n . b - n . a over all possible face normals of the Minkowski difference: the normals
+/// of either body, and cross products of an edge of each.
 double brute_depth(const Convex& a, const Transform& world_a, const Convex& b,
                    const Transform& world_b) {
     const std::vector<Vec3> pa = placed(a, world_a), pb = placed(b, world_b);
@@ -69,7 +69,7 @@ std::vector<Vec3> make_points(Random& random, int kind) {
     }
 }
 
-TEST(ConvexPenetration, IsTheLeastOverAllPlanes) {
+TEST(ConvexPenetration, EqualsTheMinimumOverAllPlanes) {
     Random random(7101);
     int deep = 0, apart = 0;
     for (int i = 0; i < many(400); ++i) {
@@ -92,7 +92,7 @@ TEST(ConvexPenetration, IsTheLeastOverAllPlanes) {
         }
         const double rounding = 64 * 0x1p-52 * scale * 3;
         EXPECT_NEAR(depth.depth, brute_depth(a, world_a, b, world_b), rounding);
-        EXPECT_LE(depth.at_least, depth.depth); // rounded down
+        EXPECT_LE(depth.at_least, depth.depth); // at_least is rounded down
         EXPECT_GE(depth.at_least, depth.depth - 4 * rounding);
         EXPECT_NEAR(length(depth.direction), 1, 1e-12);
         EXPECT_LE(length(depth.point_b + depth.depth * depth.direction - depth.point_a), rounding);
@@ -135,7 +135,7 @@ TEST(ConvexPenetration, AWarmStartChangesNothing) {
             const ConvexDepth cold = penetration(a, Pose{}, b, world_b);
             ASSERT_EQ(warm.meet, cold.meet);
             ASSERT_NEAR(warm.depth, cold.depth, 1e-13);
-            if (s % 5 == 0) { // between queries of another kind
+            if (s % 5 == 0) { // a query of another kind in between
                 const ConvexGap gap = distance(a, Pose{}, b, world_b, {.warm_start = &warm_start});
                 ASSERT_EQ(gap.distance == 0, warm.meet);
             }
@@ -146,8 +146,8 @@ TEST(ConvexPenetration, AWarmStartChangesNothing) {
     EXPECT_GT(apart, 30);
 }
 
-/// Bodies of all kinds in turn with one warm start, in steps of all sizes: a polytope that is recalled
-/// may be dented, turned inside out, or be no polytope of these bodies at all.
+/// One warm start serves random bodies of all kinds in turn, in steps of all sizes. The cached
+/// polytope may be dented or inside out, or may not belong to these bodies at all.
 TEST(ConvexPenetration, AWarmStartOfOtherBodiesChangesNothing) {
     Random random(7103);
     ConvexWarmStart warm_start;

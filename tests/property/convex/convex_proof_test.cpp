@@ -1,5 +1,5 @@
-// Answers of convex bodies at the edge of what floating point can tell, against integers: thin hulls,
-// needles, shallow overlaps, bodies that touch. `exact` must be right, whatever the shape.
+// Answers for convex bodies at the limit of floating point, against exact integers: thin hulls,
+// needles, shallow overlaps, touching bodies. Status `exact` must be right for every shape.
 
 #include <abut/convex.h>
 #include <abut/rigid.h>
@@ -11,12 +11,14 @@
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace abut::test {
 namespace {
 
-/// All points of a body, placed: those too that its polytope does without.
+/// All points of a body, placed, including those that its polytope leaves out.
 std::vector<Vec3> placed(const Convex& body, const Transform& world) {
     std::vector<Vec3> points;
     for (const Vec3& p : body.vertices())
@@ -51,7 +53,7 @@ struct Counts {
     int meet = 0, apart = 0, touch = 0, measured = 0;
 };
 
-/// Every claim of both queries, with a warm start and without, against the oracle.
+/// Checks every claim of both queries, with and without a warm start, against the oracle.
 void check(const Convex& a, const Transform& world_a, const Convex& b, const Transform& world_b,
            ConvexWarmStart* warm_start, bool measure, Counts& counts) {
     const std::vector<Vec3> pa = placed(a, world_a), pb = placed(b, world_b);
@@ -109,7 +111,7 @@ void expect_both(const Counts& counts, int cases) {
     EXPECT_GT(counts.measured, cases / 200);
 }
 
-/// By its half-thickness, as a power of ten.
+/// The parameter is the exponent of the half-thickness, to base 10.
 class ThinHulls : public testing::TestWithParam<int> {};
 
 TEST_P(ThinHulls, AreToldApart) {
@@ -127,7 +129,7 @@ TEST_P(ThinHulls, AreToldApart) {
         if (i % 4 != 0) {
             const double angle = random.uniform(0, 3.1);
             world_b = Pose{{}, {std::cos(angle), 0, 0, std::sin(angle)}};
-            // Tilted by about as much as they are thick.
+            // The tilt is about as large as the thickness.
             world_b = compose(
                 Pose{{}, {1, h * random.uniform(-1, 1), h * random.uniform(-1, 1), 0}}, world_b);
         }
@@ -159,7 +161,7 @@ TEST(ConvexProof, NeedlesAreToldApart) {
         const std::vector<Vec3> points_a = needle(), points_b = needle();
         const Convex a(points_a), b(points_b);
         const Transform world_a = random.pose(1);
-        // A point inside of each at about the same place.
+        // An inner point of each body; the two points nearly coincide.
         const auto inside = [&](const std::vector<Vec3>& points, const Transform& world) {
             const auto pick = [&] {
                 return apply(world, points[static_cast<std::size_t>(random.integer(0, 7))]);
@@ -178,8 +180,8 @@ TEST(ConvexProof, NeedlesAreToldApart) {
     expect_both(counts, cases);
 }
 
-/// Bodies whose coordinates are small multiples of 1/8, moved so that a vertex, an edge or a face of
-/// one is met by the other exactly; and the same a bit away.
+/// Bodies with small multiples of 1/8 as coordinates. They are moved so that a vertex, an edge or a
+/// face of one exactly meets the other, or by a few units in the last place beside that.
 TEST(ConvexProof, BodiesThatTouchAreToldApart) {
     Random random(7330);
     const int cases = many(1200);
@@ -267,6 +269,64 @@ TEST(ConvexProof, ShallowOverlapsAreFound) {
     }
     EXPECT_GT(shallow, cases / 2);
     EXPECT_GT(apart, cases / 8);
+}
+
+/// Curved bodies that slide on each other at a gap, however short: proven by the features that the
+/// last step ended with, without a search that begins anew.
+TEST(ConvexProof, BodiesThatSlideAreMeasured) {
+    Random random(7350);
+    const int paths = many(20), steps = 20;
+    std::uint32_t pairs = 0, simplices = 0, walked = 0;
+    int measured = 0;
+    for (int path = 0; path < paths; ++path) {
+        const bool small = path % 2 == 0;
+        const auto curved = [&] {
+            std::vector<Vec3> points;
+            for (int k = small ? random.integer(8, 16) : 300; k > 0; --k) {
+                const Vec3 d = random.direction();
+                points.push_back({d.x, 0.7 * d.y, 0.5 * d.z});
+            }
+            return Convex(points);
+        };
+        const Convex a = curved(), b = curved();
+        const Transform world_a = random.pose(1);
+        const double left = std::pow(10, random.uniform(-12, -2));
+        const Vec3 axis = random.direction(), shift = 3 * random.direction();
+        ConvexWarmStart warm_start;
+        for (int step = 0; step < steps; ++step) {
+            const double half = 0.5 * std::numbers::pi / 360 * step;
+            const Vec3 q = std::sin(half) * axis;
+            Transform world_b =
+                Pose{{world_a.m[9] + shift.x, world_a.m[10] + shift.y, world_a.m[11] + shift.z},
+                     {std::cos(half), q.x, q.y, q.z}};
+            for (const double to : {0.2, left}) {
+                const ConvexGap far = distance(a, world_a, b, world_b);
+                const Vec3 by = (1 - to / far.distance) * (far.point_a - far.point_b);
+                world_b.m[9] += by.x, world_b.m[10] += by.y, world_b.m[11] += by.z;
+            }
+            const ConvexGap cold = distance(a, world_a, b, world_b);
+            const ConvexGap gap = distance(a, world_a, b, world_b, {.warm_start = &warm_start});
+            ASSERT_NEAR(gap.distance, left, 1e-14);
+            ASSERT_NEAR(cold.distance, gap.distance, 1e-14);
+            ASSERT_EQ(gap.status, Status::exact);
+            ASSERT_LE(gap.at_least, gap.distance);
+            ASSERT_GE(gap.at_least, gap.distance * (1 - 1e-12) - 1e-13);
+            if (step > 0 && !small) {
+                pairs += gap.counters.feature_pairs, simplices += gap.counters.simplices;
+                ++walked;
+            }
+            if (!small || step != 10)
+                continue;
+            const Precise truth = precise_distance_of_hulls(placed(a, world_a), placed(b, world_b));
+            ASSERT_LE(gap.at_least, truth);
+            ASSERT_LE(cold.at_least, truth);
+            ASSERT_LE(abs(truth - gap.distance), 1e-12 * gap.distance + 1e-14);
+            ++measured;
+        }
+    }
+    EXPECT_EQ(measured, paths / 2);
+    EXPECT_LT(pairs, 3 * walked);
+    EXPECT_LT(simplices, walked / 5);
 }
 
 } // namespace

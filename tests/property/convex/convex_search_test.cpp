@@ -1,4 +1,4 @@
-// What queries of convex bodies begin with: farthest vertices on every SIMD target, and balls inside.
+// Building blocks of convex queries: farthest vertices on every SIMD target, and inner balls.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/property/convex/convex_search_test.cpp"
@@ -34,7 +34,7 @@ HWY_EXPORT(look_at_ring);
 namespace test {
 namespace {
 
-/// On an ellipsoid; or, every third time, on a coarse grid, so that many are equally far.
+/// Random points on an ellipsoid; every third time on a coarse grid, so that many are equally far.
 ConvexData random_hull(Random& random, int count, int kind) {
     std::vector<Vec3> points;
     for (int i = 0; i < count; ++i) {
@@ -47,7 +47,7 @@ ConvexData random_hull(Random& random, int count, int kind) {
     return ConvexData(points);
 }
 
-/// A cone's tip has all others for neighbours.
+/// The tip of a cone is a neighbour of all other vertices.
 ConvexData cone(int corners) {
     std::vector<Vec3> points{{0, 0, 1}};
     for (int i = 0; i < corners; ++i) {
@@ -57,7 +57,7 @@ ConvexData cone(int corners) {
     return ConvexData(points);
 }
 
-/// Of heights of points that are at most 5 from the origin.
+/// Rounding of heights of points that are at most 5 from the origin.
 constexpr double kRounding = 1e-14;
 
 double highest(const ConvexData& body, const Vec3& direction) {
@@ -73,7 +73,8 @@ bool same(const ConvexGap& g, const ConvexGap& h) {
            g.counters.feature_pairs == h.counters.feature_pairs;
 }
 
-/// Both ways: all vertices of small hulls are looked at, larger ones are climbed.
+/// Covers both methods: small hulls test all vertices, larger ones climb from neighbour to
+/// neighbour.
 TEST(ConvexSearch, FindsTheFarthestVerticesOnEverySimdTarget) {
     Random random(7301);
     int small = 0, large = 0, mixed = 0;
@@ -109,7 +110,7 @@ TEST(ConvexSearch, FindsTheFarthestVerticesOnEverySimdTarget) {
     EXPECT_GT(mixed, rounds / 10);
 }
 
-TEST(ConvexSearch, HighestNeighboursAreThoseOfTheRing) {
+TEST(ConvexSearch, HighestNeighboursEqualThoseOfTheRing) {
     Random random(7302);
     int higher = 0, rounds = 0;
     for (int i = 0; i < many(60); ++i) {
@@ -139,7 +140,8 @@ TEST(ConvexSearch, HighestNeighboursAreThoseOfTheRing) {
     EXPECT_LT(higher, rounds);
 }
 
-/// Neighbours, feet and expanding polytopes are computed on each target: all of them round alike.
+/// Neighbours, witness points and expanding polytopes are computed by SIMD kernels, which round
+/// alike on every target.
 TEST(ConvexSearch, AnswersAreTheSameOnEverySimdTarget) {
     Random random(7302);
     const auto points = [&](int k) {
@@ -177,7 +179,7 @@ TEST(ConvexSearch, AnswersAreTheSameOnEverySimdTarget) {
     EXPECT_GT(deep, rounds / 5);
 }
 
-/// Of a point below a plane, to the digits of long double.
+/// Depth of a point below a triangle's plane, in long double.
 long double depth_below(const ConvexData& body, const IndexTriangle& triangle, const Vec3& point) {
     using Long = std::array<long double, 3>;
     const auto from_point = [&](std::uint32_t v) -> Long {
@@ -212,12 +214,12 @@ TEST(ConvexSearch, InnerBallsLieInsideAndAreNotMuchTooSmall) {
         const ConvexData body(points);
         const InnerBall& ball = body.ball;
         if (body.dimension < 3 || ball.radius == 0)
-            continue; // flat, or so thin that none was found
+            continue; // flat, or too thin for an inner ball
         long double least = HUGE_VALL;
         for (const IndexTriangle& t : body.triangles)
             least = std::min(least, depth_below(body, t, ball.middle));
         EXPECT_LE(ball.radius, least) << i;
-        // Of slivers rounding takes more.
+        // Rounding costs slivers more than this.
         if (least > 1e-3 * thin * scale) {
             EXPECT_GE(ball.radius, 0.99L * least) << i;
         }

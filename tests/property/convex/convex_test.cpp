@@ -1,4 +1,4 @@
-// Convex bodies: hulls against exact predicates; distances against all vertices and against the
+// Convex bodies: hulls against exact predicates, distances against all vertices and against the
 // triangles.
 
 #include <abut/convex.h>
@@ -26,19 +26,19 @@ std::vector<Vec3> ellipsoid(Random& random, int count) {
     return points;
 }
 
-/// About as large as a unit sphere.
+/// Random points, about as large as a unit sphere.
 std::vector<Vec3> make_points(Random& random, int kind) {
     std::vector<Vec3> points;
     switch (kind % 8) {
     case 0:
         return ellipsoid(random, random.integer(4, 30));
-    case 1: // coplanar and collinear points in plenty
+    case 1: // many coplanar and collinear points
         for (int i = 0; i < 40; ++i)
             points.push_back(0.5 * (random.on_lattice(3) - Vec3{1.5, 1.5, 1.5}));
         return points;
     case 2:
         return box_mesh({-0.7, -0.5, -0.4}, {0.7, 0.5, 0.4}).positions;
-    case 3: // flat ends, rounded to planes that are none
+    case 3: // flat ends whose points are not quite coplanar after rounding
         return transformed(prism_mesh(-0.8, 0.8, 0.5, random.integer(3, 40)), random.pose(0))
             .positions;
     case 4:
@@ -47,7 +47,7 @@ std::vector<Vec3> make_points(Random& random, int kind) {
         for (const Vec3& p : ellipsoid(random, 30))
             points.push_back({p.x, 1e-3 * p.y, 1e-3 * p.z});
         return points;
-    case 6: { // the same coplanar points, rounded to planes that are none
+    case 6: { // one set of coplanar points, no longer coplanar after rounding
         const Transform turn = random.pose(0);
         for (int i = 0; i < 40; ++i)
             points.push_back(apply(turn, 0.5 * (random.on_lattice(3) - Vec3{1.5, 1.5, 1.5})));
@@ -66,7 +66,7 @@ TEST(ConvexHull, HoldsAllPointsAndNoVertexIsSuperfluous) {
     int dropped = 0;
     for (int i = 0; i < many(200); ++i) {
         std::vector<Vec3> points = make_points(random, i);
-        if (i % 3 == 0) // on a coarse grid, so that planes and lines are exact
+        if (i % 3 == 0) // a coarse grid makes planes and lines exact
             for (Vec3& p : points)
                 p = {std::round(8 * p.x), std::round(8 * p.y), std::round(8 * p.z)};
         const Convex body(points);
@@ -77,14 +77,15 @@ TEST(ConvexHull, HoldsAllPointsAndNoVertexIsSuperfluous) {
         dimensions.insert(body.dimension());
         if (body.dimension() < 3)
             continue;
-        EXPECT_EQ(v.size() + body.face_count(), body.edges().size() + 2); // Euler
+        EXPECT_EQ(v.size() + body.face_count(), body.edges().size() + 2); // Euler's formula
         std::vector<std::set<std::size_t>> faces_at(v.size());
         for (std::size_t f = 0; f < body.face_count(); ++f) {
             const auto face = body.face(f);
             const Vec3 &a = v[face[0]], &b = v[face[1]], &c = v[face[2]];
             for (const Vec3& p : points)
                 if (orient3d(a, b, c, p) > 0) {
-                    // Held by the hull to rounding: where planes are rounded alone.
+                    // The hull holds the point only to rounding, which is allowed only where the
+                    // points were rounded off their plane.
                     ASSERT_TRUE(i % 3 != 0 && (i % 8 == 3 || i % 8 == 6)) << i;
                     const Vec3 n = normalized_or_zero(cross(b - a, c - a));
                     ASSERT_LE(dot(n, p - a), 0x1p-45 * reach) << i;
@@ -107,7 +108,7 @@ struct Case {
     Transform world_a, world_b;
 };
 
-/// The largest n . p over the body, as placed.
+/// The largest n . (p - from) over the placed body.
 double farthest(const Convex& c, const Transform& world, const Vec3& n, const Vec3& from) {
     double most = -HUGE_VAL;
     for (const Vec3& p : c.vertices())
@@ -122,8 +123,8 @@ double extent_from(const Convex& c, const Transform& world, const Vec3& point) {
     return most;
 }
 
-/// How far a point lies outside of the body's planes, at most. The map turns nothing inside out.
-/// Planes of needles are rounded to a thousand times what points are.
+/// The largest distance of a point beyond a plane of the body; 0 inside. The map must not
+/// mirror. Planes of needles are rounded by a thousand times as much as points.
 double outside(const Convex& c, const Transform& world, const Vec3& point) {
     const auto at = [&](std::uint32_t v) { return apply(world, c.vertices()[v]); };
     double most = 0;
@@ -147,7 +148,7 @@ double distance_from_feature(const Convex& c, const Transform& world, Feature ki
     }
     const auto face = c.face(id);
     double least = HUGE_VAL;
-    // In the plane: corners may be almost on one line, so by the largest triangle.
+    // The face's plane comes from its largest triangle, because corners may nearly lie on one line.
     double largest = -1;
     for (std::size_t k = 1; k + 1 < face.size(); ++k) {
         const Vec3 n = cross(at(face[k]) - at(face[0]), at(face[k + 1]) - at(face[0]));
@@ -159,7 +160,7 @@ double distance_from_feature(const Convex& c, const Transform& world, Feature ki
     return least;
 }
 
-/// Proves the answer from all vertices, whatever way it was found.
+/// Proves the answer from all vertices.
 void prove(const Case& c, const ConvexGap& gap, double rounding) {
     if (gap.distance == 0) {
         if (c.a.dimension() == 3) {
@@ -173,7 +174,7 @@ void prove(const Case& c, const ConvexGap& gap, double rounding) {
     const Vec3 n = normalized_or_zero(gap.point_b - gap.point_a);
     if (gap.distance > 1e6 * rounding) {
         EXPECT_NEAR(length(gap.point_b - gap.point_a), gap.distance, 16 * rounding);
-        // The points are rounded, and turn the direction between them.
+        // The witness points are rounded, which turns the direction between them.
         const double extent = extent_from(c.a, c.world_a, gap.point_a) +
                               extent_from(c.b, c.world_b, gap.point_b) + gap.distance;
         const double turned = 16 * rounding * extent / gap.distance;
@@ -190,7 +191,7 @@ enum class Placement { near, far, small, large, parallel };
 
 class ConvexDistance : public testing::TestWithParam<Placement> {};
 
-/// Of needles, differences are flat to rounding.
+/// The Minkowski difference of two needles can be flat to rounding.
 TEST(ConvexDistanceOfNeedles, IsProven) {
     Random random(7019);
     int meet = 0, apart = 0;
@@ -206,7 +207,7 @@ TEST(ConvexDistanceOfNeedles, IsProven) {
     EXPECT_GT(apart, many(4000) / 20);
 }
 
-TEST_P(ConvexDistance, IsThatOfTheTriangles) {
+TEST_P(ConvexDistance, EqualsTheDistanceOfTheTriangles) {
     const Placement placement = GetParam();
     Random random(7010 + static_cast<std::uint64_t>(placement));
     int meet = 0, cases = 0;
@@ -295,7 +296,7 @@ TEST(ConvexPath, AWarmStartChangesNothing) {
     EXPECT_GT(far_jumps, 20);
 }
 
-TEST(ConvexLevels, ErrorsAllowedAreBounds) {
+TEST(ConvexLevels, AllowedErrorsAreRespected) {
     Random random(7030);
     const Convex a(ellipsoid(random, 3000)), b(ellipsoid(random, 700));
     int coarse = 0, cases = 0;
@@ -335,7 +336,7 @@ TEST(ConvexLevels, LargeBodiesAreFoundThroughSmallerHulls) {
     EXPECT_LT(meet, 180);
 }
 
-/// The search by simplices alone, from any corner, finds what the walk on features finds.
+/// The simplex search alone, from any start vertex, agrees with the walk on features.
 TEST(SimplexSearch, AgreesWithTheWalk) {
     Random random(7201);
     int apart = 0, meet = 0;

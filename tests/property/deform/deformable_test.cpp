@@ -1,6 +1,6 @@
-// Impacts of deforming surfaces: all pairs of features against exact arithmetic, and every scheme,
-// assignment, way of culling, number of threads and SIMD target against each other. Each test
-// prints its seed and what it has seen.
+// Impacts of deforming surfaces: all pairs of features against exact arithmetic; and every scheme,
+// assignment, culling, number of threads and SIMD target against each other. Each test prints its
+// seed and what it has seen.
 
 #include <abut/deformable.h>
 #include <abut/progress.h>
@@ -74,7 +74,7 @@ TEST(Deformable, EveryPairAgainstExactArithmetic) {
     EXPECT_LT(hits, cases / 2);
 }
 
-TEST(Deformable, EqualsSingleTestsHoweverItIsDone) {
+TEST(Deformable, EveryOptionEqualsSingleTests) {
     Random random(41);
     std::size_t pairs = 0, hits = 0;
     for (int round = 0; round < many(60); ++round) {
@@ -119,7 +119,7 @@ TEST(Deformable, TwoSurfacesEqualSingleTests) {
     EXPECT_GT(face_first, hits / 10);
 }
 
-TEST(Deformable, LargerSurfacesOfAllSchemesAgree) {
+TEST(Deformable, AllSchemesAgreeOnLargerSurfaces) {
     Random random(11);
     std::size_t hits = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -133,8 +133,8 @@ TEST(Deformable, LargerSurfacesOfAllSchemesAgree) {
     EXPECT_GT(hits, 100U);
 }
 
-/// Every elementary test once: what representatives spawn is what a database leaves of all, and less
-/// where a region is flat.
+/// Every elementary test runs once. Representatives spawn exactly the tests that remain after a
+/// database has removed duplicates, or fewer where a region is flat.
 TEST(Deformable, SpawnsNoPairTwice) {
     Random random(5);
     for (int round = 0; round < many(20); ++round) {
@@ -199,7 +199,7 @@ TEST(Deformable, ThreadsAndTargetsChangeNothing) {
         EXPECT_EQ(impacts.counters, truth.counters) << threads;
     }
     set_threads(0);
-    // Without fused operations times are rounded differently.
+    // Targets without fused operations round times differently.
     for_each_simd_target([&](const std::string& name) {
         const Impacts impacts = self_impacts(moving.deformable());
         EXPECT_EQ(impacts.counters.candidates, truth.counters.candidates) << name;
@@ -211,7 +211,7 @@ TEST(Deformable, ThreadsAndTargetsChangeNothing) {
     });
 }
 
-/// A sequence of steps, refitted, equals surfaces that are made for each step.
+/// A sequence of steps on a refitted surface equals surfaces that are built anew for each step.
 TEST(Deformable, StepsEqualNewSurfaces) {
     Random random(3);
     std::size_t hits = 0;
@@ -224,7 +224,7 @@ TEST(Deformable, StepsEqualNewSurfaces) {
             ASSERT_EQ(self_impacts(surface).list, truth.list);
             hits += truth.list.size();
             moving.mesh.positions = moving.end;
-            // Far enough that the hierarchy has to be made anew at some time.
+            // A large step makes the surface rebuild its hierarchy at some time.
             for (Vec3& p : moving.end)
                 p = p + random.in_cube(step == 5 ? 1 : 0.05);
             if (step % 2 == 0)
@@ -237,7 +237,7 @@ TEST(Deformable, StepsEqualNewSurfaces) {
     EXPECT_GT(hits, 1000U);
 }
 
-/// Of nodes and leaves, but for those that hold what is larger than `largest`.
+/// Half the area of all boxes of nodes and leaves that are smaller than `largest`.
 double area_of_boxes(const Deformable& surface, double largest) {
     double sum = 0;
     for (const MovingNode& node : surface.data().swept.tree.nodes)
@@ -248,9 +248,9 @@ double area_of_boxes(const Deformable& surface, double largest) {
     return sum;
 }
 
-/// Pieces that scatter from where they were one surface leave no hierarchy that spans them all, not
-/// even beside triangles that are much larger and stay.
-TEST(Deformable, HierarchyFollowsWhatScatters) {
+/// Triangles that scatter from one surface must not leave boxes that span them all, even beside
+/// much larger triangles at rest.
+TEST(Deformable, HierarchyFollowsScatteringTriangles) {
     Random random(13);
     MovingMesh moving;
     for (std::uint32_t i = 0; i < 3000; ++i) {
@@ -276,11 +276,11 @@ TEST(Deformable, HierarchyFollowsWhatScatters) {
     scattered.positions = at;
     Deformable anew(scattered);
     surface.advance(at);
-    constexpr double kPieces = 1e5; // the large triangle has some 4e6
+    constexpr double kPieces = 1e5; // the large triangle's box has about 4e6
     EXPECT_LT(area_of_boxes(surface, kPieces), 1.5 * area_of_boxes(anew, kPieces));
 }
 
-/// Triangles are removed, added, turned and re-indexed.
+/// Triangles are removed, added, turned and re-indexed between steps.
 TEST(Deformable, ChangedTopologyEqualsNewSurfaces) {
     Random random(19);
     std::size_t hits = 0;
@@ -307,8 +307,8 @@ TEST(Deformable, ChangedTopologyEqualsNewSurfaces) {
     EXPECT_GT(hits, 1000U);
 }
 
-/// A conservative answer holds all of the exact one.
-TEST(Deformable, ConservativeMissesNone) {
+/// A conservative answer contains the whole exact answer.
+TEST(Deformable, ConservativeModeMissesNoImpact) {
     Random random(67);
     std::size_t hits = 0;
     for (int round = 0; round < many(60); ++round) {
@@ -358,7 +358,7 @@ TEST(Deformable, PairsWithinEqualAllDistances) {
     for (int round = 0; round < many(100); ++round) {
         double distance = random.chance(0.2) ? 0 : random.uniform(0, 0.5);
         MovingMesh a = any_soup(random), b = any_soup(random);
-        if (round % 4 == 0) { // squares underflow, or bounds of single precision
+        if (round % 4 == 0) { // squares, or bounds in single precision, underflow
             const double scale = std::ldexp(1, random.integer(-1000, -140));
             for (MovingMesh* m : {&a, &b})
                 for (auto* positions : {&m->mesh.positions, &m->end})
@@ -385,8 +385,9 @@ TEST(Deformable, PairsWithinEqualAllDistances) {
             }
             found += near.size();
         };
-        // The motion does not matter. Where a pair lies at a distance, it and what is as near are
-        // within that and not within less.
+        // The answer does not depend on the motion. The distance of a pair that was found is tried
+        // again, exactly and a few units in the last place off: pairs at that distance are within
+        // it, and not within less.
         const Deformable first = a.deformable(), second = b.deformable();
         check(a, a, self_within(first, distance));
         check(a, b, within(first, second, distance));

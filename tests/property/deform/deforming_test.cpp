@@ -1,4 +1,4 @@
-/// The deforming scenes: sizes, repeatability, and that they move as their matter would.
+/// The deforming scenes: sizes, repeatability, and whether they move as their materials would.
 #include <abut/deformable.h>
 #include <abut/error.h>
 #include <abut/mesh.h>
@@ -34,7 +34,7 @@ void play(DeformingScene& scene, int frames) {
         scene.step();
 }
 
-/// FNV-1a over a mesh.
+/// FNV-1a hash of a mesh.
 std::uint64_t hash_of(const Mesh& mesh) {
     std::uint64_t hash = 0xcbf29ce484222325U;
     const auto mix = [&](std::uint64_t value) {
@@ -49,7 +49,7 @@ std::uint64_t hash_of(const Mesh& mesh) {
     return hash;
 }
 
-/// Of what the triangles from `first` on enclose.
+/// Volume enclosed by the triangles from `first` on.
 double volume(const Mesh& mesh, std::size_t first) {
     double six_fold = 0;
     for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
@@ -63,7 +63,7 @@ TEST(DeformingScenes, HitTheirNumberOfTriangles) {
     for (const DeformingSceneInfo& info : kDeformingScenes)
         for (const std::uint64_t target : {1000U, 1700U, 4000U, 0U}) {
             if (info.name == "fracture")
-                continue; // its number is that of the end: below
+                continue; // its target is the number at the end: see below
             const auto scene = make_deforming_scene(info.name, {.triangles = target});
             const double ratio = static_cast<double>(scene->mesh().triangles.size()) /
                                  static_cast<double>(target == 0 ? info.triangles : target);
@@ -90,7 +90,8 @@ TEST(DeformingScenes, AreValidInEveryFrame) {
     for (const DeformingSceneInfo& info : kDeformingScenes) {
         const auto scene = make_deforming_scene(info.name, {.triangles = kSmall});
         for (int frame = 0; frame < 60; ++frame) {
-            const MeshReport report = inspect(scene->mesh()); // throws if a number is not finite
+            const MeshReport report = inspect(scene->mesh()); // throws if a coordinate is not
+                                                              // finite
             EXPECT_EQ(report.degenerate_triangles, 0U) << info.name << ", frame " << frame;
             EXPECT_EQ(report.flipped_edges, 0U) << info.name << ", frame " << frame;
             for (const Vec3& p : scene->mesh().positions)
@@ -103,7 +104,7 @@ TEST(DeformingScenes, AreValidInEveryFrame) {
     }
 }
 
-/// Else they would be no input for collision detection.
+/// Without impacts the scenes would not be useful input for collision detection.
 TEST(DeformingScenes, HoldImpacts) {
     for (const DeformingSceneInfo& info : kDeformingScenes) {
         const auto scene = make_deforming_scene(info.name, {.triangles = kSmall});
@@ -148,7 +149,7 @@ TEST(DeformingScenes, ClothKeepsItsLengths) {
 TEST(DeformingScenes, ClothStaysOutsideTheBall) {
     const auto scene = make_deforming_scene("cloth-ball", {.triangles = kSmall});
     play(*scene, 90);
-    // The ball's vertices come first: those at its radius all along.
+    // The ball's vertices come first and stay at its radius.
     const auto& positions = scene->mesh().positions;
     const auto cloth = std::ranges::find_if(
         positions, [](const Vec3& p) { return std::abs(norm(p) - 0.5) > 1e-6; });

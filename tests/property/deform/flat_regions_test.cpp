@@ -1,4 +1,4 @@
-// What the culling of flat regions leaves out is never an impact, and it does leave out something.
+// Flat-region culling never leaves out an impact, and it does leave out some pairs.
 
 #include "deform/deformable_data.h"
 #include "mesh/disc_boundary.h"
@@ -13,8 +13,8 @@
 namespace abut::test {
 namespace {
 
-/// A sheet of 2 n^2 triangles that waves, is rough, turns, shears and folds up within the step: some
-/// of it stays flat, some meets itself.
+/// A sheet of 2 n^2 triangles that waves, is rough, turns, shears and folds up within the step.
+/// Some of it stays flat, and some meets itself.
 MovingMesh folding_sheet(Random& random, int n) {
     MovingMesh moving;
     const double wave = random.uniform(0, 0.2), rough = random.uniform(0, 0.2) / n;
@@ -25,7 +25,7 @@ MovingMesh folding_sheet(Random& random, int n) {
                  fold = random.uniform(0, 2.5), crease = random.uniform(0.2, 0.8);
     const double further = random.uniform(0, 0.3) / n;
     for (Vec3 p : moving.mesh.positions) {
-        if (p.x > crease) { // about the line x = crease
+        if (p.x > crease) { // folds about the line x = crease
             const double x = p.x - crease, z = p.z;
             p.x = crease + std::cos(fold) * x - std::sin(fold) * z;
             p.z = std::sin(fold) * x + std::cos(fold) * z;
@@ -61,7 +61,7 @@ TEST(FlatRegions, HoldNoImpacts) {
     EXPECT_GT(folded, std::size_t(many(150)) / 5);
 }
 
-/// A spiral staircase shows all its triangles from above, and lies above itself.
+/// A spiral staircase faces upwards everywhere, yet lies above itself.
 TEST(FlatRegions, SpiralIsNotFlat) {
     const MovingMesh moving = [] {
         MovingMesh m;
@@ -87,7 +87,7 @@ TEST(FlatRegions, SpiralIsNotFlat) {
 
 using Triangles = std::vector<IndexTriangle>;
 
-/// Of all of the triangles.
+/// The boundary of the disc that all triangles form together; empty if they form none.
 std::vector<std::uint32_t> boundary(const Triangles& triangles) {
     constexpr std::size_t kVertices = 64;
     const SurfaceFeatures features = make_surface_features(kVertices, triangles);
@@ -96,14 +96,14 @@ std::vector<std::uint32_t> boundary(const Triangles& triangles) {
     return disc_boundary({kVertices, triangles, features}, all);
 }
 
-TEST(DiscBoundary, OfWhatIsADisc) {
+TEST(DiscBoundary, DiscsHaveABoundaryLoop) {
     const auto loop = boundary(Triangles{{5, 6, 7}, {7, 6, 8}});
     EXPECT_EQ(loop, (std::vector<std::uint32_t>{5, 6, 8, 7}));
     const Mesh sheet = grid_mesh(4, 3, false, false, [](double, double) { return Vec3{}; });
     EXPECT_EQ(boundary(sheet.triangles).size(), 14U);
 }
 
-TEST(DiscBoundary, NoneOfWhatIsNot) {
+TEST(DiscBoundary, OtherSurfacesHaveNone) {
     const auto mesh = [](bool u, bool v) {
         return grid_mesh(5, 5, u, v, [](double, double) { return Vec3{}; }).triangles;
     };

@@ -1,5 +1,5 @@
-// Lower bounds of a point's distances to four triangles, on every target that this machine has,
-// against the distances in double precision.
+// Lower bounds of a point's distances to four triangles, on every available SIMD target, against
+// the distances in double precision.
 
 #include "geometry/leaf/point_leaf_distance.h"
 #include "geometry/point_triangle_distance.h"
@@ -38,7 +38,7 @@ TEST(PointLeafDistance, IsALowerBoundAndMostlyTight) {
                 for (Vec3& p : t)
                     p = scale * p + away;
             }
-            // Near a point of the first, or anywhere.
+            // The point lies near the first triangle, or anywhere.
             Vec3 point = away + scale * random.in_cube(2);
             if (random.chance(0.5)) {
                 const double s = random.uniform(0, 1), t = random.uniform(0, 1 - s);
@@ -54,7 +54,7 @@ TEST(PointLeafDistance, IsALowerBoundAndMostlyTight) {
                     leaf.v[v][1][lane] = static_cast<float>(p.y);
                     leaf.v[v][2][lane] = static_cast<float>(p.z);
                 }
-            // Both are rounded once, by half an ulp.
+            // The point and the vertices are rounded once each, by half an ulp.
             const double largest =
                 4 * scale + std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)});
             const auto margin = static_cast<float>(2 * 0x1p-24 * largest);
@@ -66,7 +66,7 @@ TEST(PointLeafDistance, IsALowerBoundAndMostlyTight) {
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const double truth =
                     std::sqrt(point_triangle_distance(point, triangles[lane]).distance_sq);
-                // What the distance in double precision may be off by.
+                // The distance in double precision may itself be off by this much.
                 const double most = truth + 64 * 0x1p-53 * largest;
                 ASSERT_LE(std::sqrt(double{simd[lane]}), most) << "case " << n << " lane " << lane;
                 ASSERT_LE(std::sqrt(double{one[lane]}), most) << "case " << n << " lane " << lane;
@@ -81,7 +81,7 @@ TEST(PointLeafDistance, IsALowerBoundAndMostlyTight) {
     });
 }
 
-TEST(PointLeafDistance, ExtremeCoordinatesGiveNoBoundThatIsTooLarge) {
+TEST(PointLeafDistance, BoundsHoldForExtremeCoordinates) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(512);

@@ -1,5 +1,5 @@
-// Distances of rounded boxes against what is known by other ways: points sampled on both, meshes of
-// boxes, and translations that must part or join them.
+// Distances of rounded boxes, checked independently: by points sampled on both, by meshes of boxes,
+// and by translations that must separate or join them.
 
 #include "geometry/rounded_box_distance.h"
 #include "geometry/triangle_triangle_distance.h"
@@ -40,7 +40,7 @@ RoundedBox moved(RoundedBox box, const Vec3& by) {
     return box;
 }
 
-TEST(RoundedBox, NoPointsAreNearerThanTheDistanceAndTheWitnessesAreThatFar) {
+TEST(RoundedBox, NoSampledPointsAreNearerThanTheDistance) {
     Random random(5101);
     int apart = 0, meeting = 0, near = 0;
     for (int round = 0; round < many(4000); ++round) {
@@ -62,7 +62,7 @@ TEST(RoundedBox, NoPointsAreNearerThanTheDistanceAndTheWitnessesAreThatFar) {
     EXPECT_GT(near, many(4000) / 10);
 }
 
-TEST(RoundedBox, TheTranslationPartsThemAndNoShorterOneDoes) {
+TEST(RoundedBox, TheSeparatingMotionIsTheShortest) {
     Random random(5102);
     int deep = 0;
     for (int round = 0; round < many(2000); ++round) {
@@ -83,7 +83,7 @@ TEST(RoundedBox, TheTranslationPartsThemAndNoShorterOneDoes) {
     EXPECT_GT(deep, many(2000) / 8);
 }
 
-TEST(RoundedBox, IsTheSameTurnedRound) {
+TEST(RoundedBox, IsSymmetric) {
     Random random(5103);
     for (int round = 0; round < many(2000); ++round) {
         const RoundedBox a = random_box(random, 1), b = random_box(random, 1);
@@ -91,7 +91,7 @@ TEST(RoundedBox, IsTheSameTurnedRound) {
     }
 }
 
-/// The points of a box's grid {-1, 1}^3: some coincide where it has no extent.
+/// The corners of the box without its rounding; some coincide if the box is flat.
 std::vector<Vec3> corners(const RoundedBox& box) {
     std::vector<Vec3> points;
     for (int i = 0; i < 8; ++i) {
@@ -111,7 +111,7 @@ double distance_to(const RoundedBox& box, const Vec3& p) {
     return std::sqrt(sq);
 }
 
-/// Of boxes that are apart, by all pairs of features.
+/// Distance of two separate boxes, by all pairs of features.
 double by_all_features(const RoundedBox& a, const RoundedBox& b) {
     const std::vector<Vec3> p = corners(a), q = corners(b);
     double sq = HUGE_VAL;
@@ -130,7 +130,7 @@ double by_all_features(const RoundedBox& a, const RoundedBox& b) {
     return std::sqrt(sq);
 }
 
-TEST(RoundedBox, IsTheDistanceOfAllFeatures) {
+TEST(RoundedBox, EqualsTheMinimumOverAllFeatures) {
     Random random(5104);
     int apart = 0, edges = 0;
     for (int round = 0; round < many(6000); ++round) {
@@ -143,7 +143,7 @@ TEST(RoundedBox, IsTheDistanceOfAllFeatures) {
         const double far = random.chance(0.2) ? 1e7 : 0;
         a = moved(a, {far, -far, far}), b = moved(b, {far, -far, far});
         const SolidGap first = rounded_box_distance(a, b);
-        // As far apart as one likes: the nearest features stay or become others.
+        // The gap becomes anything from 1e-9 to 1; the nearest features stay or change.
         if (random.chance(0.5))
             b = moved(b, (std::pow(10, random.uniform(-9, 0)) - first.distance) * first.normal);
         const SolidGap gap = rounded_box_distance(a, b);
@@ -165,7 +165,7 @@ TEST(RoundedBox, IsTheDistanceOfAllFeatures) {
     EXPECT_GT(edges, many(6000) / 40);
 }
 
-TEST(RoundedBox, SpheresAndCoincidentOnes) {
+TEST(RoundedBox, SpheresAndCoincidentBoxes) {
     RoundedBox a, b;
     a.radius = 1, b.radius = 2, b.centre = {5, 0, 0};
     EXPECT_DOUBLE_EQ(rounded_box_distance(a, b).distance, 2);

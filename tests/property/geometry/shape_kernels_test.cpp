@@ -1,4 +1,4 @@
-// Ray, sphere and box against one triangle, by routes that share nothing with the kernels.
+// Rays, spheres and boxes against one triangle, by independent computations.
 
 #include "geometry/box_triangle_intersect.h"
 #include "geometry/ray_triangle_intersect.h"
@@ -60,7 +60,7 @@ TEST(TurnAroundLine, EqualsRationals) {
     EXPECT_LT(zero, cases * 9 / 10);
 }
 
-/// Lattice rays with lattice ends: the segment they are meets the triangle or not, by integers.
+/// Rays with lattice points as ends: integers decide whether the segment meets the triangle.
 TEST(RayTriangle, EqualsTheSegmentOnALattice) {
     Random random(2003);
     int hits = 0, along = 0;
@@ -74,7 +74,7 @@ TEST(RayTriangle, EqualsTheSegmentOnALattice) {
         if (d == Vec3{})
             d = {0, 0, 1};
         const Vec3 aim = t[static_cast<std::size_t>(random.integer(0, 2))];
-        // Half of them through a vertex.
+        // Half of the rays pass through a vertex.
         const Vec3 o =
             random.chance(0.5) ? aim - double(random.integer(-2, 3)) * d : random.on_lattice(size);
         const double t_min = random.integer(-2, 1), t_max = t_min + random.integer(0, 5);
@@ -87,7 +87,7 @@ TEST(RayTriangle, EqualsTheSegmentOnALattice) {
         if (!hit)
             continue;
         ++hits, along += hit->side == 0 ? 1 : 0;
-        // Not before; ends that are floats leave coordinates exact.
+        // Nothing is met before the hit. Single-precision ends keep the coordinates exact.
         const auto before = double(float(hit->t - 1e-4)), after = double(float(hit->t + 1e-4));
         if (before >= t_min) {
             ASSERT_FALSE(meets(t_min, before)) << i;
@@ -103,7 +103,7 @@ TEST(RayTriangle, EqualsTheSegmentOnALattice) {
         }
         ASSERT_NEAR(sum, 1, 1e-12);
         ASSERT_LT(length(on - (o + hit->t * d)), 1e-12) << i;
-        // n . d and the side.
+        // The sign of n . d gives the side.
         const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
         ASSERT_EQ(hit->side, (dot(n, d) < 0) - (dot(n, d) > 0)) << i;
     }
@@ -112,7 +112,8 @@ TEST(RayTriangle, EqualsTheSegmentOnALattice) {
     EXPECT_GT(along, hits / 50);
 }
 
-/// Doubles of any size: whether, t and its order, by rationals. Not in a triangle's plane.
+/// Rays of any size in doubles: whether they hit, t, and the order of hits, by rationals. No ray
+/// lies in the plane of a triangle.
 TEST(RayTriangle, EqualsRationals) {
     Random random(2004);
     int hits = 0, near_ties = 0;
@@ -126,7 +127,8 @@ TEST(RayTriangle, EqualsRationals) {
             for (Vec3& p : t)
                 p = p + away;
         }
-        // Shares an edge, or starts a few units in the last place off it.
+        // The second triangle shares an edge with the first, or begins a few units in the last
+        // place off it.
         triangles[1][0] = triangles[0][1];
         triangles[1][1] = random.chance(0.5) ? triangles[0][0] : random.nudge(triangles[0][0], 1);
         const double s = random.uniform(0, 1);
@@ -143,7 +145,7 @@ TEST(RayTriangle, EqualsRationals) {
                                         w = RationalVec3(o) - p, e(d);
             const Rational det = dot(cross(u, v), e);
             ASSERT_NE(det, 0);
-            // p + g u + h v = o + t d
+            // Solves p + g u + h v = o + t d.
             exact[k] = -dot(cross(u, v), w) / det;
             const RationalVec3 x{w.x + exact[k] * e.x, w.y + exact[k] * e.y, w.z + exact[k] * e.z};
             const RationalVec3 n = cross(u, v);
@@ -155,7 +157,7 @@ TEST(RayTriangle, EqualsRationals) {
                 continue;
             ++hits;
             ASSERT_LE(abs(Rational(hit[k]->t) - exact[k]), abs(exact[k]) * Rational(0x1p-40)) << i;
-            // The range is exact: ends next to t, and t itself.
+            // The range is exact: ends at t and next to t.
             const double t0 = hit[k]->t;
             for (const double end :
                  {std::nextafter(t0, -kInfinity), t0, std::nextafter(t0, kInfinity)}) {
@@ -198,7 +200,7 @@ TEST(SphereTriangle, EqualsAHundredDigits) {
             centre = away + random.in_cube(2 * scale);
         }
         const Precise distance = precise_distance(centre, t);
-        // Next to the distance; on lattices, often the distance itself.
+        // The radius is next to the distance; on lattices it is often exactly the distance.
         const double radius = i % 4 < 3 ? std::abs(random.nudge(static_cast<double>(distance), 2))
                                         : random.uniform(0, 2 * scale);
         const bool expected = distance - Precise(radius) <= Precise(1e-80) * scale;
@@ -220,7 +222,7 @@ TEST(BoxTriangle, EqualsClippingByRationals) {
         Triangle t{point(), point(), point()};
         if (i % 10 == 0)
             t[2] = t[static_cast<std::size_t>(random.integer(0, 1))];
-        if (i % 11 == 0) // on one line, or next to it
+        if (i % 11 == 0) // on one line, or next to one
             t[2] = 0.5 * (t[0] + t[1]);
         Box3 box;
         const Vec3 p = point(), q = p + 0.4 * (point() - p);
@@ -230,7 +232,7 @@ TEST(BoxTriangle, EqualsClippingByRationals) {
             box.upper.y = box.lower.y; // flat
         if (i % 8 == 1)
             box.upper.z = box.lower.z;
-        if (!lattice && i % 2 == 0) { // its corner next to the triangle's plane
+        if (!lattice && i % 2 == 0) { // a corner of the box is next to the triangle's plane
             const Vec3 on = random.nudge((1.0 / 3) * (t[0] + t[1] + t[2]), 1);
             const Vec3 size = box.upper - box.lower;
             box = {on, on + size};

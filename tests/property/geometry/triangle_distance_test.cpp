@@ -1,5 +1,5 @@
-// Distances against 100 digits; the error is measured in units of 2^-53 times the largest
-// difference of coordinates.
+// Distances against 100 digits. Errors are in units of 2^-53 times the largest difference of
+// coordinates.
 
 #include "geometry/triangle_triangle_distance.h"
 #include "tests/support/oracle/precise_distance.h"
@@ -10,10 +10,10 @@
 namespace abut::test {
 namespace {
 
-/// "A few roundings".
+/// Largest allowed error, in roundings.
 constexpr double kRoundings = 16;
 
-/// What the pairs of a test look like.
+/// Shapes of the pairs that a test draws.
 enum class Shape { any, thin, needle, flat_pair, lattice, collapsed, near, near_thin, far };
 
 Triangle thin(Random& random, double width) {
@@ -30,7 +30,7 @@ std::pair<Triangle, Triangle> pair_of(Random& random, Shape shape) {
     case Shape::thin:
         a = thin(random, tiny), b = thin(random, std::pow(10, random.uniform(-17, -1)));
         break;
-    case Shape::needle: // next to one another, almost parallel
+    case Shape::needle: // two needles next to each other, almost parallel
         a = thin(random, tiny);
         for (std::size_t i = 0; i < 3; ++i)
             b[i] = a[(i + 1) % 3] + random.in_cube(tiny);
@@ -72,7 +72,7 @@ std::pair<Triangle, Triangle> pair_of(Random& random, Shape shape) {
 
 class TriangleDistance : public testing::TestWithParam<Shape> {};
 
-TEST_P(TriangleDistance, ToRounding) {
+TEST_P(TriangleDistance, IsExactToRounding) {
     Random random(400 + static_cast<std::uint64_t>(GetParam()));
     double worst = 0, worst_points = 0;
     int apart = 0;
@@ -83,8 +83,7 @@ TEST_P(TriangleDistance, ToRounding) {
         const Precise truth = precise_distance(a, b);
         apart += truth > 0 ? 1 : 0;
         const ClosestPoints c = triangle_triangle_distance(a, b);
-        // That they cross is seen only where doubles can tell; else it is their boundaries'
-        // distance.
+        // Doubles may fail to see a crossing; then the distance is that of the boundaries.
         const auto error_of = [&](double d) {
             double e = std::abs(double(Precise(d) - truth));
             if (truth == 0)
@@ -93,8 +92,8 @@ TEST_P(TriangleDistance, ToRounding) {
         };
         const double error = error_of(std::sqrt(c.distance_sq));
         worst = std::max(worst, error);
-        // The points lie on their triangles, and are as far apart as is said. They are rounded to
-        // the coordinates' own grid, which may be coarser than their differences.
+        // The witness points lie on their triangles, at the reported distance. They are rounded to
+        // the grid of the coordinates, which may be coarser than that of their differences.
         double largest = 0;
         for (std::size_t k = 0; k < 3; ++k)
             for (const Vec3& p : {a[k], b[k]})
@@ -103,7 +102,7 @@ TEST_P(TriangleDistance, ToRounding) {
         const double off =
             std::max({double(precise_distance(c.a, a)), double(precise_distance(c.b, b)),
                       std::abs(length(c.a - c.b) - std::sqrt(c.distance_sq))});
-        // Where they cross, the common point of two needles in almost one plane is ill-conditioned.
+        // If two needles in almost one plane cross, their common point is ill-conditioned.
         const double points_bound = truth > 0 ? kRoundings * grid : 1e-8 * size_of(a, b);
         if (truth > 0)
             worst_points = std::max(worst_points, off / grid);
@@ -125,12 +124,12 @@ INSTANTIATE_TEST_SUITE_P(Shapes, TriangleDistance,
                                          Shape::lattice, Shape::collapsed, Shape::near,
                                          Shape::far));
 
-TEST(SegmentDistance, ToRoundingAtEveryAngle) {
+TEST(SegmentDistance, IsExactToRoundingAtEveryAngle) {
     Random random(420);
     double worst = 0;
     for (int i = 0; i < 6000; ++i) {
         const Vec3 p0 = random.in_cube(), p1 = i % 10 == 0 ? p0 : random.in_cube();
-        // Parallel to within anything from nothing to a right angle, at any offset.
+        // The angle is anything from almost 0 to a right angle, at any offset.
         const double turn = std::pow(10, random.uniform(-17, 0)),
                      gap = std::pow(10, random.uniform(-17, 0));
         const Vec3 q0 = p0 + random.uniform(-1, 1) * (p1 - p0) + random.in_cube(gap);
@@ -151,7 +150,7 @@ TEST(SegmentDistance, ToRoundingAtEveryAngle) {
     std::cout << "worst " << worst << " roundings\n";
 }
 
-TEST(PointTriangleDistance, ToRounding) {
+TEST(PointTriangleDistance, IsExactToRounding) {
     Random random(421);
     double worst = 0;
     int inside = 0;

@@ -1,4 +1,4 @@
-// The exact intersection tests against hulls of differences in integers.
+// The exact intersection tests against the hull of the difference, in integers.
 
 #include "geometry/triangle_triangle_intersect.h"
 #include "math/predicates.h"
@@ -49,7 +49,7 @@ void check_lattice(std::uint64_t seed, int n, int pairs, Tally& tally) {
         check<long long>(random.lattice_triangle(n), random.lattice_triangle(n), tally);
 }
 
-// Together a million pairs.
+// The lattice tests draw a million pairs together.
 TEST(TriangleIntersect, LatticeOfFour) {
     Tally tally;
     check_lattice(301, 3, 600000, tally);
@@ -74,7 +74,7 @@ TEST(TriangleIntersect, LatticeOfSix) {
     EXPECT_GT(tally.share(TriangleContact::cross), 0.1);
 }
 
-/// All in one plane of the lattice, that plane oblique: coplanar pairs of every kind.
+/// All vertices lie in one oblique plane of the lattice: coplanar pairs of every kind.
 TEST(TriangleIntersect, LatticePlane) {
     Random random(304);
     Tally tally;
@@ -100,13 +100,13 @@ TEST(TriangleIntersect, RandomDoubles) {
     EXPECT_GT(tally.share(TriangleContact::cross), 0.1);
 }
 
-/// Pairs that nearly touch: a vertex, an edge or the whole of b laid on a, then off by some ulps.
+/// Pairs that nearly touch: a vertex, an edge or all of b is laid on a, then moved by some ulps.
 TEST(TriangleIntersect, NearlyTouching) {
     Random random(306);
     Tally tally;
     const std::uint64_t before = exact_signs();
     for (int i = 0; i < 12000 && !testing::Test::HasFailure(); ++i) {
-        // On a binary grid a point is laid on exactly; else only to rounding.
+        // On a binary grid, points are laid on exactly; otherwise only to rounding.
         const bool grid = random.chance(0.5);
         Triangle a = random.triangle();
         for (Vec3& p : a)
@@ -114,7 +114,7 @@ TEST(TriangleIntersect, NearlyTouching) {
                 p = {std::round(p.x * 64) / 64, std::round(p.y * 64) / 64,
                      std::round(p.z * 64) / 64};
         const auto on_a = [&] {
-            // Inside, on an edge, a vertex, or a little outside.
+            // The point lies inside, on an edge, on a vertex, or a little outside.
             const double s = random.integer(-1, 8) / 8.0, t = random.integer(-1, 8) / 8.0;
             return random.nudge(a[0] + s * (a[1] - a[0]) + t * (1 - s) * (a[2] - a[0]),
                                 grid && random.chance(0.7) ? 0 : 1);
@@ -144,7 +144,7 @@ TEST(TriangleIntersect, SharedVerticesAndEdges) {
         ASSERT_NE(triangle_triangle_intersect(a, b), TriangleContact::none);
     }
     EXPECT_GT(tally.share(TriangleContact::touch), 0.6);
-    EXPECT_GT(tally.of[2], 50); // a shared vertex, and crossing all the same
+    EXPECT_GT(tally.of[2], 50); // shared vertices of triangles that cross as well
 }
 
 TEST(TriangleIntersect, ExtremeMagnitudes) {
@@ -159,7 +159,7 @@ TEST(TriangleIntersect, ExtremeMagnitudes) {
             return t;
         };
         const Triangle a = random.lattice_triangle(5), b = random.lattice_triangle(5);
-        // Lattice coordinates scale exactly, so nothing may change.
+        // Lattice coordinates scale exactly, so the answer must not change.
         ASSERT_EQ(triangle_triangle_intersect(scaled(a), scaled(b)),
                   triangle_triangle_intersect(a, b));
         check<AnyInt>(scaled(a), scaled(b), tally);
@@ -232,7 +232,7 @@ TEST(SegmentIntersect, NearlyTouchingDoubles) {
     constexpr int kPairs = 10000;
     for (int i = 0; i < kPairs; ++i) {
         const std::array<Vec3, 2> a{random.in_cube(), random.in_cube()};
-        // Binary fractions along a's line and off it: often exact, else off by an ulp.
+        // Binary fractions along a's line and beside it: often exact, otherwise off by an ulp.
         const double s = random.integer(-1, 9) / 8.0;
         std::array<Vec3, 2> b{random.nudge(a[0] + s * (a[1] - a[0]), random.integer(0, 1)),
                               random.in_cube()};

@@ -1,5 +1,5 @@
-// Four triangles against four in single precision, on every target that this machine has: what is
-// called certain must be so for the triangles in double precision.
+// Four triangles against four in single precision, on every available SIMD target. Whatever the
+// kernel calls certain must be true of the triangles in double precision.
 
 #include "geometry/leaf/triangle_leaf.h"
 #include "geometry/triangle_triangle_distance.h"
@@ -15,7 +15,7 @@ namespace {
 
 using Four = std::array<Triangle, TriangleLeaf::kLanes>;
 
-/// Two leaves, b's in a frame of its own.
+/// Two leaves; b's vertices are in a frame of its own.
 struct Leaves {
     Four a, b; ///< in a's frame, to a few roundings
     TriangleLeaf leaf_a{}, leaf_b{};
@@ -26,7 +26,7 @@ struct Leaves {
         for (std::size_t lane = 0; lane < a.size(); ++lane) {
             a[lane] = triangle(random, kind, scale);
             b[lane] = triangle(random, kind, scale);
-            if (random.chance(0.2)) // share a vertex, or almost
+            if (random.chance(0.2)) // shares a vertex, or almost
                 b[lane][random.bits() % 3] =
                     random.nudge(a[random.bits() % 4][random.bits() % 3], random.integer(0, 1));
         }
@@ -66,7 +66,7 @@ bool has(std::uint32_t pairs, std::size_t i, std::size_t j) {
     return (pairs >> (4 * i + j) & 1U) != 0;
 }
 
-TEST(TriangleLeaf, WhatIsCertainIsTrue) {
+TEST(TriangleLeaf, CertainAnswersAreTrue) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(501);
@@ -104,11 +104,11 @@ TEST(TriangleLeaf, WhatIsCertainIsTrue) {
         EXPECT_GT(apart, 40000);
         EXPECT_GT(rejected, apart * 0.6);
         EXPECT_GT(told, crossing * 0.5);
-        EXPECT_LT(differ, 200); // only where a sign is within its bound
+        EXPECT_LT(differ, 200); // they differ only where a sign is within its error bound
     });
 }
 
-TEST(TriangleLeaf, NearPairsLoseNothingWithinTheBound) {
+TEST(TriangleLeaf, NearPairsIncludeAllWithinTheBound) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(505);
@@ -116,7 +116,8 @@ TEST(TriangleLeaf, NearPairsLoseNothingWithinTheBound) {
         for (int n = 0; n < 8000; ++n) {
             const double scale = std::pow(10, random.integer(-6, 6));
             const Leaves leaves(random, n, scale);
-            // At a pair's own distance, or below it; some with the direction of its closest points.
+            // The bound is the distance of one pair, or less. Some bounds have the direction of the
+            // pair's witness points.
             const ClosestPoints first = triangle_triangle_distance(leaves.a[0], leaves.b[0]);
             const double bound_sq = first.distance_sq * (n % 2 == 0 ? 1 : random.uniform(0, 1));
             LeafBound bound{static_cast<float>(bound_sq * (1 + 0x1p-22)),
@@ -156,7 +157,7 @@ TEST(TriangleLeaf, NearPairsLoseNothingWithinTheBound) {
     });
 }
 
-TEST(TriangleLeaf, ExtremeCoordinatesLeaveNothingCertainThatIsNot) {
+TEST(TriangleLeaf, CertainAnswersAreTrueForExtremeCoordinates) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(502);

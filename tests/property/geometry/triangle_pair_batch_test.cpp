@@ -1,5 +1,5 @@
-// The SIMD kernels, on every target that this machine has, against the one-lane reference and the
-// exact or precise answer.
+// SIMD kernels on every available target, against the one-lane reference and the exact or precise
+// answer.
 
 #include "geometry/leaf/triangle_pair_batch.h"
 #include "geometry/triangle_triangle_distance.h"
@@ -23,7 +23,7 @@ Triangle any_triangle(Random& random, int kind) {
         return {t[0], t[1],
                 0.5 * (t[0] + t[1]) + random.in_cube(std::pow(10, random.uniform(-17, 0)))};
     }
-    case 2: { // far off, small
+    case 2: { // small and far away
         const Vec3 away{3000.5, -70000.25, 12};
         const Triangle t = random.triangle(0.1);
         return {away + t[0], away + t[1], away + t[2]};
@@ -33,7 +33,7 @@ Triangle any_triangle(Random& random, int kind) {
     }
 }
 
-/// Largest differences of vertices, of both triangles and in each.
+/// Sum of three largest vertex distances: between the triangles, and within each.
 double sizes(const Triangle& a, const Triangle& b) {
     double r = 0, u = 0, v = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -45,7 +45,7 @@ double sizes(const Triangle& a, const Triangle& b) {
     return r + u + v;
 }
 
-TEST(TrianglePairBatch, DistanceIsThatOfTheReferenceAndOfTheScalarFunction) {
+TEST(TrianglePairBatch, DistanceEqualsTheReferenceAndTheScalarFunction) {
     for_each_simd_target([](const std::string& target) {
         SCOPED_TRACE(target);
         Random random(503);
@@ -110,7 +110,7 @@ TEST(TrianglePairBatch, DistanceAgainstAHundredDigits) {
                 const double truth = double(precise_boundary_distance(a, b));
                 ASSERT_NEAR(std::sqrt(simd[lane]), truth, 64 * unit) << "case " << i;
                 worst = std::max(worst, std::abs(std::sqrt(simd[lane]) - truth) / unit);
-                // The bound that is promised, with room to spare.
+                // The promised error bound, of which at most a quarter is used.
                 const double scalar = std::sqrt(triangle_triangle_distance(a, b).distance_sq);
                 for (const double d : {std::sqrt(simd[lane]), scalar}) {
                     const double share = (d - truth) / (kTrianglePairError * sizes(a, b));

@@ -11,7 +11,7 @@ Triangle moved(const Triangle& t, const Vec3& by) {
     return {t[0] + by, t[1] + by, t[2] + by};
 }
 
-TEST(TrianglePenetration, SeparatesAndNoShorterMoveDoes) {
+TEST(TrianglePenetration, TheSeparatingMotionIsTheShortest) {
     Random random(601);
     int crossing = 0, sharp = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -22,7 +22,8 @@ TEST(TrianglePenetration, SeparatesAndNoShorterMoveDoes) {
         const auto [depth, direction] = triangle_triangle_penetration(a, b);
         ASSERT_GT(depth, 0);
         ASSERT_NEAR(length(direction), 1, 1e-14);
-        // A part in 10^12 farther: apart. A percent less: together still.
+        // Moved by a part in 10^12 more than the depth, they are apart; by one percent less, they
+        // still meet.
         ASSERT_EQ(
             triangle_triangle_intersect(a, moved(b, (depth * (1 + 1e-12) + 1e-14) * direction)),
             TriangleContact::none);
@@ -39,7 +40,7 @@ TEST(TrianglePenetration, SeparatesAndNoShorterMoveDoes) {
     EXPECT_EQ(sharp, crossing);
 }
 
-TEST(TrianglePenetration, TouchingOnesHaveNoDepth) {
+TEST(TrianglePenetration, TouchingTrianglesHaveNoDepth) {
     Random random(602);
     int touching = 0;
     for (int i = 0; i < 50000; ++i) {

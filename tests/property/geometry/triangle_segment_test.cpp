@@ -1,4 +1,5 @@
-// What two triangles share: on both, as far as it goes, and closed around two solids.
+// The intersection of two triangles lies on both, is complete, and forms closed curves around two
+// solids.
 
 #include <abut/rigid.h>
 
@@ -40,14 +41,15 @@ void check(const Triangle& a, const Triangle& b, Tally& tally) {
         const double to_a = std::sqrt(point_triangle_distance(p, a).distance_sq),
                      to_b = std::sqrt(point_triangle_distance(p, b).distance_sq);
         tally.worst = std::max(tally.worst, std::max(to_a, to_b) / size);
-        // Nothing that both share lies beyond: a corner is on the boundary of one of them.
+        // The intersection ends here: each corner is on the boundary of one of the triangles.
         ASSERT_LE(std::min(distance_to_edges(p, a), distance_to_edges(p, b)), 1e-10 * size);
         double nearest = HUGE_VAL;
         for (std::uint32_t j = 0; j < ba.count; ++j)
             nearest = std::min(nearest, length(p - ba.corners.at(j)));
         ASSERT_LE(nearest, 1e-10 * size);
     }
-    if (ab.count == 2 && tally.worst < 1) { // direction, where the planes are not nearly one
+    if (ab.count == 2 && tally.worst < 1) { // checks the direction, unless the planes nearly
+                                            // coincide
         const Vec3 n_a = cross(a[1] - a[0], a[2] - a[0]), n_b = cross(b[1] - b[0], b[2] - b[0]);
         const Vec3 along = cross(n_a, n_b), s = ab.corners[1] - ab.corners[0];
         if (length(along) > 1e-6 * length(n_a) * length(n_b) && length(s) > 1e-6 * size) {
@@ -72,7 +74,7 @@ TEST(TriangleSegment, RandomPairs) {
     std::cout << "worst corner: " << tally.worst << " of the size\n";
 }
 
-/// Planes that almost coincide, and needles.
+/// Nearly coincident planes, and needles.
 TEST(TriangleSegment, NearlyCoplanarAndThin) {
     Random random(3102);
     Tally tally;
@@ -96,7 +98,7 @@ TEST(TriangleSegment, LatticePairsOfEveryKind) {
     Tally tally;
     for (int i = 0; i < 60000 && !HasFatalFailure(); ++i) {
         Triangle a = random.lattice_triangle(3), b = random.lattice_triangle(3);
-        if (i % 2 == 0) // coplanar, oblique
+        if (i % 2 == 0) // coplanar in an oblique plane
             for (std::size_t k = 0; k < 3; ++k)
                 a[k].z = a[k].x + 2 * a[k].y, b[k].z = b[k].x + 2 * b[k].y;
         check(a, b, tally);
@@ -106,7 +108,7 @@ TEST(TriangleSegment, LatticePairsOfEveryKind) {
     EXPECT_LT(tally.worst, 1e-12);
 }
 
-/// The area of the common polygon of coplanar triangles, against points on a fine grid.
+/// The area of the polygon that coplanar triangles share, against points on a fine grid.
 TEST(TriangleSegment, CoplanarAreaAgainstSampling) {
     Random random(3104);
     int large = 0;
@@ -145,7 +147,7 @@ TEST(TriangleSegment, CoplanarAreaAgainstSampling) {
     EXPECT_GT(large, 15);
 }
 
-/// Where two closed surfaces cross, each segment begins where another ends: bit for bit.
+/// If two closed surfaces cross, each segment begins where another ends, bit for bit.
 TEST(Collide, SegmentsOfSolidsFormClosedCurves) {
     Random random(3105);
     int curves = 0;

@@ -1,5 +1,6 @@
-// The clash job of a store by several workers, here threads that share nothing but messages: the answer
-// is that of one, whoever does what; and whatever goes wrong ends all of them and leaves the job to go on.
+// A store's clash job with several workers, here threads that share only messages. The answer
+// equals that of one process, whichever worker does which task. An error anywhere ends all workers,
+// and the job can be resumed.
 
 #include <abut/error.h>
 #include <abut/store.h>
@@ -40,7 +41,7 @@ StoreClashReport find_together(const std::string& store, const ClashOptions& opt
         std::unique_ptr<Crew>& leader;
         std::vector<std::thread>& helpers;
         ~Joining() {
-            leader.reset(); // the helpers wait for that
+            leader.reset(); // the helpers wait until the leader has left
             for (std::thread& thread : helpers)
                 thread.join();
         }
@@ -49,7 +50,7 @@ StoreClashReport find_together(const std::string& store, const ClashOptions& opt
     return find_clashes(open_store(store), options, out_of_core);
 }
 
-TEST(CrewClashes, AreThoseOfOneProcess) {
+TEST(CrewClashes, EqualThoseOfOneProcess) {
     Random random(6201);
     std::size_t clashes = 0, runs = 0, shared = 0;
     for (int round = 0; round < many(6); ++round) {
@@ -85,8 +86,8 @@ TEST(CrewClashes, AreThoseOfOneProcess) {
     EXPECT_GT(shared, runs / 3);
 }
 
-/// Someone is stopped, again and again, each time after some more pairs: the leader or a helper.
-TEST(CrewClashes, GoOnWhereTheyWereStopped) {
+/// The leader or a helper is stopped again and again, each time after some more pairs.
+TEST(CrewClashes, ResumeAfterAStop) {
     Random random(6202);
     std::size_t stops = 0, recalled = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -130,15 +131,15 @@ TEST(CrewClashes, GoOnWhereTheyWereStopped) {
     EXPECT_GT(recalled, 0U);
 }
 
-TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
+TEST(CrewClashes, FailWithTheErrorOfAHelper) {
     Random random(6203);
     const StoredJob job(random, 100);
     const std::string other = job.folder / "other.abut", missing = job.folder / "missing.abut";
     write_glb(some_scene(random, 20, 4), job.folder / "other.glb");
     (void)import_models({job.folder / "other.glb"}, other);
     for (const std::string& store : {other, missing}) {
-        // The job does not end before the first helper has done its task, which it begins when the second
-        // has told what is wrong.
+        // The first helper begins its task only after the second has reported its error, so the job
+        // cannot end before.
         std::promise<void> told;
         const auto help = [&](std::size_t rank, const std::unique_ptr<Crew>& crew) {
             if (rank == 1)
@@ -157,7 +158,7 @@ TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
             EXPECT_EQ(error.file(), store);
         }
     }
-    // One that leaves without a word, likewise before the job can end.
+    // A helper that leaves without a message, again before the job can end.
     std::promise<void> left;
     EXPECT_THROW((void)find_together(job.store, job.options, {}, 3,
                                      [&](std::size_t rank, std::unique_ptr<Crew> crew) {
@@ -173,7 +174,7 @@ TEST(CrewClashes, EndWithWhatWentWrongInAHelper) {
     job.expect(find_together(job.store, job.options, {}, 3));
 }
 
-TEST(CrewClashes, EndWithWhatWentWrongInTheLeader) {
+TEST(CrewClashes, FailWithTheErrorOfTheLeader) {
     Random random(6204);
     const StoredJob job(random, 100);
     EXPECT_THROW((void)find_together(job.store, job.options, {.memory = 1000}, 3), Error);
@@ -182,8 +183,8 @@ TEST(CrewClashes, EndWithWhatWentWrongInTheLeader) {
     EXPECT_THROW((void)find_together(job.store, negative, {}, 3), Error);
 }
 
-/// What was read before an import and after it does not fit together.
-TEST(CrewClashes, AreRefusedIfAnImportCameInBetween) {
+/// An import while the job runs would mix two states of the store, so the job must fail.
+TEST(CrewClashes, FailIfAnImportComesInBetween) {
     Random random(6205);
     for (const std::size_t size : {std::size_t{1}, std::size_t{3}}) {
         const StoredJob job(random, 150);

@@ -37,7 +37,7 @@ double point_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     return length(p - (a + d * t));
 }
 
-/// The minimum is at an end of one of the segments, or where both lines are nearest.
+/// The minimum is at an end of one segment, or where the two lines are closest.
 double segment_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     double best = std::min({point_segment(a, c, d), point_segment(b, c, d), point_segment(c, a, b),
                             point_segment(d, a, b)});
@@ -53,7 +53,7 @@ double segment_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
     return best;
 }
 
-/// Distance to the inside of a triangle only: infinite if the foot lies outside.
+/// Distance to the interior of a triangle; infinite if the foot of the perpendicular lies outside.
 double point_face(const Vec3& p, const Triangle& t) {
     const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -106,7 +106,7 @@ bool within(const Box3& a, const Box3& b, double limit) {
            a.lower.z <= b.upper.z + limit && b.lower.z <= a.upper.z + limit;
 }
 
-/// Winding number by solid angles.
+/// Whether a point is inside, by the winding number from solid angles.
 bool inside(const Vec3& p, const std::vector<Triangle>& solid) {
     double angle = 0;
     for (const Triangle& t : solid) {
@@ -179,7 +179,7 @@ near_pairs(const Scene& scene, const std::vector<bool>& closed, double limit,
                 closed[scene.parts[a].mesh] && inside(world[b].front().front(), world[a]);
             const bool contained = d > 0 && (a_in_b || b_in_a);
             if (d <= limit || contained) {
-                // Farther than the limit, triangles were skipped: measure again without one.
+                // Beyond the limit, pairs of triangles were skipped: measure again without a limit.
                 const double all = std::numeric_limits<double>::infinity();
                 result[{a, b}] = {d <= limit ? d : distance(world[a], world[b], box[b], all),
                                   contained};

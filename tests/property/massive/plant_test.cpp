@@ -38,7 +38,7 @@ std::map<PartPair, const PlantedClash*> truth_by_part(const Plant& plant) {
     return result;
 }
 
-/// FNV-1a over everything that a plant is.
+/// FNV-1a hash of everything in a plant.
 std::uint64_t hash_of(const Plant& plant) {
     std::uint64_t hash = 0xcbf29ce484222325U;
     const auto mix = [&](std::uint64_t value) {
@@ -187,7 +187,7 @@ TEST(Plant, SeedDecides) {
     const std::uint64_t first = hash_of(plant_of(20'000, 20, 1));
     EXPECT_EQ(first, hash_of(plant_of(20'000, 20, 1)));
     EXPECT_NE(first, hash_of(plant_of(20'000, 20, 2)));
-    // The same on every machine: renew this number when the generator changes, and only then.
+    // The hash is the same on every machine. Change it only when the generator changes.
     EXPECT_EQ(first, 0x24f3d90dd68a45adU);
 }
 
@@ -198,7 +198,7 @@ TEST(Plant, PlantsTheKindsInTurn) {
         for (std::size_t i = 0; i < plant.truth.size(); ++i) {
             EXPECT_EQ(plant.truth[i].kind, kClashKinds[i % kClashKinds.size()]);
         }
-        truth_by_part(plant); // no pair twice
+        truth_by_part(plant); // fails if a pair is planted twice
     }
     for (const PlantedClash& clash : plant_of(20'000, 20, 1, 0).truth) {
         EXPECT_NE(clash.kind, ClashKind::clearance) << "no gap is below a clearance of zero";
@@ -233,7 +233,8 @@ TEST(Plant, RefusesOptionsOutsideTheirDomain) {
     }
 }
 
-/// The essential one, independent of the library: what is near is what was planted.
+/// The essential test, independent of the library: the pairs that are near are exactly the planted
+/// ones.
 void expect_only_planted(const Plant& plant) {
     std::uint64_t examined = 0;
     const auto near =
@@ -323,7 +324,7 @@ TEST(Plant, ClashJobFindsExactlyThePlanted) {
     expect_found(plant_of(50'000, 40, 6, 0.2));
 }
 
-TEST(Plant, SurvivesAFile) {
+TEST(Plant, SurvivesWritingAndReading) {
     Plant plant = plant_of(40'000, 50, 12);
     const test::Folder folder;
     write_glb(plant.scene, folder / "plant.glb");

@@ -1,5 +1,5 @@
-// The clash job out of core finds what the one in core finds, in whatever memory; its tasks of work
-// hold every pair once and fit.
+// The out-of-core clash job finds what the in-core one finds, in any memory. Its work units hold
+// every pair once and fit into memory.
 
 #include <abut/clash.h>
 #include <abut/error.h>
@@ -27,7 +27,7 @@
 namespace abut::test {
 namespace {
 
-TEST(OutOfCore, FindsWhatIsFoundInCore) {
+TEST(OutOfCore, EqualsTheJobInCore) {
     Random random(6101);
     std::size_t clashes = 0, cut_up = 0, loaded_again = 0, runs = 0;
     for (int round = 0; round < many(3); ++round) {
@@ -35,7 +35,7 @@ TEST(OutOfCore, FindsWhatIsFoundInCore) {
         clashes += job.truth.clashes.size();
         const Store opened = open_store(job.store);
         std::uint64_t memory = std::uint64_t{4} << 20;
-        // Down to where two models that are to be compared do not fit any more.
+        // Memory shrinks until two models of a pair no longer fit.
         for (bool fits = true; fits; memory = memory / 2 < memory - 100'000 ? memory / 2 : 0) {
             for (const WorkOrder order : {WorkOrder::partition, WorkOrder::random}) {
                 try {
@@ -63,7 +63,8 @@ TEST(OutOfCore, FindsWhatIsFoundInCore) {
     EXPECT_GT(loaded_again, runs / 8);
 }
 
-/// A large body, a terrain or a ball, among which others lie: it is never in memory as a whole.
+/// A large mesh, a terrain or a ball, with other parts inside its box. It is never loaded as a
+/// whole.
 Mesh some_large_body(Random& random) {
     const double waves = random.uniform(2, 9);
     switch (random.integer(0, 2)) {
@@ -81,14 +82,14 @@ Mesh some_large_body(Random& random) {
     }
 }
 
-TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
+TEST(OutOfCore, LargeMeshesInBlocksEqualTheJobInCore) {
     Random random(6106);
     std::size_t clashes = 0, of_large = 0, runs = 0, again = 0;
     for (int round = 0; round < many(2); ++round) {
         Scene scene = some_scene(random, 40, 3);
         const std::size_t small = scene.parts.size();
         for (int i = 0; i < 4; ++i) {
-            if (i < 3) // the last shows one of the others
+            if (i < 3) // the last part shows the mesh of the one before
                 scene.meshes.push_back(some_large_body(random));
             Transform world = random.pose(0.5);
             if (random.chance(0.3))
@@ -134,8 +135,9 @@ TEST(OutOfCore, LargeMeshesInBlocksAreThoseInCore) {
     EXPECT_GT(again, 0U);
 }
 
-/// A job that is stopped again and again, each time after some more pairs, ends with the same.
-TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
+/// A job that is stopped again and again, each time after some more pairs, ends with the same
+/// result.
+TEST(OutOfCore, AStoppedJobResumes) {
     Random random(6104);
     std::size_t stops = 0, recalled = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -167,7 +169,8 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
                 ++stops;
             }
         }
-        // Asked once more, it is known; of other parts it is not.
+        // The same question again tests no pair, and neither does one asked after a part was
+        // removed.
         const StoreClashReport again = find_clashes(open_store(job.store), options, little);
         job.expect(again);
         EXPECT_EQ(again.counters.recalled_pairs, job.truth.candidates);
@@ -186,7 +189,7 @@ TEST(OutOfCore, AStoppedJobGoesOnWhereItWas) {
     EXPECT_GT(recalled, 0U);
 }
 
-/// Two processes at one job: the later goes on with what is left, and the other's next task is refused,
+/// Two processes run one job. The later one resumes it, and the earlier one's next task is refused,
 /// so nothing is lost or doubled.
 TEST(OutOfCore, ASecondJobTakesOver) {
     Random random(6105);
@@ -250,8 +253,8 @@ TEST(OutOfCore, AModelIsNoLargerThanItsEstimate) {
         ASSERT_EQ(blocks.size(), large.blocks);
         for (const StoredBlock& block : blocks) {
             ASSERT_LE(block.bytes, large.largest_block);
-            const ModelBlock task = make_model_block(store.file().read_block(block.row));
-            const std::uint64_t bytes = task.model.bytes() + 4 * task.numbers.size();
+            const ModelBlock made = make_model_block(store.file().read_block(block.row));
+            const std::uint64_t bytes = made.model.bytes() + 4 * made.numbers.size();
             ASSERT_LE(bytes, block.bytes);
             ASSERT_GE(2 * bytes, block.bytes);
         }
@@ -272,7 +275,7 @@ TEST(OverlapGraph, IsKeptForSqlAndCountsLargeMeshes) {
         (void)import_models({folder / "a.glb"}, store);
         const Store opened = open_store(store);
         const StoredParts stored = gather_parts(opened.file());
-        for (const double clearance : {0.0, 0.05}) { // the second in place of the first
+        for (const double clearance : {0.0, 0.05}) { // the second graph replaces the first
             ClashOptions options;
             options.clearance = clearance;
             const OutOfCoreOptions limits{.memory =
@@ -323,7 +326,7 @@ TEST(OverlapGraph, IsKeptForSqlAndCountsLargeMeshes) {
     }
 }
 
-TEST(OverlapGraph, TablesOfOthersAreNotTouched) {
+TEST(OverlapGraph, ForeignTablesAreNotTouched) {
     Random random(6108);
     const Folder folder;
     write_glb(some_scene(random, 20, 4), folder / "a.glb");

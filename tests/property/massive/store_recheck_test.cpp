@@ -1,4 +1,4 @@
-// After a re-import a clash job tests the pairs with a changed part and no others, and finds what a job
+// After a re-import, a clash job tests only the pairs with a changed part, and finds what a job
 // from scratch finds.
 
 #include <abut/clash.h>
@@ -22,7 +22,7 @@
 namespace abut::test {
 namespace {
 
-/// Pairs of parts, by their rows, that the unfinished job in a store has not come to.
+/// Pairs of part rows that the unfinished job in a store has not tested.
 std::set<RowPair> pairs_left(const std::string& store) {
     Database database(store, OpenMode::read_only);
     std::set<RowPair> left;
@@ -34,13 +34,13 @@ std::set<RowPair> pairs_left(const std::string& store) {
     return left;
 }
 
-/// One question that is asked of a site again and again.
+/// Asks one question of a site again and again.
 class Recheck {
 public:
     Recheck(ChangingSite& site, ClashOptions options) : site_(site), options_(std::move(options)) {}
 
-    /// How many pairs a job of now should not need to test: those without a changed part that the
-    /// last one came to.
+    /// How many pairs a job would now recall: those without a changed part that the last job
+    /// tested.
     [[nodiscard]] std::uint64_t known_pairs() const {
         if (!was_asked_)
             return 0;
@@ -61,7 +61,8 @@ public:
         return known;
     }
 
-    /// False if it was stopped, as far as the share says.
+    /// Asks the question and checks the answer. The job is stopped after this share of the narrow
+    /// phase; returns false then.
     bool ask(double share = 2) {
         const std::uint64_t known = known_pairs();
         std::atomic<bool> stop = false;
@@ -113,7 +114,7 @@ ClashOptions some_question(Random& random) {
     return options;
 }
 
-TEST(Recheck, TestsWhatHasChangedAndFindsAll) {
+TEST(Recheck, TestsOnlyChangedPairsAndFindsAllClashes) {
     Random random(6201);
     std::uint64_t tested = 0, recalled = 0, clashes = 0;
     for (int round = 0; round < many(8); ++round) {
@@ -125,7 +126,7 @@ TEST(Recheck, TestsWhatHasChangedAndFindsAll) {
             for (int imports = random.integer(1, 2); imports > 0; --imports)
                 site.change();
             ASSERT_TRUE(question.ask());
-            if (random.chance(0.2)) { // of a job that has ended all is known
+            if (random.chance(0.2)) { // after a finished job, every pair is known
                 ASSERT_TRUE(question.ask());
             }
             if (HasFailure())
@@ -143,8 +144,8 @@ TEST(Recheck, TestsWhatHasChangedAndFindsAll) {
     EXPECT_GT(clashes, static_cast<std::uint64_t>(many(8)) * 50);
 }
 
-/// What a job that was stopped had done counts too, whatever was imported since.
-TEST(Recheck, GoesOnWithAStoppedJobAfterAnImport) {
+/// Pairs that a stopped job tested are recalled too, even after imports.
+TEST(Recheck, ResumesAStoppedJobAfterAnImport) {
     Random random(6202);
     std::uint64_t recalled = 0, tested = 0;
     int stops = 0;
@@ -169,8 +170,8 @@ TEST(Recheck, GoesOnWithAStoppedJobAfterAnImport) {
     EXPECT_GT(recalled, tested / 4);
 }
 
-/// An import while a job is under way: what it finds from then on would be of other parts.
-TEST(Recheck, AnImportEndsTheJobThatIsUnderWay) {
+/// A job that runs during an import fails, because its further results would be of other parts.
+TEST(Recheck, AnImportEndsARunningJob) {
     Random random(6203);
     for (int round = 0; round < many(3); ++round) {
         ChangingSite site(random, 1, 150);

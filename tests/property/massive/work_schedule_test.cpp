@@ -1,5 +1,5 @@
-// Units of work for several workers: cut small enough, handed out once each, in runs of neighbours, with
-// the next uses that are known; and as messages.
+// Work units for several workers are small enough, handed out once each, in runs of neighbours,
+// with their meshes' next uses. Tasks survive encoding as messages.
 
 #include <abut/error.h>
 
@@ -17,7 +17,7 @@
 namespace abut::test {
 namespace {
 
-/// Parts in a row, each with some of its neighbours.
+/// Parts in a row, each paired with some of its neighbours.
 struct SomeWork {
     explicit SomeWork(Random& random) {
         const int parts = random.integer(2, 400), meshes = random.integer(1, parts);
@@ -95,7 +95,7 @@ TEST(WorkSchedule, HandsOutEveryUnitOnceInRuns) {
         WorkSchedule schedule(work.stored, units, workers);
         std::vector<bool> done(units.size());
         std::vector<std::size_t> last(workers, units.size());
-        // What each worker was told of its meshes, and then got.
+        // For each worker, the next use that it was last told for each mesh.
         std::vector<std::map<std::int64_t, std::uint32_t>> told(workers);
         for (std::size_t left = units.size(); left > 0; --left) {
             // Some workers are faster than others.
@@ -122,7 +122,7 @@ TEST(WorkSchedule, HandsOutEveryUnitOnceInRuns) {
                 const Task::MeshUse& use = task->meshes[i];
                 ASSERT_EQ(use.mesh, work.stored.meshes[unit.meshes[i]].mesh);
                 if (use.next_use != Task::kNoUse) {
-                    // The first unit from here on that has it.
+                    // `next_use` is the first later unit that has the mesh.
                     for (std::size_t u = task->unit + 1; u <= use.next_use; ++u)
                         ASSERT_EQ(std::ranges::binary_search(units[u].meshes, unit.meshes[i]),
                                   u == use.next_use);
@@ -167,7 +167,7 @@ TaskResult some_result(Random& random) {
     return result;
 }
 
-TEST(CrewMessages, ComeOutAsTheyWentIn) {
+TEST(CrewMessages, SurviveEncodingAndDecoding) {
     Random random(6303);
     std::size_t cut_short = 0;
     for (int round = 0; round < many(100); ++round) {

@@ -21,7 +21,7 @@ int sign(const Rational& r) {
     return (r > 0) - (r < 0);
 }
 
-/// Expanded by the 4x4 determinant's cofactors of the stored coordinates, not by differences.
+/// The 4x4 determinant of the stored coordinates by cofactors, not of their differences.
 int rational_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const RationalPoint p(a), q(b), r(c), s(d);
     const auto det = [](const RationalPoint& x, const RationalPoint& y, const RationalPoint& z) {
@@ -57,7 +57,8 @@ Points with_exponents(Random& random, int low, int high) {
     }
     return p;
 }
-/// A fourth point next to the plane of three; a third next to the line of two, if `line`.
+/// Moves the fourth point next to the plane of the others; if `line`, also the third next to the
+/// line of the first two.
 Points flattened(Random& random, Points p, bool line, int ulps) {
     const double s = random.uniform(-1, 2), t = random.uniform(-1, 2);
     if (line)
@@ -106,7 +107,7 @@ TEST(Predicates, RandomCoordinates) {
     });
     EXPECT_GT(o.positive, 1000);
     EXPECT_GT(o.negative, 1000);
-    EXPECT_LT(o.exact, 30U); // the filter decides nearly all
+    EXPECT_LT(o.exact, 30U); // the floating-point filter decides nearly all
 }
 
 TEST(Predicates, NearAPlane) {
@@ -125,7 +126,7 @@ TEST(Predicates, NearAPlaneFarFromTheOrigin) {
     const Outcome o = compare(3000, [&] {
         const Vec3 far = random.in_cube(1e6);
         Points p{far + random.in_cube(), far + random.in_cube(), far + random.in_cube(), {}};
-        for (Vec3& v : p) // a grid in binary: the fourth point is often on the plane exactly
+        for (Vec3& v : p) // a binary grid: the fourth point is often exactly on the plane
             v = {std::round(v.x * 64) / 64, std::round(v.y * 64) / 64, std::round(v.z * 64) / 64};
         const int ulps = random.chance(0.5) ? 0 : 1;
         p[3] = random.nudge(p[0] + random.integer(-3, 3) * (p[1] - p[0]) +
@@ -163,7 +164,7 @@ TEST(Predicates, Overflow) {
     const Outcome o = compare(1000, [&] {
         if (random.chance(0.5))
             return with_exponents(random, 1000, 1023);
-        // The point laid on the plane must not overflow itself.
+        // The point that is laid on the plane must not overflow either.
         return flattened(random, with_exponents(random, 1000, 1018), random.chance(0.3), 1);
     });
     EXPECT_GT(o.exact, 1000U);
@@ -172,7 +173,8 @@ TEST(Predicates, Overflow) {
 TEST(Predicates, Underflow) {
     Random random(107);
     const Outcome o = compare(2000, [&] {
-        const int top = random.chance(0.5) ? -1050 : -340; // subnormal; products that vanish
+        const int top = random.chance(0.5) ? -1050 : -340; // subnormal coordinates, or products
+                                                           // that vanish
         Points p = with_exponents(random, top - 20, top);
         return random.chance(0.5) ? flattened(random, p, random.chance(0.3), 1) : p;
     });

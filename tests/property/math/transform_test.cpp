@@ -14,10 +14,10 @@ Transform random_linear(Random& random, int kind) {
     if (kind == 2) // shear
         t = compose(t, Transform({1, random.uniform(-3, 3), random.uniform(-3, 3), 0, 1,
                                   random.uniform(-3, 3), 0, 0, 1, 0, 0, 0}));
-    if (kind == 3) // any
+    if (kind == 3) // any linear map
         for (double& v : t.m)
             v = random.uniform(-1, 1);
-    if (kind == 4) // singular to rounding: the third column is a sum of the others
+    if (kind == 4) // singular to rounding: the third column is a combination of the others
         for (std::size_t i = 0; i < 3; ++i)
             t.m[6 + i] = 0.3 * t.m[i] - 1.7 * t.m[3 + i];
     return t;
@@ -44,7 +44,7 @@ TEST(Transform, StretchBoundsHoldInEveryDirection) {
                 ASSERT_NEAR(least, 1, 1e-5);
                 ASSERT_NEAR(most, 1, 1e-5);
             }
-            // 2,000 directions come within a few percent of the extremes.
+            // The extremes of 2,000 directions come within a few percent of the true extremes.
             tight += most < seen_most * 1.02 && (kind == 4 || least > seen_least * 0.8) ? 1 : 0;
             if (kind == 4) {
                 ASSERT_LT(least, 1e-6 * most);

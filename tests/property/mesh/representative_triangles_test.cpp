@@ -1,5 +1,5 @@
-// Every vertex in use and every edge has exactly one representative, whatever the assignment and
-// whatever changes.
+// Every used vertex and every edge has exactly one representative triangle, for every assignment
+// and after every change.
 
 #include "mesh/representative_triangles.h"
 #include "tests/support/moving_meshes.h"
@@ -60,7 +60,7 @@ TEST(Representatives, EachFeatureHasOne) {
     }
 }
 
-/// How many triangles represent so many features.
+/// How many triangles represent 0, 1, ... 6 of the features that `counted` masks.
 std::array<int, 7> loads(const std::vector<Represented>& represented, Represented counted) {
     std::array<int, 7> result{};
     for (const Represented bits : represented)
@@ -68,7 +68,7 @@ std::array<int, 7> loads(const std::vector<Represented>& represented, Represente
     return result;
 }
 
-TEST(Representatives, SchemesDoWhatTheyAreNamedFor) {
+TEST(Representatives, AssignmentsSpreadFeaturesAsNamed) {
     Random random(2);
     const Mesh mesh = crumpled_sheet(random, 30).mesh; // 1,800 triangles, 961 vertices
     const SurfaceFeatures features = make_surface_features(mesh.positions.size(), mesh.triangles);
@@ -80,20 +80,20 @@ TEST(Representatives, SchemesDoWhatTheyAreNamedFor) {
     EXPECT_EQ(idle(Assignment::uniform_vertex_edge), 0);
 
     const auto edges = loads(assign_features(surface, Assignment::uniform_edge_edge), 0b111000);
-    EXPECT_EQ(edges[0], 0); // 2,760 edges: one or two each
+    EXPECT_EQ(edges[0], 0); // 2,760 edges: most triangles have one or two
     EXPECT_LT(edges[3], 60);
     const auto all = loads(assign_features(surface, Assignment::uniform_vertex_edge), 0b111111);
-    EXPECT_LT(all[4] + all[5] + all[6], 20); // 3,721 features: two or three each
+    EXPECT_LT(all[4] + all[5] + all[6], 20); // 3,721 features: most triangles have two or three
 }
 
-TEST(Representatives, AdaptiveLeavesTrianglesThatCollide) {
+TEST(Representatives, AdaptiveMovesFeaturesOffCollidingTriangles) {
     const Triangles triangles{{0, 1, 2}, {2, 1, 3}};
     const SurfaceFeatures features = make_surface_features(4, triangles);
     const SurfaceView surface{4, triangles, features};
     std::vector<Represented> represented = assign_features(surface, Assignment::adaptive);
     EXPECT_EQ(represented[0], 0b111111);
     move_features_off(surface, {true, false}, represented);
-    EXPECT_EQ(represented[0], 0b101001); // vertex 0 and its edges have no other triangle
+    EXPECT_EQ(represented[0], 0b101001); // no other triangle has vertex 0 and its edges
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Queries of solids as unions of convex pieces, against those of the triangles.
+// Queries of solids as unions of convex pieces, against queries of their triangles.
 
 #include <abut/convex_pieces.h>
 #include <abut/shape_queries.h>
@@ -15,7 +15,7 @@
 namespace abut::test {
 namespace {
 
-/// Of world coordinates, as the queries of triangles take them.
+/// Rounding of world coordinates in queries of triangles.
 double rounding_at(const Transform& a, const Transform& b) {
     double size = 8;
     for (std::size_t i = 9; i < 12; ++i)
@@ -23,10 +23,10 @@ double rounding_at(const Transform& a, const Transform& b) {
     return 0x1p-48 * size;
 }
 
-/// Checks one answer against the triangles. Whether the solids are apart.
+/// Checks one answer against the triangles. Returns whether the solids are apart.
 bool check(const TwoSolids& s, const PiecesGap& gap) {
     if (gap.distance == 0) {
-        // Nearer than rounding is at distance 0.
+        // A distance below rounding is reported as 0.
         const bool meet = share_a_point(s);
         EXPECT_TRUE(meet || distance(s.a, s.world_a, s.b, s.world_b).distance <=
                                 rounding_at(s.world_a, s.world_b));
@@ -38,7 +38,7 @@ bool check(const TwoSolids& s, const PiecesGap& gap) {
     EXPECT_FALSE(share_a_point(s));
     EXPECT_NEAR(length(gap.point_b - gap.point_a), gap.distance,
                 1e-12 + 64 * rounding_at(s.world_a, s.world_b));
-    // The points lie on the triangles that are named.
+    // The witness points lie on the triangles that are named.
     const auto on = [](const Model& m, const Transform& world, std::uint32_t triangle,
                        const Vec3& point) {
         Mesh one{m.mesh().positions, {m.mesh().triangles[triangle]}};
@@ -49,7 +49,7 @@ bool check(const TwoSolids& s, const PiecesGap& gap) {
     return true;
 }
 
-TEST(ConvexPiecesDistance, IsThatOfTheTriangles) {
+TEST(ConvexPiecesDistance, EqualsTheDistanceOfTheTriangles) {
     Random random(8102);
     int apart = 0, meet = 0;
     for (int i = 0; i < many(60); ++i) {
@@ -89,8 +89,8 @@ TEST(ConvexPiecesDistance, IsThatOfTheTriangles) {
     EXPECT_GE(meet, many(100));
 }
 
-/// No piece of the cube reaches its middle.
-TEST(ConvexPiecesDistance, OfOneDeepInsideOfTheOther) {
+/// No convex piece of the cube reaches its middle.
+TEST(ConvexPiecesDistance, OneSolidDeepInsideTheOther) {
     Random random(8107);
     const Model a(pitted_cube_mesh());
     const ConvexPieces pieces_a(a);
@@ -117,8 +117,8 @@ TEST(ConvexPiecesDistance, OfOneDeepInsideOfTheOther) {
     EXPECT_GE(apart, many(10));
 }
 
-/// Brings b against a: apart by next to nothing, or inside by that.
-TEST(ConvexPiecesDistance, OfSolidsThatAlmostTouch) {
+/// Places b next to a, with a tiny gap or a tiny overlap.
+TEST(ConvexPiecesDistance, SolidsThatAlmostTouch) {
     Random random(8103);
     int apart = 0, meet = 0;
     for (int i = 0; i < many(60); ++i) {
@@ -141,7 +141,7 @@ TEST(ConvexPiecesDistance, OfSolidsThatAlmostTouch) {
                 break;
         }
         if (offset < 0)
-            continue; // one passes through the hole of the other
+            continue; // b passes through the hole of a
         for (const double by : {1e-3, 1e-6, 1e-9, 0.0, -1e-9, -1e-6, -1e-3}) {
             place(offset + by);
             (check(s, distance(pieces_a, s.world_a, pieces_b, s.world_b)) ? apart : meet) += 1;
@@ -197,7 +197,7 @@ TEST_P(ConvexPiecesPath, AWarmStartChangesNoAnswer) {
             if (k % 10 == 0) {
                 check(s, warm);
             }
-            // Questions of other kinds in between share the warm start.
+            // Queries of other kinds in between share the warm start.
             if (k % 7 == 3) {
                 const double tolerance = cold.distance + (k % 2 == 0 ? 0.01 : -0.01);
                 ASSERT_EQ(within(pieces_a, s.world_a, pieces_b, s.world_b, std::max(0.0, tolerance),

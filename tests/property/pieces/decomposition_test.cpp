@@ -1,4 +1,5 @@
-// Solids cut into convex pieces, and the hierarchy of their hulls, against rational arithmetic.
+// Solids cut into convex pieces, and the hierarchy of the pieces' hulls, against rational
+// arithmetic.
 
 #include <abut/convex_pieces.h>
 #include <abut/shape_queries.h>
@@ -33,7 +34,7 @@ std::vector<RationalPlane> planes_of(const Convex& body) {
     return planes;
 }
 
-/// Whether a triangle enters the inside of a body.
+/// Tests whether a triangle enters the interior of a body.
 class EntryTest {
 public:
     explicit EntryTest(const Convex& body) : planes_(planes_of(body)) {
@@ -90,20 +91,22 @@ TEST(Decomposition, HasEachTriangleOnceOnTheHullOfItsPieceInsideTheSolid) {
                         ASSERT_FALSE(enters(corners(mesh, t))) << i << ' ' << t;
                     }
             } else if (hull.dimension() < 2) {
-                continue; // of triangles without an area: hairs outside, perhaps
+                continue; // triangles of zero area; their hull may lie outside by a hair
             }
-            // Just below a flat piece; anywhere in another.
+            // The point lies just below a flat piece, or anywhere in another.
             const Triangle first = corners(mesh, triangles[0]);
             const Vec3 normal = normalized_or_zero(cross(first[1] - first[0], first[2] - first[0]));
             const double below = hull.dimension() == 2 ? 1e-7 : 0;
             for (int k = 0; k < 3; ++k, ++probes) {
                 const Vec3 point = random_point_of(random, hull) - below * normal;
-                // Some hulls are as thin as rounding.
+                // Points nearer to the surface than this are not tested: some hulls are as thin as
+                // rounding.
                 if (nearest(pieces.model(), {}, point).distance > 1e-12) {
                     ASSERT_GE(winding_number(mesh, point), 1 - 1e-6) << i << " piece " << p;
                 }
             }
-            // The whole has triangles that enter the hull of two pieces, or the oracle sees none.
+            // Some triangles must enter the hull of two pieces together, or the oracle tests
+            // nothing.
             if (p > 0 && hull.dimension() == 3) {
                 std::vector<Vec3> both = hull.vertices();
                 const Convex other = pieces.hull(p - 1);
@@ -143,7 +146,7 @@ TEST(HullTree, ParentsHoldTheirChildren) {
             ++parents;
             for (std::uint32_t c = node.child; c < node.child + node.children; ++c)
                 for (const HullVertex& v : tree.nodes[c].hull.vertices) {
-                    // To what hulls leave out.
+                    // Children are held up to the points that hulls leave out.
                     const Vec3 d = random.direction();
                     const std::uint32_t top = climb(node.hull, d, 0);
                     ASSERT_LE(dot(d, v.at), dot(d, node.hull.vertices[top].at) + 0x1p-44 * 4);
@@ -155,8 +158,8 @@ TEST(HullTree, ParentsHoldTheirChildren) {
     EXPECT_GE(parents, static_cast<std::size_t>(many(60)));
 }
 
-/// Turned cells have points that are collinear and coplanar but for rounding: at such vertices a
-/// walk must not end on the wrong side.
+/// Points of rotated cells are collinear and coplanar up to rounding. A walk over such vertices
+/// must not end on the wrong side.
 TEST(HullTree, WalksEndWhereverTheyBegin) {
     Random random(8110);
     int walks = 0, inside = 0;

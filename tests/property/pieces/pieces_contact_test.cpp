@@ -1,5 +1,5 @@
-// Solids of convex pieces where they touch, or almost do: all queries against every pair of triangles,
-// by exact signs, and against each other.
+// Solids of convex pieces that touch, or almost do: all queries against every pair of triangles
+// with exact signs, and against each other.
 
 #include <abut/convex_pieces.h>
 
@@ -13,8 +13,8 @@
 namespace abut::test {
 namespace {
 
-/// A cube whose sides bulge: the middle of each of `parts` squared squares of a side lies in front of
-/// it.
+/// A cube with bulging sides: each side has `parts` x `parts` squares, and the middle of each
+/// square is moved outwards.
 Mesh bulged_cube(Random& random, double least, double most, int parts) {
     Mesh m;
     std::map<std::array<double, 3>, std::uint32_t> numbers;
@@ -49,7 +49,7 @@ Mesh bulged_cube(Random& random, double least, double most, int parts) {
     return m;
 }
 
-/// A walk that begins at what is left of the last step may end on the back sides of two faces.
+/// A walk from the last step's features may end on the back of two faces.
 TEST(PiecesContact, ABoxMovedALittleMeetsItself) {
     Random random(8134);
     const ConvexPieces box{Model(box_mesh({-1, -1, -1}, {1, 1, 1}))};
@@ -100,7 +100,7 @@ TEST(PiecesContact, AStepAwayFromTheSamePlace) {
     EXPECT_GE(apart, many(20));
 }
 
-/// Sides that are flat but for 1e-12 to 1e-6.
+/// The sides bulge by 1e-12 to 1e-6.
 TEST(PiecesContact, BulgedCubes) {
     Random random(8131);
     int apart = 0, meet = 0;
@@ -135,8 +135,8 @@ TEST(PiecesContact, BulgedCubes) {
     EXPECT_GE(meet, cases);
 }
 
-/// At a point, along an edge, on a face: on a lattice, exactly and turned.
-TEST(PiecesContact, OfSolidsThatTouch) {
+/// Contacts at a point, along an edge or on a face, exactly on a lattice and rotated.
+TEST(PiecesContact, SolidsThatTouch) {
     Random random(8132);
     int touch = 0, meet = 0, apart = 0;
     for (int i = 0; i < many(30); ++i) {
@@ -156,7 +156,7 @@ TEST(PiecesContact, OfSolidsThatTouch) {
             const PiecesDepth depth = penetration(a, world_a, b, world_b, {.separation = false});
             if (do_meet && depth.depth < 1e-9) {
                 ++touch;
-                // A way out is as short as rounding lets it be.
+                // The separating motion may be as short as rounding, and still it separates.
                 const PiecesDepth found = penetration(a, world_a, b, world_b);
                 EXPECT_FALSE(
                     distance(a, world_a, b, translated(world_b, found.separation)).distance == 0);
@@ -170,7 +170,7 @@ TEST(PiecesContact, OfSolidsThatTouch) {
     EXPECT_GE(apart, many(50));
 }
 
-/// Brought together until they touch to rounding, then out and in by ever more.
+/// The solids touch up to rounding, then are moved apart and into each other, by up to 1e-2.
 TEST(PiecesContact, ShallowPoses) {
     Random random(8133);
     int meet = 0, apart = 0;
@@ -191,7 +191,7 @@ TEST(PiecesContact, ShallowPoses) {
                 break;
         }
         if (offset < 0)
-            continue; // one passes through the hole of the other
+            continue; // b passes through the hole of a
         PiecesWarmStart warm_start;
         for (const double by : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 0.0, -1e-15, -1e-14,
                                 -1e-12, -1e-10, -1e-8, -1e-6, -1e-4})

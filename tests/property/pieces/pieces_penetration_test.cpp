@@ -1,5 +1,5 @@
-// Penetration of solids as unions of convex pieces: against each pair of pieces, and translations of the
-// triangles. Batches of queries of pieces.
+// Penetration of solids as unions of convex pieces, against each pair of pieces and against
+// translations of the triangles. Batches of queries of pieces.
 
 #include <abut/batch.h>
 #include <abut/convex_pieces.h>
@@ -15,7 +15,7 @@
 namespace abut::test {
 namespace {
 
-/// Of all pairs of pieces the deepest.
+/// The largest depth over all pairs of pieces.
 double deepest_pair(const ConvexPieces& a, const Transform& world_a, const ConvexPieces& b,
                     const Transform& world_b) {
     double deepest = 0;
@@ -34,7 +34,7 @@ TwoSolids moved(const TwoSolids& s, const Vec3& by) {
     return {s.a, s.b, s.world_a, translated(s.world_b, by)};
 }
 
-TEST(PiecesPenetration, BoundsEveryWayOutAndFindsOne) {
+TEST(PiecesPenetration, BoundsEverySeparatingMotionAndFindsOne) {
     Random random(8120);
     int meet = 0, apart = 0, shorter = 0, close = 0;
     for (int i = 0; i < many(30); ++i) {
@@ -70,7 +70,7 @@ TEST(PiecesPenetration, BoundsEveryWayOutAndFindsOne) {
     EXPECT_GE(shorter, many(28));
 }
 
-TEST(PiecesPenetration, OfConvexSolidsIsExact) {
+TEST(PiecesPenetration, IsExactForConvexSolids) {
     Random random(8121);
     int meet = 0;
     for (int i = 0; i < many(40); ++i) {
@@ -94,8 +94,8 @@ TEST(PiecesPenetration, OfConvexSolidsIsExact) {
     EXPECT_GE(meet, many(5));
 }
 
-/// No piece of the cube reaches its middle: what is there is out of reach by a distance.
-TEST(PiecesPenetration, OfOneDeepInsideOfTheOther) {
+/// No convex piece of the cube reaches its middle, so the small box may have no contact there.
+TEST(PiecesPenetration, OneSolidDeepInsideTheOther) {
     const Model cube(pitted_cube_mesh()), small(box_mesh({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}));
     const TwoSolids s{cube, small, {}, translation(3.4, 3.5, 3.5)};
     const PiecesDepth found =
@@ -107,17 +107,17 @@ TEST(PiecesPenetration, OfOneDeepInsideOfTheOther) {
     EXPECT_FALSE(share_a_point(moved(s, found.separation)));
 }
 
-TEST(PiecesPenetration, OfFlattenedSolids) {
+TEST(PiecesPenetration, FlattenedSolids) {
     const Model cube(box_mesh({-1, -1, -1}, {1, 1, 1}));
     const ConvexPieces pieces(cube);
     const PiecesDepth found = penetration(pieces, {}, pieces, scaling(1, 1, 0));
     ASSERT_TRUE(found.meet);
-    EXPECT_NEAR(found.depth, 1, 1e-12); // out through the top
+    EXPECT_NEAR(found.depth, 1, 1e-12); // the shortest translation is through the top
     EXPECT_FALSE(collide(pieces, {}, pieces, translated(scaling(1, 1, 0), found.separation)).meet);
     EXPECT_THROW(penetration(pieces, {}, pieces, scaling(HUGE_VAL, 1, 1)), Error);
 }
 
-TEST(PiecesBatch, AnswersAreThoseOfTheSingleQueries) {
+TEST(PiecesBatch, EqualsSingleQueries) {
     Random random(8122);
     const ConvexPieces a{Model(make_solid(random, 2))}, b{Model(make_solid(random, 3))};
     std::vector<Placement> placements;

@@ -1,5 +1,6 @@
-// Solids of convex pieces in the shapes and places where a bound may fail: slivers, needles, far from the
-// origin, flattened, and moved by single bits. All queries against every pair of triangles.
+// Solids of convex pieces in shapes and places where an error bound could fail: slivers, needles,
+// far from the origin, flattened, moved by single bits. All queries are checked against every pair
+// of triangles.
 
 #include <abut/convex_pieces.h>
 #include <abut/error.h>
@@ -19,8 +20,8 @@ struct Tally {
     void add(bool do_meet) { ++(do_meet ? meet : apart); }
 };
 
-/// Asks about two solids that approach each other along a direction, with one warm start, at places
-/// from 8 sizes apart to deep inside each other.
+/// Queries two solids at distances from 2 * `size` down to 0 along a random direction, with one
+/// warm start.
 void approach(const ConvexPieces& a, const Transform& world_a, const ConvexPieces& b,
               const Transform& turned_b, double size, Random& random, Tally& tally) {
     PiecesWarmStart warm_start;
@@ -33,8 +34,8 @@ void approach(const ConvexPieces& a, const Transform& world_a, const ConvexPiece
     }
 }
 
-/// A solid scaled in its own frame. Rounding turns some of the thinnest ones inside out in part: then
-/// another kind is taken.
+/// A random solid, scaled in its own frame. If rounding turns parts of it inside out, another kind
+/// is taken.
 ConvexPieces scaled_solid(Random& random, int kind, const Transform& scale) {
     for (;; ++kind)
         try {
@@ -44,7 +45,7 @@ ConvexPieces scaled_solid(Random& random, int kind, const Transform& scale) {
         }
 }
 
-/// Solids squeezed to 1e-3 to 1e-12 of their size.
+/// Solids scaled to 1e-3 to 1e-12 of their size along an axis.
 TEST(PiecesShapes, Slivers) {
     Random random(8140);
     Tally tally;
@@ -64,7 +65,7 @@ TEST(PiecesShapes, Slivers) {
     EXPECT_GE(tally.apart, many(20));
 }
 
-/// Solids 1e2 to 1e7 times as long as they are wide.
+/// Solids 1e2 to 1e7 times as long as wide.
 TEST(PiecesShapes, Needles) {
     Random random(8141);
     Tally tally;
@@ -85,7 +86,7 @@ TEST(PiecesShapes, Needles) {
     EXPECT_GE(tally.apart, many(20));
 }
 
-/// Solids up to 1e9 of their sizes away from the origin, near each other.
+/// Solids near each other, up to 1e9 sizes away from the origin.
 TEST(PiecesShapes, FarFromTheOrigin) {
     Random random(8142);
     Tally tally;
@@ -103,14 +104,14 @@ TEST(PiecesShapes, FarFromTheOrigin) {
     EXPECT_GE(tally.apart, many(20));
 }
 
-/// Transforms without an inverse: a solid becomes a plate, a segment or a point.
+/// Singular transforms: a solid becomes a plate, a segment or a point.
 TEST(PiecesShapes, Flattened) {
     Random random(8143);
     Tally tally;
     for (int i = 0; i < many(20); ++i) {
         const ConvexPieces a{Model(make_solid(random, i))},
             b{Model(make_solid(random, random.integer(0, kSolidKinds - 1)))};
-        const int rank = i % 4; // 3: b is flat, and a is not
+        const int rank = i % 4; // 3: only b is flat
         const Transform flat = rank == 0   ? scaling(0, 0, 0)
                                : rank == 1 ? scaling(1, 0, 0)
                                            : scaling(1, 1, 0);

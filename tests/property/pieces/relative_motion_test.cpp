@@ -1,4 +1,4 @@
-// How much nearer the points of two bodies may have come, against points.
+// Bounds on how much nearer points of two bodies may have come, against sampled points.
 
 #include "pieces/relative_motion.h"
 #include "tests/support/random.h"
@@ -12,7 +12,7 @@
 namespace abut::test {
 namespace {
 
-TEST(RelativeMotion, NoTwoPointsComeNearerThanItSays) {
+TEST(RelativeMotion, NoTwoPointsApproachMoreThanTheBound) {
     Random random(8109);
     int tight = 0;
     for (int i = 0; i < many(3000); ++i) {
@@ -38,7 +38,7 @@ TEST(RelativeMotion, NoTwoPointsComeNearerThanItSays) {
         }
         ASSERT_LE(most, bound) << i;
         tight += most > 0.3 * bound ? 1 : 0;
-        // Bodies that move together have not moved.
+        // Bodies that move together do not approach.
         if (rigid) {
             const Transform together = random.pose(3);
             const PosePair moved{compose(together, from.a), compose(together, from.b)};
@@ -48,8 +48,8 @@ TEST(RelativeMotion, NoTwoPointsComeNearerThanItSays) {
     EXPECT_GE(tight, many(3000) / 15);
 }
 
-/// What differs from a rotation by rounding moves points too.
-TEST(RelativeMotion, RotationsToRoundingStretch) {
+/// A matrix that is a rotation only up to rounding stretches, which moves points too.
+TEST(RelativeMotion, RotationsStretchByRounding) {
     Random random(8111);
     for (int i = 0; i < many(1000); ++i) {
         const BodyBall ball{{}, 1};
@@ -60,7 +60,7 @@ TEST(RelativeMotion, RotationsToRoundingStretch) {
             stretched.m[3 * static_cast<std::size_t>(column) + static_cast<std::size_t>(k)] *=
                 1 + 0x1p-46;
         const PosePair from{{}, turn}, to{{}, stretched};
-        // The point at the end of the axis that is stretched.
+        // The point at the end of the stretched axis moves by this much.
         const double way = 0x1p-46;
         ASSERT_GE(most_approach(from, to, ball, ball), way);
         ASSERT_LE(most_approach(from, to, ball, ball), 0x1p-38);

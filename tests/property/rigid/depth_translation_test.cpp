@@ -1,4 +1,4 @@
-// One depth, wherever the models are: of clashes, of penetration and of signed distance.
+// Depths of clashes, penetration and signed distance do not depend on where the models are.
 
 #include <abut/clash.h>
 #include <abut/penetration.h>
@@ -52,7 +52,7 @@ Mesh any_mesh(int kind) {
     }
 }
 
-/// What each query says of how deep two meshes are in each other, both under one transform.
+/// Depths of two meshes under one transform, as each query reports them.
 struct Depths {
     double clash = 0;
     Depth penetration;
@@ -81,7 +81,7 @@ Depths depths_of(const Mesh& a, const Mesh& b, const Transform& world, double to
     return result;
 }
 
-TEST(DepthTranslation, DepthsAreTheSameWhereverTheModelsAre) {
+TEST(DepthTranslation, DepthsAreInvariantUnderTranslation) {
     Random random(5401);
     int deep = 0, in_mesh = 0, known = 0, close = 0;
     for (int round = 0; round < many(300); ++round) {
@@ -108,7 +108,8 @@ TEST(DepthTranslation, DepthsAreTheSameWhereverTheModelsAre) {
             << round;
         ASSERT_NEAR(there.gap.distance, here.gap.distance, 1e-9 * here.clash) << round;
         ASSERT_EQ(there.kind, here.kind);
-        // One definition: each is reached, and below the bound of the others.
+        // All three depths follow one definition: each is attained, so it is below the upper bounds
+        // of the others.
         const double at_most = here.penetration.depth_at_most * (1 + 1e-12);
         ASSERT_LE(here.clash, at_most) << round;
         ASSERT_LE(-here.gap.distance, at_most) << round;
@@ -116,7 +117,7 @@ TEST(DepthTranslation, DepthsAreTheSameWhereverTheModelsAre) {
         if (here.kind == ClashKind::hard &&
             here.penetration.depth_at_most < 1.1 * here.penetration.depth) {
             ++known;
-            // The clash job takes fewer samples.
+            // The clash job takes fewer samples, so it may find less.
             close += here.clash >= 0.9 * here.penetration.depth ? 1 : 0;
         }
     }
@@ -127,11 +128,11 @@ TEST(DepthTranslation, DepthsAreTheSameWhereverTheModelsAre) {
     EXPECT_GT(close, known * 9 / 10);
 }
 
-/// The same solid with other diagonals.
+/// Splits each quadrangle of a box along its other diagonal.
 Mesh turned_diagonals(Mesh box) {
     for (std::size_t i = 0; i + 1 < box.triangles.size(); i += 2) {
         auto &s = box.triangles[i], &t = box.triangles[i + 1];
-        // Two triangles p q r, p r s of a face become q r s, q s p.
+        // Triangles p q r and p r s of a face become q r s and q s p.
         for (std::size_t turn = 0; turn < 3; ++turn)
             for (std::size_t other = 0; other < 3; ++other)
                 if (s[turn] == t[other] && s[(turn + 2) % 3] == t[(other + 1) % 3]) {
@@ -144,7 +145,7 @@ Mesh turned_diagonals(Mesh box) {
     return box;
 }
 
-TEST(DepthTranslation, SolidsThatCoincideAreAsDeepForEveryQuery) {
+TEST(DepthTranslation, EveryQueryGivesCoincidentSolidsTheSameDepth) {
     const Mesh box = box_mesh({0, 0, 0}, {1, 1, 1}), other = turned_diagonals(box);
     ASSERT_NE(box.triangles, other.triangles);
     double last = 0;

@@ -1,5 +1,5 @@
-// What distance may be asked beyond the distance: an allowed error, a bound, a memory from pose to
-// pose, the features of the closest points, a sign.
+// Options of distance queries: allowed errors, an upper bound, a warm start, features of the
+// witness points, a sign.
 
 #include <abut/error.h>
 #include <abut/penetration.h>
@@ -24,7 +24,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 64 * 0x1p-53;
 
-/// Two models, the second moved about the first.
+/// Two placed models; the second moves around the first.
 struct Scene {
     Model a, b;
     Transform world_a, world_b;
@@ -57,7 +57,7 @@ Mesh any_mesh(Random& random, int kind) {
     }
 }
 
-/// Apart by up to about 2, or meeting.
+/// A random scene, with models up to about 2 apart or meeting.
 Scene any_scene(Random& random, int round, double reach) {
     const ModelOptions options{round % 5 == 4 ? Volume::obb : Volume::automatic};
     Scene s{Model(any_mesh(random, round), options),
@@ -94,7 +94,7 @@ TEST(DistanceOptions, WithinTheErrorsAllowed) {
             SCOPED_TRACE(testing::Message()
                          << "round " << rounds << " errors " << absolute << ' ' << relative);
             const Gap gap = s.gap({.absolute_error = absolute, .relative_error = relative});
-            // A contact is never taken for a gap, nor a gap for a contact.
+            // A contact is never reported as a gap, nor a gap as a contact.
             ASSERT_EQ(gap.distance == 0, exact.distance == 0);
             ASSERT_EQ(gap.status, exact.distance == 0 ? Status::exact : Status::converged);
             ASSERT_GE(gap.distance, exact.distance - kRounding);
@@ -123,7 +123,7 @@ TEST(DistanceOptions, WithinTheErrorsAllowed) {
     EXPECT_GT(meet, rounds / 6);
     EXPECT_LT(meet, rounds * 2 / 3);
     EXPECT_GT(inexact, 20);
-    EXPECT_LT(tests[2], exact_tests * 9 / 10); // what the error is for
+    EXPECT_LT(tests[2], exact_tests * 9 / 10); // an allowed error saves work
     EXPECT_LT(tests[6], exact_tests * 9 / 10);
     EXPECT_LE(tests[0], exact_tests);
 }
@@ -138,8 +138,8 @@ TEST(DistanceOptions, NoErrorAllowedIsExact) {
     }
 }
 
-/// Whether some two points of the surfaces are at most `distance` apart, in exact arithmetic: every
-/// pair of features of triangles that are not much farther apart.
+/// Whether two points of the surfaces are at most `distance` apart, in exact arithmetic. Tests all
+/// pairs of features of triangles that are not much farther apart.
 bool exactly_within(const Scene& s, double distance) {
     const auto a = placed_triangles(s.a.mesh(), s.world_a),
                b = placed_triangles(s.b.mesh(), s.world_b);
@@ -173,7 +173,7 @@ TEST(DistanceOptions, AtLeastIsNeverAboveTheTrueDistance) {
     int apart = 0, above = 0;
     for (int round = 0; round < many(250); ++round) {
         Scene s = any_scene(random, round, 2.2);
-        if (round % 3 == 0) // sizes apart by so much that rounding matters
+        if (round % 3 == 0) // very different sizes make rounding matter
             s.a = Model(transformed(s.a.mesh(), scaling(1, 1, random.chance(0.5) ? 1e-9 : 1e6)));
         const Gap gap = s.gap();
         if (gap.distance == 0)
@@ -181,7 +181,8 @@ TEST(DistanceOptions, AtLeastIsNeverAboveTheTrueDistance) {
         ++apart;
         above += exactly_within(s, std::nextafter(gap.distance, 0)) ? 1 : 0;
         ASSERT_LE(gap.at_least, gap.distance);
-        // What the distance exceeds the true one by, it may be below it by.
+        // The error is symmetric: the true distance is above the reported one by at most as much as
+        // it may be below it.
         ASSERT_TRUE(exactly_within(s, 2 * gap.distance - gap.at_least)) << round;
         for (const DistanceOptions& options :
              {DistanceOptions{}, DistanceOptions{.relative_error = 0.1},
@@ -195,7 +196,7 @@ TEST(DistanceOptions, AtLeastIsNeverAboveTheTrueDistance) {
     }
     std::cout << apart << " apart, " << above << " distances above the true one\n";
     EXPECT_GT(apart, many(250) / 4);
-    EXPECT_GT(above, many(250) / 125); // so rounding counts
+    EXPECT_GT(above, many(250) / 125); // rounding matters in some cases
 }
 
 TEST(DistanceOptions, NothingIsReturnedAboveTheBound) {
@@ -226,8 +227,7 @@ TEST(DistanceOptions, NothingIsReturnedAboveTheBound) {
     EXPECT_LT(beyond, 6 * apart);
 }
 
-/// The second model on its way around the first, in and out of it; `jump`: from anywhere to
-/// anywhere.
+/// Places the second model on a path around the first, in and out of it; with `jump`, anywhere.
 Transform on_path(Random& random, const Scene& s, int step, bool jump) {
     if (jump) {
         Transform t = random.pose(0);
@@ -298,7 +298,7 @@ TEST(DistanceOptions, AWarmStartOfOtherModelsDoesNoHarm) {
     Random random(4203);
     const std::array<TrianglePair, 6> strange{
         {{0, 0}, {~0U, ~0U}, {11, 1000000}, {1000000, 3}, {0x80000000U, 0x7fffffffU}, {499, 499}}};
-    WarmStart travelling; // from models to models
+    WarmStart travelling; // one warm start for all pairs of models
     int meet = 0;
     for (int round = 0; round < 32; ++round) {
         const Scene s = any_scene(random, round, 2);
@@ -343,7 +343,7 @@ TEST(DistanceOptions, ARememberedContactHasItsSegment) {
     EXPECT_EQ(again.segments[0].corners, first.segments[0].corners);
 }
 
-/// How far a point is from what it is said to lie on.
+/// Distance of a point from the feature that it is said to lie on.
 double off_feature(const Vec3& p, const Triangle& t, Feature feature, std::uint8_t index) {
     switch (feature) {
     case Feature::vertex:
@@ -355,9 +355,9 @@ double off_feature(const Vec3& p, const Triangle& t, Feature feature, std::uint8
     }
 }
 
-TEST(DistanceOptions, FeaturesSayWhereThePointsLie) {
+TEST(DistanceOptions, WitnessPointsLieOnTheNamedFeatures) {
     Random random(4204);
-    std::array<std::array<int, 3>, 3> count{}; // of features of a and b
+    std::array<std::array<int, 3>, 3> count{}; // counts by feature of a and feature of b
     for (int round = 0; round < 200; ++round) {
         const Scene s = any_scene(random, round, 2);
         const Gap gap = s.gap();
@@ -369,7 +369,7 @@ TEST(DistanceOptions, FeaturesSayWhereThePointsLie) {
                      off_b = off_feature(gap.point_b, b, gap.feature_b, gap.index_b);
         ASSERT_LE(off_a, gap.feature_a == Feature::vertex ? 0 : 1e-14);
         ASSERT_LE(off_b, gap.feature_b == Feature::vertex ? 0 : 1e-14);
-        // Of the features that the point lies on, the least: an edge's ends are vertices.
+        // The lowest feature is reported: an end of an edge is a vertex.
         if (gap.distance > 0) {
             for (const Vec3& p : a)
                 ASSERT_TRUE(gap.feature_a == Feature::vertex || !(gap.point_a == p));
@@ -386,7 +386,7 @@ TEST(DistanceOptions, FeaturesSayWhereThePointsLie) {
     EXPECT_GT(count[vertex][face], 0);
     EXPECT_GT(count[face][vertex], 0);
     EXPECT_GT(count[edge][edge], 5);
-    EXPECT_EQ(count[face][face], 0); // one of their vertices or edges is as near
+    EXPECT_EQ(count[face][face], 0); // a vertex or an edge is always as near
     EXPECT_EQ(count[edge][face], 0);
     EXPECT_EQ(count[face][edge], 0);
 }
@@ -417,7 +417,7 @@ TEST(DistanceOptions, FeaturesByHand) {
     }
 }
 
-TEST(DistanceOptions, SignedApartAndInside) {
+TEST(DistanceOptions, SignedDistanceApartAndInside) {
     Random random(4205);
     int inside = 0, apart = 0, across = 0;
     for (int round = 0; round < 40; ++round) {
@@ -450,11 +450,11 @@ TEST(DistanceOptions, SignedApartAndInside) {
         ASSERT_LT(gap.distance, 0);
         ASSERT_LE(gap.at_least, gap.distance);
         ASSERT_NEAR(length(gap.point_a - gap.point_b), -gap.distance, 1e-13);
-        // Both say between what the depth lies.
+        // The two queries' bounds of the depth agree.
         ASSERT_LE(-gap.distance, depth.depth_at_most + 1e-13);
         ASSERT_LE(depth.depth, -gap.at_least + 1e-13);
         if (plain.distance > 0) {
-            ASSERT_GE(-gap.distance, plain.distance * (1 - 0.02)); // no point of it is nearer
+            ASSERT_GE(-gap.distance, plain.distance * (1 - 0.02)); // no surface point is nearer
         }
     }
     std::cout << inside << " inside, " << across << " across, " << apart << " apart\n";
@@ -463,7 +463,7 @@ TEST(DistanceOptions, SignedApartAndInside) {
     EXPECT_GT(apart, 5);
 }
 
-TEST(DistanceOptions, SignedOfModelsWithoutAnInside) {
+TEST(DistanceOptions, SignedDistanceOfModelsWithoutAnInside) {
     const Model none(Mesh{}), box(box_mesh({0, 0, 0}, {1, 1, 1})),
         sheet(Mesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}}, {{0, 1, 2}}});
     const DistanceOptions options{.signed_distance = true};
@@ -471,7 +471,7 @@ TEST(DistanceOptions, SignedOfModelsWithoutAnInside) {
     EXPECT_EQ(distance(none, {}, box, {}, options).status, Status::bound_only);
     EXPECT_EQ(distance(box, {}, none, {}, {.upper_bound = 2, .signed_distance = true}).distance, 2);
     EXPECT_EQ(distance(sheet, {}, sheet, translation(0, 0, 1), options).distance, 1);
-    // No point is inside, and yet they are locked into each other.
+    // No point is inside the other box, yet the boxes coincide and are a unit deep.
     EXPECT_NEAR(distance(box, {}, box, {}, options).distance, -1, 1e-6);
     EXPECT_EQ(distance(box, {}, box, translation(1, 0, 0), options).distance, 0);
     EXPECT_EQ(distance(box, scaling(1, 1, 0), box, translation(0, 0, 2), options).distance, 2);
@@ -511,7 +511,7 @@ TEST(DistanceOptions, BadOptionsAreErrors) {
             EXPECT_EQ(code({.relative_error = bad, .signed_distance = sign}),
                       ErrorCode::bad_argument);
         }
-    // Any error is allowed: still apart, and still no contact.
+    // Any error is allowed, but the models are still apart.
     const Gap any = distance(box, {}, box, translation(2, 0, 0),
                              {.absolute_error = kInfinity, .relative_error = kInfinity});
     EXPECT_GE(any.distance, 1);

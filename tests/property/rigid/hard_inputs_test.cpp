@@ -1,6 +1,6 @@
-// collide, distance and within where rounding bites: cracks, copies, needles and triangles without
-// area, far from the origin, tiny, huge, and tiny beside huge. Against all pairs of triangles; the
-// distance of the nearest with 100 digits.
+// collide, distance and within where rounding matters: cracks, copies, needles and zero-area
+// triangles; far from the origin, tiny, huge, and tiny beside huge. Checked against all pairs of
+// triangles; distances of the nearest pairs with 100 digits.
 
 #include <abut/rigid.h>
 
@@ -25,7 +25,8 @@ void add_triangle(Mesh& m, const Triangle& t) {
     m.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// Triangles of their own corners, each some units in the last place off: nothing is joined.
+/// Triangles with vertices of their own, each moved by some units in the last place, so that
+/// nothing is joined.
 Mesh cracked(Random& random, const Mesh& mesh) {
     Mesh m;
     for (const auto& t : mesh.triangles)
@@ -34,7 +35,7 @@ Mesh cracked(Random& random, const Mesh& mesh) {
                       random.nudge(mesh.positions[t[2]], 3)});
     return m;
 }
-/// Every triangle two or three times, turned round or over.
+/// Every triangle two or three times, with its vertices rotated or reversed.
 Mesh copied(Random& random, Mesh m) {
     for (std::size_t i = m.triangles.size(); i-- > 0;) {
         const auto [a, b, c] = m.triangles[i];
@@ -44,7 +45,7 @@ Mesh copied(Random& random, Mesh m) {
     }
     return m;
 }
-/// Points, segments, three points on a line exactly, and to rounding.
+/// Adds points, segments, and triangles whose vertices are collinear, exactly or up to rounding.
 Mesh flat(Random& random, Mesh m, int count) {
     m = with_degenerates(random, std::move(m), count);
     for (int i = 0; i < count; ++i) {
@@ -56,7 +57,7 @@ Mesh flat(Random& random, Mesh m, int count) {
     }
     return m;
 }
-/// Each a million times as long as wide; some in bundles.
+/// Triangles a million times as long as wide, in bundles of four.
 Mesh needles(Random& random, int count) {
     Mesh m;
     Vec3 base, along;
@@ -68,7 +69,7 @@ Mesh needles(Random& random, int count) {
     }
     return m;
 }
-/// One triangle as large as everything, others down to a hundred-thousandth of it.
+/// One triangle as large as the model, others down to a hundred-thousandth of it.
 Mesh uneven(Random& random, int count) {
     Mesh m;
     add_triangle(m, random.triangle(0.8));
@@ -80,7 +81,7 @@ Mesh uneven(Random& random, int count) {
     return m;
 }
 
-/// About 1 across.
+/// A mesh of this shape, about 1 across.
 Mesh make_mesh(Random& random, Shape shape) {
     switch (shape) {
     case Shape::cracked:
@@ -105,12 +106,12 @@ struct Case {
     Volume volume = Volume::automatic;
 };
 
-/// Two sets of triangles in the world, and what is true of them.
+/// The placed triangles of both models, and their true pairs and distance.
 struct Truth {
     std::vector<PlacedTriangle> a, b;
     std::vector<TrianglePair> pairs;
     double distance = 0;
-    double largest = 0; ///< coordinate
+    double largest = 0; ///< coordinate, absolute
 
     explicit Truth(const Case& c)
         : a(placed_triangles(c.mesh_a, c.world_a)), b(placed_triangles(c.mesh_b, c.world_b)),
@@ -124,7 +125,7 @@ struct Truth {
     }
 
 private:
-    /// All pairs that rounding may have kept from being the nearest are measured precisely.
+    /// Every pair that may be nearest despite rounding is measured with 100 digits.
     [[nodiscard]] double nearest_of_all() const {
         const double rounded = brute_distance(a, b);
         Precise least = 1e300;
@@ -141,7 +142,7 @@ private:
     }
 };
 
-/// Rounding of the differences of two triangles' coordinates.
+/// Bound on the rounding of differences between the coordinates of two triangles.
 double rounding(const Triangle& a, const Triangle& b) {
     return 16 * 0x1p-53 * size_of(a, b);
 }
@@ -156,8 +157,8 @@ void expect_gap(const Gap& gap, const std::vector<PlacedTriangle>& a,
     EXPECT_EQ(gap.distance == 0, !truth.pairs.empty());
     EXPECT_EQ(gap.status, Status::exact);
     EXPECT_LE(gap.at_least, truth.distance);
-    // The points are rounded to the coordinates' grid. Where needles cross, the common point is
-    // less certain.
+    // The witness points are rounded to the grid of the coordinates. Where needles cross, their
+    // common point is less certain.
     const double grid = gap.distance > 0 ? 32 * 0x1p-53 * truth.largest
                                          : 1e-8 * size_of(s, t) + truth.largest * 1e-15;
     EXPECT_LE(double(precise_distance(gap.point_a, s)), grid);
@@ -165,7 +166,7 @@ void expect_gap(const Gap& gap, const std::vector<PlacedTriangle>& a,
     EXPECT_NEAR(length(gap.point_a - gap.point_b), gap.distance, grid);
 }
 
-/// Returns the distance, or fails.
+/// Checks all queries against the truth. Returns the distance.
 double check(const Case& c) {
     const Truth truth(c);
     const Model a(c.mesh_a, {c.volume}), b(c.mesh_b, {c.volume});
@@ -202,7 +203,7 @@ double check(const Case& c) {
     return gap.distance;
 }
 
-/// The same case moved as a whole has the same distance, but for the rounding of its positions.
+/// Moving the whole case keeps the distance, up to the rounding of positions.
 void expect_same_when_moved(const Case& c, double before, const Transform& motion, double reach) {
     const Model a(c.mesh_a, {c.volume}), b(c.mesh_b, {c.volume});
     const double after =
@@ -211,7 +212,7 @@ void expect_same_when_moved(const Case& c, double before, const Transform& motio
 }
 
 enum class Place {
-    near,         ///< the origin
+    near,         ///< near the origin
     far_in_world, ///< 1e5 away
     far_in_mesh,  ///< the mesh is 1e5 from its own origin
     tiny,         ///< 1e-6 across
@@ -223,7 +224,7 @@ enum class Place {
     unlike, ///< b is a millionth of a
 };
 
-/// A rotation, and what puts the point `from` to `to`.
+/// A random rotation with a scale, and a translation that takes `from` to `to`.
 Transform put(Random& random, double scale, const Vec3& from, const Vec3& to) {
     Transform t = compose(random.pose(0), scaling(scale, scale, scale));
     const Vec3 shift = to - apply_linear(t, from);
@@ -231,7 +232,7 @@ Transform put(Random& random, double scale, const Vec3& from, const Vec3& to) {
     return t;
 }
 
-/// A point on the surface.
+/// A random point on the surface.
 Vec3 point_of(Random& random, const Mesh& mesh, const Transform& world) {
     const auto& t = mesh.triangles[static_cast<std::size_t>(
         random.integer(0, static_cast<int>(mesh.triangles.size()) - 1))];
@@ -240,7 +241,7 @@ Vec3 point_of(Random& random, const Mesh& mesh, const Transform& world) {
     return apply(world, p[t[0]] + u * (p[t[1]] - p[t[0]]) + v * (p[t[2]] - p[t[0]]));
 }
 
-/// `reach`: the largest number that positions are computed from.
+/// reach: receives a bound on the numbers from which positions are computed.
 Case make_case(Random& random, Place place, Shape shape_a, Shape shape_b, double& reach) {
     Case c{make_mesh(random, shape_a), make_mesh(random, shape_b), {}, {}};
     double size = 1, by_transform = 1;
@@ -317,7 +318,7 @@ INSTANTIATE_TEST_SUITE_P(Places, HardInputs,
                                          Place::huge_by_transform, Place::minute,
                                          Place::minute_by_transform, Place::unlike));
 
-/// A model upon itself, and off by a few units in the last place.
+/// A model against itself, at the same pose or moved by a few units in the last place.
 TEST(HardInputs, CoincidentModels) {
     Random random(4310);
     int rounds = 0, whole = 0;
@@ -333,7 +334,7 @@ TEST(HardInputs, CoincidentModels) {
                         c.world_b.m[i] = random.nudge(c.world_b.m[i], 4);
                 const double d = check(c);
                 ASSERT_TRUE(nudged || d == 0);
-                // However near: either they meet, or are apart by the nudge at most.
+                // They either meet or are apart by no more than the nudge.
                 ASSERT_LE(d, 16 * 0x1p-52 * far);
                 if (!nudged) {
                     const Model m(mesh);
@@ -349,8 +350,8 @@ TEST(HardInputs, CoincidentModels) {
     EXPECT_GT(whole, 500);
 }
 
-/// Distances from a whole size down to that of rounding, and through contact: parallel faces, cut
-/// by hand so that the truth is known without any other code.
+/// Parallel faces of boxes, with gaps and overlaps from a whole size down to rounding. The true
+/// distance is known without other code.
 TEST(HardInputs, ParallelFacesAtAnyGap) {
     const Model box(box_mesh({0, 0, 0}, {1, 1, 1}));
     for (const double far : {0.0, 0x1p17})

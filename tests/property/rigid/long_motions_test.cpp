@@ -1,5 +1,5 @@
-// Times of impact of bodies far larger than what they meet: never late, in few steps; limits on
-// steps, the stop flag and reports.
+// Times of impact of bodies that are far larger than what they meet: never late, in few steps. Also
+// limits on steps, the stop flag and progress reports.
 
 #include <abut/batch.h>
 #include <abut/error.h>
@@ -35,8 +35,8 @@ struct Case {
     }
 };
 
-/// Whether the models are seen to meet at a time in [begin, end): at many times, half of them close
-/// to the end, and where the distance between these times is least.
+/// Whether the models meet at a sampled time in [begin, end). Half of the samples are close to the
+/// end; local minima of the distance are refined.
 bool is_seen_to_meet(const Case& c, double begin, double end) {
     constexpr int kSamples = 60, kSections = 40;
     std::vector<double> times{begin, end - 1e-9 * (end - begin)};
@@ -68,7 +68,7 @@ bool is_seen_to_meet(const Case& c, double begin, double end) {
     return false;
 }
 
-/// One triangle each, of any sizes from 1 to 10^digits; points of them that are near the origin pass
+/// Pairs of one triangle each, with sizes from 1 to 10^digits. Their points near the origin pass
 /// each other at speeds of about 1.
 class UnlikeTriangles {
 public:
@@ -81,7 +81,7 @@ public:
         const Mesh a = triangle(), b = triangle();
         Motion motion_a = random_.chance(0.25) ? Motion::fixed({}) : motion(), motion_b = motion();
         const double gap = std::pow(10, -random_.uniform(0, 6));
-        // Some far from the origin of the world.
+        // Some pairs are far from the origin of the world.
         const Vec3 far = random_.chance(0.7)
                              ? Vec3{}
                              : std::pow(10, random_.uniform(3, 7)) * random_.direction();
@@ -95,7 +95,8 @@ public:
 private:
     double size() { return std::pow(10, random_.uniform(0, digits_)); }
 
-    /// Any; in almost parallel planes; with almost parallel edges; close to the origin.
+    /// A triangle by kind: any, in almost parallel planes, with almost parallel edges, or close to
+    /// the origin.
     Mesh triangle() {
         const auto in_plane = [&] {
             const double angle = random_.uniform(0, 2 * std::numbers::pi);
@@ -120,7 +121,7 @@ private:
                                   : std::pow(10, random_.uniform(-2, 2)) * random_.direction();
         const Vec3 axis =
             random_.chance(0.3) ? normalized_or_zero(cross(along_, across_)) : random_.direction();
-        // Up to 16 turns.
+        // At most 16 turns.
         const double rate = std::pow(10, random_.uniform(-1, random_.chance(0.1) ? 2 : 1));
         return {{}, centre, velocity, rate * axis};
     }
@@ -161,7 +162,7 @@ TEST(LongMotions, TrianglesOfUnlikeSizesStayApart) {
     EXPECT_GT(tight, kCases / 20);
 }
 
-TEST(LongMotions, AreAnsweredInTimeAndInFewSteps) {
+TEST(LongMotions, AreNeverLateAndTakeFewSteps) {
     Random random(3302);
     constexpr int kCases = 1500;
     int hits = 0, undecided = 0;
@@ -184,20 +185,20 @@ TEST(LongMotions, AreAnsweredInTimeAndInFewSteps) {
     EXPECT_GT(hits, kCases / 10);
     EXPECT_LT(hits, kCases * 9 / 10);
     EXPECT_LT(undecided, kCases / 20);
-    // In 200 rad there are 800 windows.
+    // Two bodies that turn by 200 rad together take 800 windows of time.
     EXPECT_LT(most_steps, 3000U);
 }
 
 Mesh plate(double half, double thickness) {
     return box_mesh({-half, -half, -thickness}, {half, half, thickness});
 }
-/// A floor of n x n squares in the plane z.
+/// A floor of n x n squares in the plane at height z.
 Mesh floor_mesh(double half, int n, double z) {
     return grid_mesh(n, n, false, false, [&](double u, double v) {
         return Vec3{half * (2 * u - 1), half * (2 * v - 1), z};
     });
 }
-/// A needle along x; `width` to its side.
+/// A needle along x, `width` wide along y.
 Mesh needle(double half, double width, double z) {
     return {{{-half, 0, z}, {half, 0, z}, {half, width, z}}, {{0, 1, 2}}};
 }
@@ -223,7 +224,7 @@ TEST(LongMotions, ALargePlateMeetsASmallBall) {
             EXPECT_TRUE(c.meets_at(impact.contact_time));
             EXPECT_FALSE(is_seen_to_meet(c, 0, impact.time));
             EXPECT_LT(impact.steps, 3000U) << size;
-            // The same pairs the other way round.
+            // The same pair in the other order.
             const Impact swapped =
                 time_of_impact(ball, motion_b, large, motion_a, {.absolute_error = 8e-5});
             EXPECT_TRUE(swapped.meet);
@@ -231,11 +232,12 @@ TEST(LongMotions, ALargePlateMeetsASmallBall) {
             EXPECT_LE(impact.time, swapped.contact_time);
             EXPECT_LT(swapped.steps, 3000U) << size;
         }
-        // Nodes are compared along axes that turn with the plate.
+        // Boxes of nodes are compared along axes that turn with the plate.
         const Impact impact =
             time_of_impact(large, spin({0.6, 0.1, 0.2}), fine, still, {.absolute_error = 8e-5});
         EXPECT_TRUE(impact.meet);
-        // Single precision blurs larger plates: balls around small boxes are compared with them.
+        // For larger plates single precision is too coarse: balls around small boxes are compared
+        // with them.
         EXPECT_LT(impact.steps, size <= 1e3 ? 3000U : 10000U) << size;
     }
 }
@@ -250,7 +252,7 @@ TEST(LongMotions, NeedlesPassAndPlatesSlideInFewSteps) {
             EXPECT_LT(impact.steps, 300U) << size << ' ' << w.x << ' ' << w.y;
             EXPECT_FALSE(impact.meet && impact.status == Status::bound_only);
         }
-        // Just above the tolerance, and nearer.
+        // The gap is just above the smallest tolerance, and below the others.
         for (const double tolerance : {1e-4, 1e-3, 1.0})
             for (const double tilt : {0.0, 1e-5 / size}) {
                 const Case c{Model(floor_mesh(size, 3, 0)), Model(floor_mesh(size, 3, 1.1e-4)),
@@ -281,7 +283,7 @@ TEST(LongMotions, NestedCylindersTurnInEachOther) {
             EXPECT_FALSE(impact.meet) << gap << ' ' << tolerance;
             EXPECT_LT(impact.steps, 200000U) << gap << ' ' << tolerance;
         }
-        // A little larger, it does not go round.
+        // A slightly larger cylinder cannot turn inside the other.
         const Model tight = cylinder(1 - 1e-3 * gap);
         const Impact impact = time_of_impact(outer, Motion::fixed({}), tight, spin({0, 0, 1}),
                                              {.absolute_error = 1e-10});
@@ -290,13 +292,13 @@ TEST(LongMotions, NestedCylindersTurnInEachOther) {
     }
 }
 
-/// Of the bounding box.
+/// Diagonal of the model's bounding box.
 double diagonal(const Model& model) {
     const Box3 box = inspect(model.mesh()).bounds;
     return length(box.upper - box.lower);
 }
 
-/// Starts outside and meets the other at about half of its way.
+/// A motion that starts outside and meets the other body at about half of its path.
 Motion motion_towards(Random& random, const Vec3& at, double distance) {
     const Vec3 from = at + distance * random.direction();
     Pose start = random.pose(0);
@@ -309,7 +311,7 @@ TEST(LongMotions, TheDefaultToleranceIsAMillionthOfTheLargerDiagonal) {
     constexpr int kCases = 1500;
     int hits = 0, large = 0;
     for (int i = 0; i < kCases; ++i) {
-        // Few triangles: their tree's box may have a longer diagonal than their bounding box.
+        // With few triangles, the diagonal of the tree's box may exceed that of the bounding box.
         const auto make = [&] {
             return Model(
                 soup_mesh(random, random.integer(1, 6), 0.5 * random.uniform(0.1, 1), 0.6));
@@ -330,7 +332,7 @@ TEST(LongMotions, TheDefaultToleranceIsAMillionthOfTheLargerDiagonal) {
 }
 
 TEST(LongMotions, AGapAboveTheToleranceIsNotExact) {
-    // At coordinates of 1e7 rounding leaves about as much as the default tolerance.
+    // At coordinates of 1e7, rounding errors are about as large as the default tolerance.
     Random random(3305);
     constexpr int kCases = 1500;
     std::array<int, 3> of_status{};
@@ -367,7 +369,7 @@ TEST(LongMotions, AGapAboveTheToleranceIsNotExact) {
     EXPECT_LT(of_status[2], kCases / 20);
 }
 
-TEST(LongMotions, ALimitOnStepsTellsTheTimeThatIsProvenFree) {
+TEST(LongMotions, ALimitOnStepsLeavesAProvenTime) {
     Random random(3303);
     int limited = 0, misses = 0;
     for (int i = 0; i < 60; ++i) {
@@ -384,7 +386,7 @@ TEST(LongMotions, ALimitOnStepsTellsTheTimeThatIsProvenFree) {
         for (const std::uint64_t share : {0, 1, 2, 4, 8, 12, 15}) {
             const std::uint64_t most = whole.steps * share / 16;
             const Impact impact = c.ask({.absolute_error = 1e-6, .max_steps = most});
-            if (!impact.out_of_steps) // nothing was left to do
+            if (!impact.out_of_steps) // no step was left to do
                 continue;
             ++limited;
             EXPECT_LT(most, whole.steps);
@@ -407,7 +409,7 @@ TEST(LongMotions, ALimitOnStepsTellsTheTimeThatIsProvenFree) {
     EXPECT_GT(misses, 5);
 }
 
-TEST(LongMotions, AreStoppedAndReport) {
+TEST(LongMotions, StopAndReportProgress) {
     const Case c{Model(torus_mesh(0.6, 0.2, 40, 20)), Model(torus_mesh(0.6, 0.2, 40, 20)),
                  Motion{{{-2, 0, 0}, {1, 0, 0, 0}}, {-2, 0, 0}, {1.5, 0, 0}, {1, 2, 3}},
                  Motion::fixed({})};
@@ -427,7 +429,7 @@ TEST(LongMotions, AreStoppedAndReport) {
     };
     EXPECT_TRUE(is_interrupted([&] { return one({.progress = {{}, &stop}}); }));
     EXPECT_TRUE(is_interrupted([&] { return many({.progress = {{}, &stop}}); }));
-    // In the middle of the work.
+    // A report in the middle of the work sets the stop flag.
     std::mutex reporting;
     std::vector<double> reports;
     const auto stop_at = [&](double fraction) {

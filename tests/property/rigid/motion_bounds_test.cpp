@@ -1,4 +1,4 @@
-// The times for which boxes, balls and triangles stay apart: nothing meets before.
+// Lower bounds of the time for which boxes, balls and triangles stay apart: nothing meets earlier.
 
 #include <abut/rigid.h>
 
@@ -16,7 +16,7 @@
 namespace abut::test {
 namespace {
 
-/// Towards the origin, more or less.
+/// A motion roughly towards the origin.
 Motion random_motion(Random& random, double away = 0.8) {
     const Pose pose = random.pose(away);
     const Vec3 centre = pose.translation + random.in_cube(0.5);
@@ -32,12 +32,12 @@ MovingPair moving_pair(const Model& a, const Motion& motion_a, const Model& b,
             b.data().tree(), b.data().model_from_tree(), motion_b};
 }
 
-/// Whether the models meet at some of many times in [begin, end).
+/// Whether the models meet at a sampled time in [begin, end).
 bool meet_within(const Model& a, const Motion& motion_a, const Model& b, const Motion& motion_b,
                  double begin, double end) {
     constexpr int kSamples = 40;
     for (int i = 0; i < kSamples; ++i) {
-        // Half of them close to the end, where a bound that is too long shows.
+        // Half of the samples are close to the end, where a bound that is too long shows.
         const double part = i % 2 == 0 ? double(i) / kSamples : 1 - std::pow(0.7, i);
         const double t = begin + part * (end - begin);
         if (collide(a, at(motion_a, t), b, at(motion_b, t)).meet())
@@ -52,11 +52,11 @@ struct Tally {
         std::cout << proven << " proven, " << never << " never, " << tight << " tight\n";
         EXPECT_GT(proven, cases / 5);
         EXPECT_GT(never, cases / 50);
-        EXPECT_GT(tight, cases / 200); // soon after, some do meet
+        EXPECT_GT(tight, cases / 200); // some meet soon after the bound
     }
 };
 
-/// It is claimed that two models do not meet from `begin` to `end`.
+/// Checks a claim that two models do not meet from `begin` to `end`.
 void check(const Model& a, const Motion& motion_a, const Model& b, const Motion& motion_b,
            double begin, double end, Tally& tally) {
     if (!(end > begin))
@@ -70,7 +70,7 @@ void check(const Model& a, const Motion& motion_a, const Model& b, const Motion&
                        : 0;
 }
 
-/// A moment, and a span of time from it or from some time after it.
+/// A moment, and a time span that begins then or later.
 struct Span {
     double moment, begin, end;
     explicit Span(Random& random)
@@ -79,7 +79,7 @@ struct Span {
           end(random.chance(0.5) ? 1 : random.uniform(begin, 1)) {}
 };
 
-/// The triangles of some slots of a model's tree as a model of their own.
+/// A model of the triangles in some slots of another model's tree.
 Model part(const Model& model, std::uint32_t first, std::uint32_t count) {
     Mesh mesh;
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
@@ -91,7 +91,7 @@ Model part(const Model& model, std::uint32_t first, std::uint32_t count) {
     return Model(mesh);
 }
 
-/// So few triangles that all children of the root are leaves: flat, round, and loose ones.
+/// A flat, round or loose model with so few triangles that all children of the root are leaves.
 Model small_model(Random& random) {
     const auto size = [&] { return random.chance(0.2) ? 0 : random.uniform(0.02, 0.6); };
     switch (random.integer(0, 3)) {
@@ -108,10 +108,10 @@ Model small_model(Random& random) {
     }
 }
 
-/// Some node of a model's tree, and a vertex below it.
+/// A random node of a model's tree, and a random vertex below it.
 struct NodeVertex {
     const Node* node;
-    Vec3 vertex; ///< of the model
+    Vec3 vertex; ///< in the model's frame
 
     NodeVertex(Random& random, const Model& model) {
         const Tree& tree = model.data().tree();
@@ -133,7 +133,7 @@ struct NodeVertex {
     }
 };
 
-/// Takes the world to a node's frame, which stands where it is at a moment.
+/// Maps the world to a node's frame, frozen at a given time.
 class StandingFrame {
 public:
     StandingFrame(const Node& node, const Model& model, const Motion& motion, double time)
@@ -155,7 +155,7 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
     return v + std::sin(angle) * cross(n, v) + (1 - std::cos(angle)) * cross(n, cross(n, v));
 }
 
-TEST(MotionBounds, WaysOfPointsInNodes) {
+TEST(MotionBounds, PathsOfPointsInNodes) {
     Random random(2204);
     constexpr int kCases = 40000;
     int close = 0;
@@ -176,7 +176,7 @@ TEST(MotionBounds, WaysOfPointsInNodes) {
         const NodeVertex of_a(random, a), of_b(random, b);
         const StandingFrame in_a(*of_a.node, a, motion_a, span.moment),
             in_b(*of_b.node, b, motion_b, span.moment);
-        // Where b's node has its origin.
+        // The origin of b's node.
         const auto& o = of_b.node->frame.origin;
         const Vec3 origin =
             in_a(apply(compose(at(motion_b, span.moment), b.data().model_from_tree()),
@@ -191,7 +191,7 @@ TEST(MotionBounds, WaysOfPointsInNodes) {
         const auto to_vec = [](const std::array<float, 3>& v) { return Vec3{v[0], v[1], v[2]}; };
         const Vec3 before_a = in_a(apply(at(motion_a, span.moment), of_a.vertex)),
                    before_b = in_a(apply(at(motion_b, span.moment), of_b.vertex));
-        // The way as axes see it that may turn with a body.
+        // The displacement relative to axes that may turn with one of the bodies.
         const Vec3 after_a = apply(at(motion_a, then), of_a.vertex),
                    after_b = apply(at(motion_b, then), of_b.vertex);
         const Vec3 turn = m.axes == AxesTurn::none       ? Vec3{}
@@ -224,7 +224,7 @@ TEST(MotionBounds, WaysOfPointsInNodes) {
         EXPECT_GT(count, kCases / 20);
 }
 
-/// A child of the root, a leaf.
+/// A leaf child of the root.
 struct Child {
     const Node& node;
     std::uint32_t lane;
@@ -235,7 +235,7 @@ struct Child {
         while (node.child[lane].is_none());
     }
     [[nodiscard]] NodeRef leaf() const { return node.child[lane]; }
-    /// Its box as a model: nothing below the child can be told from it.
+    /// The child's box as a model. Bounds of children know no more than this box.
     [[nodiscard]] Model box(const Model& model) const {
         const Aabb box = node.box(lane);
         Mesh mesh = box_mesh({box.lower[0], box.lower[1], box.lower[2]},
@@ -260,7 +260,7 @@ TEST(MotionBounds, ChildrenOfNodes) {
             const Span span(random);
             const Moment moment(pair, span.moment);
             const Child of_a(random, a), of_b(random, b);
-            // Alone, or among the others.
+            // The child is tested alone or together with the others.
             const auto lanes = [&](const Child& child) {
                 return random.chance(0.3) ? 1U << child.lane : 0xffU;
             };
@@ -387,25 +387,26 @@ TEST(MotionBounds, Triangles) {
 }
 
 TEST(MotionBounds, BallsInStraightMotionExactly) {
-    // 3 - 2 s = 1; passing at a distance of 1 with radii of 1 less or more a little.
+    // Analytic solutions: 3 - 2 s = 1; then passing at a distance of 1, with radii slightly below
+    // or above 1.
     EXPECT_NEAR(free_time({3, 0, 0}, {-2, 0, 0}, 0, 1, 10), 1, 1e-11);
     EXPECT_LE(free_time({3, 0, 0}, {-2, 0, 0}, 0, 1, 10), 1);
     EXPECT_EQ(free_time({3, 1, 0}, {-2, 0, 0}, 0, 1 - 1e-14, 10), HUGE_VAL);
     EXPECT_NEAR(free_time({3, 1, 0}, {-2, 0, 0}, 0, 1 + 1e-14, 10), 1.5, 1e-6);
     EXPECT_EQ(free_time({3, 0, 0}, {2, 0, 0}, 0, 1, 10), HUGE_VAL);
     EXPECT_EQ(free_time({0.5, 0, 0}, {2, 0, 0}, 0, 1, 10), 0);
-    // At rest, the radii grow by s^2: found by halves, from below.
+    // At rest with radii that grow by s^2: bisection finds the time, rounded down.
     EXPECT_LE(free_time({3, 0, 0}, {}, 2, 1, 10), std::sqrt(2.0));
     EXPECT_GT(free_time({3, 0, 0}, {}, 2, 1, 10), 0.7);
     EXPECT_EQ(free_time({3, 0, 0}, {}, 2, 1, 1.25), HUGE_VAL);
 }
 
 TEST(MotionBounds, ApproachesByHand) {
-    // 2 - s - s^2 = 0 at s = 1; a speed of at most 4 proves half of that.
+    // The root of 2 - s - s^2 is s = 1; a speed bound of 4 alone would prove only half of that.
     const double second = free_time({2, 1, 2, 4});
     EXPECT_NEAR(second, 1, 1e-11);
     EXPECT_LE(second, 1);
-    EXPECT_NEAR(free_time({2, 1, 100, 2}), 1, 1e-11); // the first order is better
+    EXPECT_NEAR(free_time({2, 1, 100, 2}), 1, 1e-11); // the first-order bound is better
     EXPECT_NEAR(free_time({3, -2, 2, 9}), 3, 1e-11);  // parting: 3 + 2 s - s^2
     EXPECT_EQ(free_time({1, -1, 0, 1}), HUGE_VAL);
     EXPECT_EQ(free_time({1, 1, 1, 0}), HUGE_VAL);

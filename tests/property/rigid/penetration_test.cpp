@@ -1,4 +1,4 @@
-// The public penetration query on random poses: what separates, what bounds, what stays the same.
+// The public penetration query on random poses: separations, bounds and invariance.
 
 #include <abut/penetration.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kShapes = 6;
 
-/// Solids, convex and not, of one component and of two.
+/// Solids, convex or not, with one or two components.
 Mesh solid_mesh(int kind) {
     switch (kind) {
     case 0:
@@ -48,7 +48,7 @@ Transform moved(Transform t, const Vec3& shift) {
     return t;
 }
 
-/// By brute force over vertices: a component of one with a vertex inside the other.
+/// Whether `outer` contains a vertex of `inner`.
 bool contains_any(const Body& outer, const Transform& world, const Body& inner,
                   const Transform& inner_world) {
     const PlacedSolid placed(outer.model, outer.solid, world);
@@ -100,7 +100,7 @@ TEST(Penetration, TheSeparationSeparates) {
         }
         ++deep;
         slack += length(d.separation) / d.depth;
-        // What is shorter than the depth separates in no direction.
+        // A translation shorter than the depth separates in no direction.
         for (int i = 0; i < 5; ++i)
             ASSERT_FALSE(separated(p.a, p.world_a, p.b,
                                    moved(p.world_b, (0.999 * d.depth) * random.direction())));
@@ -143,7 +143,7 @@ TEST(Penetration, SymmetricAndInvariant) {
     EXPECT_GT(deep, 40);
 }
 
-/// Dense points of each surface that lie inside the other.
+/// The depth against dense samples of each surface that lie inside the other solid.
 TEST(Penetration, DepthAgainstSampling) {
     int deep = 0, narrow = 0;
     for_each_pair(3203, 60, [&](Random& random, const Pair& p) {
@@ -152,7 +152,7 @@ TEST(Penetration, DepthAgainstSampling) {
         const PlacedSolid a(p.a.model, p.a.solid, p.world_a), b(p.b.model, p.b.solid, p.world_b);
         double deepest = 0;
         const auto sample = [&](const PlacedSolid& surface, const PlacedSolid& solid) {
-            for (std::uint32_t t = 0; t < surface.model().mesh().triangles.size(); ++t) {
+            for (std::uint32_t t = 0; t < surface.model().data().mesh().triangles.size(); ++t) {
                 const Triangle c = surface.world_triangle(t);
                 for (int i = 0; i < 12; ++i) {
                     double u = random.uniform(0, 1), v = random.uniform(0, 1);
@@ -170,7 +170,8 @@ TEST(Penetration, DepthAgainstSampling) {
             return;
         ++deep;
         narrow += d.depth_at_most <= 1.011 * d.depth ? 1 : 0;
-        // The witnesses: on the surfaces, the deeper one inside, as far apart as said.
+        // The witness points lie on the surfaces, at the reported distance; one of them is inside
+        // the other solid.
         ASSERT_NEAR(a.nearest(d.point_a, HUGE_VAL).distance, 0, 1e-12);
         ASSERT_NEAR(b.nearest(d.point_b, HUGE_VAL).distance, 0, 1e-12);
         ASSERT_NEAR(length(d.point_a - d.point_b), d.depth, 1e-12);
@@ -181,7 +182,8 @@ TEST(Penetration, DepthAgainstSampling) {
     EXPECT_GT(narrow, deep * 9 / 10);
 }
 
-/// Segments of the intersection curve that end in the same point, bit for bit, are connected.
+/// Regions against the intersection curve: segments that end in the same point, bit for bit, belong
+/// to one region.
 TEST(Penetration, RegionsAgainstTheCurve) {
     int several = 0, pairs = 0;
     for_each_pair(3204, 100, [&](Random&, const Pair& p) {
@@ -220,7 +222,8 @@ TEST(Penetration, RegionsAgainstTheCurve) {
     EXPECT_GT(several, 20);
 }
 
-/// Each region's depth against points, each counted for the region whose curve is nearest.
+/// Each region's depth against samples, where each sample counts for the region with the nearest
+/// curve.
 TEST(Penetration, RegionDepthsAgainstSampling) {
     int several = 0;
     for_each_pair(3205, 80, [&](Random& random, const Pair& p) {
@@ -250,8 +253,8 @@ TEST(Penetration, RegionDepthsAgainstSampling) {
         const PlacedSolid a(p.a.model, p.a.solid, p.world_a), b(p.b.model, p.b.solid, p.world_b);
         std::vector<double> deepest(d.regions.size());
         const auto sample = [&](const PlacedSolid& surface, const PlacedSolid& solid) {
-            for (std::uint32_t v = 0; v < surface.model().mesh().positions.size(); ++v) {
-                const Vec3 x = surface.world_vertex(v);
+            for (std::uint32_t v = 0; v < surface.model().data().mesh().positions.size(); ++v) {
+                const Vec3 x = surface.model().world_vertex(v);
                 if (random.chance(0.5) && solid.contains(x)) {
                     double& region = deepest[nearest_region(x)];
                     region = std::max(region, solid.nearest(x, HUGE_VAL).distance);
@@ -265,7 +268,7 @@ TEST(Penetration, RegionDepthsAgainstSampling) {
     EXPECT_GT(several, 15);
 }
 
-/// Sheets, soups, cracks, zero-area and doubled triangles, needles; mirrored, stretched, far away.
+/// Sheets, soups, cracks, needles, zero-area and doubled triangles; mirrored, stretched, far away.
 TEST(Penetration, DirtyMeshes) {
     Random random(3207);
     const auto make = [&](int kind) {
@@ -282,7 +285,7 @@ TEST(Penetration, DirtyMeshes) {
             return soup_mesh(random, 60, 0.7, 0.3);
         case 3:
             return with_degenerates(random, torus, 10);
-        case 4: // each triangle twice
+        case 4: // every triangle twice
             return joined(torus, torus);
         default: // needles
             return transformed(torus, scaling(1, 1, 1e-6));
@@ -312,7 +315,7 @@ TEST(Penetration, DirtyMeshes) {
     EXPECT_GT(no_solid, 20);
 }
 
-/// Coarse solids on a grid: faces, edges and corners coincide in every way.
+/// Coarse solids on a grid, whose faces, edges and corners coincide in every way.
 TEST(Penetration, BoxesOnAGrid) {
     Random random(3206);
     int deep = 0, touch = 0;
@@ -333,7 +336,7 @@ TEST(Penetration, BoxesOnAGrid) {
         if (!overlap)
             continue;
         ++deep;
-        // The shortest way out is along an axis.
+        // The shortest separating motion is along an axis.
         const double shortest =
             std::min({a_high.x - b_low.x, b_high.x - a_low.x, a_high.y - b_low.y,
                       b_high.y - a_low.y, a_high.z - b_low.z, b_high.z - a_low.z});

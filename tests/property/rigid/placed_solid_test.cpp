@@ -13,7 +13,8 @@ Transform any_placement(Random& random) {
                               0.1, 0, 0, random.uniform(0.3, 3), 0, 0, 0}));
 }
 
-/// `depth_of` is positive inside the smooth solid; within `band` of its surface nothing is asked.
+/// Checks contains() at random points. `depth_of` is positive inside the smooth solid; points
+/// within `band` of its surface are skipped.
 template <typename DepthOf>
 void check_contains(Random& random, const Mesh& mesh, double half, double band,
                     const DepthOf& depth_of) {
@@ -26,7 +27,7 @@ void check_contains(Random& random, const Mesh& mesh, double half, double band,
             const double depth = depth_of(p);
             if (std::abs(depth) < band)
                 continue;
-            const Vec3 world = apply(body.placed.world(), p);
+            const Vec3 world = apply(body.placed.model().world(), p);
             ASSERT_EQ(body.placed.contains(world), depth > 0);
             ASSERT_EQ(body.placed.winds_around(world), depth > 0);
             ++asked, inside += depth > 0 ? 1 : 0;
@@ -34,8 +35,8 @@ void check_contains(Random& random, const Mesh& mesh, double half, double band,
         for (int i = 0; i < 50; ++i) {
             const auto v =
                 static_cast<std::uint32_t>(random.integer(0, int(mesh.positions.size()) - 1));
-            ASSERT_TRUE(body.placed.on_surface(body.placed.world_vertex(v)));
-            ASSERT_FALSE(body.placed.contains(body.placed.world_vertex(v)));
+            ASSERT_TRUE(body.placed.on_surface(body.placed.model().world_vertex(v)));
+            ASSERT_FALSE(body.placed.contains(body.placed.model().world_vertex(v)));
         }
     }
     EXPECT_GT(inside, asked / 10);
@@ -61,7 +62,7 @@ TEST(PlacedSolid, NearestEqualsAllTriangles) {
     for (int i = 0; i < 200; ++i) {
         const Mesh mesh = torus_mesh(1, 0.5, 14, 9);
         const Body body(mesh, any_placement(random));
-        const Vec3 p = apply(body.placed.world(), random.in_cube(2));
+        const Vec3 p = apply(body.placed.model().world(), random.in_cube(2));
         double expected = HUGE_VAL;
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
             expected = std::min(
@@ -75,7 +76,7 @@ TEST(PlacedSolid, NearestEqualsAllTriangles) {
     }
 }
 
-/// Boxes on a grid: whether interiors overlap is plain.
+/// Boxes on a grid, where it is obvious whether interiors overlap.
 TEST(Interpenetrate, BoxesOnAGrid) {
     Random random(1104);
     int meet = 0, go_in = 0, shared_faces = 0;

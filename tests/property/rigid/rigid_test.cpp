@@ -37,7 +37,7 @@ Mesh make_mesh(Random& random, int kind) {
 
 Transform place(Random& random, Placement kind, const Vec3& at) {
     Transform t = random.pose(0);
-    if (kind == Placement::rigid_on_grid) // a quarter turn, on a grid: exact contacts
+    if (kind == Placement::rigid_on_grid) // a quarter turn on a grid gives exact contacts
         t = Transform({0, 1, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0});
     if (kind == Placement::affine)
         t = compose(t, Transform({random.chance(0.5) ? -1.3 : 1.3, random.uniform(-0.5, 0.5), 0,
@@ -62,7 +62,7 @@ double largest_coordinate(const std::vector<PlacedTriangle>& triangles) {
     return m;
 }
 
-/// Returns whether they meet.
+/// Checks all queries. Returns whether the models meet.
 bool check(const Case& c) {
     const auto a = placed_triangles(c.a.mesh(), c.world_a),
                b = placed_triangles(c.b.mesh(), c.world_b);
@@ -202,7 +202,7 @@ TEST(Rigid, ScalesOfMillionthsAndMillions) {
             const Model a(mesh_a), b(mesh_b), a_scaled(transformed(mesh_a, scaled)),
                 b_scaled(transformed(mesh_b, scaled));
             const double plain = distance(a, world_a, b, world_b).distance;
-            // Scaled in the mesh, and scaled by the transform.
+            // Scales the meshes, and then the transforms instead.
             Transform at_scale = world_b;
             for (std::size_t k = 9; k < 12; ++k)
                 at_scale.m[k] *= scale;

@@ -1,4 +1,4 @@
-// Models with hierarchies of every kind of volume: the answers are those of the boxes, and of all
+// Models with hierarchies of every kind of volume give the answers of box hierarchies and of all
 // pairs of triangles.
 
 #include <abut/penetration.h>
@@ -21,7 +21,7 @@ constexpr std::array kVolumes{Volume::aabb,   Volume::sphere, Volume::kdop14,
                               Volume::kdop18, Volume::kdop26, Volume::obb,
                               Volume::pss,    Volume::lss,    Volume::rss};
 
-/// Whether the hierarchy has boxes alone.
+/// Whether the hierarchy stores boxes only.
 bool boxes_only(Volume volume) {
     return volume == Volume::automatic || volume == Volume::aabb;
 }
@@ -41,7 +41,7 @@ Mesh any_mesh(Random& random, int kind) {
     }
 }
 
-/// Rigid; every third time also stretched, sheared and perhaps mirrored.
+/// A rigid placement; every third is also stretched, sheared and perhaps mirrored.
 Transform any_placement(Random& random, int round, const Vec3& at) {
     Transform t = random.pose(0);
     if (round % 3 == 2)
@@ -52,7 +52,7 @@ Transform any_placement(Random& random, int round, const Vec3& at) {
     return t;
 }
 
-/// What is right, by looking at all pairs.
+/// The true answers, from all pairs.
 struct Truth {
     std::vector<TrianglePair> pairs;
     double distance = 0;
@@ -97,7 +97,7 @@ void expect_truth(const Truth& truth, const Model& a, const Transform& world_a, 
 
 class RigidVolumes : public testing::TestWithParam<Volume> {};
 
-TEST_P(RigidVolumes, AnswerAsAllPairsDo) {
+TEST_P(RigidVolumes, EqualBruteForce) {
     const Volume volume = GetParam();
     Random random(4100);
     int meet = 0, rounds = 0;
@@ -124,14 +124,14 @@ TEST_P(RigidVolumes, AnswerAsAllPairsDo) {
     EXPECT_GT(meet, rounds / 4);
     EXPECT_LT(meet, rounds * 3 / 4);
     if (!boxes_only(volume)) {
-        EXPECT_NE(tests, of_boxes); // other volumes, indeed
+        EXPECT_NE(tests, of_boxes); // other volumes were really used
     }
     std::cout << meet << " of " << rounds << " meet; " << tests << " volume tests, of boxes "
               << of_boxes << '\n';
 }
 INSTANTIATE_TEST_SUITE_P(Volumes, RigidVolumes, testing::ValuesIn(kVolumes));
 
-TEST(RigidVolumes, OfDifferentKindsTheBoxesAnswer) {
+TEST(RigidVolumes, BoxesAnswerForModelsOfDifferentKinds) {
     Random random(4101);
     const Mesh mesh_a = any_mesh(random, 1), mesh_b = any_mesh(random, 3);
     const Model boxes_a(mesh_a), boxes_b(mesh_b);
@@ -147,7 +147,8 @@ TEST(RigidVolumes, OfDifferentKindsTheBoxesAnswer) {
             const Truth truth(mesh_a, world_a, mesh_b, world_b);
             expect_truth(truth, a, world_a, b, world_b);
             ASSERT_FALSE(HasFailure()) << i << ' ' << j;
-            // The trees of `aabb` differ from the automatic ones.
+            // The tree of a model with `aabb` differs from the automatic one, and so do its
+            // counters.
             if (kVolumes[i] != Volume::aabb && kVolumes[j] != Volume::aabb) {
                 ASSERT_EQ(distance(a, world_a, b, world_b).counters.volume_tests,
                           distance(boxes_a, world_a, boxes_b, world_b).counters.volume_tests);
@@ -207,7 +208,7 @@ TEST(RigidVolumes, FlattenedModelsKeepTheirKind) {
     EXPECT_LE(meet, 3 * int(kVolumes.size()));
 }
 
-/// Of rank 2, 1 or 0, along an axis or not.
+/// A singular transform of rank 2, 1 or 0, along an axis or not.
 Transform singular_transform(Random& random, double reach) {
     Transform flat = scaling(1, 1, 0);
     const double kind = random.uniform(0, 1);
@@ -222,7 +223,7 @@ Transform singular_transform(Random& random, double reach) {
     return t;
 }
 
-TEST(RigidVolumes, FlattenedModelsAnswerAsThoseOfBoxes) {
+TEST(RigidVolumes, FlattenedModelsEqualModelsOfBoxes) {
     Random random(5309);
     int deep = 0, apart = 0;
     for (int round = 0; round < many(20); ++round) {
@@ -254,7 +255,7 @@ TEST(RigidVolumes, FlattenedModelsAnswerAsThoseOfBoxes) {
             ASSERT_EQ(found.interpenetrate, depth.interpenetrate);
             ASSERT_LE(found.depth, depth.depth_at_most * (1 + 1e-12));
             ASSERT_LE(depth.depth, found.depth_at_most * (1 + 1e-12));
-            if (depth.depth > 0) { // the same depth, as near as each search comes
+            if (depth.depth > 0) { // the same depth, up to each search's accuracy
                 ASSERT_LE(-signed_distance.distance, depth.depth_at_most * (1 + 1e-12));
                 ASSERT_LE(depth.depth, -signed_distance.at_least * (1 + 1e-12));
                 ASSERT_NEAR(-signed_distance.distance, depth.depth, 0.1 * depth.depth);
@@ -288,8 +289,8 @@ TEST(RigidVolumes, EmptyModelsMeetNothing) {
     }
 }
 
-/// What a volume costs in each of a node's eight lanes, in floats.
-TEST(RigidVolumes, BytesAreThoseOfTheBoxesAndTheVolumes) {
+/// The extra memory is the size of one volume in each of a node's eight lanes, in floats.
+TEST(RigidVolumes, BytesAreTheSumOfBoxesAndVolumes) {
     const Mesh mesh = scenes::boulder(500, 2);
     const Model boxes(mesh);
     const std::size_t lanes = boxes.data().tree().nodes.size() * Node::kWidth * sizeof(float);

@@ -1,4 +1,5 @@
-// Planes between models: what they tell apart is apart, and they tell most of what is apart.
+// Separating planes between models: models reported apart are apart, and most models that are apart
+// are reported.
 
 #include "geometry/triangle_triangle_distance.h"
 #include "geometry/triangle_triangle_intersect.h"
@@ -14,13 +15,13 @@
 namespace abut::test {
 namespace {
 
-/// Points that fill space, a plane, a line or nothing, some of them far away.
+/// Points that fill space, a plane, a line or a point; some lie far away.
 std::vector<Vec3> cloud(Random& random) {
     const int dimensions = random.integer(0, 3);
     const Vec3 u = random.direction(), v = random.direction(), w = random.direction();
     const double size = std::ldexp(1.0, random.integer(-60, 40));
     const Vec3 at = random.chance(0.3) ? 1e6 * size * random.direction() : Vec3{};
-    // Few, or more than a block of them.
+    // A tenth of the clouds are large.
     const int most = random.chance(0.9) ? 40 : 1000;
     std::vector<Vec3> points(static_cast<std::size_t>(random.integer(1, most)));
     for (Vec3& p : points) {
@@ -36,7 +37,7 @@ std::vector<Vec3> cloud(Random& random) {
     return points;
 }
 
-/// Any direction; often with coordinates that are equal or zero.
+/// A random direction; half of them have equal or zero coordinates.
 Vec3 any_direction(Random& random) {
     if (random.chance(0.5))
         return random.direction();
@@ -66,7 +67,7 @@ TEST(SupportBound, NoPointReachesFarther) {
     EXPECT_GT(tight, cases * 9 / 10);
 }
 
-TEST(SupportBound, AlongItsNormalsItIsTheHeight) {
+TEST(SupportBound, IsExactAlongItsNormals) {
     Random random(2302);
     for (int i = 0; i < many(500); ++i) {
         const std::vector<Vec3> points = cloud(random);
@@ -78,7 +79,7 @@ TEST(SupportBound, AlongItsNormalsItIsTheHeight) {
                     double most = -HUGE_VAL;
                     for (const Vec3& p : points)
                         most = std::max(most, dot(n, p - bound.middle()));
-                    // In single precision, and rounded up.
+                    // The bound is rounded up, in single precision.
                     ASSERT_GE(bound.height(n), most);
                     ASSERT_NEAR(bound.height(n), most, 0x1p-20 * bound.size());
                 }
@@ -114,7 +115,7 @@ double distance_by_force(const Model& a, const Transform& world_from_a, const Mo
     return std::sqrt(best_sq);
 }
 
-/// Of any kind: a third of them rigid, a third affine, a third flattening to rounding.
+/// A third of them are rigid, a third affine, a third singular up to rounding.
 Transform any_transform(Random& random, double reach) {
     const int kind = random.integer(0, 2);
     Transform t = random.linear_map(kind != 0);
@@ -126,7 +127,7 @@ Transform any_transform(Random& random, double reach) {
     return t;
 }
 
-TEST(SeparatingPlane, WhatItTellsApartIsApart) {
+TEST(SeparatingPlane, ModelsReportedApartAreApart) {
     Random random(2303);
     int apart = 0, told = 0, near = 0;
     for (int i = 0; i < many(20000); ++i) {
@@ -134,7 +135,7 @@ TEST(SeparatingPlane, WhatItTellsApartIsApart) {
         const Model a(soup(random, size)), b(soup(random, size));
         Transform world_from_a = any_transform(random, 4 * size),
                   world_from_b = any_transform(random, 4 * size);
-        if (random.chance(0.2)) { // far from the origin together
+        if (random.chance(0.2)) { // far from the origin, together
             const Vec3 away = 1e5 * size * random.direction();
             for (Transform* t : {&world_from_a, &world_from_b})
                 t->m[9] += away.x, t->m[10] += away.y, t->m[11] += away.z;
@@ -143,7 +144,7 @@ TEST(SeparatingPlane, WhatItTellsApartIsApart) {
         const double share = random.uniform(0, 1.2);
         const double gap = random.chance(0.3) ? 0 : share * distance;
         const bool far = far_apart(a.data(), world_from_a, b.data(), world_from_b, gap);
-        // The distance is rounded; a bit more than it is not exceeded.
+        // The distance is rounded, so a slightly larger gap must never be reported.
         ASSERT_FALSE(far && !(distance > gap)) << "distance " << distance << ", gap " << gap;
         ASSERT_FALSE(
             far_apart(a.data(), world_from_a, b.data(), world_from_b, distance * (1 + 1e-12)));
@@ -156,7 +157,7 @@ TEST(SeparatingPlane, WhatItTellsApartIsApart) {
     EXPECT_GT(near, many(20000) / 40);
 }
 
-TEST(SeparatingPlane, BetweenBoxesItIsExactToSinglePrecision) {
+TEST(SeparatingPlane, IsExactForBoxesToSinglePrecision) {
     const Model box(box_mesh({-1, -1, -1}, {1, 1, 1}));
     for (const double gap : {1e-3, 0.5, 1e3}) {
         const Transform there = Pose{{0, 2 + gap, 0}};
@@ -167,7 +168,7 @@ TEST(SeparatingPlane, BetweenBoxesItIsExactToSinglePrecision) {
     EXPECT_FALSE(far_apart(box.data(), {}, box.data(), Pose{{2, 2, 0}}, 0));
 }
 
-TEST(SeparatingPlane, SaysNothingWhereNumbersEnd) {
+TEST(SeparatingPlane, SaysNothingForExtremeNumbers) {
     const Model box(box_mesh({-1, -1, -1}, {1, 1, 1})), none(Mesh{});
     const Transform away = Pose{{10, 0, 0}};
     ASSERT_TRUE(far_apart(box.data(), {}, box.data(), away, 1));
@@ -180,7 +181,8 @@ TEST(SeparatingPlane, SaysNothingWhereNumbersEnd) {
             EXPECT_FALSE(far_apart(box.data(), {}, box.data(), t, 1));
             EXPECT_FALSE(far_apart(box.data(), t, box.data(), {}, 1));
         }
-    // Larger and smaller than squares can be: unlike sizes about the origin meet.
+    // Sizes whose squares overflow or underflow: boxes of different sizes that meet near the
+    // origin.
     for (const double size : {1e-300, 1e-200, 1e-160, 1e160, 1e300})
         for (const double other : {0.5, 1.0})
             EXPECT_FALSE(far_apart(

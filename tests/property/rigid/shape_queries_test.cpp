@@ -1,4 +1,4 @@
-// One model against shapes: equal to asking every triangle.
+// Queries of one model against shapes equal tests of every triangle.
 
 #include <abut/shape_queries.h>
 
@@ -22,7 +22,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class Placement { rigid, affine, uneven, far, flattened, on_grid, tiny, huge };
 
-/// How large the placed model is, about.
+/// Approximate size of the placed model.
 double scale_of(Placement kind) {
     return kind == Placement::tiny ? 1e-6 : kind == Placement::huge ? 1e6 : 1;
 }
@@ -68,7 +68,7 @@ Transform place(Random& random, Placement kind) {
     }
 }
 
-/// A placed model and shapes around it.
+/// A placed model, and random shapes around it.
 struct Scene {
     Scene(Random& r, Placement kind)
         : random(r), model(make_mesh(r, r.integer(0, 3))), world(place(r, kind)),
@@ -78,7 +78,8 @@ struct Scene {
                 extend(box, p);
     }
 
-    /// A corner, a middle of an edge, a point of a face, one near the model, one far from it.
+    /// A corner, the middle of an edge, a point of a face, a point near the model, or one far from
+    /// it.
     Vec3 point() {
         const Triangle& t = corners();
         const Vec3 size = box.upper - box.lower;
@@ -135,7 +136,7 @@ double roundings(const Scene& s, const Vec3& p) {
             length(s.box.upper));
 }
 
-TEST_P(ShapeQueries, NearestIsThatOfAllTriangles) {
+TEST_P(ShapeQueries, NearestEqualsBruteForce) {
     int on = 0, cases = 0;
     std::array<int, 3> features{};
     for (int k = 0; k < kScenes; ++k) {
@@ -175,7 +176,7 @@ TEST_P(ShapeQueries, NearestIsThatOfAllTriangles) {
                 ASSERT_EQ(n.barycentric[(n.index + 2U) % 3], 0);
             }
             ++features[static_cast<std::size_t>(n.feature)];
-            // Bounds.
+            // An upper bound below or above the distance.
             if (expected > 8 * rounding) {
                 const Nearest cut = nearest(s.model, s.world, p, {.upper_bound = 0.9 * expected});
                 ASSERT_EQ(cut.status, Status::bound_only);
@@ -191,14 +192,14 @@ TEST_P(ShapeQueries, NearestIsThatOfAllTriangles) {
         EXPECT_GT(count, cases / 30);
 }
 
-TEST_P(ShapeQueries, RaysMeetWhatAllTrianglesSay) {
+TEST_P(ShapeQueries, RaysEqualBruteForce) {
     int hits = 0, cases = 0;
     for (int k = 0; k < kScenes; ++k) {
         Scene s(random_, GetParam());
         for (int i = 0; i < kShapes; ++i, ++cases) {
             Ray ray{s.point(), {}};
             const Triangle t = s.corners();
-            ray.direction = i % 4 == 0   ? t[1] - t[0] // along an edge: in planes of triangles
+            ray.direction = i % 4 == 0   ? t[1] - t[0] // along an edge, so in planes of triangles
                             : i % 4 == 1 ? random_.direction()
                                          : s.point() - ray.origin;
             if (i % 4 == 0 && random_.chance(0.7))
@@ -246,8 +247,8 @@ TEST_P(ShapeQueries, RaysMeetWhatAllTrianglesSay) {
     EXPECT_LT(hits, cases * 95 / 100);
 }
 
-/// Every one of the four overlaps, with the least shape that meets, or almost.
-TEST_P(ShapeQueries, OverlapsAreThoseOfAllTriangles) {
+/// All four kinds of overlap, often with the smallest shape that meets, or a slightly smaller one.
+TEST_P(ShapeQueries, OverlapsEqualBruteForce) {
     int meet = 0, cases = 0;
     const auto check = [&](const Scene& s, const auto& shape, const auto& meets) {
         const std::vector<std::uint32_t> expected = s.brute(meets);
@@ -268,7 +269,8 @@ TEST_P(ShapeQueries, OverlapsAreThoseOfAllTriangles) {
             Box3 box;
             extend(box, p), extend(box, p + (i % 2 == 0 ? 0.3 : 0.01) * (q - p));
             check(s, box, [&](const Triangle& t) { return box_triangle_intersect(box, t); });
-            // As what it is under the identity, where corners are not rounded.
+            // Under the identity the box equals the axis-aligned one, and its corners are not
+            // rounded.
             check(s, OrientedBox{box, Transform()},
                   [&](const Triangle& t) { return box_triangle_intersect(box, t); });
             const Segment segment{p, i % 4 == 0 ? p : p + (i % 2 == 0 ? 1 : 0.1) * (q - p)};
@@ -292,7 +294,7 @@ TEST_P(ShapeQueries, OverlapsAreThoseOfAllTriangles) {
     EXPECT_LT(meet, cases * 9 / 10);
 }
 
-/// Boxes under integer transforms: their corners are exact, and rational clipping decides.
+/// Boxes under integer transforms have exact corners, so clipping in rationals decides.
 TEST(OrientedBoxes, EqualClippingByRationals) {
     Random random(2120);
     int meet = 0, cases = 0;
@@ -327,7 +329,7 @@ TEST(OrientedBoxes, EqualClippingByRationals) {
     EXPECT_LT(meet, cases * 95 / 100);
 }
 
-/// From inside a closed surface every ray gets out, through vertices, edges and faces alike.
+/// Every ray from inside a closed surface meets it, also through vertices and edges.
 TEST(Rays, NoneSlipsThroughAClosedSurface) {
     Random random(2121);
     struct Case {
@@ -345,7 +347,7 @@ TEST(Rays, NoneSlipsThroughAClosedSurface) {
             const auto triangles = placed_triangles(mesh, world);
             const Vec3 o = apply(world, inside);
             if (contains(model, world, o).side != Side::inside) {
-                // A millionth in size, 1e5 away: rounding leaves no solid.
+                // A solid of size 1e-6 that is 1e5 away is lost to rounding.
                 ASSERT_EQ(length(mesh.positions[0]), 1e-6);
                 continue;
             }
@@ -361,6 +363,7 @@ TEST(Rays, NoneSlipsThroughAClosedSurface) {
                 const RayHit hit = first_hit(model, world, ray);
                 ASSERT_TRUE(hit.meet) << i;
                 if (mesh.positions.size() != std::size_t{24} * 12) { // convex: nothing lies behind
+                                                                     // the hit
                     ASSERT_LE((hit.t - 1) * length(aim - o), 256 * 0x1p-53 * (length(aim) + 1));
                 }
                 ASSERT_FALSE(all_hits(model, world, ray).empty());
@@ -369,7 +372,7 @@ TEST(Rays, NoneSlipsThroughAClosedSurface) {
     }
 }
 
-TEST(ManyShapes, GiveWhatOneGives) {
+TEST(ManyShapes, EqualSingleQueries) {
     Random random(2122);
     const Model model(torus_mesh(1, 0.35, 30, 20));
     const Transform world = random.pose(1);
@@ -398,8 +401,8 @@ TEST(ManyShapes, GiveWhatOneGives) {
     EXPECT_LT(inside, 500);
 }
 
-/// With a triangle missing, the winding number still tells, away from the hole.
-TEST(Containment, OfAnOpenSurfaceByWindingNumber) {
+/// The winding number decides for a surface with a missing triangle too, away from the hole.
+TEST(Containment, OpenSurfacesByWindingNumber) {
     Random random(2123);
     Mesh open = sphere_mesh(1, 24, 16);
     const Model closed(open);

@@ -1,4 +1,4 @@
-// Signed distance: by hand, and along a path that goes in and out again.
+// Signed distance, by hand and along a path that enters and leaves a solid.
 
 #include "rigid/signed_gap.h"
 #include "tests/support/body.h"
@@ -18,7 +18,8 @@ TEST(SignedGap, ByHand) {
         sheet(Mesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}}, {{0, 1, 2}}});
     EXPECT_EQ(gap(box, box, translation(3, 0, 0)).distance, 2);
     EXPECT_EQ(gap(box, box, translation(1, 0, 0)).distance, 0);
-    EXPECT_NEAR(gap(box, box, {}).distance, -1, 1e-6); // coincide: no point lies inside the other
+    EXPECT_NEAR(gap(box, box, {}).distance, -1, 1e-6); // they coincide: no point lies inside the
+                                                       // other
     EXPECT_NEAR(gap(box, small, translation(0.65, 0, 0)).distance, -0.1, 1e-3);
     EXPECT_NEAR(gap(box, small, {}).distance, -0.5, 6e-3); // its corner is half a unit deep
     EXPECT_NEAR(gap(small, box, {}).distance, -0.5, 6e-3);
@@ -32,13 +33,13 @@ TEST(SignedGap, ByHand) {
         EXPECT_EQ(box.model.mesh().positions[v].x, 1);
 }
 
-/// No jump beyond the motion: not where surfaces meet, nor where contact ends inside.
+/// The distance changes by no more than the motion, also where contact begins or ends.
 TEST(SignedGap, ChangesNoFasterThanTheModelMoves) {
     Random random(3301);
     const Body torus(torus_mesh(1, 0.5, 30, 16)), ball(sphere_mesh(0.3, 14, 8));
     int inside = 0, across = 0, outside = 0;
     for (int path = 0; path < 8; ++path) {
-        // Anywhere, or to the middle of the tube.
+        // The path leads anywhere, or to the middle of the tube.
         const double angle = random.uniform(0, 2 * std::numbers::pi);
         const Vec3 from = 1.9 * random.direction(),
                    to = path % 2 == 0 ? random.in_cube(1.5)

@@ -1,5 +1,4 @@
-// Every query that can be long: the stop flag ends it, and what a limit of steps leaves is a proven
-// bound.
+// Long queries: the stop flag ends each, and a limit on steps leaves a proven bound.
 
 #include <abut/abut.h>
 
@@ -35,7 +34,7 @@ bool is_interrupted(const std::function<void()>& query) {
     return false;
 }
 
-/// Long triangles through the origin: each meets most of the others.
+/// Long triangles through the origin; each meets most of the others.
 Mesh needles_mesh(Random& random, int count) {
     Mesh mesh;
     for (int i = 0; i < count; ++i) {
@@ -85,6 +84,7 @@ TEST(Stops, AFlagThatIsSetEndsEveryQuery) {
     std::atomic<bool> stop = false;
     const Progress progress{{}, &stop};
     const std::vector<std::pair<std::string, std::function<void()>>> queries{
+        {"model", [&] { const Model built(a.mesh(), {.progress = progress}); }},
         {"collide", [&] { collide(a, here, b, there, {.progress = progress}); }},
         {"distance", [&] { distance(a, here, b, there, {.progress = progress}); }},
         {"signed distance",
@@ -156,7 +156,7 @@ TEST(Stops, AFlagThatIsSetEndsEveryQuery) {
         stop = true;
         EXPECT_TRUE(is_interrupted(query));
     }
-    // Nothing of it is left behind on this thread.
+    // The stopped query leaves no state behind on this thread.
     EXPECT_NO_THROW(collide(a, here, b, there));
 }
 
@@ -179,7 +179,9 @@ TEST(Stops, AFlagSetByAnotherThreadEndsLongQueries) {
 
     std::atomic<bool> stop = false;
     const Progress progress{{}, &stop};
+    const Mesh many = needles_mesh(random, 1'000'000);
     const std::vector<std::pair<std::string, std::function<void()>>> queries{
+        {"model", [&] { const Model built(many, {.progress = progress}); }},
         {"collide",
          [&] { collide(a, {}, b, {}, {.mode = ContactMode::all, .progress = progress}); }},
         {"signed distance",
@@ -235,8 +237,8 @@ TEST(Stops, AReportEndsABatch) {
     }
 }
 
-// The pairs that were due are asked for again.
-TEST(Stops, AScheduleThatWasStoppedForgetsNoPair) {
+// The next call asks again for the pairs that were due.
+TEST(Stops, AStoppedScheduleForgetsNoPair) {
     Random random(3);
     const auto fill = [&random](World& world, World& twin) {
         std::vector<BodyId> bodies;
@@ -266,8 +268,8 @@ TEST(Stops, AScheduleThatWasStoppedForgetsNoPair) {
     EXPECT_GT(touching, 20U);
 }
 
-// A search that was stopped leaves nothing in a warm start that a later one could be misled by.
-TEST(Stops, AWarmStartSurvives) {
+// A stopped search leaves nothing in a warm start that could mislead a later one.
+TEST(Stops, AWarmStartSurvivesAStop) {
     Random random(4);
     const Model a(torus_mesh(1, 0.4, 24, 12)), b(torus_mesh(1, 0.3, 20, 10));
     const ConvexPieces solid_a(a), solid_b(b);
@@ -282,7 +284,7 @@ TEST(Stops, AWarmStartSurvives) {
     });
     int interrupted = 0;
     Pose pose{{1.5, 0, 0}, {1, 0, 0, 0}};
-    // Where the other thread seldom runs, for longer.
+    // Runs longer where the other thread is seldom scheduled.
     for (int i = 0; i < 2000 || (interrupted < 100 && i < 200'000); ++i) {
         pose.translation = pose.translation + random.in_cube(0.02);
         if (random.chance(0.05))
@@ -365,7 +367,7 @@ TEST_F(Limits, BoundsOfADistanceHoldTheTruth) {
     EXPECT_GT(complete, 100);
 }
 
-/// The least distance of what was visited.
+/// Keeps the least distance of the visited pairs.
 class NearestVisited : public LeafPairVisitor {
 public:
     explicit NearestVisited(const PlacedPair& pair) : pair_(pair) {}
@@ -386,7 +388,7 @@ private:
     const PlacedPair& pair_;
 };
 
-TEST_F(Limits, HoldWhereTheQueueIsFull) {
+TEST_F(Limits, BoundsHoldIfTheQueueIsFull) {
     int limited = 0, decisive = 0;
     for (int i = 0; i < 1000; ++i) {
         const Model a = model(), b = model();

@@ -22,11 +22,11 @@ Mesh make_mesh(Random& random, int kind) {
         return box_mesh({-0.5, -0.4, -0.3}, {0.5, 0.4, 0.3});
     case 1:
         return sphere_mesh(0.6, 8, 5);
-    case 2: // a plate without thickness, exactly flat
+    case 2: // an exactly flat plate
         return grid_mesh(3, 3, false, false, [](double u, double v) {
             return Vec3{0, 1.5 * u - 0.75, 1.5 * v - 0.75};
         });
-    case 3: { // needles: some 1e6 times longer than wide, two without width
+    case 3: { // needles: some are 1e6 times longer than wide, and two have no width
         Mesh m;
         for (std::uint32_t i = 0; i < 8; ++i) {
             const Vec3 p = random.in_cube(0.6), q = p + 1.2 * random.direction();
@@ -45,7 +45,7 @@ Mesh make_mesh(Random& random, int kind) {
     }
 }
 
-/// Starts outside and passes the other about as often as it meets it.
+/// A motion that starts outside. It meets the other body about as often as it passes.
 Motion make_motion(Random& random) {
     const Vec3 from = random.uniform(1.5, 3) * random.direction();
     const Vec3 to = random.in_cube(2.7) - random.uniform(0, 1) * from;
@@ -54,12 +54,12 @@ Motion make_motion(Random& random) {
     switch (random.integer(0, 5)) {
     case 0:
         return Motion::screw(start, end);
-    case 1: { // so fast that any sampling would step over a plate
+    case 1: { // so fast that sampling would miss a plate
         Motion motion = Motion::between(start, {to, start.rotation});
         motion.velocity = std::pow(10, random.uniform(1, 6)) * motion.velocity;
         return motion;
     }
-    case 2: // turns several times
+    case 2: // several turns
         return {start, from, to - from, random.uniform(5, 40) * random.direction()};
     case 3: // straight
         return Motion::between(start, {to, start.rotation});
@@ -93,7 +93,7 @@ Case make_case(Random& random, int i) {
     return {Model(a), Model(b), motion_a, make_other_motion(random)};
 }
 
-/// No point of the body moves faster.
+/// Upper bound on the speed of the body's points.
 double speed_of(const Model& model, const Motion& motion) {
     const Transform start(motion.start);
     double arm = 0;
@@ -102,11 +102,11 @@ double speed_of(const Model& model, const Motion& motion) {
     return length(motion.velocity) + length(motion.angular_velocity) * arm;
 }
 
-/// When the first contact is, by halving time: a half is free if the distance in its middle exceeds
-/// what can be gone in it.
+/// Time of the first contact, by bisection: a half is free if the distance at its middle exceeds
+/// the distance that the bodies can cover in it.
 struct FirstContact {
     double not_before = 1;      ///< proven free up to here
-    double contact = kInfinity; ///< seen here
+    double contact = kInfinity; ///< a contact was found here
 };
 
 class Subdivision {
@@ -145,18 +145,18 @@ private:
     FirstContact found_;
 };
 
-/// Returns whether they meet.
+/// Checks one motion. Returns whether the models meet.
 bool check(const Case& c, int& undecided) {
     const double tolerance = 1e-5;
     const Impact impact =
         time_of_impact(c.a, c.motion_a, c.b, c.motion_b, {.absolute_error = tolerance});
     const FirstContact truth = Subdivision(c).run();
-    // Not late, not missed.
+    // The reported time is not late, and no contact is missed.
     EXPECT_LE(impact.time, truth.contact);
     EXPECT_EQ(impact.meet || truth.contact <= 1, impact.meet);
     EXPECT_EQ(impact.time == 0, truth.contact == 0);
     if (impact.meet) {
-        // Another pair of triangles may be nearer by then.
+        // At that time another pair of triangles may be nearer.
         EXPECT_LE(c.distance_at(impact.time), impact.gap + 0x1p-48);
         EXPECT_LE(impact.gap, tolerance);
         if (impact.time > 0) {
@@ -175,7 +175,7 @@ bool check(const Case& c, int& undecided) {
             collide(c.a, c.world_a(impact.contact_time), c.b, c.world_b(impact.contact_time))
                 .meet());
     }
-    // Either way round, the same to what is proven.
+    // In the other order, the answer is the same as far as it is proven.
     const Impact swapped =
         time_of_impact(c.b, c.motion_b, c.a, c.motion_a, {.absolute_error = tolerance});
     if (impact.status == Status::exact && swapped.status == Status::exact) {

@@ -1,5 +1,6 @@
-// Hierarchies that a job has kept in the store: models of them are those that are built, later jobs find
-// what jobs without them find, and no row, whatever it holds, makes a difference.
+// Hierarchies that a job has kept in the store. Models made of them equal models that are built,
+// and later jobs find the same clashes as without them. No row changes the result, whatever it
+// contains.
 
 #include <abut/clash.h>
 #include <abut/error.h>
@@ -36,7 +37,7 @@ std::vector<std::int64_t> kept_blocks(const std::string& store) {
     return blocks;
 }
 
-/// A model in a store, some meshes of it large.
+/// A store of one random model; some of its meshes may be large.
 class StoredModel {
 public:
     explicit StoredModel(Random& random, int large = 0) {
@@ -53,7 +54,7 @@ public:
     }
     [[nodiscard]] std::string store() const { return folder_ / "a.abut"; }
 
-    /// Against the job in core.
+    /// Runs the job of the store and expects exactly the result of the in-core job.
     StoreClashReport expect_equal_job(double clearance, const OutOfCoreOptions& how = {}) const {
         ClashOptions options;
         options.clearance = clearance;
@@ -62,8 +63,8 @@ public:
         return found;
     }
 
-    /// Of all meshes and blocks, each model that the store gives is the one that is built. Returns how
-    /// many of them had a hierarchy there.
+    /// Expects every mesh and mesh block to give the same model from the store as when built.
+    /// Returns how many had a hierarchy in the store.
     [[nodiscard]] std::uint64_t expect_models_as_built() const {
         const Store opened = open_store(store());
         ModelReader reader(opened.file(), 0);
@@ -80,7 +81,8 @@ public:
         return reader.found();
     }
 
-    /// But for depths, which depend on the hierarchy within their accuracy.
+    /// Like expect_equal_job, except that depths may differ, because they depend on the hierarchy
+    /// within their accuracy.
     StoreClashReport expect_like_job(double clearance) const {
         ClashOptions options;
         options.clearance = clearance;
@@ -103,7 +105,7 @@ private:
     std::vector<Scene> scenes_;
 };
 
-TEST(KeptHierarchies, LaterJobsReadThemAndFindTheSame) {
+TEST(KeptHierarchies, LaterJobsReadThemAndFindTheSameClashes) {
     Random random(8401);
     std::uint64_t kept = 0, found = 0, of_blocks = 0;
     for (int round = 0; round < many(4); ++round) {
@@ -115,7 +117,8 @@ TEST(KeptHierarchies, LaterJobsReadThemAndFindTheSame) {
         EXPECT_EQ(work.hierarchies_kept, work.meshes + work.blocks);
         EXPECT_EQ(kept_blocks(model.store()).size(), work.hierarchies_kept);
         EXPECT_EQ(model.expect_models_as_built(), work.hierarchies_kept);
-        // Another question, in whatever memory: all that the first one needed is there.
+        // A second job with other options, in any memory, finds every hierarchy that the first one
+        // needed.
         OutOfCoreOptions how;
         how.memory = random.chance(0.5) || round % 2 == 1 ? how.memory : 800'000;
         how.keep = random.chance(0.5);
@@ -135,7 +138,7 @@ TEST(KeptHierarchies, LaterJobsReadThemAndFindTheSame) {
     EXPECT_GT(of_blocks, static_cast<std::uint64_t>(many(4)) / 2);
 }
 
-TEST(KeptHierarchies, AreKeptWhereThatIsWantedAlone) {
+TEST(KeptHierarchies, AreKeptOnlyIfRequested) {
     Random random(8402);
     const StoredModel model(random);
     EXPECT_EQ(model.expect_equal_job(0.05, {.keep_hierarchies = false}).counters.hierarchies_kept,
@@ -145,8 +148,8 @@ TEST(KeptHierarchies, AreKeptWhereThatIsWantedAlone) {
     EXPECT_GT(model.expect_equal_job(0.03).counters.hierarchies_kept, 0U);
 }
 
-/// In little memory only a part can wait to be kept: later jobs keep more, until all is there.
-TEST(KeptHierarchies, ComeWithTime) {
+/// In little memory only some hierarchies can wait to be kept; later jobs keep more.
+TEST(KeptHierarchies, AreKeptByLaterJobsInLittleMemory) {
     Random random(8403);
     const StoredModel model(random);
     std::uint64_t kept = 0;
@@ -172,7 +175,7 @@ void flip(Random& random, HierarchyRow& row) {
         static_cast<std::byte>(1 << random.integer(0, 7));
 }
 
-/// Spoils a row in ways that happen: a damaged disk, another version, a block that is another.
+/// Damages a row as may really happen: a bad disk, another version, a block that was replaced.
 void damage(Random& random, Database& database, std::int64_t block) {
     HierarchyRow row = row_of(database, block);
     switch (random.integer(0, 3)) {
@@ -194,11 +197,12 @@ void damage(Random& random, Database& database, std::int64_t block) {
     keep_hierarchies(database, {row});
 }
 
-/// Writes a row that nobody writes by chance: its checksum is sound.
+/// Writes a wrong row with a correct checksum, which cannot happen by chance.
 void forge(Random& random, Database& database, std::int64_t block, std::int64_t other) {
     HierarchyRow row = row_of(database, block);
     const auto outline =
-        decode_hierarchy(row.data, std::uint64_t{1} << 16); // none, but for 65,536 triangles
+        decode_hierarchy(row.data, std::uint64_t{1} << 16); // none, unless for exactly 65,536
+                                                            // triangles
     EXPECT_FALSE(outline);
     switch (random.integer(0, 2)) {
     case 0:
@@ -207,7 +211,7 @@ void forge(Random& random, Database& database, std::int64_t block, std::int64_t 
     case 1:
         row.data = row_of(database, other).data;
         break;
-    default: // sound bytes, anything in them
+    default: // well-formed bytes with random contents
         ModelOutline any{static_cast<TreeAxes>(random.integer(0, 3)), {}};
         for (int i = random.integer(0, 30); i > 0; --i)
             any.tree.nodes.push_back(static_cast<std::uint32_t>(random.bits() >> 39));
@@ -218,7 +222,7 @@ void forge(Random& random, Database& database, std::int64_t block, std::int64_t 
     keep_hierarchies(database, {row});
 }
 
-/// So many rows of a store at random: change(database, block, another block).
+/// Calls change(database, block, another block) for some random rows of a store.
 template <typename Change>
 void change_rows(Random& random, const std::string& store, int rows, const Change& change) {
     const std::vector<std::int64_t> blocks = kept_blocks(store);
@@ -233,7 +237,7 @@ void change_rows(Random& random, const std::string& store, int rows, const Chang
     transaction.commit();
 }
 
-TEST(KeptHierarchies, DamagedOnesAreBuiltAndKeptAnew) {
+TEST(KeptHierarchies, DamagedRowsAreBuiltAndKeptAnew) {
     Random random(8404);
     std::uint64_t again = 0, damaged = 0;
     for (int round = 0; round < many(6); ++round) {
@@ -261,7 +265,7 @@ TEST(KeptHierarchies, DamagedOnesAreBuiltAndKeptAnew) {
     EXPECT_LE(again, damaged);
 }
 
-TEST(KeptHierarchies, ForgedOnesAreRefusedOrDoNotMatter) {
+TEST(KeptHierarchies, ForgedRowsAreRefusedOrHarmless) {
     Random random(8408);
     std::uint64_t again = 0;
     for (int round = 0; round < many(6); ++round) {
@@ -285,7 +289,7 @@ TEST(KeptHierarchies, ForgedOnesAreRefusedOrDoNotMatter) {
     EXPECT_GT(again, static_cast<std::uint64_t>(many(6)));
 }
 
-TEST(KeptHierarchies, ATableOfAnotherKindIsLeftAlone) {
+TEST(KeptHierarchies, AForeignTableIsLeftAlone) {
     Random random(8405);
     const StoredModel model(random);
     Database(model.store(), OpenMode::read_write)
@@ -307,12 +311,13 @@ TEST(KeptHierarchies, VerifyFindsDamage) {
         .run("UPDATE hierarchy SET data = zeroblob(length(data)) "
              "WHERE block = (SELECT min(block) FROM hierarchy)");
     EXPECT_THROW(verify(open_store(model.store())), Error);
-    (void)model.expect_equal_job(0.049); // which builds and keeps it anew
+    (void)model.expect_equal_job(0.049); // builds and keeps it anew
     verify(open_store(model.store()));
 }
 
-/// Imports that change and remove meshes, whose blocks' numbers may come again.
-TEST(KeptHierarchies, GoWithTheirBlocks) {
+/// Hierarchies are removed with their blocks. Imports change and remove meshes, and numbers of
+/// blocks may be used again.
+TEST(KeptHierarchies, AreRemovedWithTheirBlocks) {
     Random random(8407);
     std::uint64_t found = 0, kept = 0;
     for (int round = 0; round < many(4); ++round) {

@@ -1,4 +1,4 @@
-/// The store gives back what read_scene gives, whatever the memory; and of a damaged file, that or an
+/// The store gives back what read_scene gives, in any memory. A damaged file gives the same, or an
 /// error.
 #include <abut/error.h>
 #include <abut/scene.h>
@@ -42,13 +42,14 @@ float some_float(Random& random) {
     }
 }
 
-/// Triangles over few vertices: many equal positions, degenerate triangles, unused vertices.
+/// Random triangles over few vertices, with equal positions, degenerate triangles and unused
+/// vertices.
 Mesh some_mesh(Random& random, int most) {
     Mesh mesh;
     const int vertices = random.integer(3, most);
     for (int i = 0; i < vertices; ++i)
         mesh.positions.push_back({some_float(random), some_float(random), some_float(random)});
-    // One triangle of an area, since a file of none is refused.
+    // One triangle has an area, because a file without any is refused.
     mesh.positions.push_back({1, 0, 0});
     mesh.positions.push_back({0, 1, 0});
     mesh.positions.push_back({0, 0, 1});
@@ -119,7 +120,8 @@ TEST(Store, GivesBackWhatReadSceneGives) {
     EXPECT_GT(repeated, 0U) << "no scene had an id twice";
 }
 
-/// A bumpy sheet of 2 n^2 triangles whose vertices are partly split, in the order of a raster.
+/// A bumpy sheet of 2 n^2 triangles in random order, whose vertices lie in rows and are partly
+/// split.
 Mesh sheet(Random& random, std::uint32_t n) {
     Mesh mesh;
     for (std::uint32_t i = 0; i <= n; ++i)
@@ -139,7 +141,7 @@ Mesh sheet(Random& random, std::uint32_t n) {
                 corner = static_cast<std::uint32_t>(mesh.positions.size() - 1);
             }
     std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), std::mt19937_64(random.bits()));
-    // Vertices that nothing uses, more than one block of them.
+    // Unused vertices, sometimes more than one mesh block of them.
     for (int i = random.chance(0.5) ? 70000 : 3; i > 0; --i)
         mesh.positions.push_back({some_float(random), some_float(random), some_float(random)});
     return mesh;
@@ -157,7 +159,7 @@ std::vector<std::uint64_t> block_checksums(const std::string& store) {
 
 TEST(Store, OutOfCoreEqualsInCore) {
     Random random(2);
-    std::size_t pieces = 0;
+    std::size_t blocks = 0;
     for (int round = 0; round < many(4); ++round) {
         const Folder folder;
         Scene scene;
@@ -174,11 +176,11 @@ TEST(Store, OutOfCoreEqualsInCore) {
         verify(open_store(folder / "little.abut"));
         StoreFile little(folder / "little.abut", true), much(folder / "much.abut", true);
         const MeshRow out = little.mesh(1), in = much.mesh(1);
-        // Only a mesh in memory is asked whether it is closed.
+        // Only a mesh that is imported in core is tested for closedness.
         ASSERT_TRUE(!out.closed && in.closed) << "one of the two ways was not taken";
         EXPECT_EQ(out.hash_low, in.hash_low);
         EXPECT_EQ(out.box, in.box);
-        pieces += out.blocks;
+        blocks += out.blocks;
         Box3 box;
         std::uint64_t triangles = 0;
         for (const BlockRow& block : little.blocks(out)) {
@@ -191,10 +193,10 @@ TEST(Store, OutOfCoreEqualsInCore) {
         EXPECT_EQ(box, out.box);
         EXPECT_EQ(triangles, out.triangles);
     }
-    EXPECT_GT(pieces, 4U * 2) << "meshes were not cut";
+    EXPECT_GT(blocks, 4U * 2) << "meshes were not cut";
 }
 
-TEST(Store, ReimportTouchesWhatChanged) {
+TEST(Store, ReimportTouchesOnlyChanges) {
     Random random(3);
     std::size_t kept = 0, changed = 0;
     for (int round = 0; round < many(25); ++round) {
@@ -206,7 +208,7 @@ TEST(Store, ReimportTouchesWhatChanged) {
         const Scene first = read_scene(file);
         for (int again = 0; again < 3; ++again) {
             Scene after = before;
-            // Another place, another type, another shape, another part; one less; another order.
+            // Poses, a type, a mesh and the order may change; a part may come or go.
             for (Part& part : after.parts)
                 if (random.chance(0.15))
                     part.world_from_mesh = random.pose(100);
@@ -255,7 +257,7 @@ TEST(Store, ReimportTouchesWhatChanged) {
             const StoredScene stored = stored_scene(content, content.models().at(0));
             for (std::size_t i = 0; i < is_new.size(); ++i)
                 ASSERT_EQ(stored.generations[i] == last + 1, is_new[i]) << now.parts[i].id;
-            // Geometry that no part shows is gone.
+            // A mesh that no part shows any more is removed.
             std::set<std::int64_t> shown;
             content.for_each_part([&](const PartRow& part) { shown.insert(part.mesh); });
             ASSERT_EQ(found.meshes, shown.size());
@@ -271,7 +273,7 @@ TEST(Store, ReimportTouchesWhatChanged) {
     EXPECT_GT(changed, 20U);
 }
 
-TEST(Store, GivesUpAModelWhole) {
+TEST(Store, RemovesModelsCompletely) {
     Random random(6);
     std::size_t meshes = 0;
     for (int round = 0; round < many(10); ++round) {
@@ -301,7 +303,7 @@ TEST(Store, GivesUpAModelWhole) {
         ASSERT_EQ(parts, scenes[0].parts.size() + scenes[1].parts.size());
         for (std::size_t m = 0; m < 2; ++m)
             expect_stored(store, scenes[m], m);
-        // Generations go on, although the last model, or all, are gone.
+        // Generations keep counting even if some or all models were removed.
         if (random.chance(0.5)) {
             (void)remove_models(files, store);
             ASSERT_EQ(summary(open_store(store)).meshes, 0U);
@@ -318,7 +320,7 @@ std::string read_bytes(const std::string& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Reads all that a job would.
+/// Reads all that a clash job would.
 void read_all(const std::string& store, const Scene& scene) {
     StoreFile file(store, true);
     for (const ModelRow& model : file.models())
@@ -349,7 +351,7 @@ TEST(Store, DamageIsNeverAWrongAnswer) {
             std::ofstream(store, std::ios::binary | std::ios::trunc) << bytes;
             try {
                 read_all(store, scene);
-                ++harmless; // in a page that nothing was read from
+                ++harmless; // the damage is in a page that was not read
                 if (HasFatalFailure())
                     return;
                 try {
@@ -405,7 +407,7 @@ TEST(MeshCodec, IsLossless) {
     EXPECT_GT(doubles, 0U);
 }
 
-TEST(MeshDraft, ClosednessIsThatOfTheTopology) {
+TEST(MeshDraft, ClosednessEqualsThatOfTheTopology) {
     Random random(6);
     std::size_t closed = 0;
     const int rounds = many(400);
@@ -428,7 +430,7 @@ TEST(MeshDraft, ClosednessIsThatOfTheTopology) {
     EXPECT_LT(closed, static_cast<std::size_t>(rounds) / 10 * 9);
 }
 
-TEST(ExternalSort, IsASort) {
+TEST(ExternalSort, EqualsSortingInMemory) {
     Random random(7);
     for (int round = 0; round < many(10); ++round) {
         const Folder folder;
@@ -446,7 +448,7 @@ TEST(ExternalSort, IsASort) {
     }
 }
 
-TEST(PagedArray, IsAnArray) {
+TEST(PagedArray, EqualsAnArrayInMemory) {
     Random random(8);
     const Folder folder;
     constexpr int kCount = 200000;

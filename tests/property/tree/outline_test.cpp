@@ -1,5 +1,5 @@
-// A hierarchy that is made of its outline is the one that was built, bit for bit; and no outline,
-// whatever it says, makes one that is not sound.
+// A hierarchy made from its outline equals the one that was built, bit for bit. An outline with any
+// contents gives a sound hierarchy or is refused.
 
 #include <abut/model.h>
 
@@ -18,7 +18,7 @@
 namespace abut::test {
 namespace {
 
-/// Triangles of many kinds: a body, a plane askew, needles, points, the same one again and again.
+/// Triangles of many kinds: a body, an oblique plane, needles, points, repeated triangles.
 Mesh some_mesh(Random& random) {
     Mesh mesh;
     switch (random.integer(0, 3)) {
@@ -53,7 +53,7 @@ Mesh some_mesh(Random& random) {
     if (random.chance(0.7))
         for (Vec3& p : mesh.positions)
             p = apply(pose, p);
-    if (random.chance(0.5)) // in an order that is near in space only by chance
+    if (random.chance(0.5)) // with neighbours in order only by chance
         std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), std::mt19937(1));
     return mesh;
 }
@@ -89,7 +89,7 @@ TEST(Outline, MakesTheTreeThatWasBuilt) {
         EXPECT_GT(count, static_cast<std::size_t>(many(200)) / 20);
 }
 
-TEST(Outline, OfNoTriangles) {
+TEST(Outline, NoTriangles) {
     const Mesh none{{{1, 2, 3}}, {}};
     const ModelOutline outline = Model(none).data().outline();
     EXPECT_TRUE(is_outline(outline.tree, 0));
@@ -97,7 +97,7 @@ TEST(Outline, OfNoTriangles) {
     EXPECT_TRUE(ModelData(none, outline).tree().empty());
 }
 
-/// Changes something at random, often but little.
+/// Makes one random change, often a small one.
 void spoil(Random& random, TreeOutline& outline) {
     const auto some = [&](const auto& list) {
         return static_cast<std::size_t>(random.integer(0, static_cast<int>(list.size()) - 1));
@@ -110,7 +110,7 @@ void spoil(Random& random, TreeOutline& outline) {
         outline.order[some(outline.order)] =
             static_cast<std::uint32_t>(random.integer(0, static_cast<int>(outline.order.size())));
         break;
-    case 2: // another, but sound
+    case 2: // another outline, but sound
         std::swap(outline.order[some(outline.order)], outline.order[some(outline.order)]);
         break;
     case 3:
@@ -121,7 +121,7 @@ void spoil(Random& random, TreeOutline& outline) {
                                  static_cast<std::ptrdiff_t>(some(outline.nodes)),
                              outline.nodes[some(outline.nodes)]);
         break;
-    case 5: // axes of its own where it has none, or none where it has
+    case 5: // the node gains or loses axes of its own
         outline.nodes[some(outline.nodes)] ^= 1U << 24;
         break;
     default:
@@ -129,7 +129,7 @@ void spoil(Random& random, TreeOutline& outline) {
     }
 }
 
-TEST(Outline, OfAnythingMakesASoundTreeOrIsRefused) {
+TEST(Outline, AnyContentsMakeASoundTreeOrAreRefused) {
     Random random(8302);
     std::size_t refused = 0, other = 0;
     for (int round = 0; round < many(1600); ++round) {
@@ -151,7 +151,7 @@ TEST(Outline, OfAnythingMakesASoundTreeOrIsRefused) {
     EXPECT_GT(other, static_cast<std::size_t>(many(1600)) / 10);
 }
 
-/// Nodes of one child under each other would go as deep as they are many.
+/// A chain of nodes with one child each would be as deep as it has nodes.
 TEST(Outline, ChainsAreRefused) {
     constexpr std::uint32_t kNodeThenLeaf = 5 | 1 << 3, kTwoLeaves = 1 | 1 << 3;
     const auto chain = [](std::uint32_t inner, std::size_t nodes) {
@@ -167,10 +167,10 @@ TEST(Outline, ChainsAreRefused) {
     EXPECT_FALSE(is_outline(chain(5, 100), 2));
 }
 
-/// What the builder makes of a fixed mesh. If this fails, the builder has changed: TreeOutline::kFormat
-/// is to be one more, so that no store keeps outlines of the old one, and the number here another.
-TEST(Outline, OfAFixedMeshIsThatOfTheFormat) {
-    Mesh mesh; // whole numbers: the same on every machine
+/// Guards the format. If this test fails, the builder has changed: increase TreeOutline::kFormat,
+/// so that stored outlines of the old builder are not used, and update the hash here.
+TEST(Outline, AFixedMeshGivesTheBytesOfTheFormat) {
+    Mesh mesh; // whole numbers give the same tree on every machine
     constexpr int kSide = 60;
     for (int i = 0; i <= kSide; ++i)
         for (int k = 0; k <= kSide; ++k)
@@ -186,7 +186,7 @@ TEST(Outline, OfAFixedMeshIsThatOfTheFormat) {
     std::uint64_t hash = 1469598103934665603U; // FNV-1a
     const auto add = [&](std::uint32_t word) { hash = (hash ^ word) * 1099511628211U; };
     for (const std::uint32_t node : outline.nodes)
-        add(node & 0xffffff); // which axes are better may be a matter of the last bit
+        add(node & 0xffffff); // without the axes' bits, which may depend on the last bit of a sum
     for (const std::uint32_t triangle : outline.order)
         add(triangle);
     EXPECT_EQ(TreeOutline::kFormat, 1U);

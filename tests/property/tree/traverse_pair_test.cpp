@@ -1,5 +1,4 @@
-// A traversal of two trees by their boxes against all pairs of triangles: none within the bound may
-// be lost.
+// A traversal of two box trees visits every pair of triangles within the bound.
 
 #include "tests/support/simd_targets.h"
 #include "tests/support/traversal.h"
@@ -29,7 +28,7 @@ TEST_P(TraversePair, VisitsEveryPairWithinTheBound) {
         });
     }
     EXPECT_GT(tally.met, 100U);
-    EXPECT_GT(tally.crossed, tally.met * 6 / 10); // told without exact arithmetic
+    EXPECT_GT(tally.crossed, tally.met * 6 / 10); // decided without exact arithmetic
     EXPECT_GT(tally.accepted, 0U);
     EXPECT_GT(tally.within, 300U);
     EXPECT_LT(tally.visited, tally.total / 2);

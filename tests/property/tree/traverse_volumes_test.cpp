@@ -1,5 +1,4 @@
-// A traversal of two trees by volumes of every kind against all pairs of triangles: none within the
-// bound may be lost.
+// A traversal of two trees by every kind of volume visits every pair of triangles within the bound.
 
 #include "tests/support/simd_targets.h"
 #include "tests/support/traversal.h"
@@ -20,7 +19,7 @@ std::unique_ptr<const VolumeTree> volumes_of(const Primitives& primitives, Volum
     return build_volume_tree(kind, primitives.tree, primitives.mesh());
 }
 
-/// All that a traversal of a scene by one kind of volume refers to.
+/// The trees and frames for a traversal of a scene by one kind of volume.
 struct Placed {
     std::unique_ptr<const VolumeTree> a, b;
     PairFrame boxes;
@@ -63,7 +62,7 @@ TEST_P(TraverseVolumes, VisitsEveryPairWithinTheBound) {
 INSTANTIATE_TEST_SUITE_P(Kinds, TraverseVolumes, testing::ValuesIn(kSceneKinds),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-/// Keeps the least distance, as a query does.
+/// Keeps the least distance, as a distance query does.
 class Nearest : public LeafPairVisitor {
 public:
     Nearest(const TreeScene& scene, bool stop_at_first) : s_(scene), stop_(stop_at_first) {}
@@ -76,7 +75,7 @@ public:
                     best_sq,
                     triangle_triangle_distance(s_.placed_a[i], s_.placed_b[j]).distance_sq);
             });
-        return stop_ ? -1 : best_sq;
+        return stop_ ? kStopTraversal : best_sq;
     }
     double best_sq = HUGE_VAL;
     int visits = 0;
@@ -123,7 +122,7 @@ TEST(TraverseVolumes, FindsTheNearestPair) {
     }
 }
 
-TEST(TraverseVolumes, AcceptsOnlyWhatIsWithinTheBound) {
+TEST(TraverseVolumes, AcceptsOnlyPairsWithinTheBound) {
     Random random(1303);
     int accepted = 0, done = 0;
     for (int round = 0; round < 60; ++round) {
@@ -152,7 +151,7 @@ TEST(TraverseVolumes, AcceptsOnlyWhatIsWithinTheBound) {
     EXPECT_GT(done, 40);
 }
 
-TEST(TraverseVolumes, WhatHasNoVolumes) {
+TEST(TraverseVolumes, TreesWithoutVolumes) {
     Random random(1304);
     const Primitives a(random, 20, {}, 1);
     EXPECT_EQ(volumes_of(a, Volume::aabb), nullptr);

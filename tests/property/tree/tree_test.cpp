@@ -38,18 +38,18 @@ void expect_same(const Tree& a, const Tree& b) {
 void expect_valid(const Boxes& boxes) {
     const Tree tree = build_tree(boxes);
     ASSERT_NO_THROW(validate(tree, boxes)) << boxes.size() << " boxes";
-    // Leaves and nodes are full but for a few.
+    // Almost all leaves and nodes are full.
     EXPECT_LE(tree.order.size(), 4 + 1.3 * static_cast<double>(boxes.size()));
     EXPECT_LE(tree.nodes.size(), 1 + boxes.size() / 12);
 }
 
-TEST(Tree, OfEverySize) {
+TEST(Tree, TreesOfEverySizeAreValid) {
     Random random(801);
     for (const int count : {0, 1, 2, 3, 4, 5, 8, 9, 33, 1000, 100000})
         expect_valid(random_boxes(random, count));
 }
 
-TEST(Tree, OfSpecialBoxes) {
+TEST(Tree, TreesOfSpecialBoxesAreValid) {
     expect_valid(boxes_of(1000, [](int) { return Box3{{1, 2, 3}, {4, 5, 6}}; }));
     expect_valid(boxes_of(1000, [](int) { return Box3{{1, 1, 1}, {1, 1, 1}}; }));
     expect_valid(boxes_of(1000, [](int i) { return box_at({double(i), 0, 0}, {}); })); // on a line
@@ -59,7 +59,7 @@ TEST(Tree, OfSpecialBoxes) {
     expect_valid(random_boxes(random, 1000, 1e18, 1e18));
     expect_valid(random_boxes(random, 1000, 1e-40, 1e-42)); // subnormal floats
     expect_valid(random_boxes(random, 1000, 0x1p-149, 0x1p-149));
-    expect_valid(random_boxes(random, 1000, 1e5, 1e-9)); // all boxes flat to rounding
+    expect_valid(random_boxes(random, 1000, 1e5, 1e-9)); // boxes that are flat after rounding
 }
 
 TEST(Tree, ValidateFindsFaults) {
@@ -90,7 +90,7 @@ TEST(Tree, TheSameForAnyNumberOfThreads) {
     const Tree two = build_tree(boxes);
     set_threads(0);
     expect_same(one, two);
-    // What a traversal sees is the same, node numbers aside.
+    // A traversal gives the same slots in the same order; only node numbers may differ.
     const auto visits = [](const Tree& tree) {
         std::vector<std::uint32_t> slots;
         for_each_overlap(tree, Aabb(Box3{{-30, -30, -30}, {30, 30, 30}}),
@@ -101,7 +101,7 @@ TEST(Tree, TheSameForAnyNumberOfThreads) {
     EXPECT_FALSE(visits(one).empty());
 }
 
-/// Some triangles, and the mesh that a tree is built of.
+/// A set of triangles to build a tree of.
 struct Soup {
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -114,7 +114,7 @@ struct Soup {
     [[nodiscard]] TreeMesh mesh() const { return {positions, triangles}; }
 };
 
-TEST(Tree, OfTrianglesEnclosesThemInEveryNodesFrame) {
+TEST(Tree, EnclosesItsTrianglesInEveryNodesFrame) {
     Random random(810);
     std::size_t turned = 0, nodes = 0;
     for (int kind = 0; kind < 60; ++kind) {
@@ -126,10 +126,10 @@ TEST(Tree, OfTrianglesEnclosesThemInEveryNodesFrame) {
         for (int i = 0; i < count; ++i) {
             Vec3 p = random.in_cube(scale);
             if (kind % 3 == 0)
-                p.z = 0.1 * p.x; // a plane askew
+                p.z = 0.1 * p.x; // an oblique plane
             Triangle t{p, p + random.in_cube(0.05 * scale), p + random.in_cube(0.05 * scale)};
             if (i % 20 == 0)
-                t[1] = t[2]; // of no area
+                t[1] = t[2]; // zero area
             for (Vec3& v : t)
                 v = away + apply(pose, v);
             soup.add(t);
@@ -200,10 +200,10 @@ TEST(TraverseOne, OverlapVisitsEveryBoxThatMeetsTheQuery) {
         }
     }
     EXPECT_GT(met, 1500U);
-    EXPECT_LT(visited, 16 * met); // whole leaves are visited, not the whole tree
+    EXPECT_LT(visited, 16 * met); // whole leaves are visited, but not the whole tree
 }
 
-/// By clipping the segment to the slabs, in double.
+/// Whether a segment meets a box, by clipping to slabs in double precision.
 bool segment_meets(const Aabb& box, const Vec3& p, const Vec3& q) {
     double enter = 0, leave = 1;
     for (int k = 0; k < 3; ++k) {
@@ -285,7 +285,7 @@ TEST(TraverseOne, NearFindsTheNearestBox) {
         });
         total += boxes.size();
         ASSERT_EQ(best, expected);
-        // A bound below the nearest box: no primitive needs a look.
+        // With a bound below the nearest box, no primitive may be visited.
         std::size_t none = 0;
         if (expected > 0)
             for_each_near(tree, point, 0, expected * 0.25F, [&](std::uint32_t slot) {

@@ -1,4 +1,4 @@
-// Every volume encloses what it was fitted to, decided with 100 digits; and it is not much larger.
+// Every volume encloses what it was fitted to, decided with 100 digits, and is not much larger.
 
 #include "tests/support/volumes.h"
 
@@ -44,7 +44,7 @@ TYPED_TEST(VolumeFit, EnclosesTrianglesOfExtremeSize) {
         }
 }
 
-TYPED_TEST(VolumeFit, EnclosesWhatTheMarginAllows) {
+TYPED_TEST(VolumeFit, EnclosesPointsMovedByTheMargin) {
     Random random(1103);
     for (int i = 0; i < 100; ++i) {
         const auto triangles = any_triangles(random, i);
@@ -54,7 +54,7 @@ TYPED_TEST(VolumeFit, EnclosesWhatTheMarginAllows) {
             for (const Vec3& p : t) {
                 const auto shift = [&] { return random.chance(0.5) ? margin : -margin; };
                 const double x = shift(), y = shift(), z = shift();
-                // Moved no farther than given, whatever the sum rounds to.
+                // The rounded sum has moved by at most the margin.
                 const Vec3 moved = p + (1 - 1e-9) * Vec3{x, y, z};
                 const Vec3 by = moved - p;
                 if (std::max({std::abs(by.x), std::abs(by.y), std::abs(by.z)}) <= margin) {
@@ -77,7 +77,7 @@ TYPED_TEST(VolumeFit, MergedEnclosesBoth) {
     }
 }
 
-/// The corners of a volume and, if it is a sweep, its radius.
+/// The corners of a box, or of the core of a swept sphere.
 std::vector<Vec3> corners_of(const Obb& box) {
     std::vector<Vec3> corners;
     for (unsigned c = 0; c < 8; ++c) {
@@ -112,7 +112,7 @@ void expect_merge_encloses_volumes(double radius_of(const V&)) {
         const V both = V::merge(a, b);
         for (const V* part : {&a, &b})
             for (const Vec3& p : corners_of(*part)) {
-                // The corner itself is rounded here.
+                // The corner is itself rounded here.
                 const double rounding = 0x1p-50 * length(p);
                 V grown = both;
                 if constexpr (std::is_same_v<V, Obb>)
@@ -133,7 +133,7 @@ TEST(VolumeMerge, EnclosesTheVolumesThemselves) {
     expect_merge_encloses_volumes<Rss>([](const Rss& s) { return double{s.radius}; });
 }
 
-/// A box of 2 x 2a x 2b about the origin, turned, as twelve triangles.
+/// A turned box of these half sizes around the origin, with 2 * parts^2 triangles on each side.
 std::vector<Triangle> turned_box(const Transform& turn, const Vec3& half, int parts) {
     std::vector<Triangle> triangles;
     for (int axis = 0; axis < 3; ++axis)
@@ -160,7 +160,7 @@ TEST(VolumeFit, FindsATurnedBox) {
         const Vec3 half{1, 0.5, 0.2};
         const Transform turn = random.pose(10);
         auto triangles = turned_box(turn, half, i % 2 == 0 ? 1 : 8);
-        // One corner meshed very finely sways the surface's statistics, not the hull's.
+        // A very fine mesh at one corner changes the statistics of the surface, but not the hull.
         for (int k = 0; k < 400; ++k)
             triangles.push_back({apply(turn, {1, 0.5, 0.2}),
                                  apply(turn, {0.999, 0.5 - random.uniform(0, 0.001), 0.2}),
@@ -172,7 +172,7 @@ TEST(VolumeFit, FindsATurnedBox) {
         EXPECT_LT(rss.radius, 0.2 * 1.001);
         EXPECT_LT(rss.axes[0].half, 1.001);
         EXPECT_LT(rss.axes[1].half, 0.501);
-        // The rectangle's ends are inset where the radius reaches; its corners are not.
+        // The rectangle's ends are inset by the radius, but not its corners.
         EXPECT_LT(Lss::fit(triangles).radius, std::hypot(0.5, 0.2) * 1.001);
         EXPECT_LT(Pss::fit(triangles).radius, length(half) * 1.001);
     }
@@ -194,7 +194,7 @@ TEST(VolumeFit, SpheresAreNearlySmallest) {
         worst = std::max(worst, BoundingSphere::fit(triangles).radius / radius);
     }
     EXPECT_LT(worst, 1.02);
-    // Three vertices of an obtuse triangle: the longest side is the diameter.
+    // For an obtuse triangle the longest side is the diameter.
     const std::vector<Triangle> obtuse{{Vec3{-1, 0, 0}, Vec3{1, 0, 0}, Vec3{0.1, 0.2, 0}}};
     EXPECT_NEAR(BoundingSphere::fit(obtuse).radius, 1, 1e-6);
     const std::vector<Triangle> even{

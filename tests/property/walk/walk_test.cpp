@@ -1,5 +1,5 @@
-// A walk through a store answers what all parts in memory would: on any path, in little memory, while
-// parts come, move and go.
+// A walk through a store answers what all parts in memory would: on any path, in little memory,
+// while parts come, move and go.
 
 #include <abut/error.h>
 #include <abut/scene.h>
@@ -25,7 +25,7 @@
 namespace abut::test {
 namespace {
 
-constexpr double kReach = 5; // of the scene
+constexpr double kReach = 5; // half the size of the scene
 
 Mesh some_body(Random& random) {
     const double size = random.uniform(0.1, 0.5);
@@ -49,7 +49,8 @@ Transform some_place(Random& random) {
     return world;
 }
 
-/// A store of parts, some of which share a mesh; in some a mesh is so large that it is cut.
+/// A store of random parts, some of which share a mesh. With `with_large`, one mesh is so large
+/// that it is cut into blocks.
 std::string some_store(Random& random, const Folder& folder, bool with_large) {
     Scene scene;
     const int parts = random.integer(50, 250);
@@ -74,7 +75,7 @@ struct KnownPart {
     bool is_cut = false;
 };
 
-/// Probes of all kinds, small beside the scene.
+/// A random probe of any kind, small compared with the scene.
 struct SomeProbe {
     Probe probe;
     Transform world;
@@ -157,7 +158,7 @@ private:
             Transform world = part->second.world;
             if (random_.chance(0.5))
                 world = some_place(random_);
-            else // by a little
+            else // a small step
                 world.m[9] += random_.uniform(-0.1, 0.1);
             walk_.move(part->first, world);
             part->second.world = world;
@@ -268,7 +269,7 @@ private:
         for (const WalkGap& gap : answer.parts) {
             const auto found = truth.find(gap.part);
             ASSERT_NE(found, truth.end());
-            // Of a cut part a piece may have been skipped.
+            // A block of a cut part may have been skipped.
             if (answer.complete)
                 expect_gap(gap, found->second, known_.at(gap.part));
         }
@@ -276,7 +277,7 @@ private:
 
     static void expect_gap(const WalkGap& gap, const BodyGap& truth, const KnownPart& part) {
         EXPECT_EQ(gap.status, truth.status);
-        if (part.is_cut) { // where several triangles are equally near, another may be found
+        if (part.is_cut) { // of several equally near triangles, another may be found
             EXPECT_NEAR(gap.distance, truth.distance, 1e-12);
             return;
         }
@@ -303,7 +304,7 @@ private:
     Vec3 position_, velocity_;
 };
 
-/// In the least memory that will do, to within a factor of two; or in twice as much each time.
+/// One to eight times the least power of two of memory that a walk accepts, plus room for changes.
 std::uint64_t some_memory(Random& random, const Store& store) {
     std::uint64_t memory = 1 << 15;
     for (;; memory *= 2) {
@@ -318,7 +319,7 @@ std::uint64_t some_memory(Random& random, const Store& store) {
     return (memory << random.integer(0, 3)) + kForChanges;
 }
 
-TEST(Walk, AnswersWhatAllPartsInMemoryWould) {
+TEST(Walk, EqualsQueriesWithAllPartsInMemory) {
     Random random(6301);
     std::size_t asked = 0, touched = 0, incomplete = 0, changes = 0;
     std::uint64_t lookups = 0, misses = 0, evicted = 0, read_ahead = 0;
@@ -351,7 +352,7 @@ TEST(Walk, AnswersWhatAllPartsInMemoryWould) {
     EXPECT_GT(read_ahead, 20U);
 }
 
-TEST(Walk, ASolidTakesNoMoreThanIsCounted) {
+TEST(Walk, ASolidTakesNoMoreMemoryThanCounted) {
     Random random(6302);
     for (int round = 0; round < many(200); ++round) {
         const Mesh mesh = random.chance(0.1) ? soup_mesh(random, 500, 1, 0.2) : some_body(random);
@@ -364,7 +365,7 @@ TEST(Walk, ASolidTakesNoMoreThanIsCounted) {
     }
 }
 
-/// Boxes in a tree, those that come and go too: nearest first, and none is left out.
+/// A tree of boxes that come and go finds the boxes in reach, nearest first, and leaves none out.
 TEST(LooseBoxes, AreFoundNearestFirst) {
     Random random(6303);
     std::size_t found = 0, asked = 0;
@@ -419,7 +420,7 @@ TEST(LooseBoxes, AreFoundNearestFirst) {
     EXPECT_LT(found, asked / 2);
 }
 
-/// The walker of the examples goes round what is in its way, and never into it.
+/// The walker of the examples goes around obstacles, never through them.
 TEST(Walker, DoesNotGoThroughWalls) {
     Random random(6304);
     int arrived = 0, slid = 0;

@@ -1,5 +1,5 @@
-// Every broad phase against all pairs, step by step, through scripts of changes: boxes that drift,
-// teleport, come and go, coincide, touch, are points, or span the world.
+// Every broad phase against all pairs, after each step of scripts of changes. Boxes drift,
+// teleport, come, go, coincide, touch, are points, or span the world.
 
 #include <abut/broad_phase.h>
 #include <abut/error.h>
@@ -24,7 +24,7 @@ namespace {
 constexpr std::array kMethods{BroadPhaseMethod::automatic, BroadPhaseMethod::tree,
                               BroadPhaseMethod::sweep, BroadPhaseMethod::sweep_and_prune};
 
-/// Which of the script's pairs to leave out.
+/// Options without a filter, and with one that leaves out a third of the pairs.
 std::vector<BroadPhaseOptions> options_of(BroadPhaseMethod method) {
     return {{method, {}},
             {method, [](std::uint32_t i, std::uint32_t k) { return (i + k) % 3 != 0; }}};
@@ -64,7 +64,7 @@ TEST_P(BroadPhases, FindAllPairsAndChanges) {
                 }
             }
     set_threads(0);
-    // Boxes have partners, and these come and go.
+    // Boxes have partners, and the pairs change.
     EXPECT_GT(pairs, boxes / 2);
     EXPECT_LT(pairs, boxes * (GetParam().hubs > 0 ? 200 : 40));
     EXPECT_GT(changes, boxes / 4);
@@ -90,7 +90,7 @@ TEST_P(BroadPhases, FindTheSameWithEverySimdTarget) {
 INSTANTIATE_TEST_SUITE_P(Kinds, BroadPhases, testing::ValuesIn(kBoxSceneKinds),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-TEST(BroadPhase, DriftsLongEnoughToWearTheTreeAndToTryTheAxes) {
+TEST(BroadPhase, LongDriftsKeepAllPairs) {
     Random random(5003);
     for (const BroadPhaseMethod method : kMethods) {
         SCOPED_TRACE(to_string(method));
@@ -123,7 +123,7 @@ TEST(BroadPhase, ManyBoxesHaveTheSamePairsForEveryMethodAndAnyThreads) {
     Random random(5006);
     for (BoxSceneKind kind : kBoxSceneKinds) {
         SCOPED_TRACE(kind.name);
-        kind.hubs *= 0.05; // of many boxes, few
+        kind.hubs *= 0.05; // among many boxes few are hubs
         BoxScript script(random, kind, 20000);
         BroadPhase tree({BroadPhaseMethod::tree, {}}), sweep({BroadPhaseMethod::sweep, {}}),
             automatic;
@@ -136,7 +136,7 @@ TEST(BroadPhase, ManyBoxesHaveTheSamePairsForEveryMethodAndAnyThreads) {
             }
             set_threads(1);
             sweep.update(script.boxes());
-            // Too many for gtest to print.
+            // Lists of this length must not be printed by gtest on failure.
             EXPECT_TRUE(tree.pairs() == sweep.pairs());
             EXPECT_TRUE(tree.begun() == sweep.begun());
             EXPECT_TRUE(tree.ended() == sweep.ended());
@@ -173,7 +173,8 @@ TEST(BroadPhase, FindsPairsWithinAGap) {
     EXPECT_GT(apart, 1000U);
 }
 
-/// A double, a few units from where a bound plus the gap lies; sums of all sizes, denormal ones too.
+/// Bounds a few units in the last place from where another bound plus the gap lies, for sums of all
+/// sizes, subnormal ones included.
 TEST(BroadPhase, DecidesAGapExactly) {
     Random random(5007);
     int near = 0, apart = 0, rounded = 0;
@@ -210,7 +211,7 @@ TEST(BroadPhase, DecidesAGapExactly) {
     EXPECT_GT(rounded, many(20000) / 100);
 }
 
-TEST(BroadPhase, RefusesWhatIsNotANumberAndStaysAsItWas) {
+TEST(BroadPhase, RefusesNaNAndStaysUnchanged) {
     std::vector<Box3> boxes(5, Box3{{0, 0, 0}, {1, 1, 1}});
     for (const BroadPhaseMethod method : kMethods) {
         BroadPhase phase({method, {}});
@@ -253,7 +254,7 @@ TEST(BroadPhase, TakesAMillionAddsAndRemoves) {
     EXPECT_GT(pairs, changes / 20);
 }
 
-TEST(BroadPhase, ForgetsWhatWasWanted) {
+TEST(BroadPhase, ForgetAsksTheFilterAgain) {
     const std::vector<Box3> boxes(4, Box3{{0, 0, 0}, {1, 1, 1}});
     for (const BroadPhaseMethod method : kMethods) {
         bool none = false;

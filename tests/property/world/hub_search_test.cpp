@@ -1,5 +1,5 @@
-// Hubs, boxes that meet a large share of all others, apart from the rest: against all pairs, step by
-// step.
+// The search for hubs, boxes that meet a large share of all others and are treated separately:
+// against all pairs, step by step.
 
 #include <abut/progress.h>
 
@@ -24,13 +24,13 @@ std::size_t empty_boxes(std::span<const Box3> boxes) {
         std::count_if(boxes.begin(), boxes.end(), [](const Box3& b) { return b == Box3(); }));
 }
 
-/// What the search of all but hubs was given.
+/// Input of the inner search, which takes all boxes but hubs.
 struct Seen {
     std::size_t empty = 0;    ///< boxes in the last step
     std::size_t restarts = 0; ///< one for each new set of hubs
 };
 
-/// A search of all but hubs that tells what it is given.
+/// A search of all boxes but hubs that records what it is given.
 class Witness final : public PairSearch {
 public:
     Witness(PairFilter filter, Seen& seen)
@@ -53,7 +53,7 @@ struct Counts {
     std::size_t steps = 0, with_hubs = 0, restarts = 0, changes = 0;
 };
 
-/// A search of its own for each script, which begins with a restart, as after `forget`.
+/// Runs one script with a new search, which begins with a restart, as after `forget`.
 void run_script(Random& random, const BoxSceneKind& kind, const PairFilter& filter,
                 Counts& counts) {
     Seen seen;
@@ -102,14 +102,14 @@ TEST(HubSearch, FindsAllPairsAndChangesWhileHubsComeAndGo) {
               << " changes " << counts.changes << "\n";
     EXPECT_GT(counts.with_hubs, counts.steps / 8);
     EXPECT_LT(counts.with_hubs, counts.steps * 7 / 8);
-    // Each script begins with one; sets of hubs change in some.
+    // Each script begins with one restart, and the set of hubs changes in some of the scripts.
     EXPECT_GT(counts.restarts, std::size_t(rounds) * kBoxSceneKinds.size() * 2 * 3 / 2);
     EXPECT_GT(counts.changes, counts.steps * 50);
 }
 
 TEST(HubSearch, FindsTheSameWithEverySimdTargetAndNumberOfThreads) {
     Random random(5012);
-    // Enough that several tasks share the rows.
+    // Enough boxes for several tasks to share the rows.
     const BoxSceneKind kind{"with_hubs", 0, 0, 4, false, 0.02};
     BoxScript first(random, kind, 3000);
     const std::vector<Box3> before = first.boxes();
@@ -144,7 +144,8 @@ TEST(HubSearch, FindsTheSameWithEverySimdTargetAndNumberOfThreads) {
     EXPECT_GT(rounds, 1);
 }
 
-/// A step without a change leaves the list in place; one box or one hub changes only its own pairs.
+/// Without changes the list stays in place. A change of one box or hub changes only the pairs of
+/// that box or hub.
 TEST(HubSearch, KeepsTheListWhereNothingChanges) {
     std::vector<Box3> boxes(200);
     for (std::size_t i = 0; i < boxes.size(); ++i) {

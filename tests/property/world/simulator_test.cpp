@@ -1,4 +1,4 @@
-// The simulator of the examples: what physics asks of it, and of the world under it.
+// The simulator of the examples: it conserves momentum, and nothing tunnels, sinks or leaves.
 
 #include "container.h"
 #include "simulator.h"
@@ -61,7 +61,7 @@ TEST(Simulator, CollisionsConserveMomentum) {
     EXPECT_GT(collisions, 200);
 }
 
-/// Runs a container full of bodies for so long.
+/// Runs a container full of bodies and expects all of them inside at the end.
 void expect_all_inside(int bodies, double seconds) {
     drop::Simulator simulator;
     drop::fill_container(simulator, bodies);
@@ -78,7 +78,7 @@ void expect_all_inside(int bodies, double seconds) {
         EXPECT_LT(std::max(std::abs(p.x), std::abs(p.y)), w) << "body " << i << " has left";
         fastest = std::max(fastest, length(body.velocity));
     }
-    EXPECT_LT(deepest, 0.02); // a tenth of a body
+    EXPECT_LT(deepest, 0.02); // a tenth of a body's size
     EXPECT_LT(fastest, 3);
 }
 

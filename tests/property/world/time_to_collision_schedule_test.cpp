@@ -1,5 +1,5 @@
-// What a schedule reports at each step against all pairs at that step: bodies in flight that bounce,
-// turn, are pushed, come and go.
+// Reports of the collision schedule at each step, against all pairs at that step. Bodies fly,
+// bounce, turn, are pushed, come and go.
 
 #include <abut/error.h>
 #include <abut/world.h>
@@ -24,7 +24,7 @@ struct Flight {
 /// Bodies of several kinds in a cube, with or without gravity.
 class Flights {
 public:
-    /// surprises: how likely a body, at each step, goes elsewhere without a word.
+    /// surprises: how likely a body is moved at a step without its bounds being told.
     Flights(Random& random, World& world, int count, double gravity, double surprises)
         : random_(random), world_(world), gravity_(gravity), surprises_(surprises),
           model_(Mesh{{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}},
@@ -58,7 +58,7 @@ public:
         world_.remove(gone->first);
         flights_.erase(gone);
     }
-    /// Everything moves on; what has left the cube comes back; some are pushed, unforeseen.
+    /// Moves all bodies on by dt; some are moved elsewhere unforeseen.
     void step(double dt) {
         now_ += dt;
         for (auto& [id, flight] : flights_) {
@@ -75,7 +75,7 @@ public:
             world_.move(id, flight.pose);
         }
     }
-    /// After `advance`: new courses.
+    /// Changes courses after `advance`: bodies at the walls turn back, and some turn at random.
     void steer() {
         for (auto& [id, flight] : flights_) {
             const double t = now_ - flight.since;
@@ -89,7 +89,7 @@ public:
                     v.*axis = -v.*axis, turned = true;
             if (turned)
                 launch(id, flight, v);
-            else if (random_.chance(0.2)) // what is known, once more
+            else if (random_.chance(0.2)) // tells the known bounds once more
                 tell(id, flight, v);
         }
     }
@@ -165,7 +165,7 @@ TEST(CollisionSchedule, NothingBeginsToTouchBeforeTheNextEvent) {
     EXPECT_GT(long_ones, 10);
 }
 
-TEST(CollisionSchedule, LeavesBodiesAloneThatFlyApart) {
+TEST(CollisionSchedule, TestsDistantBodiesSeldom) {
     World world;
     std::vector<BodyId> ids;
     for (int i = 0; i < 2; ++i) {
@@ -174,7 +174,7 @@ TEST(CollisionSchedule, LeavesBodiesAloneThatFlyApart) {
         world.set_speed(ids.back(), {{-x, 0, 0}, {}, 0, 0}); // towards each other
     }
     EXPECT_TRUE(world.advance(0).empty());
-    // 1.8 between them, at a speed of 2; or a horizon before that.
+    // The gap of 1.8 closes at a speed of 2, so in 0.9, unless a horizon comes before that.
     EXPECT_GT(world.next_event(), 0.1);
     EXPECT_LE(world.next_event(), 0.9);
     for (int step = 1; step <= 8; ++step) {

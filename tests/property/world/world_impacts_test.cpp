@@ -24,7 +24,7 @@ namespace {
 
 using Script = WorldScript<Random>;
 
-/// The first of many small steps at which two bodies share a point; nothing if none does.
+/// The first of `steps` small steps at which two bodies share a point; nothing if none does.
 std::optional<double> first_contact(World& world, const std::vector<BodyMotion>& motions,
                                     const std::vector<Surface>& surfaces, BodyPair pair,
                                     int steps) {
@@ -37,10 +37,10 @@ std::optional<double> first_contact(World& world, const std::vector<BodyMotion>&
     return std::nullopt;
 }
 
-/// What impacts say of pairs of bodies, one pair a round, beside fine steps.
+/// Compares the impacts of pairs of bodies with fine steps, one pair a round.
 class ImpactTally {
 public:
-    /// The only two bodies of the world.
+    /// Checks a world of only these two bodies.
     void check(World& world, const std::vector<BodyMotion>& motions,
                const std::vector<Surface>& surfaces, BodyPair pair) {
         constexpr int kSteps = 60;
@@ -68,7 +68,7 @@ public:
         move_to(world, motions, surfaces, impact.contact_time);
         const auto gaps = world.within(1e-8);
         EXPECT_TRUE(near_end || gaps.size() == 1);
-        // On the way to the contact b is where the normal points to.
+        // Shortly before the contact, b must lie on the side to which the normal points.
         if (impact.time > 0.01 && impact.normal != Vec3{}) {
             move_to(world, motions, surfaces, impact.time - 1e-3);
             for (const BodyGap& gap : world.within(0.1))
@@ -85,12 +85,12 @@ public:
 
 private:
     int hits_ = 0, misses_ = 0;
-    int tight_ = 0;  ///< of the hits: no earlier than a step before the contact
+    int tight_ = 0;  ///< hits that are no earlier than 1.5 steps before the contact
     int proven_ = 0; ///< with status exact
-    int turned_ = 0; ///< with a normal the wrong way round
+    int turned_ = 0; ///< normals that point the wrong way
 };
 
-TEST(WorldImpacts, ComeNoLaterThanAnyContactOfFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineSteps) {
     Random random(5204);
     ImpactTally tally;
     for (int round = 0; round < many(900); ++round) {
@@ -108,8 +108,8 @@ TEST(WorldImpacts, ComeNoLaterThanAnyContactOfFineSteps) {
     tally.expect_both(60);
 }
 
-/// A surface that goes some way while it deforms: a tetrahedron, a sheet, or with triangles that are
-/// segments and points.
+/// A surface that moves and deforms: a tetrahedron or a sheet, sometimes with segments and points
+/// among its triangles.
 MovingSurface random_surface(Random& random, const DeformableOptions& options = {}) {
     Mesh mesh = tetrahedron(0.5);
     if (random.chance(0.5))
@@ -129,7 +129,7 @@ MovingSurface random_surface(Random& random, const DeformableOptions& options = 
     return moving;
 }
 
-TEST(WorldImpacts, OfDeformablesAndRigidBodiesComeNoLaterThanFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineStepsForDeformablesAndRigidBodies) {
     Random random(5205);
     ImpactTally tally;
     for (int round = 0; round < many(900); ++round) {
@@ -137,7 +137,7 @@ TEST(WorldImpacts, OfDeformablesAndRigidBodiesComeNoLaterThanFineSteps) {
         World world;
         MovingSurface moving = random_surface(random);
         Script script(random, world);
-        // In either order.
+        // The bodies may be added in either order.
         if (random.chance(0.5))
             script.add();
         const BodyId sheet = world.add(moving.surface);
@@ -151,7 +151,7 @@ TEST(WorldImpacts, OfDeformablesAndRigidBodiesComeNoLaterThanFineSteps) {
     tally.expect_both(40);
 }
 
-TEST(WorldImpacts, OfTwoDeformablesComeNoLaterThanFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineStepsForTwoDeformables) {
     Random random(5206);
     ImpactTally tally;
     for (int round = 0; round < many(600); ++round) {
@@ -172,7 +172,7 @@ TEST(WorldImpacts, OfTwoDeformablesComeNoLaterThanFineSteps) {
     tally.expect_both(40);
 }
 
-TEST(WorldImpacts, OfSurfacesFarFromTheOriginComeNoLaterThanFineSteps) {
+TEST(WorldImpacts, NoLaterThanFineStepsFarFromTheOrigin) {
     Random random(5207);
     int hits = 0;
     for (int round = 0; round < many(400); ++round) {
@@ -232,7 +232,7 @@ TEST(WorldImpacts, AFastSheetPassesNothing) {
     const BodyId plate = world.add(Model(sheet_at(30)), {});
     const BodyId needle =
         world.add(Convex(std::vector<Vec3>{{40, 0.1, 0.1}, {40.5, 0.1, 0.1}}), {});
-    world.add(Sphere{{0, 1.2, 0}, 0.1}, {}); // beside its way
+    world.add(Sphere{{0, 1.2, 0}, 0.1}, {}); // beside the sheet's path
     const auto impacts = world.time_of_impact({});
     ASSERT_EQ(impacts.size(), 5U);
     const std::array expected{std::pair{wall, 49.999}, std::pair{ball, 59.99},
@@ -248,7 +248,8 @@ TEST(WorldImpacts, AFastSheetPassesNothing) {
 }
 
 TEST(WorldImpacts, AFallingSheetMeetsATurningBlade) {
-    // From the x axis the blade turns by most of a turn, and sweeps the sheet's place before the end.
+    // The blade begins along the x axis, makes most of a turn, and passes the sheet's place before
+    // the end.
     MovingSurface sheet(sheet_at(0));
     sheet.set_step(transformed(sheet_at(0), translation(-3, 0, 0)).positions,
                    transformed(sheet_at(0), translation(-3, 0.5, 0)).positions);
@@ -258,8 +259,8 @@ TEST(WorldImpacts, AFallingSheetMeetsATurningBlade) {
     const auto turn = [&](double angle) {
         return world.time_of_impact({{blade, {{}, {}, {}, {0, 0, angle}}}});
     };
-    // The blade's middle meets the sheet's upper edge, at y = 1 + t / 2, where t is 0.580 and its angle
-    // 2.7346; half of its thickness takes 0.003 off.
+    // The middle plane of the blade meets the sheet's upper edge, at y = 1 + t / 2, when t is 0.580
+    // and the angle 2.7346. Half of the blade's thickness subtracts 0.003.
     const auto impacts = turn(1.5 * std::numbers::pi);
     ASSERT_EQ(impacts.size(), 1U);
     EXPECT_EQ(impacts[0].a, cloth);
@@ -267,8 +268,8 @@ TEST(WorldImpacts, AFallingSheetMeetsATurningBlade) {
     EXPECT_TRUE(turn(0.5 * std::numbers::pi).empty());
 }
 
-TEST(WorldImpacts, ASheetThatSlidesJustAboveOthersIsNone) {
-    // Nearer than it moves by a factor of a thousand.
+TEST(WorldImpacts, ASheetThatSlidesJustAboveOthersHasNoImpact) {
+    // The gap is a thousandth of the motion.
     Mesh flat = grid_mesh(20, 20, false, false, [](double u, double v) {
         return Vec3{2 * u - 1, 2 * v - 1, 1e-3};
     });
@@ -286,7 +287,7 @@ TEST(WorldImpacts, ASheetThatSlidesJustAboveOthersIsNone) {
     EXPECT_TRUE(world.time_of_impact({}).empty());
 }
 
-TEST(WorldImpacts, ADeformableWithinASolidMeetsItAtOnceAndOneAtRestMovesNothing) {
+TEST(WorldImpacts, ADeformableInASolidMeetsItAtTheStartIfItMoves) {
     MovingSurface inner(tetrahedron(0.1));
     World world;
     world.add(Box3{{-1, -1, -1}, {1, 1, 1}}, {});
@@ -300,7 +301,7 @@ TEST(WorldImpacts, ADeformableWithinASolidMeetsItAtOnceAndOneAtRestMovesNothing)
     EXPECT_EQ(impacts[0].impact.contact_time, 0);
 }
 
-/// What is said of bodies that share a point at the start does not depend on where they go.
+/// For bodies that share a point at the start, the answer does not depend on their motion.
 TEST(WorldImpacts, ADeformableThatOverlapsABodyAtRestMeetsItAtTheStartIfItMoves) {
     const Mesh mesh = tetrahedron(1);
     const Model crossed(box_mesh({0.1, 0.1, -0.5}, {0.2, 0.2, 0.5})); // through a face
@@ -317,7 +318,7 @@ TEST(WorldImpacts, ADeformableThatOverlapsABodyAtRestMeetsItAtTheStartIfItMoves)
             EXPECT_EQ(world.collide().size(), 1U);
             const auto impacts = world.time_of_impact({});
             if (step == Vec3{}) {
-                EXPECT_TRUE(impacts.empty()); // neither moves: `touching` names the pair
+                EXPECT_TRUE(impacts.empty()); // neither moves: `collide` reports the pair
                 const auto pushed = world.time_of_impact(
                     {{rest, Motion::between({{}, {1, 0, 0, 0}}, {{5, 0, 0}, {1, 0, 0, 0}})}});
                 ASSERT_EQ(pushed.size(), 1U);
@@ -330,19 +331,19 @@ TEST(WorldImpacts, ADeformableThatOverlapsABodyAtRestMeetsItAtTheStartIfItMoves)
             EXPECT_EQ(impact.contact_time, 0);
             EXPECT_EQ(impact.gap, 0);
             EXPECT_EQ(impact.normal, Vec3{});
-            // A point of both, at the start.
+            // A point of both bodies at the start.
             EXPECT_NEAR(length(impact.point_a - impact.point_b), 0, 1e-15);
             EXPECT_GE(impact.point_a.x, 0.1 - 1e-15);
             EXPECT_LE(impact.point_a.x, 0.2 + 1e-15);
         }
 }
 
-TEST(WorldImpacts, ALimitOnStepsTellsTheTimeThatIsProvenFreeAndAFlagStopsThem) {
+TEST(WorldImpacts, ALimitOnStepsLeavesAProvenTimeAndAFlagStops) {
     Random random(5208);
     int limited = 0;
     for (int round = 0; round < many(60); ++round) {
         SCOPED_TRACE(round);
-        // A body of each kind goes through a model.
+        // A body of each kind moves through a model.
         World world;
         world.add(Model(sphere_mesh(0.5, 12, 7)), {});
         const Pose start{{-2, 0.1, 0.1}, {1, 0, 0, 0}};

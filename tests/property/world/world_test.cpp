@@ -1,4 +1,4 @@
-// Random scripts of operations on a world against brute force: all pairs of bodies, asked one by one.
+// Random scripts of operations on a world, against queries of all pairs of bodies.
 
 #include <abut/deformable.h>
 #include <abut/error.h>
@@ -59,7 +59,8 @@ bool any_inside(const Model& model, const Pose& pose, const Model& solid, const 
                        });
 }
 
-/// Of a convex body: by its surface, and by what lies inside of it. Nothing of flat ones.
+/// Whether a convex body touches b, by its surface and by points inside. Nothing for flat bodies,
+/// and where rounding decides.
 std::optional<bool> touch_convex_by_hand(const Convex& convex, const Pose& pose, const Known& b) {
     if (convex.dimension() < 3)
         return std::nullopt;
@@ -93,13 +94,14 @@ std::optional<bool> touch_convex_by_hand(const Convex& convex, const Pose& pose,
     return std::abs(gap) < 1e-12 ? std::nullopt : std::optional(inside || gap <= 0);
 }
 
-/// A deformable as the model that it is at the start of its step.
+/// A deformable as a model at the start of its step.
 Known at_start(const Known& body) {
     const auto* moving = std::get_if<std::shared_ptr<MovingSurface>>(&body.shape);
     return moving != nullptr ? Known{Model((*moving)->mesh), {}, body.options} : body;
 }
 
-/// By the queries of two models, or of a model and a shape; nothing where the test has no other way.
+/// Whether two bodies touch, by queries of two models or of a model and a shape; nothing for other
+/// pairs and where rounding decides.
 std::optional<bool> touch_by_hand(const Known& a, const Known& b) {
     if (const auto* convex = std::get_if<Convex>(&a.shape))
         return touch_convex_by_hand(*convex, a.pose, b);
@@ -128,7 +130,7 @@ std::optional<bool> touch_by_hand(const Known& a, const Known& b) {
     return std::abs(gap) < 1e-12 ? std::nullopt : std::optional(gap <= 0);
 }
 
-TEST(World, TouchingPairsAreThoseOfAllPairs) {
+TEST(World, CollideEqualsAllPairs) {
     Random random(5202);
     std::size_t met = 0, apart = 0;
     for (int round = 0; round < many(10); ++round) {
@@ -160,7 +162,7 @@ TEST(World, TouchingPairsAreThoseOfAllPairs) {
     EXPECT_GT(apart, 200U);
 }
 
-TEST(World, ClosePairsAreThoseOfAllPairs) {
+TEST(World, WithinEqualsAllPairs) {
     Random random(5203);
     std::size_t near = 0, far = 0;
     for (int round = 0; round < many(10); ++round) {
@@ -189,7 +191,7 @@ TEST(World, ClosePairsAreThoseOfAllPairs) {
     EXPECT_GT(far, 100U);
 }
 
-TEST(World, RefusesBadBodiesByTheirIdAndStaysAsItWas) {
+TEST(World, RefusesBadBodiesByTheirIdAndStaysUnchanged) {
     World world;
     const BodyId first = world.add(Sphere{{}, 1}, {});
     const auto message = [&](const auto& work) -> std::string {
@@ -215,7 +217,7 @@ TEST(World, RefusesBadBodiesByTheirIdAndStaysAsItWas) {
     EXPECT_EQ(message([&] { world.within(-1); }), "distance must be a length, not negative");
 }
 
-TEST(World, IdsAreNeverGivenAgainAndBodiesMayGoWhilePairsAreLookedAt) {
+TEST(World, IdsAreNeverReusedAndBodiesMayBeRemovedWhileIterating) {
     World world;
     std::vector<BodyId> ids;
     ids.reserve(12);
@@ -262,7 +264,7 @@ TEST(World, DeformablesMeetModelsAsTheyAreAtTheStart) {
     const BodyId cloth_id = world.add(cloth);
     world.add(Sphere{{0, 0, 0.5}, 0.4}, {});
     world.add(Model(tetrahedron(1)), Pose{{0, 0, -0.5}, {1, 0, 0, 0}});
-    EXPECT_EQ(world.collide().size(), 2U); // model and cloth, model and ball
+    EXPECT_EQ(world.collide().size(), 2U); // model with cloth, model with ball
     for (Vec3& p : sheet.positions)
         p.z += 0.3;
     cloth.set_motion(sheet.positions, sheet.positions);

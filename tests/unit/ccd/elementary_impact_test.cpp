@@ -165,7 +165,7 @@ TEST(EdgeEdge, TouchAtEndsOfEdgesAndOfTime) {
     expect_miss(impact(kEdges, t_start, t_end));
 }
 
-TEST(EdgeEdge, ParallelOnes) {
+TEST(EdgeEdge, ParallelEdges) {
     const Points start{Vec3{0, 0, 1}, Vec3{1, 0, 1}, Vec3{0.5, 0, 0}, Vec3{2, 0, 0}};
     Points end = start;
     end[0].z = end[1].z = -1;
@@ -187,7 +187,7 @@ TEST(EdgeEdge, ParallelOnes) {
 }
 
 // Found by the soak test: in a plane, ends meet edges at times 1.6e-14 apart.
-TEST(EdgeEdge, OfTimesNextToEachOtherNoneIsLate) {
+TEST(EdgeEdge, IsNotLateAmongAdjacentTimes) {
     const Points start{Vec3{-0x1.e3423e3c65332p-2, -0x1.b273132125cfap-1, 0},
                        Vec3{0x1.25a2975b6621p+0, -0x1.0f0d13dbb7bdp-2, 0},
                        Vec3{-0x1.e3423e3c65332p-2, -0x1.b273132125cf9p-1, 0},

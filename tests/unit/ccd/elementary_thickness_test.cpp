@@ -84,7 +84,7 @@ TEST(Thickness, EdgesApproachAndSlide) {
     EXPECT_FALSE(impact(kEdges, start, end, 1 - 0x1p-19).meet);
 }
 
-TEST(Thickness, ParallelEdgesAndOnesWithoutLength) {
+TEST(Thickness, ParallelAndZeroLengthEdges) {
     const Points start{Vec3{0, 0, 2}, Vec3{1, 0, 2}, Vec3{0.5, 0, 0}, Vec3{2, 0, 0}};
     Points end = start;
     end[0].z = end[1].z = 0;
@@ -132,7 +132,7 @@ TEST(Thickness, DeltaAllowsMore) {
     EXPECT_EQ(impact(kFace, p, p, 3, 0.2).status, Status::converged);
 }
 
-TEST(Thickness, ThinOnesAreNotMissed) {
+TEST(Thickness, TinyThicknessesAreNotMissed) {
     // Smaller than the rounding of coordinates near 1. The status reports that.
     const auto i = impact(kFace, face_and({0.3, 0.3, 0.7}), face_and({0.3, 0.3, -0.1}), 1e-17);
     ASSERT_TRUE(i.meet);
@@ -141,7 +141,7 @@ TEST(Thickness, ThinOnesAreNotMissed) {
     EXPECT_GE(i.time, 0.875 - 1e-11);
 }
 
-TEST(Thickness, BadOnesAreRefused) {
+TEST(Thickness, BadThicknessesAreRefused) {
     const Points p = face_and({0, 0, 1});
     EXPECT_THROW(impact(kFace, p, p, -1), Error);
     EXPECT_THROW(impact(kFace, p, p, std::numeric_limits<double>::infinity()), Error);

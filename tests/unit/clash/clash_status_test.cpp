@@ -4,7 +4,7 @@
 #include <abut/store_clash.h>
 
 #include "clash/clash_identity.h"
-#include "clash/classify_by_id.h"
+#include "clash/classify_pair.h"
 #include "massive/record/job_tables.h"
 #include "store/database/sqlite.h"
 #include "tests/support/folder.h"
@@ -19,7 +19,7 @@
 namespace abut::test {
 namespace {
 
-TEST(ClashIdentity, IsOfFilesPartsAndKindInAnyOrder) {
+TEST(ClashIdentity, DependsOnFilesPartsAndKindInAnyOrder) {
     const auto id = [](const char* file_a, const char* part_a, const char* file_b,
                        const char* part_b, ClashKind kind = ClashKind::hard) {
         return clash_identity(file_a, part_a, file_b, part_b, kind);
@@ -45,7 +45,7 @@ TEST(ClashIdentity, ReadsItsOwnText) {
         EXPECT_FALSE(parse_clash_id(text)) << text;
 }
 
-TEST(ClassifyById, TheOrderOfThePartsChangesSidesAlone) {
+TEST(ClassifyById, TheOrderOfThePartsChangesOnlySides) {
     const Model box(box_mesh({0, 0, 0}, {1, 1, 1})), ball(sphere_mesh(0.6, 16, 9));
     const Transform at_box, at_ball = Pose{.translation = {1.1, 0.4, 0.55}};
     const Box3 box_bounds{{0, 0, 0}, {1, 1, 1}}, ball_bounds{{0.5, -0.2, -0.05}, {1.7, 1.0, 1.15}};
@@ -120,6 +120,24 @@ protected:
     std::string store_ = folder_ / "a.abut";
 };
 
+TEST_F(JobTables, JsonOfAStoreIsThatOfItsReportAndReviews) {
+    const StoreClashReport found = ask();
+    auto root = nlohmann::ordered_json::parse(to_json(found));
+    EXPECT_EQ(std::prev(root.end()).key(), "out_of_core");
+    EXPECT_EQ(root["out_of_core"]["processes"].size(), found.counters.workers.size());
+    EXPECT_EQ(root["out_of_core"]["kept"], true);
+    root.erase("out_of_core");
+    EXPECT_EQ(root, nlohmann::ordered_json::parse(to_json(found.report, found.models)));
+
+    const std::vector<ClashReview> reviews = review_clashes(open_store(store_));
+    ASSERT_EQ(reviews.size(), 1U);
+    ASSERT_FALSE(reviews[0].clashes.empty());
+    const auto list = nlohmann::ordered_json::parse(to_json(reviews, "a \"<store>\""));
+    EXPECT_EQ(list["store"], "a \"<store>\"");
+    ASSERT_EQ(list["questions"].size(), 1U);
+    EXPECT_EQ(list["questions"][0], nlohmann::ordered_json::parse(to_json(reviews[0])));
+}
+
 /// The tables that the first version of jobs made: none for questions, statuses and row sums.
 constexpr const char* kFirstTables = R"(
 CREATE TABLE job(job INTEGER PRIMARY KEY AUTOINCREMENT, key BLOB NOT NULL UNIQUE,
@@ -134,7 +152,7 @@ CREATE INDEX clash_by_job ON clash(job);
 INSERT INTO job VALUES (9, x'00', x'01', 0, 0, 0, 0, 3, 1, 1, 1);
 INSERT INTO clash VALUES (1, 9, 'an id', x'02', 5);)";
 
-TEST_F(JobTables, OfAnEarlierVersionAreMadeAnew) {
+TEST_F(JobTables, TablesOfAnEarlierVersionAreReplaced) {
     Database(store_, OpenMode::read_write).run(kFirstTables);
     EXPECT_TRUE(review_clashes(open_store(store_)).empty());
     verify_jobs(open_store(store_));
@@ -148,7 +166,7 @@ TEST_F(JobTables, OfAnEarlierVersionAreMadeAnew) {
     verify(open_store(store_));
 }
 
-TEST_F(JobTables, OfAnotherVersionAreMadeAnewAndMarksStay) {
+TEST_F(JobTables, TablesOfAnotherVersionAreReplacedAndMarksStay) {
     const StoreClashReport before = ask();
     const std::uint64_t id = before.report.clashes.at(1).id;
     mark_clashes(open_store(store_, {.read_only = false}), {{}, {id}, {}, "stays"});
@@ -165,7 +183,7 @@ TEST_F(JobTables, OfAnotherVersionAreMadeAnewAndMarksStay) {
 }
 
 /// Each list notices rows that were deleted from it.
-TEST_F(JobTables, MissTheirRows) {
+TEST_F(JobTables, MissingRowsAreErrors) {
     const StoreClashReport found = ask();
     mark_clashes(open_store(store_, {.read_only = false}),
                  {{found.report.clashes.at(0).id}, {}, {}, {}});

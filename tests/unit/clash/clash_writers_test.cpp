@@ -2,12 +2,14 @@
 #include <abut/error.h>
 
 #include "clash/report/clash_text.h"
+#include "clash/report/json_lines.h"
 #include "tests/support/folder.h"
 #include "tests/support/paths.h"
 
 #include <bit>
 #include <cmath>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <limits>
@@ -195,26 +197,40 @@ TEST_F(ClashWriters, JsonValuesReadBackAsTheyWere) {
 }
 
 TEST_F(ClashWriters, NumbersAreTheShortestThatReadBack) {
-    TextBuffer out;
-    for (const double value : {0.05, 1.0, 1e-9, -0.30000000000000004}) {
-        append_json_number(out, value);
-        out.push_back(' ');
-    }
-    EXPECT_EQ(fmt::to_string(out), "0.05 1 1e-09 -0.30000000000000004 ");
+    const std::vector<std::pair<double, std::string>> texts = {
+        {0.05, "0.05"},
+        {1, "1"},
+        {0, "0"},
+        {-0.0, "-0.0"},
+        {-120, "-120"},
+        {1e-9, "1e-09"},
+        {1e-4, "0.0001"},
+        {4e20, "4e+20"},
+        {999999999999999, "999999999999999"},
+        {-0.30000000000000004, "-0.30000000000000004"},
+        {0x1.5bf0a8b145769p+1, "2.718281828459045"},
+        {0x1.fffffffffffffp+1023, "1.7976931348623157e+308"},
+        {kInfinity, "null"},
+    };
+    for (const auto& [value, text] : texts)
+        EXPECT_EQ(json_number(value).dump(), text);
     std::mt19937_64 random(4);
-    std::size_t finite = 0;
+    std::uniform_real_distribution<double> coordinate(-1000, 1000);
+    std::size_t finite = 0, longer = 0;
     for (int i = 0; i < 20000; ++i) {
-        const auto value = std::bit_cast<double>(random());
-        out.clear();
-        append_json_number(out, value);
+        const double value = i % 2 == 0 ? std::bit_cast<double>(random()) : coordinate(random);
+        const std::string text = json_number(value).dump();
         if (!std::isfinite(value)) {
-            EXPECT_EQ(fmt::to_string(out), "null");
+            EXPECT_EQ(text, "null");
             continue;
         }
         ++finite;
-        ASSERT_EQ(json::parse(fmt::to_string(out)).get<double>(), value) << "seed 4, number " << i;
+        longer += text != fmt::format("{}", value) ? 1 : 0;
+        ASSERT_EQ(json::parse(text).get<double>(), value) << "seed 4, number " << i;
     }
+    std::cout << longer << " of " << finite << " differ from the shortest text\n";
     EXPECT_GT(finite, 19000U);
+    EXPECT_LT(longer, finite / 100);
 }
 
 TEST_F(ClashWriters, NumbersThatAreNotFiniteAreNull) {
@@ -226,8 +242,8 @@ TEST_F(ClashWriters, NumbersThatAreNotFiniteAreNull) {
     EXPECT_TRUE(clash["point_a"][1].is_null());
 }
 
-/// nlohmann-json also replaces ill-formed UTF-8, so both outputs must agree.
-TEST_F(ClashWriters, TextIsEscapedAndRepairedAsByAnotherWriter) {
+/// valid_utf8 repairs the texts of CSV reports, nlohmann-json those of JSON; both must agree.
+TEST_F(ClashWriters, TextIsEscapedAndRepairedAlikeByAllWriters) {
     std::mt19937 random(9);
     // Bytes at the limits of what UTF-8 allows, so that many sequences are almost valid.
     constexpr std::string_view kBytes(
@@ -240,19 +256,30 @@ TEST_F(ClashWriters, TextIsEscapedAndRepairedAsByAnotherWriter) {
         std::string text;
         for (std::size_t length = random() % 7; length > 0; --length)
             text += kBytes[random() % kBytes.size()];
-        const std::string peer =
-            json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
-                .get<std::string>();
-        TextBuffer out;
-        append_json_string(out, text);
-        ASSERT_EQ(json::parse(fmt::to_string(out)).get<std::string>(), peer)
+        JsonLines out;
+        out.value(text);
+        const std::string written = out.take();
+        ASSERT_EQ(json::parse(written).get<std::string>(), valid_utf8(text))
             << "seed 9, round " << round;
-        ASSERT_EQ(valid_utf8(text), peer) << "seed 9, round " << round;
-        ASSERT_EQ(fmt::to_string(out).find('<'), std::string::npos);
-        repaired += peer != text ? 1 : 0;
+        ASSERT_EQ(written.find('<'), std::string::npos);
+        repaired += valid_utf8(text) != text ? 1 : 0;
     }
     EXPECT_GT(repaired, kRounds * 3 / 10);
     EXPECT_LT(repaired, kRounds * 9 / 10);
+}
+
+/// Line tools read reports: a member or a clash is a line.
+TEST_F(ClashWriters, JsonHasAClashOnEachLine) {
+    const Sample sample;
+    std::istringstream text(to_json(sample.report, sample.models));
+    std::size_t clashes = 0;
+    for (std::string line; std::getline(text, line);)
+        if (line.find("\"triangle_pairs\":") != std::string::npos) {
+            line.resize(line.find_last_of('}') + 1);
+            EXPECT_EQ(json::parse(line)["b"], "2pipe");
+            ++clashes;
+        }
+    EXPECT_EQ(clashes, sample.report.clashes.size());
 }
 
 TEST_F(ClashWriters, JsonFileHoldsTheSameText) {

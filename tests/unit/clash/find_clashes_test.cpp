@@ -3,7 +3,7 @@
 #include <abut/clash.h>
 #include <abut/error.h>
 
-#include "clash/glob_match.h"
+#include "clash/rule_table.h"
 #include "tests/support/shapes.h"
 
 #include <atomic>

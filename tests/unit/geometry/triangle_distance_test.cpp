@@ -59,7 +59,7 @@ TEST(Distance, FarFromTheOriginCoordinatesRoundNothingAway) {
 
 /// A segment that rounding has turned into a triangle: its plane is meaningless, its edges are
 /// exact. The foot on that plane was once taken for the answer.
-TEST(Distance, OfANeedle) {
+TEST(Distance, Needle) {
     const Triangle needle{Vec3{0, 0, 0}, Vec3{0.7, 0.7, 0.7}, Vec3{0.1, 0.1, 0.1 + 0x1p-56}};
     for (int i = 0; i <= 20; ++i) {
         const double x = 0.035 * i;

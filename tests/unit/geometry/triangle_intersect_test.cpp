@@ -53,7 +53,7 @@ TEST(TriangleIntersect, NoContact) {
     expect({Vec3{-1, -1, -1}, Vec3{-1, -1, 1}, Vec3{-9, 0, 0}}, TriangleContact::none);
 }
 
-TEST(TriangleIntersect, DegenerateOnesAreSegmentsAndPoints) {
+TEST(TriangleIntersect, DegenerateTrianglesAreSegmentsAndPoints) {
     const Vec3 p{1, 1, 0}, above{1, 1, 1}, below{1, 1, -1}, off{3, 3, 0};
     expect({p, p, p}, TriangleContact::touch);
     expect({off, off, off}, TriangleContact::none);

@@ -43,7 +43,7 @@ TEST(TriangleSegment, TouchingAndMissing) {
     EXPECT_TRUE(shared(kFloor, {Vec3{3, 3, -1}, Vec3{3, 3, 1}, Vec3{4, 4, 1}}).empty());
 }
 
-TEST(TriangleSegment, CoplanarOnesShareAPolygon) {
+TEST(TriangleSegment, CoplanarTrianglesShareAPolygon) {
     const Triangle same = kFloor;
     EXPECT_EQ(shared(kFloor, same).size(), 3U);
     const Triangle inside{Vec3{1, 1, 0}, Vec3{1, 2, 0}, Vec3{2, 1, 0}}; // clockwise
@@ -62,7 +62,7 @@ TEST(TriangleSegment, CoplanarOnesShareAPolygon) {
     EXPECT_EQ(shared(kFloor, at_corner), (std::vector<Vec3>{{4, 0, 0}}));
 }
 
-TEST(TriangleSegment, DegenerateOnesAreSegmentsAndPoints) {
+TEST(TriangleSegment, DegenerateTrianglesAreSegmentsAndPoints) {
     const Triangle stick{Vec3{1, 1, -1}, Vec3{1, 1, 3}, Vec3{1, 1, 0}};
     EXPECT_EQ(shared(kFloor, stick), (std::vector<Vec3>{{1, 1, 0}}));
     EXPECT_EQ(shared(stick, kFloor), (std::vector<Vec3>{{1, 1, 0}}));

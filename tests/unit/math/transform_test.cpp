@@ -80,7 +80,7 @@ TEST(Transform, StretchOfSpecialMaps) {
     EXPECT_FALSE(std::isfinite(inverse(flat).m[8]));
 }
 
-TEST(Transform, RequireFiniteNamesWhatIsNot) {
+TEST(Transform, RequireFiniteNamesTheBadValue) {
     Transform t;
     EXPECT_NO_THROW(require_finite(t, "pose of b"));
     t.m[7] = kNaN;

@@ -73,7 +73,7 @@ TEST(ConvexPieces, HullsDoNotFillGaps) {
     EXPECT_DOUBLE_EQ(distance_of(notched, box({1.25, 1.5, -1}, {1.75, 5, 2})), 0.25);
 }
 
-TEST(ConvexPieces, SolidsInsideOfEachOtherAreAtDistanceZero) {
+TEST(ConvexPieces, SolidsInsideEachOtherAreAtDistanceZero) {
     const ConvexPieces large = box({-5, -5, -5}, {5, 5, 5}), small = box({0, 0, 0}, {1, 1, 1});
     EXPECT_EQ(distance_of(large, small), 0);
     EXPECT_EQ(distance_of(small, large), 0);
@@ -102,7 +102,7 @@ TEST(ConvexPieces, SolidsInsideOfEachOtherAreAtDistanceZero) {
     EXPECT_FALSE(collide(ring, {}, ball, {}).meet);
 }
 
-TEST(ConvexPieces, WhatIsWoundAroundTwiceIsInside) {
+TEST(ConvexPieces, PointsWithWindingNumberTwoAreInside) {
     const Mesh cube = pitted_cube_mesh();
     const ConvexPieces twice =
         pieces(joined(cube, transformed(cube, translation(0.0625, 0.125, -0.0625))));
@@ -165,7 +165,7 @@ TEST(ConvexPieces, NamesTheFeaturesOfTheSurface) {
     }
 }
 
-TEST(ConvexPieces, WhatIsNoSolidIsRefused) {
+TEST(ConvexPieces, MeshesThatAreNoSolidsAreRefused) {
     const Mesh cube = box_mesh({0, 0, 0}, {1, 1, 1});
     expect_error(open_box_mesh({0, 0, 0}, {1, 1, 1}), "is open");
     expect_error(reversed(cube), "turned inside out");
@@ -240,7 +240,7 @@ TEST(ConvexPieces, ContactsByPiecesAndTriangles) {
     EXPECT_FALSE(collide(u, {}, box({4.0001, 1, 1}, {5, 2, 2}), {}).meet);
 }
 
-TEST(ConvexPieces, WarmStartsOfOthersDoNoHarm) {
+TEST(ConvexPieces, WarmStartsOfOtherSolidsDoNoHarm) {
     const ConvexPieces u = pieces(u_mesh()), ring = pieces(torus_mesh(10, 4, 30, 20)),
                        cube = box({10, 0, 0}, {11, 1, 1});
     PiecesWarmStart warm_start;

@@ -81,7 +81,7 @@ TEST(NearestPoint, ZeroOnTheSurfaceOnly) {
     EXPECT_GT(nearest(kBox, Pose{}, {0.5, 0.5, -0x1p-1000}).distance, 0);
 }
 
-TEST(FirstHit, OfABoxByHand) {
+TEST(FirstHit, BoxByHand) {
     const RayHit in = first_hit(kBox, Pose{}, {{0.25, 0.5, 5}, {0, 0, -2}});
     EXPECT_TRUE(in.meet);
     EXPECT_EQ(in.t, 2);
@@ -109,7 +109,7 @@ TEST(FirstHit, TheRangeIncludesItsEnds) {
             << t_min << ' ' << t_max;
 }
 
-TEST(FirstHit, InAPlaneWhereItEnters) {
+TEST(FirstHit, RaysInATrianglesPlaneHitWhereTheyEnter) {
     const RayHit hit = first_hit(kTriangle, Pose{}, {{-1, 1, 0}, {1, 0, 0}});
     EXPECT_TRUE(hit.meet);
     EXPECT_EQ(hit.t, 1);
@@ -121,7 +121,7 @@ TEST(FirstHit, InAPlaneWhereItEnters) {
     EXPECT_FALSE(first_hit(kTriangle, Pose{}, {{-1, 1, 0x1p-1000}, {1, 0, 0}}).meet);
 }
 
-TEST(FirstHit, OfDegenerateTriangles) {
+TEST(FirstHit, DegenerateTriangles) {
     const Model segment(Mesh{{{0, 0, 0}, {2, 0, 0}}, {{0, 1, 1}}});
     EXPECT_EQ(first_hit(segment, Pose{}, {{1, 0, 3}, {0, 0, -1}}).t, 3);
     EXPECT_EQ(first_hit(segment, Pose{}, {{1, 0, 3}, {0, 0, -1}}).side, HitSide::along);
@@ -147,7 +147,7 @@ TEST(AllHits, ThroughTwoCorners) {
     EXPECT_EQ(first_hit(kBox, Pose{}, {{-1, -1, -1}, {1, 1, 1}}).triangle, hits[0].triangle);
 }
 
-TEST(NearestPoint, OfPointsVeryFar) {
+TEST(NearestPoint, VeryDistantPoints) {
     for (const double far : {1e3, 1e9, 1e15, 1e18})
         for (const double scale : {1.0, 0x1p-30, 0x1p-49, 0x1p-60}) {
             const Nearest n = nearest(kBox, scaling(scale, scale, scale), {far, scale / 2, 0});
@@ -188,7 +188,7 @@ TEST(SegmentQueries, ByHand) {
     EXPECT_EQ(overlapping_triangles(kTriangle, Pose{}, Segment{{1, 1, 1}, {1, 1, -1}}), Numbers{0});
 }
 
-TEST(Overlaps, OfSpheresTouchAtTheirRadius) {
+TEST(Overlaps, SpheresTouchAtTheirRadius) {
     EXPECT_TRUE(overlaps(kTriangle, Pose{}, Sphere{{1, -3, 4}, 5}));
     EXPECT_FALSE(overlaps(kTriangle, Pose{}, Sphere{{1, -3, 4}, std::nextafter(5, 0)}));
     EXPECT_TRUE(overlaps(kBox, Pose{}, Sphere{{0.5, 0.5, 0.5}, 0.5}));
@@ -199,7 +199,7 @@ TEST(Overlaps, OfSpheresTouchAtTheirRadius) {
     EXPECT_TRUE(overlaps(kBox, Pose{}, Sphere{{1, 1, 1}, 0}));
 }
 
-TEST(Overlaps, OfBoxes) {
+TEST(Overlaps, Boxes) {
     EXPECT_TRUE(overlaps(kTriangle, Pose{}, Box3{{2, 2, 0}, {3, 3, 1}})); // touches the long edge
     EXPECT_FALSE(overlaps(kTriangle, Pose{}, Box3{{2, 2.0000000000000004, 0}, {3, 3, 1}}));
     EXPECT_TRUE(overlaps(kBox, Pose{}, Box3{{-1, -1, -1}, {2, 2, 2}}));
@@ -226,7 +226,7 @@ TEST(Overlaps, OfBoxes) {
     EXPECT_FALSE(overlaps(kBox, Pose{}, OrientedBox{unit, above}));
 }
 
-TEST(Contains, ByCrossingsWhereClosed) {
+TEST(Contains, ClosedSurfacesByCrossings) {
     EXPECT_EQ(contains(kBox, Pose{}, {0.5, 0.5, 0.5}).side, Side::inside);
     EXPECT_EQ(contains(kBox, Pose{}, {0.5, 0.5, 1}).side, Side::on_surface);
     EXPECT_EQ(contains(kBox, Pose{}, {0.5, 0.5, 1 + 0x1p-52}).side, Side::outside);
@@ -246,7 +246,22 @@ TEST(Contains, ByCrossingsWhereClosed) {
               ContainmentMethod::crossings);
 }
 
-TEST(Contains, ByWindingWhereNot) {
+/// Triangles without an area lie in leaves whose boxes hold the points, so that each ray meets them.
+TEST(Contains, TrianglesWithoutAnAreaChangeNothing) {
+    Mesh box = box_mesh({0, 0, 0}, {1, 1, 1});
+    for (std::uint32_t v = 0; v < 8; ++v)
+        box.triangles.push_back({v, v, v});
+    const Model model(box);
+    for (const Vec3& point : {Vec3{0.5, 0.5, 0.5}, Vec3{0.1, 0.2, 0.3}, Vec3{0.9, 0.05, 0.6}}) {
+        const Containment answer = contains(model, {}, point);
+        EXPECT_EQ(answer.side, Side::inside) << point.x;
+        EXPECT_EQ(answer.method, ContainmentMethod::crossings);
+    }
+    EXPECT_EQ(contains(model, {}, Vec3{1.1, 0.5, 0.5}).side, Side::outside);
+    EXPECT_EQ(contains(model, {}, Vec3{1, 0.5, 0.5}).side, Side::on_surface);
+}
+
+TEST(Contains, OpenSurfacesByWindingNumber) {
     const Model open(open_box_mesh({0, 0, 0}, {1, 1, 1}));
     const Containment low = contains(open, Pose{}, {0.5, 0.5, 0.25});
     EXPECT_EQ(low.method, ContainmentMethod::winding);

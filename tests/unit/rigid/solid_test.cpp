@@ -47,7 +47,7 @@ TEST(ExamineSolid, ABoxWithTJunctionsIsASolidByItsWindingNumber) {
     EXPECT_EQ(examine_solid(box).outward, 1);
     EXPECT_EQ(examine_solid(reversed(box)).outward, -1);
     const Body body(box, Pose{{7, 8, 9}, {1, 2, 3, 4}});
-    const auto world = [&](const Vec3& p) { return apply(body.placed.world(), p); };
+    const auto world = [&](const Vec3& p) { return apply(body.placed.model().world(), p); };
     EXPECT_TRUE(body.placed.winds_around(world({0.5, 0.5, 0.5})));
     EXPECT_FALSE(body.placed.winds_around(world({0.5, 0.5, 1.5})));
     EXPECT_TRUE(body.placed.contains(world({0.5, 0.01, 0.99})));

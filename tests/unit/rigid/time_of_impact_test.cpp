@@ -167,7 +167,7 @@ TEST(TimeOfImpact, ParallelPartingAndEqualMotionsNeverMeet) {
     expect_miss(kBox, rolling, kBox, beside);
 }
 
-TEST(TimeOfImpact, PassingNearIsNoHit) {
+TEST(TimeOfImpact, PassingNearIsNoImpact) {
     // Passes nearer than the tolerance, and nearer than the square root of rounding.
     for (const double gap : {1e-3, 1e-7, 1e-10})
         expect_miss(kBox, Motion::fixed({}), kBox, straight({-3, 0, 1 + gap}, {3, 0.5, 1 + gap}));
@@ -180,7 +180,7 @@ TEST(TimeOfImpact, PassingNearIsNoHit) {
     EXPECT_TRUE(hit.meet);
 }
 
-TEST(TimeOfImpact, SlidingInContactIsAHit) {
+TEST(TimeOfImpact, SlidingInContactIsAnImpact) {
     // A box slides onto a table whose top is level with the box's bottom. Contact begins when the
     // edges meet.
     const Model table(box_mesh({0, -2, -1}, {4, 2, 0}));

@@ -13,16 +13,19 @@
 #include "tests/support/page_queries.h"
 
 #include <chrono>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <gtest/gtest.h>
 #include <memory>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace abut::test {
 namespace {
 
-class StoreOf : public testing::Test {
+class StoreByHand : public testing::Test {
 protected:
     /// Two tetrahedra, one of them moved up by 10, and an open triangle.
     void import() {
@@ -41,7 +44,7 @@ protected:
     std::string store_ = folder_ / "s.abut";
 };
 
-TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
+TEST_F(StoreByHand, ThreePartsAreListed) {
     import();
     const Store store = open_store(store_);
     const StoreSummary found = summary(store);
@@ -67,13 +70,12 @@ TEST_F(StoreOf, ThreePartsSaysWhatItHolds) {
     EXPECT_EQ(file.part(2).box, (Box3{{0, 10, 0}, {1, 11, 1}}));
     EXPECT_EQ(file.bytes_read(), 0U) << "rows alone have been read";
     EXPECT_EQ(file.read_mesh(2).positions.back(), (Vec3{9, 9, 9}));
-    EXPECT_EQ(file.blocks_read(), 1U);
     EXPECT_EQ(file.bytes_read(), shell.stored_bytes);
     EXPECT_THROW(file.mesh(3), Error);
     EXPECT_THROW(file.part(4), Error);
 }
 
-TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
+TEST_F(StoreByHand, QueriesOfItsPageWork) {
     import();
     // Rows of the queries: none in the box, two types, two meshes, three parts of the last import,
     // one open shell, none.
@@ -81,7 +83,7 @@ TEST_F(StoreOf, ThreePartsAnswersTheQuestionsOfItsPage) {
 }
 
 /// An import that fails empties the file that it found empty, also while others read it.
-TEST_F(StoreOf, AFileThatIsEmptiedMeanwhileIsToldEmpty) {
+TEST_F(StoreByHand, AFileEmptiedMeanwhileIsReportedEmpty) {
     const auto message = [](const auto& read) -> std::string {
         try {
             read();
@@ -112,7 +114,7 @@ std::size_t descriptors_of(const std::string& path) {
 
 /// A writer that waited for a store that is undone must leave the next store's journal alone: only
 /// the journal can mend that store if its import is killed.
-TEST_F(StoreOf, AWriterThatWaitsTakesNoJournalOfANewStore) {
+TEST_F(StoreByHand, AWriterThatWaitsTakesNoJournalOfANewStore) {
     constexpr auto kCreate = ExclusiveStore::IfMissing::create;
     constexpr std::uint64_t kCache = 1 << 20;
     std::size_t refused = 0;
@@ -147,7 +149,7 @@ TEST_F(StoreOf, AWriterThatWaitsTakesNoJournalOfANewStore) {
     EXPECT_GT(refused, 0U);
 }
 
-TEST_F(StoreOf, NothingIsRefused) {
+TEST_F(StoreByHand, AMissingOrEmptyFileIsRefused) {
     EXPECT_THROW(open_store(store_), Error);
     std::ofstream(store_).close();
     EXPECT_THROW(open_store(store_), Error);
@@ -169,7 +171,7 @@ TEST(MeshCodec, ASheetInOrderCostsNothingForItsCorners) {
     EXPECT_LT(encoded.data.size(), 64U);
 }
 
-TEST(MeshCodec, RefusesWhatIsNoBlock) {
+TEST(MeshCodec, RefusesInvalidBlocks) {
     MeshBlock block;
     block.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     const EncodedBlock encoded = encode_block(block);
@@ -205,7 +207,7 @@ TEST(CutMesh, SmallMeshesStayWholeAndLargeOnesAreCut) {
     });
 }
 
-TEST(UniqueIds, AsInAScene) {
+TEST(UniqueIds, EqualThoseOfAScene) {
     UniqueIds ids;
     const std::vector<std::string> given{"a", "a", "a#2", "a", "b", "b"};
     for (const std::string& id : given)
@@ -216,6 +218,34 @@ TEST(UniqueIds, AsInAScene) {
     for (const std::string& id : given)
         unique.push_back(ids.unique(id));
     EXPECT_EQ(unique, (std::vector<std::string>{"a", "a#3", "a#2", "a#4", "b", "b#2"}));
+}
+
+/// Whether another process sees a lock on a file.
+bool is_locked_for_others(const std::string& path) {
+    const pid_t child = fork();
+    if (child == 0) {
+        const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        struct flock lock {};
+        lock.l_type = F_RDLCK;
+        const bool is_locked = fcntl(file, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+        _exit(is_locked ? 1 : 0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 1;
+}
+
+// The system releases a process's locks on a file when the process closes any descriptor of it.
+TEST_F(StoreByHand, AskingWhetherAFileIsAStoreReleasesNoLock) {
+    import();
+    Database database(store_, OpenMode::read_write);
+    database.run("BEGIN EXCLUSIVE");
+    ASSERT_TRUE(is_locked_for_others(store_));
+    EXPECT_TRUE(is_store(store_));
+    EXPECT_THROW(import_models({store_}, folder_ / "other.abut"), Error);
+    EXPECT_TRUE(is_locked_for_others(store_));
+    database.run("COMMIT");
+    EXPECT_FALSE(is_locked_for_others(store_));
 }
 
 } // namespace

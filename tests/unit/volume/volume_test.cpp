@@ -25,7 +25,7 @@ Transform shift(double x, double y, double z) {
 
 constexpr double kFloatRounding = 1e-6;
 
-TEST(Volumes, OfABox) {
+TEST(Volumes, VolumesOfABox) {
     const auto box = corners({1, 2, 3}, {9, 6, 5}); // half extents 4, 2, 1 about 5, 4, 4
     const Obb obb = Obb::fit(box);
     EXPECT_EQ(obb.centre, (std::array{5.0F, 4.0F, 4.0F}));
@@ -105,7 +105,7 @@ TEST(Volumes, UpperBoundsReachTheFarEnds) {
         EXPECT_NEAR(upper_sq, 400, 0.1); // two half diagonals of 5 and the shift
 }
 
-TEST(ConvexHull, OfABoxWithPointsInside) {
+TEST(ConvexHull, BoxWithPointsInside) {
     std::vector<Vec3> points{{0.5, 0.5, 0.5}, {0.2, 0.7, 0.1}};
     for (const Triangle& t : corners({0, 0, 0}, {1, 1, 1}))
         points.push_back(t[0]);
@@ -117,7 +117,7 @@ TEST(ConvexHull, OfABoxWithPointsInside) {
     EXPECT_NEAR(area, 6, 1e-12);
 }
 
-TEST(ConvexHull, OfWhatSpansNoVolume) {
+TEST(ConvexHull, PointsThatSpanNoVolume) {
     EXPECT_TRUE(convex_hull({}).empty());
     EXPECT_TRUE(convex_hull(std::vector<Vec3>(10, Vec3{1, 2, 3})).empty());
     EXPECT_TRUE(convex_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}).empty());

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-class WalkBy : public testing::Test {
+class WalkByHand : public testing::Test {
 protected:
     /// Two cubes of side 2 about (0, 0, 0) and (10, 0, 0) that share a mesh.
     Store two_cubes() {
@@ -48,7 +48,7 @@ protected:
     const Probe ball_{Sphere{{}, 0.5}};
 };
 
-TEST_F(WalkBy, TwoCubesFindsTheNearer) {
+TEST_F(WalkByHand, FindsTheNearerOfTwoCubes) {
     Walk walk(two_cubes());
     walk.move_to({2, 0, 0});
     walk.wait();
@@ -74,7 +74,7 @@ TEST_F(WalkBy, TwoCubesFindsTheNearer) {
     EXPECT_EQ(walk.distance(ball_, Pose{{5, 0, 0}}).gap.part, nearest.gap.part);
 }
 
-TEST_F(WalkBy, TwoCubesFindsAllWithinAndTouched) {
+TEST_F(WalkByHand, FindsAllCubesWithinAndTouched) {
     Walk walk(two_cubes(), {.prefetch = false});
     EXPECT_EQ(walk.within(ball_, Pose{{4, 0, 0}}, 2.5).parts.size(), 1U);
     EXPECT_EQ(walk.within(ball_, Pose{{4, 0, 0}}, 4.5).parts.size(), 2U);
@@ -95,7 +95,7 @@ TEST_F(WalkBy, TwoCubesFindsAllWithinAndTouched) {
     EXPECT_EQ(found.parts_in_memory, 2U);
 }
 
-TEST_F(WalkBy, PartsThatComeMoveAndGo) {
+TEST_F(WalkByHand, PartsThatComeMoveAndGo) {
     Walk walk(two_cubes());
     const WalkPart left = walk.collide(ball_, Pose{{1.4, 0, 0}}).parts.at(0);
     const WalkPart added =
@@ -126,7 +126,7 @@ TEST_F(WalkBy, PartsThatComeMoveAndGo) {
     }
 }
 
-TEST_F(WalkBy, WhatIsNotInMemoryMayBeSkipped) {
+TEST_F(WalkByHand, PartsNotInMemoryMayBeSkipped) {
     Walk walk(two_cubes());
     const WalkQuery skip{.missing = MissingParts::skip};
     // No region of interest was given, so nothing is in memory.
@@ -142,7 +142,7 @@ TEST_F(WalkBy, WhatIsNotInMemoryMayBeSkipped) {
     EXPECT_EQ(after.gap.distance, 2.5);
 }
 
-TEST_F(WalkBy, TrianglesOfACutMeshHaveTheirNumbersInTheWhole) {
+TEST_F(WalkByHand, TrianglesOfACutMeshHaveTheirNumbersInTheWholeMesh) {
     Scene scene;
     scene.meshes = {torus_mesh(3, 1, 300, 150)}; // 90,000 triangles: three blocks
     scene.parts = {{"torus", "", "", 0, {}}};
@@ -163,7 +163,7 @@ TEST_F(WalkBy, TrianglesOfACutMeshHaveTheirNumbersInTheWhole) {
     EXPECT_LE(walk.statistics().peak_bytes, std::uint64_t{32} << 20);
 }
 
-TEST_F(WalkBy, BadArgumentsAreRefused) {
+TEST_F(WalkByHand, BadArgumentsAreRefused) {
     const Store store = two_cubes();
     EXPECT_EQ(code_of([&] { Walk(store, {.memory = 1000}); }), ErrorCode::bad_argument);
     EXPECT_EQ(code_of([&] { Walk(store, {.look_ahead = -1}); }), ErrorCode::bad_argument);
@@ -185,7 +185,7 @@ TEST_F(WalkBy, BadArgumentsAreRefused) {
     EXPECT_FALSE(walk.distance(Model(Mesh{}), Pose{}).found);
 }
 
-TEST_F(WalkBy, TooManyPartsAreRefused) {
+TEST_F(WalkByHand, TooManyPartsAreRefused) {
     Walk walk(two_cubes(), {.memory = 1 << 17});
     const Model cube(box_mesh({-1, -1, -1}, {1, 1, 1}));
     std::vector<WalkPart> added;
@@ -203,7 +203,7 @@ TEST_F(WalkBy, TooManyPartsAreRefused) {
     walk.remove(walk.add(cube, Pose{}));
 }
 
-TEST_F(WalkBy, DamageIsToldWhereItMatters) {
+TEST_F(WalkByHand, DamageIsReportedWhereItMatters) {
     (void)two_cubes();
     Database(store_, OpenMode::read_write).run("UPDATE block SET data = zeroblob(length(data))");
     Walk walk(open_store(store_));
@@ -214,7 +214,7 @@ TEST_F(WalkBy, DamageIsToldWhereItMatters) {
     EXPECT_EQ(code_of([&] { (void)walk.distance(ball_, Pose{{4, 0, 0}}); }), ErrorCode::malformed);
 }
 
-TEST_F(WalkBy, APartThatCouldNotBeMovedCanBeMovedLater) {
+TEST_F(WalkByHand, APartThatCouldNotBeMovedCanBeMovedLater) {
     Walk walk(two_cubes());
     Database database(store_, OpenMode::read_write);
     database.run("UPDATE mesh SET mesh = mesh + 100");
@@ -224,7 +224,7 @@ TEST_F(WalkBy, APartThatCouldNotBeMovedCanBeMovedLater) {
     EXPECT_EQ(walk.distance(ball_, Pose{{0, 50, 3}}).gap.distance, 1.5);
 }
 
-TEST_F(WalkBy, NoNumberThatIsNoPartIsOne) {
+TEST_F(WalkByHand, InvalidPartNumbersAreRefused) {
     Walk walk(two_cubes());
     const Model cube(box_mesh({-1, -1, -1}, {1, 1, 1}));
     EXPECT_EQ(walk.add(cube, Pose{}).number, -1);
@@ -235,7 +235,7 @@ TEST_F(WalkBy, NoNumberThatIsNoPartIsOne) {
         EXPECT_EQ(code_of([&] { walk.move({number}, Pose{}); }), ErrorCode::bad_argument) << number;
 }
 
-TEST_F(WalkBy, ThereAndBackAgainComesToRest) {
+TEST_F(WalkByHand, MovingBackAndForthComesToRest) {
     Walk walk(two_cubes());
     for (int i = 0; i < 300; ++i) {
         walk.move_to({0, 0, 0}, {});
@@ -246,7 +246,7 @@ TEST_F(WalkBy, ThereAndBackAgainComesToRest) {
     EXPECT_EQ(walk.statistics().parts_in_memory, 2U);
 }
 
-TEST_F(WalkBy, WithoutPartsNothingIsNear) {
+TEST_F(WalkByHand, WithoutPartsNothingIsNear) {
     Walk walk(two_cubes());
     walk.remove({1});
     walk.remove({2});
