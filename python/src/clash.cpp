@@ -137,7 +137,11 @@ void bind_results(py::module_& module) {
         times["total"] = s.total;
         return times;
     };
-    const auto to_text = [](const Report& self) { return to_json(self.report, *self.models); };
+    const auto to_text = [](const Report& self) {
+        if (!self.counters)
+            return to_json(self.report, *self.models);
+        return to_json(StoreClashReport{self.report, *self.models, *self.counters});
+    };
     PlainBinder<Report>(module, "ClashReport", "Returned by find_clashes. Its length is the number of clashes.")
         .property("clashes", &named_clashes, "list of Clash, sorted by model, part of a, then of b")
         .property("counts", counts, "dict of kind to number")
@@ -154,7 +158,8 @@ void bind_results(py::module_& module) {
         .property("peak_rss_mib", [](const Report& self) { return self.report.peak_rss_mib; }, "MiB")
         .done()
         .def("__len__", [](const Report& self) { return self.report.clashes.size(); });
-    module.def("to_json", to_text, py::arg("report"), "The report as JSON text, the same as the command's.");
+    module.def("to_json", to_text, py::arg("report"), "The JSON text that the command writes: of a ClashReport, of a ClashReview, or of a list of ClashReview and the path\n"
+               "of their store.");
     const auto add_writer = [&module](const char* name, const char* doc,
                                       void (*write)(const ClashReport&, const std::vector<Scene>&, const std::string&)) {
         module.def(name, [write](const Report& report, const py::object& path) { write(report.report, *report.models, to_path(path)); },
@@ -206,7 +211,7 @@ void bind_clash(py::module_& module) {
     add_verb(module, "find_clashes",
              "find_clashes(models, *, clearance=0, touch_tolerance=0, self=False, rules=[], progress=None)\n"
              "find_clashes(store, *, clearance=0, touch_tolerance=0, self=False, rules=[], progress=None,\n"
-             "             memory=512 MiB, order='partition', keep=True, keep_hierarchies=True)\n\n"
+             "             memory=512 MiB, order='partition', keep=True, keep_hierarchies=True, crew=None)\n\n"
              "All clashes and clearances between the parts of different models; of one model, between its parts.\n\n"
              "models            list of Scene or paths, or one of them\n"
              "store             an open Store: models of any size in little memory\n"
@@ -218,7 +223,8 @@ void bind_clash(py::module_& module) {
              "memory            bytes for geometry, hierarchies and tables\n"
              "order             a WorkOrder\n"
              "keep              whether what is done is kept in the store, if that can be written to\n"
-             "keep_hierarchies  whether hierarchies are kept with it\n\n"
+             "keep_hierarchies  whether hierarchies are kept with it\n"
+             "crew              a Crew: the processes that do the job together, this one as their leader\n\n"
              "Returns a ClashReport. Raises Error: bad_argument for a negative length, those of read_scene and of the store;\n"
              "KeyboardInterrupt at Ctrl-C.");
 }

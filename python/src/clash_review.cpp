@@ -36,8 +36,10 @@ void bind_clash_review(py::module_& module) {
         .field("finished", &ClashReview::finished, "when the job ended, in seconds since 1970")
         .property("statuses", statuses, "dict of status to number")
         .field("clashes", &ClashReview::clashes, "list of ListedClash, resolved ones too")
-        .done()
-        .def("to_json", [](const ClashReview& self) { return to_json(self); }, "The review as JSON text.");
+        .done();
+    module.def("to_json", [](const ClashReview& review) { return to_json(review); }, py::arg("review"));
+    module.def("to_json", [](const std::vector<ClashReview>& reviews, const std::string& store) { return to_json(reviews, store); },
+               py::arg("reviews"), py::arg("store"));
     using Ids = std::vector<std::string>;
     module.def("review_clashes", [](const OpenStore& store) { return review_clashes(store.get()); }, py::arg("store"),
                "One ClashReview for each question that the store has been asked. Raises Error (malformed).");

@@ -13,7 +13,8 @@ void bind_mesh(py::module_& module) {
                      "Indexed triangles: vertices of shape (n, 3), faces of shape (m, 3) with indices from 0.\n"
                      "Any object that Model takes may be given in place of both arrays. The arrays are copied.\n\n"
                      "Raises Error (bad_mesh) if an index is out of range.")
-        .def(py::init(&to_mesh_value), py::arg("vertices"), py::arg("faces") = py::none())
+        .def(py::init([](const py::object& vertices, const py::object& faces) { return to_mesh_value(vertices, faces); }),
+             py::arg("vertices"), py::arg("faces") = py::none())
         .def_property_readonly("vertices",
                                [](const py::object& self) {
                                    const auto& mesh = self.cast<const Mesh&>();

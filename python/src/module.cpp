@@ -30,6 +30,7 @@ PYBIND11_MODULE(_abut, module) {
     bind_frame(module);
     bind_clash(module);
     bind_store(module);
+    bind_crew(module);
     bind_store_clash(module);
     bind_clash_review(module);
     bind_walk(module);

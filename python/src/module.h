@@ -26,6 +26,7 @@ void bind_scene(py::module_& module);
 void bind_frame(py::module_& module);
 void bind_clash(py::module_& module);
 void bind_store(py::module_& module);
+void bind_crew(py::module_& module);
 void bind_store_clash(py::module_& module);
 void bind_clash_review(py::module_& module);
 void bind_walk(py::module_& module);

@@ -79,16 +79,22 @@ auto reader(Result (*read)(const ModelPath&, const ReadOptions&)) {
     };
 }
 
+bool is_one_path(const py::object& object) {
+    return PyUnicode_Check(object.ptr()) || py::hasattr(object, "__fspath__") || py::isinstance<ModelPath>(object);
+}
+
 } // namespace
 
 std::string to_path(py::handle path) {
     return py::module_::import("os").attr("fspath")(path).cast<std::string>();
 }
 
-ModelPath to_model_path(py::handle path) { return parse_model_path(to_path(path)); }
+ModelPath to_model_path(py::handle path) {
+    return py::isinstance<ModelPath>(path) ? path.cast<const ModelPath&>() : parse_model_path(to_path(path));
+}
 
 std::vector<ModelPath> to_model_paths(const py::object& paths) {
-    if (PyUnicode_Check(paths.ptr()) || py::hasattr(paths, "__fspath__"))
+    if (is_one_path(paths))
         return {to_model_path(paths)};
     std::vector<ModelPath> list;
     for (const py::handle path : paths)
@@ -99,7 +105,7 @@ std::vector<ModelPath> to_model_paths(const py::object& paths) {
 std::vector<Scene> to_scenes(const py::object& models, const py::object& progress) {
     if (py::isinstance<Scene>(models))
         return {models.cast<Scene>()};
-    if (PyUnicode_Check(models.ptr()) || py::hasattr(models, "__fspath__"))
+    if (is_one_path(models))
         return to_scenes(py::make_tuple(models), progress);
     std::vector<Scene> scenes;
     std::vector<ModelPath> paths; // of the scenes that are to be read
@@ -144,6 +150,15 @@ void bind_scene(py::module_& module) {
         .done()
         .def(py::init(&make_part), py::arg("id"), py::arg("mesh") = 0U, py::arg("pose") = py::none(), py::kw_only(),
              py::arg("name") = py::none(), py::arg("type") = "");
+    PlainBinder<ModelPath>(module, "ModelPath", "ModelPath(path, unit=0, up=None)\n\nA path with the unit and the axis of its file.")
+        .field("path", &ModelPath::path, "")
+        .field("unit", &ModelPath::unit, "metres per unit of the file; 0: as the format defines")
+        .field("up", &ModelPath::up, "UpAxis; None: as the format defines")
+        .done()
+        .def(py::init([](const py::object& path, double unit, std::optional<UpAxis> up) { return ModelPath{to_path(path), unit, up}; }),
+             py::arg("path"), py::arg("unit") = 0.0, py::arg("up") = py::none());
+    module.def("parse_model_path", [](const py::object& text) { return parse_model_path(to_path(text)); }, py::arg("text"),
+               "The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument).");
     py::class_<Scene>(module, "Scene",
                       "Scene(meshes, parts, *, file='', up='z')\n\n"
                       "A file's parts, in metres. Parts may share a mesh. From Python: meshes are what Model takes, parts are\n"
@@ -179,6 +194,12 @@ void bind_scene(py::module_& module) {
     module.def("to_mesh", [](const Scene& scene) { return to_mesh(scene); }, py::arg("scene"),
                "All parts of a scene as one Mesh in the world. Raises Error (bad_mesh) if there are too many vertices.");
     module.def("turn_up", &turn_up, py::arg("scene"), py::arg("up"), "Turns a scene by quarter turns, so that this axis points up.");
+    module.def("into_one_frame",
+               [](std::vector<Scene> scenes) {
+                   into_one_frame(scenes);
+                   return scenes;
+               },
+               py::arg("scenes"), "Returns copies of the scenes, turned so that the axis points up that does in the first one.");
     module.def("write_glb", [](const Scene& scene, const py::object& path) { write_glb(scene, to_path(path)); }, py::arg("scene"),
                py::arg("path"), "Writes a scene as binary glTF. Raises Error (cannot_write).");
 }

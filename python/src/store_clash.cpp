@@ -1,6 +1,7 @@
 #include <abut/store_clash.h>
 
 #include "clashes.h"
+#include "crews.h"
 #include "module.h"
 #include "open_store.h"
 #include "queries.h"
@@ -21,6 +22,8 @@ OutOfCoreOptions to_out_of_core(const Arguments& arguments, std::size_t first) {
     arguments.take(first + 1, "order", options.order);
     arguments.take(first + 2, "keep", options.keep);
     arguments.take(first + 3, "keep_hierarchies", options.keep_hierarchies);
+    if (arguments.has(first + 4))
+        options.crew = get<OpenCrew>(arguments[first + 4], "crew").get();
     return options;
 }
 
@@ -57,6 +60,20 @@ py::object run_overlap_graph(const Arguments& arguments) {
 
 void bind_store_clash(py::module_& module) {
     bind_enum<WorkOrder>(module, "WorkOrder", {"partition", "random"}, "How the work on a store is put into an order.");
+    PlainBinder<OutOfCoreCounters::Worker>(module, "WorkerCounters", "The work of one process.")
+        .field("units", &OutOfCoreCounters::Worker::units, "work units")
+        .field("pairs", &OutOfCoreCounters::Worker::pairs, "of parts")
+        .field("mesh_loads", &OutOfCoreCounters::Worker::mesh_loads, "each time that a mesh was read")
+        .field("blocks", &OutOfCoreCounters::Worker::blocks, "mesh blocks that were needed")
+        .field("block_loads", &OutOfCoreCounters::Worker::block_loads, "each time that one was read")
+        .field("block_bytes_needed", &OutOfCoreCounters::Worker::block_bytes_needed, "of those blocks, each once")
+        .field("hierarchies_found", &OutOfCoreCounters::Worker::hierarchies_found, "in the store")
+        .field("bytes_read", &OutOfCoreCounters::Worker::bytes_read, "from the store")
+        .field("peak_bytes", &OutOfCoreCounters::Worker::peak_bytes, "of models in memory at once")
+        .field("processor_seconds", &OutOfCoreCounters::Worker::processor_seconds, "of all threads")
+        .field("waiting_seconds", &OutOfCoreCounters::Worker::waiting_seconds, "without work")
+        .field("peak_rss_mib", &OutOfCoreCounters::Worker::peak_rss_mib, "MiB")
+        .done();
     PlainBinder<OutOfCoreCounters>(module, "OutOfCoreCounters", "The work of a job on a store.")
         .field("units", &OutOfCoreCounters::units, "work units")
         .field("meshes", &OutOfCoreCounters::meshes, "that a candidate needs, large ones left out")
@@ -70,6 +87,15 @@ void bind_store_clash(py::module_& module) {
         .field("peak_bytes", &OutOfCoreCounters::peak_bytes, "of models in memory at once")
         .field("kept", &OutOfCoreCounters::kept, "in the store")
         .field("recalled_pairs", &OutOfCoreCounters::recalled_pairs, "done before, by an earlier job")
+        .field("workers", &OutOfCoreCounters::workers, "list of WorkerCounters, in the order of ranks")
+        .done();
+    PlainBinder<GraphReport::Unit>(module, "WorkUnit", "Parts that a job on a store works on together.")
+        .field("parts", &GraphReport::Unit::parts, "")
+        .field("edges", &GraphReport::Unit::edges, "")
+        .field("meshes", &GraphReport::Unit::meshes, "in memory together; large ones are not counted")
+        .field("bytes", &GraphReport::Unit::bytes, "of these meshes")
+        .field("bounds", &GraphReport::Unit::bounds, "Box3 of the centres of the parts' boxes")
+        .field("middle", &GraphReport::Unit::middle, "mean of these centres")
         .done();
     PlainBinder<GraphReport>(module, "GraphReport", "Returned by overlap_graph.")
         .field("nodes", &GraphReport::nodes, "parts")
@@ -82,7 +108,7 @@ void bind_store_clash(py::module_& module) {
         .field("bytes", &GraphReport::bytes, "of the models that an edge needs, each once")
         .field("large_meshes", &GraphReport::large_meshes, "")
         .field("large_bytes", &GraphReport::large_bytes, "")
-        .property("units", [](const GraphReport& self) { return self.units.size(); }, "number of work units")
+        .field("units", &GraphReport::units, "list of WorkUnit, in the order of work")
         .field("cut_edges", &GraphReport::cut_edges, "between parts that a partition put apart")
         .property("lines",
                   [](const GraphReport& self) {
@@ -96,7 +122,7 @@ void bind_store_clash(py::module_& module) {
         .field("seconds", &GraphReport::seconds, "")
         .done();
     add_overload("find_clashes", {a_store,
-                                  {"store * clearance touch_tolerance self rules progress memory order keep keep_hierarchies", 1},
+                                  {"store * clearance touch_tolerance self rules progress memory order keep keep_hierarchies crew", 1},
                                   run_find_in_store});
     bind_clash_of_scenes();
     add_verb(module, "overlap_graph",

@@ -25,7 +25,7 @@ def test_impacts_against_elementary_tests(rng):
     """Every vertex and face of two surfaces, one by one, gives the same list."""
     hits = []
     for _ in range(10):
-        a, b = soup(rng, 6, 0.5), soup(rng, 5, 0.5)
+        a, b = soup(rng, 14, 0.5), soup(rng, 12, 0.5)
         ends = a[0] + rng.uniform(-2, 2, a[0].shape), b[0] + rng.uniform(-2, 2, b[0].shape)
         da, db = abut.Deformable(*a), abut.Deformable(*b)
         da.set_motion(a[0], ends[0])

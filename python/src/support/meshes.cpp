@@ -45,7 +45,7 @@ Mesh from_meshio(const py::object& source) {
 
 } // namespace
 
-Mesh to_mesh_value(const py::object& source, const py::object& faces) {
+Mesh to_mesh_value(const py::object& source, const py::object& faces, py::handle report) {
     if (!faces.is_none())
         return from_arrays(source, faces);
     if (py::isinstance<Mesh>(source))
@@ -54,7 +54,7 @@ Mesh to_mesh_value(const py::object& source, const py::object& faces) {
         return source.cast<const Model&>().mesh();
     if (is_path(source)) {
         const auto path = py::module_::import("os").attr("fspath")(source).cast<std::string>();
-        Work work;
+        Work work(report);
         return work.run([&](const Progress& progress) {
             const ModelPath parsed = parse_model_path(path);
             ReadOptions options;

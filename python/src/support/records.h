@@ -62,8 +62,18 @@ py::object to_python(const T& value) {
 }
 template <class T, std::size_t N>
     requires std::is_arithmetic_v<T>
-py::object to_python(const std::array<T, N>& value) {
+py::array_t<T> to_python(const std::array<T, N>& value) {
     return py::array_t<T>(N, value.data());
+}
+
+/// What a property returns: what pybind11 converts by itself as it is, so that the signature in the
+/// docstring, from which the type stubs are made, has its type.
+template <class T>
+auto property_value(const T& value) {
+    if constexpr (std::is_same_v<decltype(to_python(value)), py::object>)
+        return value;
+    else
+        return to_python(value);
 }
 
 /// Text of a value within another's: arrays as lists.
@@ -164,7 +174,7 @@ public:
     template <class Class, class Member>
     PlainBinder& field(const char* name, Member Class::*member, const char* doc) {
         names().emplace_back(name);
-        class_.def_property_readonly(name, [member](const T& self) { return to_python(self.*member); }, doc);
+        class_.def_property_readonly(name, [member](const T& self) { return property_value(self.*member); }, doc);
         return *this;
     }
     template <class Get>
