@@ -38,7 +38,8 @@ double least_ns(int rounds, Work work) {
     for (int i = 0; i < rounds; ++i) {
         const auto start = std::chrono::steady_clock::now();
         work();
-        const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+        const std::chrono::duration<double, std::nano> time =
+            std::chrono::steady_clock::now() - start;
         best = std::min(best, time.count());
     }
     return best;
@@ -62,7 +63,8 @@ int main(int argc, char** argv) {
         for (int i = 0; i < calls; ++i)
             sum += abut::collide(model, still, model, away).meet();
     });
-    const double batch = least_ns(25, [&] { sum += abut::distance(model, model, placements)[0].distance; });
-    std::printf("{\"distance\": %.1f, \"collide\": %.1f, \"batch\": %.0f, \"sum\": %g}\n", distance / calls, collide / calls,
-                batch, sum);
+    const double batch =
+        least_ns(25, [&] { sum += abut::distance(model, model, placements)[0].distance; });
+    std::printf("{\"distance\": %.1f, \"collide\": %.1f, \"batch\": %.0f, \"sum\": %g}\n",
+                distance / calls, collide / calls, batch, sum);
 }

@@ -56,7 +56,7 @@ def main():
     for model in report.models:
         print(f"{model.file}: {model.parts} parts, {model.triangles} triangles")
     print(f"{'kind':10} {'distance':>9}  parts")
-    for clash in sorted(report.clashes, key=lambda clash: clash.distance):
+    for clash in sorted(report.clashes, key=lambda clash: (round(clash.distance, 6), clash.names)):
         print(f"{clash.kind.name:10} {clash.distance:7.4f} m  {clash.names[0]} | {clash.names[1]}")
     print(", ".join(f"{number} {kind}" for kind, number in report.counts.items()))
     if options.html:

@@ -17,6 +17,9 @@ from ._abut import *  # noqa: F403
 
 __version__ = _abut.__version__
 __all__ = sorted(name for name in vars(_abut) if not name.startswith("_"))
+for _name in __all__:  # pickles and messages then name the package
+    if isinstance(getattr(_abut, _name), type):
+        getattr(_abut, _name).__module__ = "abut"
 
 # The wheel brings along the programs that read some model files.
 _helpers = _os.path.join(_os.path.dirname(_os.path.abspath(__file__)), "libexec")

@@ -2,14 +2,16 @@
 
 Settings (pip wheel . --config-settings NAME=VALUE):
     cmake-args   more arguments for CMake, separated by spaces
-    build-dir    a folder of CMake's that is kept, to build only what has changed
+    build-dir    a build folder to use and keep; one that is configured already stays as it is configured
 """
 
 import base64
 import hashlib
+import io
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -34,7 +36,7 @@ def tag():
 
 def metadata():
     head = (f"Metadata-Version: 2.1\nName: abut\nVersion: {version()}\nSummary: {SUMMARY}\n"
-            "Requires-Python: >=3.9\nRequires-Dist: numpy\nDescription-Content-Type: text/markdown\n\n")
+            "License: MIT\nRequires-Python: >=3.9\nRequires-Dist: numpy\nDescription-Content-Type: text/markdown\n\n")
     return head + (ROOT / "docs/python.md").read_text()
 
 
@@ -51,18 +53,23 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with tempfile.TemporaryDirectory() as scratch:
         build = pathlib.Path(settings.get("build-dir") or pathlib.Path(scratch, "build"))
         package = pathlib.Path(scratch, "package")
-        run("cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DABUT_PYTHON=ON",
-            "-DABUT_PYTHON_WHEEL=ON", "-DABUT_TESTS=OFF", "-DABUT_BENCH=OFF", "-DABUT_EXAMPLES=OFF", "-DABUT_UNITY=ON",
-            f"-DPython_EXECUTABLE={sys.executable}", *generator(), *settings.get("cmake-args", "").split())
-        run("cmake", "--build", build, "--parallel", str(os.cpu_count()), "--target", "abut_python", "abut_reader")
-        run("cmake", "--install", build, "--component", "python", "--prefix", package)
+        if not (build / "CMakeCache.txt").exists():
+            configure(build, shlex.split(settings.get("cmake-args", "")))
+        run("cmake", "--build", build, "--parallel", os.cpu_count(), "--target", "abut_wheel")
+        run("cmake", "--install", build, "--component", "wheel", "--prefix", package)
+        modules = [path.name for path in (package / "abut").glob("_abut*")]
+        if modules != ["_abut" + sysconfig.get_config_var("EXT_SUFFIX")]:
+            raise SystemExit(f"{build} is for another Python: it made {modules}")
         name = f"abut-{version()}-{tag()}.whl"
         write_wheel(pathlib.Path(wheel_directory, name), package)
     return name
 
 
-def generator():
-    return ["-G", "Ninja"] if shutil.which("ninja") else []
+def configure(build, more):
+    generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+    run("cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DABUT_PYTHON=ON", "-DABUT_TESTS=OFF",
+        "-DABUT_BENCH=OFF", "-DABUT_EXAMPLES=OFF", "-DABUT_UNITY=ON", f"-DPython_EXECUTABLE={sys.executable}", *generator,
+        *more)
 
 
 def run(*command):
@@ -88,26 +95,25 @@ def write_wheel(path, package):
         add(f"{info}/WHEEL",
             f"Wheel-Version: 1.0\nGenerator: abut\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode())
         add(f"{info}/LICENSE", (ROOT / "LICENSE").read_bytes())
-        wheel.writestr(f"{info}/RECORD", "\n".join([*record, f"{info}/RECORD,,", ""]))
+        add(f"{info}/RECORD", "\n".join([*record, f"{info}/RECORD,,", ""]).encode())
 
 
 def build_sdist(sdist_directory, config_settings=None):
     name = f"abut-{version()}"
     path = pathlib.Path(sdist_directory, f"{name}.tar.gz")
-    with tarfile.open(path, "w:gz") as archive:
+    with tarfile.open(path, "w:gz", format=tarfile.PAX_FORMAT) as archive:
         for file in sources():
             archive.add(ROOT / file, f"{name}/{file}", recursive=False)
-        with tempfile.NamedTemporaryFile("w") as info:
-            info.write(metadata())
-            info.flush()
-            archive.add(info.name, f"{name}/PKG-INFO")
+        info, text = tarfile.TarInfo(f"{name}/PKG-INFO"), metadata().encode()
+        info.size = len(text)
+        archive.addfile(info, io.BytesIO(text))
     return path.name
 
 
 def sources():
     """The files that a build needs: of git where there is one, else all that lie there."""
-    folders = ("apps", "cmake", "docs", "include", "python", "scenes", "src")
-    files = ("CMakeLists.txt", "LICENSE", "README.md", "pyproject.toml")
+    folders = ("apps", "cmake", "include", "python", "scenes", "src")
+    files = ("CMakeLists.txt", "LICENSE", "README.md", "docs/python.md", "pyproject.toml")
     listed = []
     if (ROOT / ".git").exists():
         listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", *folders, *files], check=True,

@@ -7,11 +7,8 @@ What a signature does not tell is in the tables below. A test compares the resul
 """
 
 import enum
-import inspect
 import re
 import sys
-
-import numpy as np
 
 import abut
 
@@ -90,7 +87,7 @@ OWN_PARAMETERS = {
     "remove_models": {"files": "Iterable[_Path]", "store": "_Path"}, "help_find_clashes": {"store": "_Path", "crew": "Crew"},
     "time_of_impact": {"absolute_error": "float | None"}, "World.time_of_impact": {"absolute_error": "float | None"},
     "read_scene": {"path": "_ModelPath"}, "read_mesh": {"path": "_ModelPath"}, "inspect": {"mesh": "ArrayLike | _Mesh"},
-    "ModelPath": {"up": "UpAxis | str | None"}, "to_json": {"store": "str"}, "WithinOptions": {},
+    "Segment": {"a": "ArrayLike", "b": "ArrayLike"}, "ModelPath": {"up": "UpAxis | str | None"}, "to_json": {"store": "str"}, "WithinOptions": {},
 }
 # The meanings of verbs: the parameters of which the type depends on the first one, and what is returned.
 VERBS = {
@@ -159,6 +156,11 @@ RETURNS = {
     "World.penetration": "np.recarray[Any, Any]", "World.within": "np.recarray[Any, Any]",
     "World.time_of_impact": "np.recarray[Any, Any]", "read_elementary_queries": "tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]",
 }
+PROPERTIES = {
+    "Convex.faces": "list[NDArray[np.uint32]]", "Contacts.segments": "list[NDArray[np.float64]]",
+    "ClashReport.counts": "dict[str, int]", "ClashReport.statuses": "dict[str, int] | None",
+    "ClashReport.seconds": "dict[str, float]", "ClashReview.statuses": "dict[str, int]",
+}
 TWO_SURFACES = {"impacts", "is_free_of_impacts"}
 
 
@@ -213,6 +215,12 @@ def arguments(owner, text, typed):
     return ", ".join(result)
 
 
+def whole_doc(function):
+    """The docstring with the signature, which Python may have taken out of it."""
+    signature = getattr(function, "__text_signature__", None)
+    return (f"{function.__name__}{signature}\n" if signature else "") + (function.__doc__ or "")
+
+
 def signatures(function, name):
     """The signatures that pybind11 wrote: pairs of parameters and return type."""
     doc = function.__doc__ or ""
@@ -230,7 +238,7 @@ def function_lines(owner, name, function, method=False, static=False):
             head = f"def {name}({arguments(owner, text, method)}) -> {RETURNS.get(owner) or return_type(function, returned)}: ..."
             lines.append(head)
     else:
-        head, = re.findall(rf"^{name}\((.*?)\)$", function.__doc__, re.M | re.S)[:1]
+        head = re.search(rf"^{name}\((.*?)\)$", whole_doc(function), re.M | re.S)[1]
         if owner in TWO_SURFACES:
             head = head.replace("a, b", "a: Deformable, b: Deformable", 1)
         if owner == "overlap_graph":
@@ -252,7 +260,7 @@ def return_type(function, returned):
 def verb_lines(name):
     lines = []
     for kind, keywords, one, many in VERBS.get(name, []):
-        text = re.search(rf"^{name}\((a, pose_a.*?)\)$", getattr(abut, name).__doc__, re.M | re.S)[1]
+        text = re.search(rf"^{name}\((a, pose_a.*?)\)$", whole_doc(getattr(abut, name)), re.M | re.S)[1]
         order = [word for word, _, _ in parameters_of(text)]
         named = [f"{word}: {WARM_STARTS[kind] + ' | None' if word == 'warm_start' else PARAMETERS[word]} = ..."
                  for word in order if word in keywords]
@@ -267,10 +275,8 @@ def verb_lines(name):
 
 def property_type(owner, name, attribute):
     dtype = getattr(owner, "dtype", None)
-    doc = attribute.fget.__doc__ or ""
-    returned = re.match(r"\(.*\) -> (.*)", doc)
-    text = doc.split("\n")[-1] if returned else doc
-    text = doc[returned.end():].strip() if returned else doc
+    returned = re.match(r"\(.*\) -> (.*)", attribute.fget.__doc__ or "")
+    text = attribute.__doc__ or ""
     first = re.match(r"(\w+)", text)
     of_list = re.match(r"list of (\w+)", text)
     if first and first[1] in abut.__all__:
@@ -281,7 +287,9 @@ def property_type(owner, name, attribute):
         field = dtype.fields[name][0]
         if field.shape:
             return f"NDArray[np.{field.base.name}]"
-        return {"b": "bool", "f": "float", "i": "int", "u": "int"}[field.kind]
+        kinds = {"b": "bool", "f": "float", "i": "int", "u": "int"}
+        if field.kind in kinds:
+            return kinds[field.kind]
     known = plain_type(returned[1]) if returned else "Any"
     if known.endswith("Any") and "record array" in text:
         return "np.recarray[Any, Any]"
@@ -310,7 +318,8 @@ def class_lines(name, kind):
     for member, value in sorted(vars(kind).items()):
         own = f"{name}.{member}"
         if isinstance(value, property):
-            body += ["    @property", f"    def {member}(self) -> {property_type(kind, member, value)}: ..."]
+            known = PROPERTIES.get(own) or property_type(kind, member, value)
+            body += ["    @property", f"    def {member}(self) -> {known}: ..."]
         elif member == "__init__" and signatures(value, member):
             lines = function_lines(name, member, value, method=True)
             body += ["    " + re.sub(r"-> .*: \.\.\.", "-> None: ...", line) for line in lines]

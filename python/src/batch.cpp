@@ -43,7 +43,9 @@ py::array which_meet(const ContactsList& contacts) {
 
 } // namespace
 
-py::object contacts_of(std::vector<Contacts> contacts) { return py::cast(ContactsList{std::move(contacts)}); }
+py::object contacts_of(std::vector<Contacts> contacts) {
+    return py::cast(ContactsList{std::move(contacts)});
+}
 
 py::object intersections(std::vector<Intersection> list) {
     py::list polygons;
@@ -53,19 +55,22 @@ py::object intersections(std::vector<Intersection> list) {
 }
 
 void bind_batch(py::module_& module) {
-    py::class_<ContactsList>(module, "ContactsList", "Returned by collide for many poses: a sequence of Contacts.")
+    py::class_<ContactsList>(module, "ContactsList",
+                             "Returned by collide for many poses: a sequence of Contacts.")
         .def_property_readonly("meet", &which_meet, "array of bool of shape (n,)")
-        .def_property_readonly("pairs", &all_pairs, "uint32 array of shape (m, 2): the pairs of all poses")
-        .def_property_readonly("offsets", &ends,
-                               "int64 array of shape (n + 1,): those of pose i are pairs[offsets[i]:offsets[i + 1]]")
+        .def_property_readonly("pairs", &all_pairs,
+                               "uint32 array of shape (m, 2): the pairs of all poses")
+        .def_property_readonly(
+            "offsets", &ends,
+            "int64 array of shape (n + 1,): those of pose i are pairs[offsets[i]:offsets[i + 1]]")
         .def("__len__", [](const ContactsList& contacts) { return contacts.list.size(); })
         .def("__getitem__", &ContactsList::at, py::return_value_policy::reference_internal)
         .def("__repr__", [](const ContactsList& contacts) {
             std::size_t meet = 0;
             for (const Contacts& one : contacts.list)
                 meet += one.meet();
-            return "<abut.ContactsList: " + std::to_string(contacts.list.size()) + " poses, " + std::to_string(meet) +
-                   " meet>";
+            return "<abut.ContactsList: " + std::to_string(contacts.list.size()) + " poses, " +
+                   std::to_string(meet) + " meet>";
         });
 }
 

@@ -28,7 +28,8 @@ void bind_clash_review(py::module_& module) {
             counts[to_string(status)] = self.statuses[static_cast<std::size_t>(status)];
         return counts;
     };
-    PlainBinder<ClashReview>(module, "ClashReview", "The clashes of one question, as its last job left them.")
+    PlainBinder<ClashReview>(module, "ClashReview",
+                             "The clashes of one question, as its last job left them.")
         .field("clearance", &ClashReview::clearance, "metres")
         .field("touch_tolerance", &ClashReview::touch_tolerance, "metres")
         .field("self", &ClashReview::self, "")
@@ -37,24 +38,39 @@ void bind_clash_review(py::module_& module) {
         .property("statuses", statuses, "dict of status to number")
         .field("clashes", &ClashReview::clashes, "list of ListedClash, resolved ones too")
         .done();
-    module.def("to_json", [](const ClashReview& review) { return to_json(review); }, py::arg("review"));
-    module.def("to_json", [](const std::vector<ClashReview>& reviews, const std::string& store) { return to_json(reviews, store); },
-               py::arg("reviews"), py::arg("store"));
+    module.def(
+        "to_json", [](const ClashReview& review) { return to_json(review); }, py::arg("review"));
+    module.def(
+        "to_json",
+        [](const std::vector<ClashReview>& reviews, const std::string& store) {
+            return to_json(reviews, store);
+        },
+        py::arg("reviews"), py::arg("store"));
     using Ids = std::vector<std::string>;
-    module.def("review_clashes", [](const OpenStore& store) { return review_clashes(store.get()); }, py::arg("store"),
-               "One ClashReview for each question that the store has been asked. Raises Error (malformed).");
-    module.def("mark_clashes",
-               [](const OpenStore& store, const Ids& reviewed, const Ids& approved, const Ids& cleared, std::string note) {
-                   mark_clashes(store.get(), {to_clash_ids(reviewed), to_clash_ids(approved), to_clash_ids(cleared), std::move(note)});
-               },
-               py::arg("store"), py::kw_only(), py::arg("reviewed") = Ids{}, py::arg("approved") = Ids{}, py::arg("cleared") = Ids{},
-               py::arg("note") = "",
-               "Marks clashes by their ids, all of them or, after an error, none. The store is opened with read_only=False.\n\n"
-               "Raises Error: bad_argument, naming the clash, cannot_write.");
-    module.def("forget_resolved_clashes", [](const OpenStore& store) { return forget_resolved_clashes(store.get()); },
-               py::arg("store"), "Removes resolved clashes and their marks. Returns how many.");
-    module.def("verify_jobs", [](const OpenStore& store) { verify_jobs(store.get()); }, py::arg("store"),
-               "Checks what the store keeps of jobs and clashes. Raises Error (malformed).");
+    module.def(
+        "review_clashes", [](const OpenStore& store) { return review_clashes(store.get()); },
+        py::arg("store"),
+        "One ClashReview for each question that the store has been asked. Raises Error "
+        "(malformed).");
+    module.def(
+        "mark_clashes",
+        [](const OpenStore& store, const Ids& reviewed, const Ids& approved, const Ids& cleared,
+           std::string note) {
+            mark_clashes(store.get(), {to_clash_ids(reviewed), to_clash_ids(approved),
+                                       to_clash_ids(cleared), std::move(note)});
+        },
+        py::arg("store"), py::kw_only(), py::arg("reviewed") = Ids{}, py::arg("approved") = Ids{},
+        py::arg("cleared") = Ids{}, py::arg("note") = "",
+        "Marks clashes by their ids, all of them or, after an error, none. The store is opened "
+        "with read_only=False.\n\n"
+        "Raises Error: bad_argument, naming the clash, cannot_write.");
+    module.def(
+        "forget_resolved_clashes",
+        [](const OpenStore& store) { return forget_resolved_clashes(store.get()); },
+        py::arg("store"), "Removes resolved clashes and their marks. Returns how many.");
+    module.def(
+        "verify_jobs", [](const OpenStore& store) { verify_jobs(store.get()); }, py::arg("store"),
+        "Checks what the store keeps of jobs and clashes. Raises Error (malformed).");
 }
 
 } // namespace abut::python

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "support/arguments.h"
-
 #include <abut/clash.h>
 #include <abut/store_clash.h>
+
+#include "support/arguments.h"
 
 #include <memory>
 #include <optional>

@@ -1,11 +1,10 @@
+#include <abut/batch.h>
 #include <abut/convex_pieces.h>
 
 #include "module.h"
 #include "queries.h"
 #include "support/meshes.h"
 #include "support/warm.h"
-
-#include <abut/batch.h>
 
 namespace abut::python {
 
@@ -112,19 +111,19 @@ py::object run_pieces_penetration(const Arguments& arguments) {
         });
 }
 
-} // namespace
-
-void bind_convex_pieces(py::module_& module) {
+void bind_pieces_class(py::module_& module) {
     const auto piece_of = [](const ConvexPieces& self, std::size_t piece) {
         if (piece >= self.size())
             throw py::index_error();
         return piece;
     };
-    py::class_<ConvexPieces>(module, "ConvexPieces",
-                             "ConvexPieces(model)\n\n"
-                             "A closed model as a solid, decomposed into convex pieces. It never changes; any number of threads\n"
-                             "may query it. Takes what Model takes.\n\n"
-                             "Raises Error (bad_mesh) if the mesh is not closed, or turned inside out.")
+    py::class_<ConvexPieces>(
+        module, "ConvexPieces",
+        "ConvexPieces(model)\n\n"
+        "A closed model as a solid, decomposed into convex pieces. It never changes; any number of "
+        "threads\n"
+        "may query it. Takes what Model takes.\n\n"
+        "Raises Error (bad_mesh) if the mesh is not closed, or turned inside out.")
         .def(py::init([](const py::object& source, const py::object& faces) {
                  if (const auto* model = peek<Model>(source)) {
                      const Model copy = *model;
@@ -138,27 +137,38 @@ void bind_convex_pieces(py::module_& module) {
              py::arg("model"), py::arg("faces") = py::none())
         .def("__len__", &ConvexPieces::size)
         .def_property_readonly("size", &ConvexPieces::size, "number of pieces")
-        .def("triangles",
-             [piece_of](const ConvexPieces& self, std::size_t piece) {
-                 const auto list = self.triangles(piece_of(self, piece));
-                 return numbers(std::vector<std::uint32_t>(list.begin(), list.end()));
-             },
-             py::arg("piece"), "The triangles of a piece, a uint32 array of shape (n,).")
-        .def("hull", [piece_of](const ConvexPieces& self, std::size_t piece) { return self.hull(piece_of(self, piece)); },
-             py::arg("piece"), "The hull of a piece, a Convex.")
+        .def(
+            "triangles",
+            [piece_of](const ConvexPieces& self, std::size_t piece) {
+                const auto list = self.triangles(piece_of(self, piece));
+                return numbers(std::vector<std::uint32_t>(list.begin(), list.end()));
+            },
+            py::arg("piece"), "The triangles of a piece, a uint32 array of shape (n,).")
+        .def(
+            "hull",
+            [piece_of](const ConvexPieces& self, std::size_t piece) {
+                return self.hull(piece_of(self, piece));
+            },
+            py::arg("piece"), "The hull of a piece, a Convex.")
         .def_property_readonly("model", [](const ConvexPieces& self) { return self.model(); })
         .def_property_readonly("bytes", &ConvexPieces::bytes)
         .def("__repr__", [](const ConvexPieces& self) {
             return "<abut.ConvexPieces: " + std::to_string(self.size()) + " pieces>";
         });
-    py::class_<Warm<PiecesWarmStart>>(module, "PiecesWarmStart",
-                                      "PiecesWarmStart()\n\nRemembers the closest pieces of two solids for the next pose.")
+}
+
+void bind_pieces_results(py::module_& module) {
+    py::class_<Warm<PiecesWarmStart>>(
+        module, "PiecesWarmStart",
+        "PiecesWarmStart()\n\nRemembers the closest pieces of two solids for the next pose.")
         .def(py::init<>());
     RecordBinder<PiecesCounters>(module, "PiecesCounters", "The work that a query did.")
         .field("hull_pairs", &PiecesCounters::hull_pairs, "pairs of hulls that were measured")
-        .field("directions", &PiecesCounters::directions, "pairs of hulls compared along one direction")
+        .field("directions", &PiecesCounters::directions,
+               "pairs of hulls compared along one direction")
         .field("sphere_pairs", &PiecesCounters::sphere_pairs, "pairs of spheres around them")
-        .field("feature_pairs", &PiecesCounters::feature_pairs, "pairs of features that were measured")
+        .field("feature_pairs", &PiecesCounters::feature_pairs,
+               "pairs of features that were measured")
         .field("simplices", &PiecesCounters::simplices, "steps of the search that takes over")
         .done();
     RecordBinder<PiecesGap>(module, "PiecesGap", "Returned by distance of two ConvexPieces.")
@@ -177,32 +187,55 @@ void bind_convex_pieces(py::module_& module) {
         .field("status", &PiecesGap::status, "Status")
         .field("counters", &PiecesGap::counters, "PiecesCounters")
         .done();
-    PlainBinder<PiecesContacts>(module, "PiecesContacts", "Returned by collide of two ConvexPieces.")
+    PlainBinder<PiecesContacts>(module, "PiecesContacts",
+                                "Returned by collide of two ConvexPieces.")
         .field("meet", &PiecesContacts::meet, "the solids share a point")
-        .field("contained", &PiecesContacts::contained, "one lies inside the other and no pieces meet")
-        .property("pairs", [](const PiecesContacts& c) { return rows<std::uint32_t>(c.pairs); },
-                  "uint32 array of shape (n, 2): pieces that meet, to rounding")
-        .property("triangles", [](const PiecesContacts& c) { return rows<std::uint32_t>(c.triangles); },
-                  "uint32 array of shape (n, 2), if asked for")
+        .field("contained", &PiecesContacts::contained,
+               "one lies inside the other and no pieces meet")
+        .property(
+            "pairs", [](const PiecesContacts& c) { return rows<std::uint32_t>(c.pairs); },
+            "uint32 array of shape (n, 2): pieces that meet, to rounding")
+        .property(
+            "triangles", [](const PiecesContacts& c) { return rows<std::uint32_t>(c.triangles); },
+            "uint32 array of shape (n, 2), if asked for")
         .field("counters", &PiecesContacts::counters, "PiecesCounters")
         .done()
         .def("__bool__", [](const PiecesContacts& c) { return c.meet; });
-    auto depth = RecordBinder<PiecesDepth>(module, "PiecesDepth", "Returned by penetration of two ConvexPieces.");
+    auto depth = RecordBinder<PiecesDepth>(module, "PiecesDepth",
+                                           "Returned by penetration of two ConvexPieces.");
     depth.field("meet", &PiecesDepth::meet, "they share a point")
         .field("depth", &PiecesDepth::depth, "proven: no shorter translation separates them")
-        .field("direction", &PiecesDepth::direction, "unit vector in which b moves by `depth` to part the two pieces")
+        .field("direction", &PiecesDepth::direction,
+               "unit vector in which b moves by `depth` to part the two pieces")
         .field("point_a", &PiecesDepth::point_a, "world frame")
         .field("point_b", &PiecesDepth::point_b, "world frame")
         .field("piece_a", &PiecesDepth::piece_a, "piece of a")
         .field("piece_b", &PiecesDepth::piece_b, "piece of b")
-        .field("separation", &PiecesDepth::separation, "translation of b after which the solids are apart: verified")
+        .field("separation", &PiecesDepth::separation,
+               "translation of b after which the solids are apart: verified")
         .field("status", &PiecesDepth::status, "Status")
         .field("counters", &PiecesDepth::counters, "PiecesCounters");
     depth.done().def("__bool__", [](const PiecesDepth& self) { return self.meet; });
-    add_overload("collide", {both<ConvexPieces>, {"a pose_a b pose_b * mode triangles warm_start progress", 4}, run_pieces_collide});
-    add_overload("distance", {both<ConvexPieces>, {"a pose_a b pose_b * upper_bound absolute_error warm_start progress", 4}, run_pieces_distance});
-    add_overload("within", {both<ConvexPieces>, {"a pose_a b pose_b tolerance * warm_start progress", 5}, run_pieces_within});
-    add_overload("penetration", {both<ConvexPieces>, {"a pose_a b pose_b * separation progress", 4}, run_pieces_penetration});
+}
+
+} // namespace
+
+void bind_convex_pieces(py::module_& module) {
+    bind_pieces_class(module);
+    bind_pieces_results(module);
+    add_overload("collide", {both<ConvexPieces>,
+                             {"a pose_a b pose_b * mode triangles warm_start progress", 4},
+                             run_pieces_collide});
+    add_overload("distance",
+                 {both<ConvexPieces>,
+                  {"a pose_a b pose_b * upper_bound absolute_error warm_start progress", 4},
+                  run_pieces_distance});
+    add_overload("within", {both<ConvexPieces>,
+                            {"a pose_a b pose_b tolerance * warm_start progress", 5},
+                            run_pieces_within});
+    add_overload("penetration", {both<ConvexPieces>,
+                                 {"a pose_a b pose_b * separation progress", 4},
+                                 run_pieces_penetration});
 }
 
 } // namespace abut::python

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "support/python.h"
-
 #include <abut/crew.h>
+
+#include "support/python.h"
 
 #include <memory>
 

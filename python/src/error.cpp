@@ -24,8 +24,9 @@ void set_python_error(const Error& error) {
 
 void bind_error(py::module_& module) {
     bind_enum<ErrorCode>(module, "ErrorCode",
-                         {"bad_argument", "file_not_found", "unreadable", "malformed", "unsupported", "bad_mesh",
-                          "reader_failed", "cannot_write", "interrupted"},
+                         {"bad_argument", "file_not_found", "unreadable", "malformed",
+                          "unsupported", "bad_mesh", "reader_failed", "cannot_write",
+                          "interrupted"},
                          "The kind of fault that an Error reports.");
     py::dict members;
     members["__doc__"] = "Bad data, failed input or output, and limits.\n\n"

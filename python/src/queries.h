@@ -1,10 +1,10 @@
 #pragma once
 
+#include <abut/batch.h>
+
 #include "support/arguments.h"
 #include "support/records.h"
 #include "support/work.h"
-
-#include <abut/batch.h>
 
 /// What bindings of several headers share.
 namespace abut::python {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "support/python.h"
-
 #include <abut/scene.h>
+
+#include "support/python.h"
 
 #include <vector>
 

@@ -12,7 +12,9 @@ void bind_clash_of_scenes();
 
 namespace {
 
-bool a_store(PyObject* first, PyObject* /*third*/) { return is_a<OpenStore>(first); }
+bool a_store(PyObject* first, PyObject* /*third*/) {
+    return is_a<OpenStore>(first);
+}
 
 OutOfCoreOptions to_out_of_core(const Arguments& arguments, std::size_t first) {
     OutOfCoreOptions options;
@@ -36,7 +38,9 @@ py::object run_find_in_store(const Arguments& arguments) {
         options.progress = progress;
         return find_clashes(store, options, out_of_core);
     });
-    return py::cast(Report{std::move(found.report), std::make_shared<const std::vector<Scene>>(std::move(found.models)), std::move(found.counters)});
+    return py::cast(Report{std::move(found.report),
+                           std::make_shared<const std::vector<Scene>>(std::move(found.models)),
+                           std::move(found.counters)});
 }
 
 py::object run_overlap_graph(const Arguments& arguments) {
@@ -56,17 +60,17 @@ py::object run_overlap_graph(const Arguments& arguments) {
     }));
 }
 
-} // namespace
-
-void bind_store_clash(py::module_& module) {
-    bind_enum<WorkOrder>(module, "WorkOrder", {"partition", "random"}, "How the work on a store is put into an order.");
+void bind_job_counters(py::module_& module) {
     PlainBinder<OutOfCoreCounters::Worker>(module, "WorkerCounters", "The work of one process.")
         .field("units", &OutOfCoreCounters::Worker::units, "work units")
         .field("pairs", &OutOfCoreCounters::Worker::pairs, "of parts")
-        .field("mesh_loads", &OutOfCoreCounters::Worker::mesh_loads, "each time that a mesh was read")
+        .field("mesh_loads", &OutOfCoreCounters::Worker::mesh_loads,
+               "each time that a mesh was read")
         .field("blocks", &OutOfCoreCounters::Worker::blocks, "mesh blocks that were needed")
-        .field("block_loads", &OutOfCoreCounters::Worker::block_loads, "each time that one was read")
-        .field("block_bytes_needed", &OutOfCoreCounters::Worker::block_bytes_needed, "of those blocks, each once")
+        .field("block_loads", &OutOfCoreCounters::Worker::block_loads,
+               "each time that one was read")
+        .field("block_bytes_needed", &OutOfCoreCounters::Worker::block_bytes_needed,
+               "of those blocks, each once")
         .field("hierarchies_found", &OutOfCoreCounters::Worker::hierarchies_found, "in the store")
         .field("bytes_read", &OutOfCoreCounters::Worker::bytes_read, "from the store")
         .field("peak_bytes", &OutOfCoreCounters::Worker::peak_bytes, "of models in memory at once")
@@ -86,13 +90,20 @@ void bind_store_clash(py::module_& module) {
         .field("hierarchies_kept", &OutOfCoreCounters::hierarchies_kept, "in the store")
         .field("peak_bytes", &OutOfCoreCounters::peak_bytes, "of models in memory at once")
         .field("kept", &OutOfCoreCounters::kept, "in the store")
-        .field("recalled_pairs", &OutOfCoreCounters::recalled_pairs, "done before, by an earlier job")
-        .field("workers", &OutOfCoreCounters::workers, "list of WorkerCounters, in the order of ranks")
+        .field("recalled_pairs", &OutOfCoreCounters::recalled_pairs,
+               "done before, by an earlier job")
+        .field("workers", &OutOfCoreCounters::workers,
+               "list of WorkerCounters, in the order of ranks")
         .done();
-    PlainBinder<GraphReport::Unit>(module, "WorkUnit", "Parts that a job on a store works on together.")
+}
+
+void bind_graph_report(py::module_& module) {
+    PlainBinder<GraphReport::Unit>(module, "WorkUnit",
+                                   "Parts that a job on a store works on together.")
         .field("parts", &GraphReport::Unit::parts, "")
         .field("edges", &GraphReport::Unit::edges, "")
-        .field("meshes", &GraphReport::Unit::meshes, "in memory together; large ones are not counted")
+        .field("meshes", &GraphReport::Unit::meshes,
+               "in memory together; large ones are not counted")
         .field("bytes", &GraphReport::Unit::bytes, "of these meshes")
         .field("bounds", &GraphReport::Unit::bounds, "Box3 of the centres of the parts' boxes")
         .field("middle", &GraphReport::Unit::middle, "mean of these centres")
@@ -110,29 +121,46 @@ void bind_store_clash(py::module_& module) {
         .field("large_bytes", &GraphReport::large_bytes, "")
         .field("units", &GraphReport::units, "list of WorkUnit, in the order of work")
         .field("cut_edges", &GraphReport::cut_edges, "between parts that a partition put apart")
-        .property("lines",
-                  [](const GraphReport& self) {
-                      std::vector<std::array<Vec3, 2>> lines;
-                      for (const GraphReport::Line& line : self.lines)
-                          lines.push_back({line.a, line.b});
-                      const auto size = static_cast<py::ssize_t>(lines.size());
-                      return own(std::move(lines), py::dtype::of<double>(), {size, 2, 3});
-                  },
-                  "array of shape (n, 2, 3): ends of some of the edges")
+        .property(
+            "lines",
+            [](const GraphReport& self) {
+                std::vector<std::array<Vec3, 2>> lines;
+                for (const GraphReport::Line& line : self.lines)
+                    lines.push_back({line.a, line.b});
+                const auto size = static_cast<py::ssize_t>(lines.size());
+                return own(std::move(lines), py::dtype::of<double>(), {size, 2, 3});
+            },
+            "array of shape (n, 2, 3): ends of some of the edges")
         .field("seconds", &GraphReport::seconds, "")
         .done();
+}
+
+} // namespace
+
+void bind_store_clash(py::module_& module) {
+    bind_enum<WorkOrder>(module, "WorkOrder", {"partition", "random"},
+                         "How the work on a store is put into an order.");
+    bind_job_counters(module);
+    bind_graph_report(module);
     add_overload("find_clashes", {a_store,
-                                  {"store * clearance touch_tolerance self rules progress memory order keep keep_hierarchies crew", 1},
+                                  {"store * clearance touch_tolerance self rules progress memory "
+                                   "order keep keep_hierarchies crew",
+                                   1},
                                   run_find_in_store});
     bind_clash_of_scenes();
-    add_verb(module, "overlap_graph",
-             "overlap_graph(store, *, clearance=0, touch_tolerance=0, self=False, rules=[], progress=None,\n"
-             "              memory=512 MiB, lines=0, keep=False)\n--\n\n"
-             "The graph of a store's parts: an edge where boxes are at most the clearance apart.\n\n"
-             "lines  of about how many edges the ends are wanted\n"
-             "keep   whether edges and work units are kept in the store for SQL\n"
-             "Others as find_clashes. Returns a GraphReport.");
-    add_overload("overlap_graph", {a_store, {"store * clearance touch_tolerance self rules progress memory lines keep", 1}, run_overlap_graph});
+    add_verb(
+        module, "overlap_graph",
+        "overlap_graph(store, *, clearance=0, touch_tolerance=0, self=False, rules=[], "
+        "progress=None,\n"
+        "              memory=512 MiB, lines=0, keep=False)\n--\n\n"
+        "The graph of a store's parts: an edge where boxes are at most the clearance apart.\n\n"
+        "lines  of about how many edges the ends are wanted\n"
+        "keep   whether edges and work units are kept in the store for SQL\n"
+        "Others as find_clashes. Returns a GraphReport.");
+    add_overload("overlap_graph",
+                 {a_store,
+                  {"store * clearance touch_tolerance self rules progress memory lines keep", 1},
+                  run_overlap_graph});
 }
 
 } // namespace abut::python

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "support/work.h"
-
 #include <abut/deformable.h>
+
+#include "support/work.h"
 
 namespace abut::python {
 

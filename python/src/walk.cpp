@@ -37,7 +37,8 @@ Probe to_probe(const py::object& shape) {
 /// A walk, which one thread at a time uses.
 class Walker {
 public:
-    Walker(const OpenStore& store, const WalkOptions& options) : walk_(make(store.get(), options)) {}
+    Walker(const OpenStore& store, const WalkOptions& options)
+        : walk_(make(store.get(), options)) {}
 
     template <class Use>
     auto run(Use use) {
@@ -72,13 +73,16 @@ py::array part_numbers(const std::vector<WalkPart>& parts) {
 
 template <class Answer>
 PlainBinder<Answer>& add_answer(PlainBinder<Answer>& binder) {
-    return binder.field("complete", &WalkAnswer::complete, "False if parts that may matter were not in memory and skipped")
+    return binder
+        .field("complete", &WalkAnswer::complete,
+               "False if parts that may matter were not in memory and skipped")
         .field("candidates", &WalkAnswer::candidates, "parts whose boxes were in reach")
         .field("misses", &WalkAnswer::misses, "of these, those that were not in memory");
 }
 
 void bind_walk_results(py::module_& module) {
-    RecordBinder<WalkGap>(module, "WalkGap", "How a part and the probe lie to each other, world frame.")
+    RecordBinder<WalkGap>(module, "WalkGap",
+                          "How a part and the probe lie to each other, world frame.")
         .field("part", &WalkGap::part, "number of the part")
         .field("distance", &WalkGap::distance, "length; 0 if they touch, negative: minus the depth")
         .field("point_part", &WalkGap::point_part, "on the part")
@@ -93,11 +97,16 @@ void bind_walk_results(py::module_& module) {
         .field("gap", &NearestPart::gap, "WalkGap")
         .field("at_least", &NearestPart::at_least, "no part is nearer");
     add_answer(nearest);
-    PlainBinder<NearParts> near(module, "NearParts", "Returned by Walk.within and Walk.penetration.");
-    near.property("parts", [](const NearParts& self) { return records(self.parts); }, "record array of WalkGap, sorted by part");
+    PlainBinder<NearParts> near(module, "NearParts",
+                                "Returned by Walk.within and Walk.penetration.");
+    near.property(
+        "parts", [](const NearParts& self) { return records(self.parts); },
+        "record array of WalkGap, sorted by part");
     add_answer(near);
     PlainBinder<TouchedParts> touched(module, "TouchedParts", "Returned by Walk.collide.");
-    touched.property("parts", [](const TouchedParts& self) { return part_numbers(self.parts); }, "int64 array of shape (n,), sorted");
+    touched.property(
+        "parts", [](const TouchedParts& self) { return part_numbers(self.parts); },
+        "int64 array of shape (n,), sorted");
     add_answer(touched);
     PlainBinder<WalkPartName>(module, "WalkPartName", "A part by name.")
         .field("file", &WalkPartName::file, "empty for a part that was added")
@@ -119,104 +128,158 @@ void bind_walk_results(py::module_& module) {
         .done();
 }
 
+py::class_<Walker> walk_class(py::module_& module) {
+    return py::class_<Walker>(
+               module, "Walk",
+               "Walk(store, *, memory=512 MiB, look_ahead=3, prefetch=True)\n\n"
+               "A region of interest that moves through an open Store, and queries about "
+               "what is there. Answers are\n"
+               "those that all parts in memory would give. A part is an int. One thread at "
+               "a time may use a walk. The\n"
+               "walk keeps the store's file open.\n\n"
+               "memory      bytes for tables, geometry and hierarchies\n"
+               "look_ahead  seconds of the predicted path along which parts are read\n"
+               "prefetch    whether a second thread reads ahead\n\n"
+               "Raises Error as open_store; bad_argument if an import has not ended or the "
+               "memory is too small.")
+        .def(py::init([](const OpenStore& store, std::uint64_t memory, double look_ahead,
+                         bool prefetch) {
+                 return std::make_unique<Walker>(store, WalkOptions{memory, look_ahead, prefetch});
+             }),
+             py::arg("store"), py::kw_only(), py::arg("memory") = std::uint64_t{512} << 20,
+             py::arg("look_ahead") = 3.0, py::arg("prefetch") = true)
+        .def(
+            "move_to",
+            [](Walker& self, const py::object& position, const py::object& velocity) {
+                const Vec3 place = to_vec3(position, "position");
+                if (velocity.is_none())
+                    return self.run([&](Walk& walk) { walk.move_to(place); });
+                const Vec3 speed = to_vec3(velocity, "velocity");
+                self.run([&](Walk& walk) { walk.move_to(place, speed); });
+            },
+            py::arg("position"), py::arg("velocity") = py::none(),
+            "Says where the region of interest is, and its velocity in units a second. Never waits "
+            "for the disk.")
+        .def(
+            "wait", [](Walker& self) { self.run([](Walk& walk) { walk.wait(); }); },
+            "Waits until what is near and ahead is in memory, or memory is full.");
+}
+
+void add_walk_queries(py::class_<Walker>& type) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    type.def(
+            "distance",
+            [](Walker& self, const py::object& shape, const py::object& pose, double upper_bound,
+               MissingParts missing, std::int64_t except) {
+                const Probe probe = to_probe(shape);
+                const Transform place = to_transform(pose, "pose");
+                WalkQuery query = query_of(missing, except);
+                query.upper_bound = upper_bound;
+                return self.run([&](Walk& walk) { return walk.distance(probe, place, query); });
+            },
+            py::arg("probe"), py::arg("pose"), py::kw_only(), py::arg("upper_bound") = infinity,
+            py::arg("missing") = "wait", py::arg("except_part") = 0,
+            "The part nearest to the probe: a NearestPart.")
+        .def(
+            "within",
+            [](Walker& self, const py::object& shape, const py::object& pose, double tolerance,
+               MissingParts missing, std::int64_t except) {
+                const Probe probe = to_probe(shape);
+                const Transform place = to_transform(pose, "pose");
+                const WalkQuery query = query_of(missing, except);
+                return self.run(
+                    [&](Walk& walk) { return walk.within(probe, place, tolerance, query); });
+            },
+            py::arg("probe"), py::arg("pose"), py::arg("tolerance"), py::kw_only(),
+            py::arg("missing") = "wait", py::arg("except_part") = 0,
+            "All parts at most `tolerance` away, and how far: NearParts.")
+        .def(
+            "collide",
+            [](Walker& self, const py::object& shape, const py::object& pose, ContactMode mode,
+               MissingParts missing, std::int64_t except) {
+                const Probe probe = to_probe(shape);
+                const Transform place = to_transform(pose, "pose");
+                WalkQuery query = query_of(missing, except);
+                query.mode = mode;
+                return self.run([&](Walk& walk) { return walk.collide(probe, place, query); });
+            },
+            py::arg("probe"), py::arg("pose"), py::kw_only(), py::arg("mode") = "all",
+            py::arg("missing") = "wait", py::arg("except_part") = 0,
+            "The parts that share a point with the probe: TouchedParts.")
+        .def(
+            "penetration",
+            [](Walker& self, const py::object& shape, const py::object& pose, MissingParts missing,
+               std::int64_t except) {
+                const Probe probe = to_probe(shape);
+                const Transform place = to_transform(pose, "pose");
+                const WalkQuery query = query_of(missing, except);
+                return self.run([&](Walk& walk) { return walk.penetration(probe, place, query); });
+            },
+            py::arg("probe"), py::arg("pose"), py::kw_only(), py::arg("missing") = "wait",
+            py::arg("except_part") = 0,
+            "The parts that share a point with the probe, and how deep they go into each other: "
+            "NearParts.");
+}
+
+void add_walk_parts(py::class_<Walker>& type) {
+    type.def(
+            "add",
+            [](Walker& self, const Model& model, const py::object& pose) {
+                const Transform place = to_transform(pose, "pose");
+                return self.run([&](Walk& walk) { return walk.add(model, place); }).number;
+            },
+            py::arg("model"), py::arg("pose"),
+            "Brings in a part that is not in the store; returns its number.")
+        .def(
+            "move",
+            [](Walker& self, std::int64_t part, const py::object& pose) {
+                const Transform place = to_transform(pose, "pose");
+                self.run([&](Walk& walk) { walk.move({part}, place); });
+            },
+            py::arg("part"), py::arg("pose"),
+            "Puts a part elsewhere, for this walk. Error (bad_argument) if there is no such part.")
+        .def(
+            "remove",
+            [](Walker& self, std::int64_t part) {
+                self.run([&](Walk& walk) { walk.remove({part}); });
+            },
+            py::arg("part"), "Takes a part out, for this walk.")
+        .def(
+            "name",
+            [](Walker& self, std::int64_t part) {
+                return self.run([&](Walk& walk) { return walk.name({part}); });
+            },
+            py::arg("part"), "A WalkPartName.")
+        .def(
+            "world_from_part",
+            [](Walker& self, std::int64_t part) {
+                return self.run([&](Walk& walk) { return walk.world_from_part({part}); });
+            },
+            py::arg("part"), "The part's pose, a matrix of shape (4, 4).")
+        .def(
+            "model",
+            [](Walker& self, std::int64_t part) {
+                return self.run([&](Walk& walk) { return walk.model({part}); });
+            },
+            py::arg("part"), "The part's Model.")
+        .def_property_readonly("statistics", [](Walker& self) {
+            return self.run([](Walk& walk) { return walk.statistics(); });
+        });
+}
+
 } // namespace
 
 void bind_walk(py::module_& module) {
-    bind_enum<MissingParts>(module, "MissingParts", {"wait", "skip"}, "What a query does about parts that are not in memory.");
+    bind_enum<MissingParts>(module, "MissingParts", {"wait", "skip"},
+                            "What a query does about parts that are not in memory.");
     bind_walk_results(module);
     py::class_<Probe>(module, "Probe",
-                      "Probe(shape)\n\nA Model, Convex, Sphere, Capsule or Box3 that is moved about in a walk. Make it once.")
+                      "Probe(shape)\n\nA Model, Convex, Sphere, Capsule or Box3 that is moved "
+                      "about in a walk. Make it once.")
         .def(py::init(&to_probe), py::arg("shape"));
-    const double infinity = std::numeric_limits<double>::infinity();
-    py::class_<Walker>(module, "Walk",
-                       "Walk(store, *, memory=512 MiB, look_ahead=3, prefetch=True)\n\n"
-                       "A region of interest that moves through an open Store, and queries about what is there. Answers are\n"
-                       "those that all parts in memory would give. A part is an int. One thread at a time may use a walk. The\n"
-                       "walk keeps the store's file open.\n\n"
-                       "memory      bytes for tables, geometry and hierarchies\n"
-                       "look_ahead  seconds of the predicted path along which parts are read\n"
-                       "prefetch    whether a second thread reads ahead\n\n"
-                       "Raises Error as open_store; bad_argument if an import has not ended or the memory is too small.")
-        .def(py::init([](const OpenStore& store, std::uint64_t memory, double look_ahead, bool prefetch) {
-                 return std::make_unique<Walker>(store, WalkOptions{memory, look_ahead, prefetch});
-             }),
-             py::arg("store"), py::kw_only(), py::arg("memory") = std::uint64_t{512} << 20, py::arg("look_ahead") = 3.0,
-             py::arg("prefetch") = true)
-        .def("move_to",
-             [](Walker& self, const py::object& position, const py::object& velocity) {
-                 const Vec3 place = to_vec3(position, "position");
-                 if (velocity.is_none())
-                     return self.run([&](Walk& walk) { walk.move_to(place); });
-                 const Vec3 speed = to_vec3(velocity, "velocity");
-                 self.run([&](Walk& walk) { walk.move_to(place, speed); });
-             },
-             py::arg("position"), py::arg("velocity") = py::none(),
-             "Says where the region of interest is, and its velocity in units a second. Never waits for the disk.")
-        .def("wait", [](Walker& self) { self.run([](Walk& walk) { walk.wait(); }); },
-             "Waits until what is near and ahead is in memory, or memory is full.")
-        .def("distance",
-             [](Walker& self, const py::object& shape, const py::object& pose, double upper_bound, MissingParts missing,
-                std::int64_t except) {
-                 const Probe probe = to_probe(shape);
-                 const Transform place = to_transform(pose, "pose");
-                 WalkQuery query = query_of(missing, except);
-                 query.upper_bound = upper_bound;
-                 return self.run([&](Walk& walk) { return walk.distance(probe, place, query); });
-             },
-             py::arg("probe"), py::arg("pose"), py::kw_only(), py::arg("upper_bound") = infinity, py::arg("missing") = "wait",
-             py::arg("except_part") = 0, "The part nearest to the probe: a NearestPart.")
-        .def("within",
-             [](Walker& self, const py::object& shape, const py::object& pose, double tolerance, MissingParts missing,
-                std::int64_t except) {
-                 const Probe probe = to_probe(shape);
-                 const Transform place = to_transform(pose, "pose");
-                 const WalkQuery query = query_of(missing, except);
-                 return self.run([&](Walk& walk) { return walk.within(probe, place, tolerance, query); });
-             },
-             py::arg("probe"), py::arg("pose"), py::arg("tolerance"), py::kw_only(), py::arg("missing") = "wait",
-             py::arg("except_part") = 0, "All parts at most `tolerance` away, and how far: NearParts.")
-        .def("collide",
-             [](Walker& self, const py::object& shape, const py::object& pose, ContactMode mode, MissingParts missing,
-                std::int64_t except) {
-                 const Probe probe = to_probe(shape);
-                 const Transform place = to_transform(pose, "pose");
-                 WalkQuery query = query_of(missing, except);
-                 query.mode = mode;
-                 return self.run([&](Walk& walk) { return walk.collide(probe, place, query); });
-             },
-             py::arg("probe"), py::arg("pose"), py::kw_only(), py::arg("mode") = "all", py::arg("missing") = "wait",
-             py::arg("except_part") = 0, "The parts that share a point with the probe: TouchedParts.")
-        .def("penetration",
-             [](Walker& self, const py::object& shape, const py::object& pose, MissingParts missing, std::int64_t except) {
-                 const Probe probe = to_probe(shape);
-                 const Transform place = to_transform(pose, "pose");
-                 const WalkQuery query = query_of(missing, except);
-                 return self.run([&](Walk& walk) { return walk.penetration(probe, place, query); });
-             },
-             py::arg("probe"), py::arg("pose"), py::kw_only(), py::arg("missing") = "wait", py::arg("except_part") = 0,
-             "The parts that share a point with the probe, and how deep they go into each other: NearParts.")
-        .def("add",
-             [](Walker& self, const Model& model, const py::object& pose) {
-                 const Transform place = to_transform(pose, "pose");
-                 return self.run([&](Walk& walk) { return walk.add(model, place); }).number;
-             },
-             py::arg("model"), py::arg("pose"), "Brings in a part that is not in the store; returns its number.")
-        .def("move",
-             [](Walker& self, std::int64_t part, const py::object& pose) {
-                 const Transform place = to_transform(pose, "pose");
-                 self.run([&](Walk& walk) { walk.move({part}, place); });
-             },
-             py::arg("part"), py::arg("pose"), "Puts a part elsewhere, for this walk. Error (bad_argument) if there is no such part.")
-        .def("remove", [](Walker& self, std::int64_t part) { self.run([&](Walk& walk) { walk.remove({part}); }); },
-             py::arg("part"), "Takes a part out, for this walk.")
-        .def("name", [](Walker& self, std::int64_t part) { return self.run([&](Walk& walk) { return walk.name({part}); }); },
-             py::arg("part"), "A WalkPartName.")
-        .def("world_from_part",
-             [](Walker& self, std::int64_t part) { return self.run([&](Walk& walk) { return walk.world_from_part({part}); }); },
-             py::arg("part"), "The part's pose, a matrix of shape (4, 4).")
-        .def("model", [](Walker& self, std::int64_t part) { return self.run([&](Walk& walk) { return walk.model({part}); }); },
-             py::arg("part"), "The part's Model.")
-        .def_property_readonly("statistics", [](Walker& self) { return self.run([](Walk& walk) { return walk.statistics(); }); });
+    auto walk = walk_class(module);
+    add_walk_queries(walk);
+    add_walk_parts(walk);
 }
 
 } // namespace abut::python

@@ -199,3 +199,21 @@ def test_walk(scenes, store_path, rng):
 
 def test_crew_of_one():
     assert abut.join_crew() is None and not abut.is_helper()
+
+
+def test_an_import_that_is_stopped(scenes, tmp_path):
+    paths, store_path = write(scenes, tmp_path), tmp_path / "plant.abut"
+
+    def stop(stage, fraction):
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError):
+        abut.import_models(paths, store_path, progress=stop)
+    assert {path.name for path in tmp_path.iterdir()} <= {"a.glb", "b.glb", "plant.abut"}
+    abut.import_models(paths, store_path)
+    with abut.open_store(store_path) as store:
+        abut.verify(store)
+        assert abut.summary(store).parts == 35
+        with pytest.raises(LookupError):
+            abut.find_clashes(store, clearance=0.1, progress=stop)
+        assert len(abut.find_clashes(store, clearance=0.1)) > 0

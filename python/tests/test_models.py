@@ -128,3 +128,12 @@ def test_poses_of_every_kind():
     with pytest.raises(ValueError, match="rotation"):
         abut.Pose.from_matrix(np.diag((2, 2, 2, 1)))
     assert np.allclose(abut.Pose.from_matrix(matrix((1, 2, 3), q)).matrix(), matrix((1, 2, 3), q))
+
+
+def test_pickles():
+    model = abut.Model(*sphere(6))
+    for value in (model, abut.Pose((1, 2, 3)), abut.distance, abut.Status.exact, abut.Error):
+        again = pickle.loads(pickle.dumps(value))
+        assert type(again) is type(value) and (value is model or again == value)
+    assert np.array_equal(pickle.loads(pickle.dumps(model)).faces, model.faces)
+    assert abut.Model.__module__ == "abut" and abut.distance.__module__ == "abut"

@@ -101,6 +101,15 @@ def test_progress_that_raises():
         abut.distance(model, None, model, poses, progress=3)
 
 
+def test_models_that_are_stopped():
+    vertices, faces = grid(300)
+    timer = interrupt_after(0.2)
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            abut.Model(vertices, faces)
+    timer.join()
+
+
 def test_queries_of_many_threads():
     model = abut.Model(*sphere(12))
     poses = random_poses(np.random.default_rng(2), 200, 1.5)

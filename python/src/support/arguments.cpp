@@ -22,7 +22,8 @@ std::unordered_map<std::string, Verb*>& verbs() {
 }
 
 /// The argument that is at this place, or has this name.
-PyObject* argument(const Verb& verb, std::size_t place, PyObject* const* values, Py_ssize_t count, PyObject* names) {
+PyObject* argument(const Verb& verb, std::size_t place, PyObject* const* values, Py_ssize_t count,
+                   PyObject* names) {
     if (static_cast<Py_ssize_t>(place) < count)
         return values[place];
     for (Py_ssize_t i = 0; names && i < PyTuple_GET_SIZE(names); ++i)
@@ -48,7 +49,7 @@ py::object call(const Verb& verb, PyObject* const* values, Py_ssize_t count, PyO
 
 PyObject* call_verb(PyObject* self, PyObject* const* values, Py_ssize_t count, PyObject* names) {
     try {
-        const auto* verb = static_cast<const Verb*>(PyCapsule_GetPointer(self, nullptr));
+        const Verb* verb = *static_cast<const Verb**>(PyModule_GetState(self));
         return call(*verb, values, count, names).release().ptr();
     } catch (py::error_already_set& error) {
         error.restore();
@@ -69,7 +70,8 @@ PyObject* call_verb(PyObject* self, PyObject* const* values, Py_ssize_t count, P
 void Arguments::take(std::size_t i, const char* name, std::optional<std::uint64_t>& value) const {
     if (!has(i))
         return;
-    const auto number = PyLong_Check(values_[i]) ? PyLong_AsUnsignedLongLong(values_[i]) : static_cast<unsigned long long>(-1);
+    const auto number = PyLong_Check(values_[i]) ? PyLong_AsUnsignedLongLong(values_[i])
+                                                 : static_cast<unsigned long long>(-1);
     if (!PyLong_Check(values_[i]) || PyErr_Occurred()) {
         PyErr_Clear();
         throw py::type_error(std::string(name) + ": an integer of at least 0 is wanted");
@@ -92,7 +94,8 @@ Parameters::Parameters(const char* list, std::size_t required) : required_(requi
         throw std::logic_error("too many parameters");
 }
 
-Arguments Parameters::parse(const char* function, PyObject* const* values, Py_ssize_t count, PyObject* names) const {
+Arguments Parameters::parse(const char* function, PyObject* const* values, Py_ssize_t count,
+                            PyObject* names) const {
     Arguments arguments;
     if (count > static_cast<Py_ssize_t>(positional_))
         throw py::type_error(std::string(function) + "() takes " + std::to_string(positional_) +
@@ -109,9 +112,11 @@ Arguments Parameters::parse(const char* function, PyObject* const* values, Py_ss
                 ++i;
         const std::string text = py::str(py::handle(name));
         if (i == names_.size())
-            throw py::type_error(std::string(function) + "() got an unexpected keyword argument '" + text + "'");
+            throw py::type_error(std::string(function) + "() got an unexpected keyword argument '" +
+                                 text + "'");
         if (arguments.values_[i])
-            throw py::type_error(std::string(function) + "() got multiple values for argument '" + text + "'");
+            throw py::type_error(std::string(function) + "() got multiple values for argument '" +
+                                 text + "'");
         arguments.values_[i] = values[count + k];
     }
     for (std::size_t i = 0; i < required_; ++i)
@@ -123,10 +128,24 @@ Arguments Parameters::parse(const char* function, PyObject* const* values, Py_ss
 
 void add_verb(py::module_& module, const char* name, const char* doc) {
     auto* verb = new Verb{name, doc, {}, {}};
-    verb->definition = {verb->name.c_str(), reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(call_verb)),
+    verb->definition = {verb->name.c_str(),
+                        reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(call_verb)),
                         METH_FASTCALL | METH_KEYWORDS, verb->doc.c_str()};
     verbs()[name] = verb;
-    const py::capsule self(verb, [](void*) {});
+    // A module, not a capsule, is what a function that can be pickled is called with.
+    static PyModuleDef definition{PyModuleDef_HEAD_INIT,
+                                  "abut",
+                                  nullptr,
+                                  sizeof(Verb*),
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr};
+    const auto self = py::reinterpret_steal<py::object>(PyModule_Create(&definition));
+    if (!self)
+        throw py::error_already_set();
+    *static_cast<const Verb**>(PyModule_GetState(self.ptr())) = verb;
     module.attr(name) = py::reinterpret_steal<py::object>(
         PyCFunction_NewEx(&verb->definition, self.ptr(), py::str("abut").ptr()));
 }

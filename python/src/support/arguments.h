@@ -18,7 +18,9 @@ class Arguments {
 public:
     static constexpr std::size_t kMost = 16;
 
-    [[nodiscard]] bool has(std::size_t i) const noexcept { return values_[i] != nullptr && values_[i] != Py_None; }
+    [[nodiscard]] bool has(std::size_t i) const noexcept {
+        return values_[i] != nullptr && values_[i] != Py_None;
+    }
     [[nodiscard]] py::handle operator[](std::size_t i) const noexcept {
         return values_[i] ? values_[i] : Py_None;
     }
@@ -37,7 +39,7 @@ public:
     }
     void take(std::size_t i, const char* name, std::optional<std::uint64_t>& value) const;
     template <class E>
-        requires std::is_enum_v<E>
+    requires std::is_enum_v<E>
     void take(std::size_t i, const char* /*name*/, E& value) const {
         if (has(i))
             value = to_enum<E>((*this)[i]);
@@ -54,7 +56,8 @@ class Parameters {
 public:
     Parameters(const char* list, std::size_t required);
     /// Errors: TypeError.
-    Arguments parse(const char* function, PyObject* const* values, Py_ssize_t count, PyObject* names) const;
+    Arguments parse(const char* function, PyObject* const* values, Py_ssize_t count,
+                    PyObject* names) const;
     [[nodiscard]] PyObject* name(std::size_t i) const { return names_.at(i); }
 
 private:
@@ -88,7 +91,8 @@ template <class T>
 T& get(py::handle object, const char* name) {
     if (auto* value = const_cast<T*>(object.is_none() ? nullptr : peek<T>(object)))
         return *value;
-    throw py::type_error(std::string(name) + ": a " + py::type::of<T>().attr("__name__").template cast<std::string>() +
+    throw py::type_error(std::string(name) + ": a " +
+                         py::type::of<T>().attr("__name__").template cast<std::string>() +
                          " is wanted, not a " + Py_TYPE(object.ptr())->tp_name);
 }
 template <class T>

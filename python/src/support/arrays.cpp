@@ -50,7 +50,9 @@ Transform read_matrix(const char* data, py::ssize_t row, py::ssize_t column, con
     return transform;
 }
 
-bool is_pair(py::handle object) { return PyTuple_Check(object.ptr()) && PyTuple_GET_SIZE(object.ptr()) == 2; }
+bool is_pair(py::handle object) {
+    return PyTuple_Check(object.ptr()) && PyTuple_GET_SIZE(object.ptr()) == 2;
+}
 
 Pose read_pose(const double* translation, const double* quaternion) {
     return {{translation[0], translation[1], translation[2]},
@@ -61,20 +63,24 @@ Pose read_pose(const double* translation, const double* quaternion) {
 std::vector<Pose> read_pairs(py::handle pair, bool& many, const char* name) {
     const auto translation = double_array(PyTuple_GET_ITEM(pair.ptr(), 0), name);
     const auto quaternion = double_array(PyTuple_GET_ITEM(pair.ptr(), 1), name);
-    if (translation.ndim() < 1 || translation.ndim() > 2 || translation.shape(translation.ndim() - 1) != 3)
+    if (translation.ndim() < 1 || translation.ndim() > 2 ||
+        translation.shape(translation.ndim() - 1) != 3)
         wrong_shape(name, "(3,) or (n, 3) for translations", translation);
-    if (quaternion.ndim() < 1 || quaternion.ndim() > 2 || quaternion.shape(quaternion.ndim() - 1) != 4)
+    if (quaternion.ndim() < 1 || quaternion.ndim() > 2 ||
+        quaternion.shape(quaternion.ndim() - 1) != 4)
         wrong_shape(name, "(4,) or (n, 4) for quaternions (w, x, y, z)", quaternion);
     const bool many_t = translation.ndim() == 2, many_q = quaternion.ndim() == 2;
     many = many_t || many_q;
     if (many_t && many_q && translation.shape(0) != quaternion.shape(0))
-        throw py::value_error(std::string(name) + ": there are " + std::to_string(translation.shape(0)) +
-                              " translations and " + std::to_string(quaternion.shape(0)) + " quaternions");
+        throw py::value_error(std::string(name) + ": there are " +
+                              std::to_string(translation.shape(0)) + " translations and " +
+                              std::to_string(quaternion.shape(0)) + " quaternions");
     const auto count = many_t ? translation.shape(0) : many_q ? quaternion.shape(0) : 1;
     std::vector<Pose> poses;
     poses.reserve(static_cast<std::size_t>(count));
     for (py::ssize_t i = 0; i < count; ++i)
-        poses.push_back(read_pose(translation.data() + (many_t ? 3 * i : 0), quaternion.data() + (many_q ? 4 * i : 0)));
+        poses.push_back(read_pose(translation.data() + (many_t ? 3 * i : 0),
+                                  quaternion.data() + (many_q ? 4 * i : 0)));
     return poses;
 }
 
@@ -86,14 +92,16 @@ Pose rigid(const Transform& transform, const char* name) {
     const Vec3 x = column(0), y = column(1), z = column(2);
     const Vec3 cross{x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
     constexpr double tolerance = 1e-6;
-    const bool rotation = std::abs(dot(x, x) - 1) < tolerance && std::abs(dot(y, y) - 1) < tolerance &&
-                          std::abs(dot(x, y)) < tolerance && std::abs(cross.x - z.x) < tolerance &&
-                          std::abs(cross.y - z.y) < tolerance && std::abs(cross.z - z.z) < tolerance;
+    const bool rotation =
+        std::abs(dot(x, x) - 1) < tolerance && std::abs(dot(y, y) - 1) < tolerance &&
+        std::abs(dot(x, y)) < tolerance && std::abs(cross.x - z.x) < tolerance &&
+        std::abs(cross.y - z.y) < tolerance && std::abs(cross.z - z.z) < tolerance;
     if (!rotation)
-        throw py::value_error(std::string(name) + ": the matrix must be a rotation and a translation");
+        throw py::value_error(std::string(name) +
+                              ": the matrix must be a rotation and a translation");
     // [Shepperd 1978]: the largest component is the one that is divided by.
-    const double r00 = x.x, r10 = x.y, r20 = x.z, r01 = y.x, r11 = y.y, r21 = y.z, r02 = z.x, r12 = z.y,
-                 r22 = z.z;
+    const double r00 = x.x, r10 = x.y, r20 = x.z, r01 = y.x, r11 = y.y, r21 = y.z, r02 = z.x,
+                 r12 = z.y, r22 = z.z;
     std::array<double, 4> q{};
     if (const double trace = r00 + r11 + r22; trace > 0)
         q = {1 + trace, r21 - r12, r02 - r20, r10 - r01};
@@ -111,11 +119,14 @@ Pose rigid(const Transform& transform, const char* name) {
 
 } // namespace
 
-bool is_array(py::handle object) { return py::isinstance<py::array>(object); }
+bool is_array(py::handle object) {
+    return py::isinstance<py::array>(object);
+}
 
 py::array_t<double> double_array(py::handle object, const char* name) {
     if (!is_array(object) || py::reinterpret_borrow<py::array>(object).dtype().kind() != 'c')
-        if (auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object))
+        if (auto array =
+                py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object))
             return array;
     PyErr_Clear();
     throw py::type_error(std::string(name) + ": an array of numbers is wanted");
@@ -156,7 +167,8 @@ Vec3 to_vec3(py::handle object, const char* name) {
 std::vector<Vec3> to_points(py::handle object, const char* name) {
     // One copy, from whatever type and order the array has.
     const auto source = py::reinterpret_steal<py::array>(
-        is_array(object) ? py::reinterpret_borrow<py::object>(object).release() : py::array::ensure(object).release());
+        is_array(object) ? py::reinterpret_borrow<py::object>(object).release()
+                         : py::array::ensure(object).release());
     if (!source) {
         PyErr_Clear();
         throw py::type_error(std::string(name) + ": an array of numbers is wanted");
@@ -173,7 +185,8 @@ std::vector<Vec3> to_points(py::handle object, const char* name) {
             Number values[3];
             for (int i = 0; i < 3; ++i)
                 std::memcpy(&values[i], data + i * column, sizeof(Number));
-            point = {static_cast<double>(values[0]), static_cast<double>(values[1]), static_cast<double>(values[2])};
+            point = {static_cast<double>(values[0]), static_cast<double>(values[1]),
+                     static_cast<double>(values[2])};
             data += row;
         }
     };
@@ -185,7 +198,8 @@ std::vector<Vec3> to_points(py::handle object, const char* name) {
     else {
         const auto doubles = double_array(source, name);
         for (std::size_t i = 0; i < points.size(); ++i)
-            points[i] = {doubles.data()[3 * i], doubles.data()[3 * i + 1], doubles.data()[3 * i + 2]};
+            points[i] = {doubles.data()[3 * i], doubles.data()[3 * i + 1],
+                         doubles.data()[3 * i + 2]};
     }
     return points;
 }
@@ -209,8 +223,9 @@ std::vector<std::array<std::uint32_t, 3>> to_triangles(py::handle object, std::s
                 Number value;
                 std::memcpy(&value, data + static_cast<py::ssize_t>(i) * column, sizeof value);
                 if (std::cmp_less(value, 0) || std::cmp_greater_equal(value, vertices))
-                    throw Error(ErrorCode::bad_mesh, "triangle " + std::to_string(t) + " has vertex " +
-                                                         std::to_string(value) + ", but there are " +
+                    throw Error(ErrorCode::bad_mesh, "triangle " + std::to_string(t) +
+                                                         " has vertex " + std::to_string(value) +
+                                                         ", but there are " +
                                                          std::to_string(vertices) + " vertices");
                 triangles[t][i] = static_cast<std::uint32_t>(value);
             }
@@ -233,7 +248,8 @@ std::vector<std::array<std::uint32_t, 3>> to_triangles(py::handle object, std::s
 
 std::vector<std::uint32_t> to_indices(py::handle object, const char* name) {
     const auto source = py::array::ensure(object);
-    if (!source || (source.size() && source.dtype().kind() != 'i' && source.dtype().kind() != 'u')) {
+    if (!source ||
+        (source.size() && source.dtype().kind() != 'i' && source.dtype().kind() != 'u')) {
         PyErr_Clear();
         throw py::type_error(std::string(name) + ": an array of integers is wanted");
     }
@@ -244,7 +260,8 @@ std::vector<std::uint32_t> to_indices(py::handle object, const char* name) {
     for (py::ssize_t i = 0; i < wide.size(); ++i) {
         const std::int64_t value = wide.at(i);
         if (value < 0 || value > 0xffffffff)
-            throw py::value_error(std::string(name) + ": " + std::to_string(value) + " is no index");
+            throw py::value_error(std::string(name) + ": " + std::to_string(value) +
+                                  " is no index");
         indices.push_back(static_cast<std::uint32_t>(value));
     }
     return indices;
@@ -271,7 +288,8 @@ PoseArgument to_poses(py::handle object, const char* name) {
             result.many = true;
             result.list.reserve(static_cast<std::size_t>(array->dimensions[0]));
             for (py::ssize_t i = 0; i < array->dimensions[0]; ++i)
-                result.list.push_back(read_matrix(data + i * array->strides[0], array->strides[1], array->strides[2], name));
+                result.list.push_back(read_matrix(data + i * array->strides[0], array->strides[1],
+                                                  array->strides[2], name));
             return result;
         }
     }
@@ -288,7 +306,8 @@ PoseArgument to_poses(py::handle object, const char* name) {
         return result;
     }
     if (PyList_Check(object.ptr()) && PyList_GET_SIZE(object.ptr()) > 0 &&
-        (py::isinstance<Pose>(PyList_GET_ITEM(object.ptr(), 0)) || is_pair(PyList_GET_ITEM(object.ptr(), 0)))) {
+        (py::isinstance<Pose>(PyList_GET_ITEM(object.ptr(), 0)) ||
+         is_pair(PyList_GET_ITEM(object.ptr(), 0)))) {
         result.many = true;
         for (const py::handle item : object)
             result.list.push_back(to_transform(item, name));
@@ -330,7 +349,8 @@ std::vector<Pose> to_pose_list(py::handle object, const char* name) {
     }
     const auto poses = to_poses(object, name);
     if (!poses.many)
-        throw py::value_error(std::string(name) + ": many poses are wanted, as an array of shape (n, 4, 4)");
+        throw py::value_error(std::string(name) +
+                              ": many poses are wanted, as an array of shape (n, 4, 4)");
     for (const Transform& transform : poses.list)
         list.push_back(rigid(transform, name));
     return list;

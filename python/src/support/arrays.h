@@ -1,9 +1,9 @@
 #pragma once
 
-#include "python.h"
-
 #include <abut/motion.h>
 #include <abut/types.h>
+
+#include "python.h"
 
 #include <cstdint>
 #include <string>
@@ -90,15 +90,20 @@ py::array rows(std::vector<Row> values) {
     return own(std::move(values), py::dtype::of<Number>(), {size, columns});
 }
 
-inline py::array from_points(std::vector<Vec3> points) { return rows<double>(std::move(points)); }
+inline py::array from_points(std::vector<Vec3> points) {
+    return rows<double>(std::move(points));
+}
 
 /// A view, that cannot be written to, of rows that `owner` keeps.
 template <class Number, class Row>
 py::array view_rows(const Row* data, std::size_t size, py::handle owner) {
     constexpr std::size_t columns = sizeof(Row) / sizeof(Number);
     static_assert(sizeof(Row) == columns * sizeof(Number));
-    py::array array(py::dtype::of<Number>(), {static_cast<py::ssize_t>(size), static_cast<py::ssize_t>(columns)},
-                    {static_cast<py::ssize_t>(sizeof(Row)), static_cast<py::ssize_t>(sizeof(Number))}, data, owner);
+    py::array array(
+        py::dtype::of<Number>(),
+        {static_cast<py::ssize_t>(size), static_cast<py::ssize_t>(columns)},
+        {static_cast<py::ssize_t>(sizeof(Row)), static_cast<py::ssize_t>(sizeof(Number))}, data,
+        owner);
     array.attr("flags").attr("writeable") = false;
     return array;
 }
@@ -117,7 +122,8 @@ struct type_caster<abut::Vec3> {
         value = abut::python::to_vec3(source, "point");
         return true;
     }
-    static handle cast(const abut::Vec3& vector, return_value_policy /*policy*/, handle /*parent*/) {
+    static handle cast(const abut::Vec3& vector, return_value_policy /*policy*/,
+                       handle /*parent*/) {
         return abut::python::from_vec3(vector).release();
     }
 };
@@ -129,7 +135,8 @@ struct type_caster<abut::Transform> {
         value = abut::python::to_transform(source, "pose");
         return true;
     }
-    static handle cast(const abut::Transform& transform, return_value_policy /*policy*/, handle /*parent*/) {
+    static handle cast(const abut::Transform& transform, return_value_policy /*policy*/,
+                       handle /*parent*/) {
         return abut::python::from_transform(transform).release();
     }
 };

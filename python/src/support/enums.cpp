@@ -2,13 +2,14 @@
 
 namespace abut::python {
 
-void make_enum(py::module_& module, EnumClass& data, const char* name, const std::vector<std::string>& members,
-               const char* doc) {
+void make_enum(py::module_& module, EnumClass& data, const char* name,
+               const std::vector<std::string>& members, const char* doc) {
     py::list pairs;
     for (std::size_t i = 0; i < members.size(); ++i)
         pairs.append(py::make_tuple(members[i], i));
     data.name = name;
-    data.type = py::module_::import("enum").attr("IntEnum")(name, pairs, py::arg("module") = "abut");
+    data.type =
+        py::module_::import("enum").attr("IntEnum")(name, pairs, py::arg("module") = "abut");
     data.type.attr("__doc__") = doc;
     data.members.clear();
     for (std::size_t i = 0; i < members.size(); ++i)

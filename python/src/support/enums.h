@@ -1,7 +1,5 @@
 #pragma once
 
-#include "python.h"
-
 #include <abut/broad_phase.h>
 #include <abut/clash.h>
 #include <abut/convex.h>
@@ -16,6 +14,8 @@
 #include <abut/types.h>
 #include <abut/volume.h>
 #include <abut/walk.h>
+
+#include "python.h"
 
 #include <string>
 #include <type_traits>
@@ -39,13 +39,14 @@ EnumClass& enum_class() {
 }
 
 /// Makes the class and its members, whose values are 0, 1, …
-void make_enum(py::module_& module, EnumClass& data, const char* name, const std::vector<std::string>& members,
-               const char* doc);
+void make_enum(py::module_& module, EnumClass& data, const char* name,
+               const std::vector<std::string>& members, const char* doc);
 /// The member's number. Errors: TypeError, ValueError.
 std::size_t enum_value(const EnumClass& data, py::handle object);
 
 template <class E>
-void bind_enum(py::module_& module, const char* name, const std::vector<std::string>& members, const char* doc) {
+void bind_enum(py::module_& module, const char* name, const std::vector<std::string>& members,
+               const char* doc) {
     make_enum(module, enum_class<E>(), name, members, doc);
 }
 

@@ -1,10 +1,10 @@
 #include "meshes.h"
 
-#include "arrays.h"
-#include "work.h"
-
 #include <abut/model.h>
 #include <abut/scene.h>
+
+#include "arrays.h"
+#include "work.h"
 
 namespace abut::python {
 
@@ -31,7 +31,8 @@ Mesh from_meshio(const py::object& source) {
     if (cells.contains("quad")) {
         const py::object quads = py::array::ensure(cells["quad"]);
         const auto column = [&](const std::vector<int>& list) {
-            const py::object chosen = quads.attr("__getitem__")(py::make_tuple(py::slice(0, py::len(quads), 1), list));
+            const py::object chosen =
+                quads.attr("__getitem__")(py::make_tuple(py::slice(0, py::len(quads), 1), list));
             return to_triangles(chosen, mesh.positions.size());
         };
         const auto first = column({0, 1, 2}), second = column({0, 2, 3});
@@ -66,8 +67,9 @@ Mesh to_mesh_value(const py::object& source, const py::object& faces, py::handle
         return from_arrays(source.attr("vertices"), source.attr("faces"));
     if (py::hasattr(source, "points") && py::hasattr(source, "cells_dict"))
         return from_meshio(source);
-    throw py::type_error("a mesh is wanted: vertices and faces, a path, a Mesh, a Model, or an object with "
-                         ".vertices and .faces or .points and .cells_dict");
+    throw py::type_error(
+        "a mesh is wanted: vertices and faces, a path, a Mesh, a Model, or an object with "
+        ".vertices and .faces or .points and .cells_dict");
 }
 
 } // namespace abut::python

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "python.h"
-
 #include <abut/mesh.h>
+
+#include "python.h"
 
 namespace abut::python {
 

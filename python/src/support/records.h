@@ -61,8 +61,7 @@ py::object to_python(const T& value) {
     return py::cast(value);
 }
 template <class T, std::size_t N>
-    requires std::is_arithmetic_v<T>
-py::array_t<T> to_python(const std::array<T, N>& value) {
+requires std::is_arithmetic_v<T> py::array_t<T> to_python(const std::array<T, N>& value) {
     return py::array_t<T>(N, value.data());
 }
 
@@ -89,7 +88,8 @@ public:
             std::string text = record_type<T>().name + "(";
             const char* comma = "";
             for (const Field& field : record_type<T>().fields) {
-                text += comma + field.name + "=" + short_repr(field.get(reinterpret_cast<const char*>(&self)));
+                text += comma + field.name + "=" +
+                        short_repr(field.get(reinterpret_cast<const char*>(&self)));
                 comma = ", ";
             }
             return text + ")";
@@ -99,7 +99,10 @@ public:
                 return py::reinterpret_borrow<py::object>(Py_NotImplemented);
             const T& right = other.cast<const T&>();
             for (const Field& field : record_type<T>().fields)
-                if (!py::module_::import("numpy").attr("array_equal")(field.get(reinterpret_cast<const char*>(&self)), field.get(reinterpret_cast<const char*>(&right))).template cast<bool>())
+                if (!py::module_::import("numpy")
+                         .attr("array_equal")(field.get(reinterpret_cast<const char*>(&self)),
+                                              field.get(reinterpret_cast<const char*>(&right)))
+                         .template cast<bool>())
                     return py::bool_(false);
             return py::bool_(true);
         });
@@ -108,24 +111,33 @@ public:
     template <class Class, class Member>
     RecordBinder& field(const char* name, Member Class::*member, const char* doc) {
         static const T example{};
-        const auto offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&(example.*member)) -
-                                                     reinterpret_cast<const char*>(&example));
-        const auto get = [](const char* data) { return to_python(*reinterpret_cast<const Member*>(data)); };
+        const auto offset =
+            static_cast<std::size_t>(reinterpret_cast<const char*>(&(example.*member)) -
+                                     reinterpret_cast<const char*>(&example));
+        const auto get = [](const char* data) {
+            return to_python(*reinterpret_cast<const Member*>(data));
+        };
         record_type<T>().fields.push_back(
-            {name, offset, [] { return FieldFormat<Member>::make(); }, [offset, get](const char* self) { return get(self + offset); }});
-        class_.def_property_readonly(name, [member](const T& self) { return to_python(self.*member); }, doc);
+            {name, offset, [] { return FieldFormat<Member>::make(); },
+             [offset, get](const char* self) { return get(self + offset); }});
+        class_.def_property_readonly(
+            name, [member](const T& self) { return to_python(self.*member); }, doc);
         return *this;
     }
     /// A field of a struct within the struct.
     template <class Inner, class Member>
     RecordBinder& inner(const char* name, Inner T::*outer, Member Inner::*member, const char* doc) {
         static const T example{};
-        const auto offset = static_cast<std::size_t>(reinterpret_cast<const char*>(&(example.*outer.*member)) -
-                                                     reinterpret_cast<const char*>(&example));
-        record_type<T>().fields.push_back({name, offset, [] { return FieldFormat<Member>::make(); }, [offset](const char* self) {
-                                               return to_python(*reinterpret_cast<const Member*>(self + offset));
+        const auto offset =
+            static_cast<std::size_t>(reinterpret_cast<const char*>(&(example.*outer.*member)) -
+                                     reinterpret_cast<const char*>(&example));
+        record_type<T>().fields.push_back({name, offset, [] { return FieldFormat<Member>::make(); },
+                                           [offset](const char* self) {
+                                               return to_python(
+                                                   *reinterpret_cast<const Member*>(self + offset));
                                            }});
-        class_.def_property_readonly(name, [outer, member](const T& self) { return to_python(self.*outer.*member); }, doc);
+        class_.def_property_readonly(
+            name, [outer, member](const T& self) { return to_python(self.*outer.*member); }, doc);
         return *this;
     }
     /// Ends the list of fields.
@@ -157,14 +169,16 @@ py::object records(std::vector<T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
     const auto size = static_cast<py::ssize_t>(values.size());
     const auto dtype = py::reinterpret_borrow<py::dtype>(record_type<T>().dtype);
-    return own(std::move(values), dtype, {size}).attr("view")(py::module_::import("numpy").attr("recarray"));
+    return own(std::move(values), dtype, {size})
+        .attr("view")(py::module_::import("numpy").attr("recarray"));
 }
 
 /// A struct that is no record: its members are attributes.
 template <class T>
 class PlainBinder {
 public:
-    PlainBinder(py::module_& module, const char* name, const char* doc) : class_(module, name, doc) {
+    PlainBinder(py::module_& module, const char* name, const char* doc)
+        : class_(module, name, doc) {
         prepare(name);
     }
     PlainBinder(py::handle scope, const char* name, const char* doc) : class_(scope, name, doc) {
@@ -174,7 +188,8 @@ public:
     template <class Class, class Member>
     PlainBinder& field(const char* name, Member Class::*member, const char* doc) {
         names().emplace_back(name);
-        class_.def_property_readonly(name, [member](const T& self) { return property_value(self.*member); }, doc);
+        class_.def_property_readonly(
+            name, [member](const T& self) { return property_value(self.*member); }, doc);
         return *this;
     }
     template <class Get>

@@ -20,8 +20,8 @@ std::atomic<bool> watcher_exists{false};
 std::atomic<bool> caught{false}; // the handler is in place
 std::uint64_t queries = 0;       // that the main thread has begun
 pthread_t main_thread;
-struct sigaction before;     // the handler that is called next, and put back
-std::mutex* gate = nullptr;  // guards `caught` and `before`
+struct sigaction before;    // the handler that is called next, and put back
+std::mutex* gate = nullptr; // guards `caught` and `before`
 std::condition_variable* wake = nullptr;
 
 constexpr auto kPeriod = 3ms;
@@ -45,7 +45,8 @@ void catch_interrupts(std::uint64_t query) {
     struct sigaction current {};
     sigaction(SIGINT, nullptr, &current);
     // A process that ignores the signal, or dies of it, goes on to do so.
-    if (!(current.sa_flags & SA_SIGINFO) && (current.sa_handler == SIG_IGN || current.sa_handler == SIG_DFL))
+    if (!(current.sa_flags & SA_SIGINFO) &&
+        (current.sa_handler == SIG_IGN || current.sa_handler == SIG_DFL))
         return;
     before = current;
     struct sigaction ours {};
@@ -107,7 +108,8 @@ void begin_watch() {
 }
 
 InterruptWatch::InterruptWatch(std::atomic<bool>& own) : flag_(&own) {
-    if (running_query.load(std::memory_order_relaxed) != 0 || !pthread_equal(pthread_self(), main_thread))
+    if (running_query.load(std::memory_order_relaxed) != 0 ||
+        !pthread_equal(pthread_self(), main_thread))
         return;
     watched_ = true;
     flag_ = &stop_main;

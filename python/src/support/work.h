@@ -1,9 +1,9 @@
 #pragma once
 
-#include "python.h"
-
 #include <abut/error.h>
 #include <abut/progress.h>
+
+#include "python.h"
 
 #include <atomic>
 #include <exception>
