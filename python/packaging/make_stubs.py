@@ -87,21 +87,22 @@ OWN_PARAMETERS = {
     "remove_models": {"files": "Iterable[_Path]", "store": "_Path"}, "help_find_clashes": {"store": "_Path", "crew": "Crew"},
     "time_of_impact": {"absolute_error": "float | None"}, "World.time_of_impact": {"absolute_error": "float | None"},
     "read_scene": {"path": "_ModelPath"}, "read_mesh": {"path": "_ModelPath"}, "inspect": {"mesh": "ArrayLike | _Mesh"},
-    "Segment": {"a": "ArrayLike", "b": "ArrayLike"}, "ModelPath": {"up": "UpAxis | str | None"}, "to_json": {"store": "str"}, "WithinOptions": {},
+    "Segment": {"a": "ArrayLike", "b": "ArrayLike"}, "ModelPath": {"up": "UpAxis | str | None"}, "to_json": {"store": "str"},
 }
-# The meanings of verbs: the parameters of which the type depends on the first one, and what is returned.
+# The meanings of verbs: the first argument, the keywords, and what one question returns. A matrix may be one pose or
+# many, which no type tells, so what is returned is Any then.
 VERBS = {
-    "collide": [("Model", {"mode", "segments", "warm_start", "progress"}, "Contacts", "ContactsList"),
-                ("ConvexPieces", {"mode", "triangles", "warm_start", "progress"}, "PiecesContacts", "list[PiecesContacts]")],
+    "collide": [("Model", {"mode", "segments", "warm_start", "progress"}, "Contacts"),
+                ("ConvexPieces", {"mode", "triangles", "warm_start", "progress"}, "PiecesContacts")],
     "distance": [("Model", {"upper_bound", "absolute_error", "relative_error", "signed_distance", "max_steps", "warm_start", "progress"},
-                  "Gap", "Any"),
-                 ("Convex", {"absolute_error", "warm_start"}, "ConvexGap", "Any"),
-                 ("ConvexPieces", {"upper_bound", "absolute_error", "warm_start", "progress"}, "PiecesGap", "Any")],
-    "within": [("Model", {"warm_start", "progress"}, "bool", "NDArray[np.bool_]"),
-               ("ConvexPieces", {"warm_start", "progress"}, "bool", "NDArray[np.bool_]")],
-    "penetration": [("Model", {"relative_error", "separation", "max_steps", "progress"}, "Depth", "list[Depth]"),
-                    ("Convex", {"warm_start"}, "ConvexDepth", "Any"),
-                    ("ConvexPieces", {"separation", "progress"}, "PiecesDepth", "Any")],
+                  "Gap"),
+                 ("Convex", {"absolute_error", "warm_start"}, "ConvexGap"),
+                 ("ConvexPieces", {"upper_bound", "absolute_error", "warm_start", "progress"}, "PiecesGap")],
+    "within": [("Model", {"warm_start", "progress"}, "bool"),
+               ("ConvexPieces", {"warm_start", "progress"}, "bool")],
+    "penetration": [("Model", {"relative_error", "separation", "max_steps", "progress"}, "Depth"),
+                    ("Convex", {"warm_start"}, "ConvexDepth"),
+                    ("ConvexPieces", {"separation", "progress"}, "PiecesDepth")],
 }
 WARM_STARTS = {"Model": "WarmStart", "Convex": "ConvexWarmStart", "ConvexPieces": "PiecesWarmStart"}
 # Whole lines, for what the tables above cannot say.
@@ -259,14 +260,14 @@ def return_type(function, returned):
 
 def verb_lines(name):
     lines = []
-    for kind, keywords, one, many in VERBS.get(name, []):
+    for kind, keywords, one in VERBS.get(name, []):
         text = re.search(rf"^{name}\((a, pose_a.*?)\)$", whole_doc(getattr(abut, name)), re.M | re.S)[1]
         order = [word for word, _, _ in parameters_of(text)]
         named = [f"{word}: {WARM_STARTS[kind] + ' | None' if word == 'warm_start' else PARAMETERS[word]} = ..."
                  for word in order if word in keywords]
         named += [f"{word}: {PARAMETERS[word]} = ..." for word in sorted(keywords - set(order))]
         first = ", tolerance: float" if name == "within" else ""
-        for pose, returned in (("_OnePose", one), ("_Poses", many)):
+        for pose, returned in (("_OnePose", one), ("_Poses", "Any")):
             lines.append(f"def {name}(a: {kind}, pose_a: {pose}, b: {kind}, pose_b: {pose}{first}, *, {', '.join(named)}) "
                          f"-> {returned}: ...")
     lines += OTHER_OVERLOADS.get(name, [])
@@ -299,27 +300,40 @@ def property_type(owner, name, attribute):
     return known
 
 
-def doc_lines(doc, indent):
+def doc_lines(doc, name, indent=""):
     """The docstring without the signatures, which the stub has itself."""
-    if not doc:
+    text = re.sub(r"^Overloaded function\.$|^(\d+\. )?%s\(.*\) -> .*$" % re.escape(name), "", doc or "", flags=re.M)
+    while re.match(r"\s*%s\(" % re.escape(name), text):  # signatures that the docstring has in its own words
+        text = re.sub(r"^\s*%s\((?:.|\n)*?\)[^\n]*(\n|$)" % re.escape(name), "", text, count=1)
+    lines = [indent + line if line else "" for line in re.sub(r"\n{3,}", "\n\n", text.strip()).split("\n")]
+    if lines == [""]:
         return []
-    first = doc.strip().split("\n")[0].replace('"""', "'''")
-    return [f'{indent}"""{first}"""']
+    lines[0] = indent + '"""' + lines[0].strip()
+    lines[-1] += '"""' if len(lines) == 1 else "\n" + indent + '"""'
+    return lines
+
+
+def with_doc(lines, function, name):
+    """The lines of a function with its docstring in the first definition."""
+    doc = doc_lines(function.__doc__, name, "    ")
+    i = next(i for i, line in enumerate(lines) if line.startswith("def "))
+    return lines if not doc else [*lines[:i], lines[i].removesuffix(" ..."), *doc, *lines[i + 1:]]
 
 
 def class_lines(name, kind):
     if issubclass(kind, enum.IntEnum):
-        return [f"class {name}(IntEnum):", *doc_lines(kind.__doc__, "    ")] + [f"    {m.name} = {m.value}" for m in kind]
+        return [f"class {name}(IntEnum):", *doc_lines(kind.__doc__, name, "    ")] + [f"    {m.name} = {m.value}" for m in kind]
     if issubclass(kind, Exception):
-        return [f"class {name}(RuntimeError):", *doc_lines(kind.__doc__, "    "), "    code: ErrorCode", "    file: str"]
+        return [f"class {name}(RuntimeError):", *doc_lines(kind.__doc__, name, "    "), "    code: ErrorCode", "    file: str"]
     body = []
     if hasattr(kind, "dtype"):
         body.append("    dtype: np.dtype[Any]")
-    for member, value in sorted(vars(kind).items()):
+    for member, value in vars(kind).items():
         own = f"{name}.{member}"
         if isinstance(value, property):
             known = PROPERTIES.get(own) or property_type(kind, member, value)
-            body += ["    @property", f"    def {member}(self) -> {known}: ..."]
+            doc = doc_lines(value.__doc__, member, "        ")
+            body += ["    @property", f"    def {member}(self) -> {known}:" + ("" if doc else " ..."), *doc]
         elif member == "__init__" and signatures(value, member):
             lines = function_lines(name, member, value, method=True)
             body += ["    " + re.sub(r"-> .*: \.\.\.", "-> None: ...", line) for line in lines]
@@ -334,8 +348,9 @@ def class_lines(name, kind):
         elif not member.startswith("_") and member != "dtype":
             static = isinstance(value, staticmethod)
             function = value.__func__ if static else value
-            body += ["    " + line for line in function_lines(own, member, function, method=not static, static=static)]
-    return [f"class {name}:", *doc_lines(kind.__doc__, "    "), *(body or ["    ..."])]
+            lines = with_doc(function_lines(own, member, function, method=not static, static=static), function, member)
+            body += ["    " + line if line else "" for text in lines for line in text.split("\n")]
+    return [f"class {name}:", *doc_lines(kind.__doc__, name, "    "), *(body or ["    ..."])]
 
 
 def stubs():
@@ -344,7 +359,7 @@ def stubs():
     for name in sorted(classes):
         lines += [*class_lines(name, getattr(abut, name)), ""]
     for name in sorted(set(abut.__all__) - set(classes)):
-        lines += function_lines(name, name, getattr(abut, name))
+        lines += with_doc(function_lines(name, name, getattr(abut, name)), getattr(abut, name), name)
     return "\n".join(lines) + "\n"
 
 

@@ -33,7 +33,7 @@ def test_python_page(tmp_path):
 def test_names_of_the_moving_page():
     """Every `abut.name(…keyword=…)` of the page is there."""
     text = (DOCS / "python-moving.md").read_text()
-    names = set(re.findall(r"\babut\.([A-Za-z_.]+)", text))
+    names = set(re.findall(r"\babut\.([A-Za-z_.0-9]+)", text))
     assert len(names) > 15
     for name in names:
         value = abut
