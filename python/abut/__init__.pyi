@@ -1,0 +1,2435 @@
+"""Type stubs of abut, written by python/packaging/make_stubs.py."""
+
+from enum import IntEnum
+from os import PathLike
+from typing import Any, Callable, Iterable, Protocol, Sequence, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+class _Faces(Protocol):
+    """A mesh as trimesh has it."""
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def faces(self) -> Any: ...
+
+class _Cells(Protocol):
+    """A mesh as meshio has it."""
+    @property
+    def points(self) -> Any: ...
+    @property
+    def cells_dict(self) -> Any: ...
+
+_Path = Union[str, PathLike[str]]
+_ModelPath = Union[_Path, "ModelPath"]
+_Mesh = Union["Mesh", "Model", _Path, _Faces, _Cells]
+_Point = tuple[float, float, float]
+_OnePose = Union[None, "Pose", tuple[Sequence[float], Sequence[float]]]
+_Poses = Union[_OnePose, ArrayLike, Sequence["Pose"], tuple[ArrayLike, ArrayLike]]
+_Progress = Union[Callable[[str, float], object], None]
+_Bodies = Union[int, ArrayLike]
+
+class Assignment(IntEnum):
+    """Which one of its triangles represents a vertex or an edge."""
+    greedy = 0
+    maximal = 1
+    uniform_vertex_edge = 2
+    uniform_edge_edge = 3
+    adaptive = 4
+
+class BodyGap:
+    """How two bodies lie to each other, world frame."""
+    dtype: np.dtype[Any]
+    @property
+    def a(self) -> int:
+        """body"""
+    @property
+    def b(self) -> int:
+        """body"""
+    @property
+    def distance(self) -> float:
+        """length; 0 if they touch, minus the depth if they interpenetrate"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """on a"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """on b"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from a to b; zero where none is known"""
+    @property
+    def triangle_a(self) -> int:
+        """of a model; else 0"""
+    @property
+    def triangle_b(self) -> int:
+        """of a model; else 0"""
+    @property
+    def status(self) -> Status:
+        """Status; bound_only: they go at least so deep into each other"""
+
+class BodyImpact:
+    """A pair of bodies that meet in a step."""
+    dtype: np.dtype[Any]
+    @property
+    def a(self) -> int:
+        """body"""
+    @property
+    def b(self) -> int:
+        """body"""
+    @property
+    def time(self) -> float:
+        """in [0, 1], never later than the first contact"""
+    @property
+    def contact_time(self) -> float:
+        """a time at which they are in contact"""
+    @property
+    def gap(self) -> float:
+        """length: how far apart they are at `time`, at most"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """on a at `time`"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """on b at `time`"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from a to b"""
+    @property
+    def triangle_a(self) -> int:
+        """of a model; else 0"""
+    @property
+    def triangle_b(self) -> int:
+        """of a model; else 0"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+
+class Box3:
+    """A closed axis-aligned box, from two points of shape (3,). Without
+    arguments it is empty.
+    """
+    @overload
+    def __init__(self) -> None: ...
+    @overload
+    def __init__(self, lower: ArrayLike, upper: ArrayLike) -> None: ...
+    @property
+    def lower(self) -> NDArray[Any]: ...
+    @property
+    def upper(self) -> NDArray[Any]: ...
+
+class BroadPhase:
+    """The overlapping pairs of boxes that move, and which begin and end. Touching boxes overlap.
+
+    method  a BroadPhaseMethod
+    filter  function of two indices i < k that tells whether the pair is of interest; called from any
+            thread. What it says may change only with forget()
+    """
+    def __init__(self, *, method: BroadPhaseMethod | str = ..., filter: Callable[[int, int], bool] | None = ...) -> None: ...
+    def update(self, lower: ArrayLike, upper: ArrayLike, changed: ArrayLike | None = ...) -> None:
+        """Takes the boxes of the next step, arrays of shape (n, 3). Only the boxes at the indices `changed` may differ
+        from those before, if it is given. Raises Error (bad_argument) if a bound is not a number.
+        """
+    def forget(self) -> None:
+        """Finds everything anew in the next update: the filter has changed."""
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n, 2), sorted, the lower index first"""
+    @property
+    def begun(self) -> NDArray[Any]:
+        """pairs that began with the last update"""
+    @property
+    def ended(self) -> NDArray[Any]:
+        """pairs that ended with the last update"""
+
+class BroadPhaseMethod(IntEnum):
+    """How pairs of boxes are found."""
+    automatic = 0
+    tree = 1
+    sweep = 2
+    sweep_and_prune = 3
+
+class Capsule:
+    """All points at most `radius` from a Segment."""
+    def __init__(self, axis: Segment, radius: float) -> None: ...
+    @property
+    def axis(self) -> Segment:
+        """Segment"""
+    @property
+    def radius(self) -> float:
+        """length, at least 0"""
+
+class Clash:
+    """Two parts that clash. Lengths in metres, world frame of the report."""
+    @property
+    def id(self) -> str:
+        """16 hexadecimal digits, the same in every run"""
+    @property
+    def kind(self) -> ClashKind:
+        """ClashKind"""
+    @property
+    def distance(self) -> float:
+        """negative: penetration"""
+    @property
+    def part_ids(self) -> list[str]:
+        """ids of both parts"""
+    @property
+    def names(self) -> list[str]:
+        """names of both parts"""
+    @property
+    def types(self) -> list[str]:
+        """types of both parts"""
+    @property
+    def files(self) -> list[str]:
+        """files of both parts"""
+    @property
+    def model(self) -> NDArray[Any]:
+        """indices of both models"""
+    @property
+    def part(self) -> NDArray[Any]:
+        """indices of both parts in their models; of a store, in its report"""
+    @property
+    def point_a(self) -> NDArray[Any]:
+        """witness on the surface of a"""
+    @property
+    def point_b(self) -> NDArray[Any]:
+        """witness on the surface of b"""
+    @property
+    def direction(self) -> NDArray[Any]:
+        """unit vector in which b moves to get away from a"""
+    @property
+    def triangle_pairs(self) -> int:
+        """intersecting pairs of triangles"""
+    @property
+    def rule(self) -> str:
+        """name of the rule that decided"""
+    @property
+    def status(self) -> ClashStatus:
+        """ClashStatus, of a store alone"""
+    @property
+    def note(self) -> str:
+        """of whoever reviewed it"""
+
+class ClashKind(IntEnum):
+    """docs/clash.md defines each kind."""
+    hard = 0
+    touch = 1
+    contained = 2
+    duplicate = 3
+    clearance = 4
+
+class ClashReport:
+    """Returned by find_clashes. Its length is the number of clashes."""
+    @property
+    def clashes(self) -> list[Clash]:
+        """list of Clash, sorted by model, part of a, then of b"""
+    @property
+    def counts(self) -> dict[str, int]:
+        """dict of kind to number"""
+    @property
+    def models(self) -> list[ModelSummary]:
+        """list of ModelSummary"""
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis of all points"""
+    @property
+    def warnings(self) -> list[str]:
+        """list of str: what makes the result doubtful"""
+    @property
+    def clearance(self) -> float:
+        """metres"""
+    @property
+    def touch_tolerance(self) -> float:
+        """metres"""
+    @property
+    def candidates(self) -> int:
+        """pairs of parts whose boxes are near"""
+    @property
+    def statuses(self) -> dict[str, int] | None:
+        """dict of status to number, of a store; else None"""
+    @property
+    def resolved(self) -> list[ListedClash]:
+        """list of ListedClash, of a store"""
+    @property
+    def counters(self) -> OutOfCoreCounters | None:
+        """OutOfCoreCounters, of a store; else None"""
+    @property
+    def seconds(self) -> dict[str, float]:
+        """dict of stage to seconds"""
+    @property
+    def peak_rss_mib(self) -> float:
+        """MiB"""
+    def __len__(self) -> int: ...
+
+class ClashReview:
+    """The clashes of one question, as its last job left them."""
+    @property
+    def clearance(self) -> float:
+        """metres"""
+    @property
+    def touch_tolerance(self) -> float:
+        """metres"""
+    @property
+    def self(self) -> bool: ...
+    @property
+    def rules(self) -> int:
+        """how many"""
+    @property
+    def finished(self) -> int:
+        """when the job ended, in seconds since 1970"""
+    @property
+    def statuses(self) -> dict[str, int]:
+        """dict of status to number"""
+    @property
+    def clashes(self) -> list[ListedClash]:
+        """list of ListedClash, resolved ones too"""
+
+class ClashRule:
+    """ignore=IgnoreRule())
+
+    Selects pairs of parts, one side each, in either order. Lengths in metres; None: those of the query.
+    """
+    def __init__(self, name: str = ..., a: PartSelector = ..., b: PartSelector = ..., *, clearance: float | None = ..., touch_tolerance: float | None = ..., ignore: IgnoreRule = ...) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def a(self) -> PartSelector:
+        """PartSelector"""
+    @property
+    def b(self) -> PartSelector:
+        """PartSelector"""
+    @property
+    def clearance(self) -> float | None:
+        """metres"""
+    @property
+    def touch_tolerance(self) -> float | None:
+        """metres"""
+    @property
+    def ignore(self) -> IgnoreRule:
+        """IgnoreRule"""
+
+class ClashStatus(IntEnum):
+    """What has become of a clash between the jobs of a store."""
+    fresh = 0
+    active = 1
+    reviewed = 2
+    approved = 3
+    resolved = 4
+
+class ContactMode(IntEnum):
+    """Whether to stop at the first pair."""
+    first = 0
+    all = 1
+
+class ContactRegion:
+    """A place where two models meet."""
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n, 2): triangles of a and of b"""
+    @property
+    def touching(self) -> bool:
+        """nothing crosses: depth 0"""
+    @property
+    def area(self) -> float:
+        """enclosed by the intersection curve, along the normal"""
+    @property
+    def normal(self) -> NDArray[Any]:
+        """unit vector from a to b"""
+    @property
+    def depth(self) -> float:
+        """length, of the deepest point of either surface inside the other"""
+    @property
+    def depth_at_most(self) -> float:
+        """proven: no such point lies deeper"""
+    @property
+    def point_a(self) -> NDArray[Any]:
+        """on the surface of a, world frame"""
+    @property
+    def point_b(self) -> NDArray[Any]:
+        """on the surface of b, world frame"""
+    @property
+    def direction(self) -> NDArray[Any]:
+        """unit vector in which b moves to get out"""
+
+class Contacts:
+    """Returned by collide. True if the models meet."""
+    @property
+    def meet(self) -> bool:
+        """whether the surfaces share a point"""
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n, 2): triangles of a and of b, sorted"""
+    @property
+    def segments(self) -> list[NDArray[np.float64]]:
+        """list of arrays of shape (1 to 6, 3), one for each pair, if asked for"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def counters(self) -> Counters:
+        """Counters"""
+    def __bool__(self) -> bool: ...
+
+class ContactsList:
+    """Returned by collide for many poses: a sequence of Contacts."""
+    @property
+    def meet(self) -> NDArray[Any]:
+        """array of bool of shape (n,)"""
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (m, 2): the pairs of all poses"""
+    @property
+    def offsets(self) -> NDArray[np.int64]:
+        """int64 array of shape (n + 1,): those of pose i are pairs[offsets[i]:offsets[i + 1]]"""
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int) -> Contacts: ...
+
+class Containment:
+    """Returned by contains."""
+    dtype: np.dtype[Any]
+    @property
+    def side(self) -> Side:
+        """Side"""
+    @property
+    def method(self) -> ContainmentMethod:
+        """ContainmentMethod"""
+    @property
+    def winding_number(self) -> float:
+        """if the method is winding; else 0"""
+
+class ContainmentMethod(IntEnum):
+    """How contains decided: crossings, exact, for closed models; else the winding number."""
+    crossings = 0
+    winding = 1
+
+class Convex:
+    """A solid convex body: the hull of points of shape (n, 3), or a mesh that is convex already. It never
+    changes; any number of threads may query it.
+
+    relative_dent  how deep a dent of a mesh is taken for rounding, as a share of its diagonal
+
+    Raises Error (bad_mesh) if there is no point, a coordinate is not finite, or the mesh is not closed
+    or not convex.
+    """
+    def __init__(self, points: ArrayLike, faces: ArrayLike | None = ..., *, relative_dent: float = ...) -> None: ...
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """float64 array of shape (n, 3)"""
+    @property
+    def edges(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n, 2)"""
+    @property
+    def faces(self) -> list[NDArray[np.uint32]]:
+        """list of arrays: the vertices of each face, counter-clockwise as seen from outside"""
+    @property
+    def source(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n,): which of the points given each vertex is"""
+    @property
+    def dimension(self) -> int:
+        """3, or 2 for a polygon, 1 for a segment, 0 for a point"""
+    def mesh(self) -> Mesh:
+        """The surface in triangles, a Mesh."""
+    @property
+    def bytes(self) -> int: ...
+
+class ConvexCounters:
+    """The work that a query did."""
+    dtype: np.dtype[Any]
+    @property
+    def feature_pairs(self) -> int:
+        """pairs of features that were measured"""
+    @property
+    def simplices(self) -> int:
+        """steps of the search that takes over"""
+
+class ConvexDepth:
+    """Returned by penetration of two Convex."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """they share a point"""
+    @property
+    def depth(self) -> float:
+        """length of the shortest translation that leaves them touching"""
+    @property
+    def at_least(self) -> float:
+        """proven: no shorter one does"""
+    @property
+    def direction(self) -> NDArray[np.float64]:
+        """unit vector in which b moves by `depth`"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """on the surface, world frame"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """on the surface, world frame"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def counters(self) -> ConvexCounters:
+        """ConvexCounters"""
+    def __bool__(self) -> bool: ...
+
+class ConvexGap:
+    """Returned by distance of two Convex."""
+    dtype: np.dtype[Any]
+    @property
+    def distance(self) -> float:
+        """length; 0 exactly if they share a point"""
+    @property
+    def at_least(self) -> float:
+        """proven: no two points are closer"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """world frame"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """world frame"""
+    @property
+    def feature_a(self) -> Feature:
+        """Feature that the point lies on"""
+    @property
+    def feature_b(self) -> Feature:
+        """Feature that the point lies on"""
+    @property
+    def id_a(self) -> int:
+        """number of that vertex, edge or face"""
+    @property
+    def id_b(self) -> int:
+        """number of that vertex, edge or face"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def counters(self) -> ConvexCounters:
+        """ConvexCounters"""
+
+class ConvexPieces:
+    """A closed model as a solid, decomposed into convex pieces. It never changes; any number of threads
+    may query it. Takes what Model takes.
+
+    Raises Error (bad_mesh) if the mesh is not closed, or turned inside out.
+    """
+    def __init__(self, model: ArrayLike | _Mesh, faces: ArrayLike | None = ...) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def size(self) -> int:
+        """number of pieces"""
+    def triangles(self, piece: int) -> NDArray[Any]:
+        """The triangles of a piece, a uint32 array of shape (n,)."""
+    def hull(self, piece: int) -> Convex:
+        """The hull of a piece, a Convex."""
+    @property
+    def model(self) -> Model: ...
+    @property
+    def bytes(self) -> int: ...
+
+class ConvexWarmStart:
+    """Remembers the closest features of two convex bodies for the next pose."""
+    def __init__(self) -> None: ...
+
+class Counters:
+    """The work that a query did, the same on every machine."""
+    dtype: np.dtype[Any]
+    @property
+    def volume_tests(self) -> int:
+        """pairs of bounding volumes"""
+    @property
+    def primitive_tests(self) -> int:
+        """pairs of triangles"""
+    @property
+    def exact_tests(self) -> int:
+        """signs that only exact arithmetic could decide"""
+
+class Crew:
+    """Processes that do one job together, made by join_crew. Rank 0 is the leader. A context manager: leaving
+    it leaves the crew, which waits until the processes that it exchanges messages with have left too.
+    """
+    @property
+    def rank(self) -> int: ...
+    @property
+    def size(self) -> int: ...
+    @property
+    def threads(self) -> int:
+        """number of threads for this process; set_threads takes it"""
+    def leave(self) -> None:
+        """Leaves the crew."""
+    def __enter__(self) -> Crew: ...
+    def __exit__(self, *args: Any) -> None: ...
+
+class Culling(IntEnum):
+    """How pairs of triangles that may meet are found."""
+    tree = 0
+    grid = 1
+    sweep = 2
+
+class Deformable:
+    """A triangle mesh whose vertices move from step to step: in a step every vertex goes in a straight line from
+    its start to its end while t goes from 0 to 1. Takes what Model takes; at rest until the first step.
+
+    Several threads may query it; a change while a query runs raises RuntimeError.
+    Raises Error (bad_mesh) as Model.
+    """
+    def __init__(self, vertices: ArrayLike | _Mesh, faces: ArrayLike | None = ..., *, scheme: Scheme | str = ..., assignment: Assignment | str = ..., culling: Culling | str = ...) -> None: ...
+    def set_motion(self, start: ArrayLike, end: ArrayLike) -> None:
+        """Sets the step: where every vertex is at t = 0 and t = 1, arrays of shape (n, 3).
+
+        Raises Error: bad_argument if there are not as many positions as vertices, bad_mesh if a coordinate is not
+        finite or beyond 1e18. Nothing has changed then.
+        """
+    def advance(self, end: ArrayLike) -> None:
+        """Sets the next step: the end of the last one is its start. Errors as set_motion."""
+    def set_mesh(self, vertices: ArrayLike | _Mesh, faces: ArrayLike | None = ...) -> None:
+        """Takes another mesh, at rest: cutting, fracture, remeshing. Errors as the constructor."""
+    def adapt(self, impacts: Impacts) -> None:
+        """Moves features off triangles that met something, for assignment='adaptive'. In: the result of
+        self_impacts of this surface. Changes no answer.
+        """
+    @property
+    def vertex_count(self) -> int: ...
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (m, 3)"""
+    @property
+    def edges(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (k, 2): every pair of vertices that a triangle joins"""
+    @property
+    def bytes(self) -> int: ...
+
+class DeformableCounters:
+    """The work that a query did."""
+    dtype: np.dtype[Any]
+    @property
+    def triangle_pairs(self) -> int:
+        """whose boxes overlap"""
+    @property
+    def candidates(self) -> TestCounts:
+        """TestCounts of feature pairs to be tested"""
+    @property
+    def elementary_tests(self) -> TestCounts:
+        """TestCounts of those whose roots were searched"""
+    @property
+    def exact_fallbacks(self) -> int:
+        """of these, those that integers decided"""
+
+class Depth:
+    """Returned by penetration. True if the models meet."""
+    @property
+    def meet(self) -> bool:
+        """they share a point, or one lies inside the other"""
+    @property
+    def interpenetrate(self) -> bool:
+        """they do more than touch"""
+    @property
+    def depth(self) -> float:
+        """length; a lower bound of every separating translation's"""
+    @property
+    def depth_at_most(self) -> float:
+        """upper bound of the deepest point's depth"""
+    @property
+    def direction(self) -> NDArray[Any]:
+        """unit vector, of the deepest region"""
+    @property
+    def point_a(self) -> NDArray[Any]:
+        """of the deepest region"""
+    @property
+    def point_b(self) -> NDArray[Any]:
+        """of the deepest region"""
+    @property
+    def separation(self) -> NDArray[Any]:
+        """translation of b after which the models are apart: verified"""
+    @property
+    def regions(self) -> list[ContactRegion]:
+        """list of ContactRegion"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def out_of_steps(self) -> bool:
+        """whether max_steps ended the search"""
+    @property
+    def steps(self) -> int:
+        """steps of the search"""
+    @property
+    def counters(self) -> Counters:
+        """Counters"""
+    def __bool__(self) -> bool: ...
+
+class ElementaryImpact:
+    """Returned by elementary_impact."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """whether they share a point in [0, 1], or come within the thickness"""
+    @property
+    def decided_by(self) -> ElementaryStage:
+        """ElementaryStage"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def time(self) -> float:
+        """in [0, 1], never later than the first contact"""
+    @property
+    def barycentric(self) -> NDArray[np.float64]:
+        """weights in the face, or parameters on the edges"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from the second feature towards the first"""
+    def __bool__(self) -> bool: ...
+
+class ElementaryKind(IntEnum):
+    """Which features meet."""
+    vertex_face = 0
+    edge_edge = 1
+
+class ElementaryStage(IntEnum):
+    """Who decided a test."""
+    filter = 0
+    interval = 1
+    exact = 2
+
+class Error(RuntimeError):
+    """Bad data, failed input or output, and limits.
+
+    code: an ErrorCode. file: the file at fault, or an empty string.
+    Arguments of a wrong type or shape raise TypeError and ValueError.
+    """
+    code: ErrorCode
+    file: str
+
+class ErrorCode(IntEnum):
+    """The kind of fault that an Error reports."""
+    bad_argument = 0
+    file_not_found = 1
+    unreadable = 2
+    malformed = 3
+    unsupported = 4
+    bad_mesh = 5
+    reader_failed = 6
+    cannot_write = 7
+    interrupted = 8
+
+class Feature(IntEnum):
+    """The part of a triangle that a point belongs to."""
+    vertex = 0
+    edge = 1
+    face = 2
+
+class FeatureImpact:
+    """Two features that meet."""
+    dtype: np.dtype[Any]
+    @property
+    def kind(self) -> ElementaryKind:
+        """ElementaryKind"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def face_first(self) -> bool:
+        """the face is the first surface's, the vertex the second's"""
+    @property
+    def a(self) -> int:
+        """vertex, or edge"""
+    @property
+    def b(self) -> int:
+        """triangle, or edge"""
+    @property
+    def time(self) -> float:
+        """in [0, 1], never later than the contact"""
+    @property
+    def barycentric(self) -> NDArray[np.float64]:
+        """weights in the face, or parameters on the edges"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from b towards a"""
+
+class FeaturePair:
+    """Two features at rest that are near each other."""
+    dtype: np.dtype[Any]
+    @property
+    def kind(self) -> ElementaryKind:
+        """ElementaryKind"""
+    @property
+    def face_first(self) -> bool:
+        """the face is the first surface's, the vertex the second's"""
+    @property
+    def a(self) -> int:
+        """vertex, or edge"""
+    @property
+    def b(self) -> int:
+        """triangle, or edge"""
+    @property
+    def distance(self) -> float:
+        """length"""
+    @property
+    def barycentric(self) -> NDArray[np.float64]:
+        """of the closest points"""
+
+class Gap:
+    """Returned by distance."""
+    dtype: np.dtype[Any]
+    @property
+    def distance(self) -> float:
+        """length; 0 if the surfaces meet"""
+    @property
+    def at_least(self) -> float:
+        """proven: no two points are closer"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """closest point of a, world frame"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """closest point of b, world frame"""
+    @property
+    def triangle_a(self) -> int:
+        """triangle of a with the point"""
+    @property
+    def triangle_b(self) -> int:
+        """triangle of b with the point"""
+    @property
+    def feature_a(self) -> Feature:
+        """Feature of the triangle that the point lies on"""
+    @property
+    def feature_b(self) -> Feature:
+        """Feature of the triangle that the point lies on"""
+    @property
+    def index_a(self) -> int:
+        """which vertex or edge of the triangle"""
+    @property
+    def index_b(self) -> int:
+        """which vertex or edge of the triangle"""
+    @property
+    def status(self) -> Status:
+        """Status; bound_only: nothing nearer than upper_bound, or out of steps"""
+    @property
+    def out_of_steps(self) -> bool:
+        """whether max_steps ended the search"""
+    @property
+    def steps(self) -> int:
+        """steps of the search"""
+    @property
+    def counters(self) -> Counters:
+        """Counters"""
+
+class GraphReport:
+    """Returned by overlap_graph."""
+    @property
+    def nodes(self) -> int:
+        """parts"""
+    @property
+    def edges(self) -> int:
+        """pairs of parts whose boxes are near"""
+    @property
+    def components(self) -> int: ...
+    @property
+    def isolated(self) -> int:
+        """parts without an edge"""
+    @property
+    def largest_component(self) -> int: ...
+    @property
+    def highest_valence(self) -> int: ...
+    @property
+    def mean_valence(self) -> float: ...
+    @property
+    def bytes(self) -> int:
+        """of the models that an edge needs, each once"""
+    @property
+    def large_meshes(self) -> int: ...
+    @property
+    def large_bytes(self) -> int: ...
+    @property
+    def units(self) -> list[WorkUnit]:
+        """list of WorkUnit, in the order of work"""
+    @property
+    def cut_edges(self) -> int:
+        """between parts that a partition put apart"""
+    @property
+    def lines(self) -> NDArray[Any]:
+        """array of shape (n, 2, 3): ends of some of the edges"""
+    @property
+    def seconds(self) -> float: ...
+
+class HitSide(IntEnum):
+    """Which side of a triangle a ray comes from."""
+    front = 0
+    back = 1
+    along = 2
+
+class IgnoreRule:
+    """Pairs of parts that a rule leaves out."""
+    def __init__(self, *, same_file: bool = ..., same_type: bool = ..., same_name_prefix: int = ...) -> None: ...
+    @property
+    def same_file(self) -> bool: ...
+    @property
+    def same_type(self) -> bool: ...
+    @property
+    def same_name_prefix(self) -> int:
+        """names that agree in so many first characters"""
+
+class Impact:
+    """Returned by time_of_impact. True if the models meet."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """whether they meet, to be safe also if that was not decided"""
+    @property
+    def time(self) -> float:
+        """in [0, 1], never later than the first contact"""
+    @property
+    def contact_time(self) -> float:
+        """a time at which they are in contact; inf if none was found"""
+    @property
+    def gap(self) -> float:
+        """length: how far apart they are at `time`, at most"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """closest point of a at `time`, world frame"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """closest point of b at `time`, world frame"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from a to b; zero if they meet at the start"""
+    @property
+    def triangle_a(self) -> int:
+        """triangle of a"""
+    @property
+    def triangle_b(self) -> int:
+        """triangle of b"""
+    @property
+    def status(self) -> Status:
+        """Status; bound_only: it was not decided whether they touch"""
+    @property
+    def out_of_steps(self) -> bool:
+        """whether max_steps ended the search"""
+    @property
+    def steps(self) -> int:
+        """steps of the search"""
+    @property
+    def counters(self) -> Counters:
+        """Counters"""
+    def __bool__(self) -> bool: ...
+
+class Impacts:
+    """Returned by impacts and self_impacts."""
+    @property
+    def list(self) -> np.recarray[Any, Any]:
+        """record array of FeatureImpact, sorted by kind, face_first, a, b"""
+    @property
+    def counters(self) -> DeformableCounters:
+        """DeformableCounters"""
+    def __len__(self) -> int: ...
+
+class ImportOutcome(IntEnum):
+    """What an import did to one file."""
+    added = 0
+    changed = 1
+    unchanged = 2
+
+class ImportReport:
+    """Returned by import_models."""
+    @property
+    def models(self) -> list[ImportedModel]:
+        """list of ImportedModel"""
+    @property
+    def new_meshes(self) -> int:
+        """stored; the others were there already"""
+    @property
+    def removed_meshes(self) -> int:
+        """that no part uses any more"""
+    @property
+    def seconds(self) -> float: ...
+
+class ImportedModel:
+    """What an import did to one file."""
+    @property
+    def file(self) -> str:
+        """as given"""
+    @property
+    def outcome(self) -> ImportOutcome:
+        """ImportOutcome"""
+    @property
+    def streamed(self) -> bool:
+        """by a reader that does not load the file whole"""
+    @property
+    def bytes(self) -> int: ...
+    @property
+    def parts(self) -> int: ...
+    @property
+    def triangles(self) -> int:
+        """each instance counted"""
+    @property
+    def added(self) -> int:
+        """parts"""
+    @property
+    def changed(self) -> int:
+        """parts"""
+    @property
+    def removed(self) -> int:
+        """parts"""
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def unit(self) -> float:
+        """metres per unit of the file"""
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis of the file"""
+    @property
+    def notes(self) -> list[SceneNote]:
+        """list of SceneNote"""
+
+class Intersection:
+    """The points that two triangles share."""
+    dtype: np.dtype[Any]
+    @property
+    def count(self) -> int:
+        """corners: 1 a point, 2 a segment, 3 to 6 a polygon"""
+
+class ListedClash:
+    """A clash as a store lists it: in words, since its parts may be gone."""
+    @property
+    def id(self) -> str:
+        """16 hexadecimal digits"""
+    @property
+    def kind(self) -> ClashKind:
+        """ClashKind"""
+    @property
+    def status(self) -> ClashStatus:
+        """ClashStatus"""
+    @property
+    def distance(self) -> float:
+        """metres"""
+    @property
+    def part_ids(self) -> list[str]:
+        """ids of both parts"""
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def types(self) -> list[str]: ...
+    @property
+    def files(self) -> list[str]: ...
+    @property
+    def resolved(self) -> int:
+        """when it was found gone, in seconds since 1970; 0: it is there"""
+    @property
+    def note(self) -> str: ...
+
+class Mesh:
+    """Indexed triangles: vertices of shape (n, 3), faces of shape (m, 3) with indices from 0.
+    Any object that Model takes may be given in place of both arrays. The arrays are copied.
+
+    Raises Error (bad_mesh) if an index is out of range.
+    """
+    def __init__(self, vertices: ArrayLike | _Mesh, faces: ArrayLike | None = ...) -> None: ...
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """float64 array of shape (n, 3); it cannot be written to"""
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (m, 3); it cannot be written to"""
+
+class MeshReport:
+    """Returned by inspect. Vertices at equal positions count as one."""
+    @property
+    def vertices(self) -> int:
+        """as stored"""
+    @property
+    def distinct_vertices(self) -> int:
+        """after equal positions are merged"""
+    @property
+    def triangles(self) -> int:
+        """as stored"""
+    @property
+    def degenerate_triangles(self) -> int:
+        """of exactly zero area"""
+    @property
+    def duplicate_triangles(self) -> int:
+        """beyond the first of the same positions"""
+    @property
+    def boundary_edges(self) -> int:
+        """used by one triangle"""
+    @property
+    def nonmanifold_edges(self) -> int:
+        """used by three triangles or more"""
+    @property
+    def flipped_edges(self) -> int:
+        """used by two triangles in the same direction"""
+    @property
+    def components(self) -> int:
+        """sets of triangles connected by vertices"""
+    @property
+    def closed(self) -> bool:
+        """every edge is used by exactly two triangles"""
+    @property
+    def bounds(self) -> Box3:
+        """Box3 of the vertices that a triangle uses"""
+
+class MissingParts(IntEnum):
+    """What a query does about parts that are not in memory."""
+    wait = 0
+    skip = 1
+
+class Model:
+    """Triangles with the hierarchy that queries need. It never changes; any number of threads may
+    query it.
+
+    vertices  array of shape (n, 3), float32 or float64 in any order of memory; units are the caller's
+    faces     array of shape (m, 3), int32, int64 or uint32, with indices from 0
+    path      model file, read as by read_mesh: metres, all parts in one model
+    mesh      a Mesh, or an object with .vertices and .faces (trimesh) or .points and .cells_dict
+              (meshio: triangles, and quadrilaterals cut in two)
+    volume    a Volume, the bounding volume of the hierarchy
+    progress  function of (stage, fraction), of reading a path
+
+    The arrays are copied once. Raises Error: bad_mesh if an index is out of range or a coordinate is not
+    finite or beyond 1e18; the codes of read_mesh for a path. KeyboardInterrupt at Ctrl-C.
+    """
+    def __init__(self, vertices: ArrayLike | _Mesh, faces: ArrayLike | None = ..., *, volume: Volume | str = ..., progress: _Progress = ...) -> None: ...
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """float64 array of shape (n, 3); it cannot be written to"""
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (m, 3); it cannot be written to"""
+    @property
+    def mesh(self) -> Mesh:
+        """a copy of the mesh"""
+    @property
+    def bytes(self) -> int:
+        """memory of mesh and hierarchy"""
+
+class ModelPath:
+    """A path with the unit and the axis of its file."""
+    def __init__(self, path: _Path, unit: float = ..., up: UpAxis | str | None = ...) -> None: ...
+    @property
+    def path(self) -> str: ...
+    @property
+    def unit(self) -> float:
+        """metres per unit of the file; 0: as the format defines"""
+    @property
+    def up(self) -> UpAxis | None:
+        """UpAxis; None: as the format defines"""
+
+class ModelSummary:
+    """A model of a ClashReport."""
+    @property
+    def file(self) -> str: ...
+    @property
+    def parts(self) -> int: ...
+    @property
+    def triangles(self) -> int:
+        """each instance counted"""
+    @property
+    def unit(self) -> float:
+        """metres per unit of the file"""
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis of the file"""
+    @property
+    def notes(self) -> list[SceneNote]:
+        """list of SceneNote"""
+
+class Motion:
+    """How a body moves while t goes from 0 to 1: it turns about `centre` (a world point at t = 0) at
+    constant angular velocity (radians per unit of t), while the centre moves at constant velocity.
+    """
+    def __init__(self, start: _Poses, centre: ArrayLike = ..., velocity: ArrayLike = ..., angular_velocity: ArrayLike = ...) -> None: ...
+    @staticmethod
+    def fixed(pose: _Poses) -> Motion:
+        """No motion."""
+    @staticmethod
+    def between(start: _Poses, end: _Poses, about: ArrayLike = ...) -> Any:
+        """The body's point `about` moves in a straight line, and the body turns about it along the shortest
+        arc. With arrays of shape (n, 4, 4) a list of motions.
+        """
+    @staticmethod
+    def screw(start: _Poses, end: _Poses) -> Any:
+        """Along the one screw that takes `start` to `end`. With arrays of shape (n, 4, 4) a list of motions."""
+    @property
+    def start(self) -> Pose: ...
+    @property
+    def centre(self) -> NDArray[Any]: ...
+    @property
+    def velocity(self) -> NDArray[Any]: ...
+    @property
+    def angular_velocity(self) -> NDArray[Any]: ...
+
+class NearParts:
+    """Returned by Walk.within and Walk.penetration."""
+    @property
+    def parts(self) -> np.recarray[Any, Any]:
+        """record array of WalkGap, sorted by part"""
+    @property
+    def complete(self) -> bool:
+        """False if parts that may matter were not in memory and skipped"""
+    @property
+    def candidates(self) -> int:
+        """parts whose boxes were in reach"""
+    @property
+    def misses(self) -> int:
+        """of these, those that were not in memory"""
+
+class Nearest:
+    """Returned by nearest: a point of the surface."""
+    dtype: np.dtype[Any]
+    @property
+    def distance(self) -> float:
+        """length; negative inside if signed_distance"""
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """on the surface, world frame"""
+    @property
+    def triangle(self) -> int:
+        """with the point; the least of several"""
+    @property
+    def feature(self) -> Feature:
+        """Feature of the triangle that the point lies on"""
+    @property
+    def index(self) -> int:
+        """which vertex or edge"""
+    @property
+    def barycentric(self) -> NDArray[np.float64]:
+        """weights of the triangle's vertices"""
+    @property
+    def status(self) -> Status:
+        """Status; bound_only: no point is nearer than upper_bound"""
+
+class NearestPart:
+    """Returned by Walk.distance."""
+    @property
+    def found(self) -> bool:
+        """else no part is nearer than the bound"""
+    @property
+    def gap(self) -> WalkGap:
+        """WalkGap"""
+    @property
+    def at_least(self) -> float:
+        """no part is nearer"""
+    @property
+    def complete(self) -> bool:
+        """False if parts that may matter were not in memory and skipped"""
+    @property
+    def candidates(self) -> int:
+        """parts whose boxes were in reach"""
+    @property
+    def misses(self) -> int:
+        """of these, those that were not in memory"""
+
+class NoteKind(IntEnum):
+    """What became of something that a scene does not have as its file means it."""
+    space = 0
+    cut_away = 1
+    not_built = 2
+    open = 3
+
+class OrientedBox:
+    """A solid Box3 in a frame of its own."""
+    def __init__(self, box: Box3, pose: _OnePose | ArrayLike) -> None: ...
+    @property
+    def box(self) -> Box3:
+        """Box3"""
+    @property
+    def pose(self) -> NDArray[Any]:
+        """matrix of shape (4, 4)"""
+
+class OutOfCoreCounters:
+    """The work of a job on a store."""
+    @property
+    def units(self) -> int:
+        """work units"""
+    @property
+    def meshes(self) -> int:
+        """that a candidate needs, large ones left out"""
+    @property
+    def mesh_loads(self) -> int:
+        """each time that one was read"""
+    @property
+    def blocks(self) -> int:
+        """mesh blocks that were needed"""
+    @property
+    def block_loads(self) -> int:
+        """each time that one was read"""
+    @property
+    def bytes_needed(self) -> int: ...
+    @property
+    def bytes_read(self) -> int: ...
+    @property
+    def hierarchies_found(self) -> int:
+        """in the store"""
+    @property
+    def hierarchies_kept(self) -> int:
+        """in the store"""
+    @property
+    def peak_bytes(self) -> int:
+        """of models in memory at once"""
+    @property
+    def kept(self) -> bool:
+        """in the store"""
+    @property
+    def recalled_pairs(self) -> int:
+        """done before, by an earlier job"""
+    @property
+    def workers(self) -> list[WorkerCounters]:
+        """list of WorkerCounters, in the order of ranks"""
+
+class Part:
+    """A placed mesh of a Scene."""
+    def __init__(self, id: str, mesh: int = ..., pose: _Poses = ..., *, name: str | None = ..., type: str = ...) -> None: ...
+    @property
+    def id(self) -> str:
+        """unique within its scene"""
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> str:
+        """may be empty"""
+    @property
+    def mesh(self) -> int:
+        """index in Scene.meshes"""
+    @property
+    def world_from_mesh(self) -> NDArray[Any]:
+        """matrix of shape (4, 4)"""
+
+class PartSelector:
+    """Which parts a rule means: all globs that are given must match (* and ?), one of each list."""
+    def __init__(self, *, file: Sequence[str] = ..., name: Sequence[str] = ..., type: Sequence[str] = ...) -> None: ...
+    @property
+    def file(self) -> list[str]: ...
+    @property
+    def name(self) -> list[str]: ...
+    @property
+    def type(self) -> list[str]: ...
+
+class PiecesContacts:
+    """Returned by collide of two ConvexPieces."""
+    @property
+    def meet(self) -> bool:
+        """the solids share a point"""
+    @property
+    def contained(self) -> bool:
+        """one lies inside the other and no pieces meet"""
+    @property
+    def pairs(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n, 2): pieces that meet, to rounding"""
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n, 2), if asked for"""
+    @property
+    def counters(self) -> PiecesCounters:
+        """PiecesCounters"""
+    def __bool__(self) -> bool: ...
+
+class PiecesCounters:
+    """The work that a query did."""
+    dtype: np.dtype[Any]
+    @property
+    def hull_pairs(self) -> int:
+        """pairs of hulls that were measured"""
+    @property
+    def directions(self) -> int:
+        """pairs of hulls compared along one direction"""
+    @property
+    def sphere_pairs(self) -> int:
+        """pairs of spheres around them"""
+    @property
+    def feature_pairs(self) -> int:
+        """pairs of features that were measured"""
+    @property
+    def simplices(self) -> int:
+        """steps of the search that takes over"""
+
+class PiecesDepth:
+    """Returned by penetration of two ConvexPieces."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """they share a point"""
+    @property
+    def depth(self) -> float:
+        """proven: no shorter translation separates them"""
+    @property
+    def direction(self) -> NDArray[np.float64]:
+        """unit vector in which b moves by `depth` to part the two pieces"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """world frame"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """world frame"""
+    @property
+    def piece_a(self) -> int:
+        """piece of a"""
+    @property
+    def piece_b(self) -> int:
+        """piece of b"""
+    @property
+    def separation(self) -> NDArray[np.float64]:
+        """translation of b after which the solids are apart: verified"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def counters(self) -> PiecesCounters:
+        """PiecesCounters"""
+    def __bool__(self) -> bool: ...
+
+class PiecesGap:
+    """Returned by distance of two ConvexPieces."""
+    dtype: np.dtype[Any]
+    @property
+    def distance(self) -> float:
+        """length; 0 if the solids share a point"""
+    @property
+    def at_least(self) -> float:
+        """proven: no two points are closer"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """world frame"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """world frame"""
+    @property
+    def piece_a(self) -> int:
+        """piece of a"""
+    @property
+    def piece_b(self) -> int:
+        """piece of b"""
+    @property
+    def triangle_a(self) -> int:
+        """triangle of a's model"""
+    @property
+    def triangle_b(self) -> int:
+        """triangle of b's model"""
+    @property
+    def feature_a(self) -> Feature:
+        """Feature of the triangle"""
+    @property
+    def feature_b(self) -> Feature:
+        """Feature of the triangle"""
+    @property
+    def index_a(self) -> int:
+        """which vertex or edge"""
+    @property
+    def index_b(self) -> int:
+        """which vertex or edge"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+    @property
+    def counters(self) -> PiecesCounters:
+        """PiecesCounters"""
+
+class PiecesWarmStart:
+    """Remembers the closest pieces of two solids for the next pose."""
+    def __init__(self) -> None: ...
+
+class Pose:
+    """A rigid pose: x_world = R(rotation) x_model + translation. The quaternion (w, x, y, z)
+    need not be of unit length.
+    """
+    def __init__(self, translation: ArrayLike = ..., rotation: ArrayLike = ...) -> None: ...
+    @staticmethod
+    def from_matrix(matrix: ArrayLike) -> Pose:
+        """The pose of a matrix of shape (4, 4). ValueError if it is no rotation and translation, to 1e-6."""
+    def matrix(self) -> NDArray[Any]:
+        """The matrix of shape (4, 4). Error if the quaternion has zero length."""
+    @property
+    def translation(self) -> NDArray[Any]: ...
+    @property
+    def rotation(self) -> NDArray[Any]: ...
+
+class Probe:
+    """A Model, Convex, Sphere, Capsule or Box3 that is moved about in a walk. Make it once."""
+    def __init__(self, shape: Model | Convex | Sphere | Capsule | Box3) -> None: ...
+
+class Ray:
+    """The points origin + t direction."""
+    def __init__(self, origin: ArrayLike, direction: ArrayLike | None, t_min: float = ..., t_max: float = ...) -> None: ...
+    @property
+    def origin(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def direction(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def t_min(self) -> float:
+        """in lengths of the direction"""
+    @property
+    def t_max(self) -> float:
+        """in lengths of the direction"""
+
+class RayHit:
+    """Returned by first_hit. True if the ray meets the model."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """whether the ray meets a triangle"""
+    @property
+    def t(self) -> float:
+        """the ray's parameter; inf if it meets nothing"""
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """on the triangle, world frame"""
+    @property
+    def triangle(self) -> int:
+        """the least of several at the same t"""
+    @property
+    def barycentric(self) -> NDArray[np.float64]:
+        """weights of its vertices"""
+    @property
+    def side(self) -> HitSide:
+        """HitSide"""
+    def __bool__(self) -> bool: ...
+
+class RemovalReport:
+    """Returned by remove_models."""
+    @property
+    def models(self) -> list[RemovedModel]:
+        """list of RemovedModel"""
+    @property
+    def removed_meshes(self) -> int:
+        """that no part uses any more"""
+
+class RemovedModel:
+    """A model that was taken out of a store."""
+    @property
+    def file(self) -> str: ...
+    @property
+    def parts(self) -> int: ...
+
+class Scene:
+    """A file's parts, in metres. Parts may share a mesh. From Python: meshes are what Model takes, parts are
+    Part. Raises IndexError if a part's mesh is not there.
+    """
+    def __init__(self, meshes: Sequence[_Mesh], parts: list[Part], *, file: str = ..., up: UpAxis | str = ...) -> None: ...
+    @property
+    def file(self) -> str:
+        """path as given"""
+    @property
+    def meshes(self) -> list[Mesh]:
+        """list of Mesh"""
+    @property
+    def parts(self) -> list[Part]:
+        """list of Part"""
+    @property
+    def unit(self) -> float:
+        """metres per unit of the file; applied already"""
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis of the world"""
+    @property
+    def notes(self) -> list[SceneNote]:
+        """list of SceneNote"""
+
+class SceneNote:
+    """Something that a scene does not have as its file means it."""
+    @property
+    def kind(self) -> NoteKind:
+        """NoteKind"""
+    @property
+    def id(self) -> str:
+        """of the part"""
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> str:
+        """may be empty"""
+    @property
+    def text(self) -> str:
+        """one line"""
+
+class ScheduleCounters:
+    """The work that `advance` has done."""
+    dtype: np.dtype[Any]
+    @property
+    def steps(self) -> int: ...
+    @property
+    def pairs(self) -> int:
+        """that may ever meet, summed over the steps"""
+    @property
+    def distance_queries(self) -> int:
+        """of these, those that were due"""
+
+class Scheme(IntEnum):
+    """How pairs of triangles that may meet become tests of features."""
+    representative = 0
+    database = 1
+    markup = 2
+    basic = 3
+    features = 4
+
+class Segment:
+    """A closed segment between two points."""
+    def __init__(self, a: ArrayLike, b: ArrayLike) -> None: ...
+    @property
+    def a(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def b(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+
+class Side(IntEnum):
+    """Where a point is."""
+    outside = 0
+    inside = 1
+    on_surface = 2
+
+class Sphere:
+    """A closed ball."""
+    def __init__(self, centre: ArrayLike, radius: float) -> None: ...
+    @property
+    def centre(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def radius(self) -> float:
+        """length, at least 0"""
+
+class Status(IntEnum):
+    """How far a result can be relied on.
+
+    exact: the answer, numbers to double rounding. converged: within the error that was
+    allowed. bound_only: the numbers are a proven bound.
+    """
+    exact = 0
+    converged = 1
+    bound_only = 2
+
+class Store:
+    """An open store, made by open_store. A context manager: leaving it closes the store, and every use
+    of a closed store raises ValueError.
+    """
+    def close(self) -> None:
+        """Closes the store; a walk through it keeps the file open."""
+    @property
+    def closed(self) -> bool: ...
+    @property
+    def path(self) -> str: ...
+    def __enter__(self) -> Store: ...
+    def __exit__(self, *args: Any) -> None: ...
+
+class StoreSummary:
+    """Returned by summary."""
+    @property
+    def path(self) -> str: ...
+    @property
+    def version(self) -> int: ...
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis of the world"""
+    @property
+    def complete(self) -> bool:
+        """all models are"""
+    @property
+    def generation(self) -> int:
+        """grows with each import that changes something"""
+    @property
+    def models(self) -> list[StoredModel]:
+        """list of StoredModel"""
+    @property
+    def parts(self) -> int: ...
+    @property
+    def triangles(self) -> int:
+        """each instance counted"""
+    @property
+    def meshes(self) -> int: ...
+    @property
+    def stored_triangles(self) -> int:
+        """each mesh once"""
+    @property
+    def blocks(self) -> int:
+        """mesh blocks"""
+    @property
+    def raw_bytes(self) -> int:
+        """of coordinates and indices"""
+    @property
+    def stored_bytes(self) -> int:
+        """of the compressed blocks"""
+    @property
+    def hierarchies(self) -> int:
+        """that jobs have kept"""
+    @property
+    def hierarchy_bytes(self) -> int: ...
+    @property
+    def file_bytes(self) -> int: ...
+    @property
+    def unused_bytes(self) -> int:
+        """of the file"""
+    @property
+    def bounds(self) -> Box3:
+        """Box3 of all parts in the world"""
+
+class StoredModel:
+    """A model of a StoreSummary."""
+    @property
+    def file(self) -> str: ...
+    @property
+    def complete(self) -> bool:
+        """False: its import has not ended"""
+    @property
+    def parts(self) -> int: ...
+    @property
+    def triangles(self) -> int:
+        """each instance counted"""
+    @property
+    def generation(self) -> int: ...
+    @property
+    def unit(self) -> float:
+        """metres per unit of the file"""
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis of the file"""
+    @property
+    def notes(self) -> list[SceneNote]:
+        """list of SceneNote"""
+
+class TestCounts:
+    """A number for each kind of test."""
+    dtype: np.dtype[Any]
+    @property
+    def vertex_face(self) -> int: ...
+    @property
+    def edge_edge(self) -> int: ...
+
+class TouchedParts:
+    """Returned by Walk.collide."""
+    @property
+    def parts(self) -> NDArray[np.int64]:
+        """int64 array of shape (n,), sorted"""
+    @property
+    def complete(self) -> bool:
+        """False if parts that may matter were not in memory and skipped"""
+    @property
+    def candidates(self) -> int:
+        """parts whose boxes were in reach"""
+    @property
+    def misses(self) -> int:
+        """of these, those that were not in memory"""
+
+class UpAxis(IntEnum):
+    """The axis that points up."""
+    x = 0
+    y = 1
+    z = 2
+
+class Volume(IntEnum):
+    """The bounding volume that a model's hierarchy is made of."""
+    automatic = 0
+    aabb = 1
+    sphere = 2
+    kdop14 = 3
+    kdop18 = 4
+    kdop26 = 5
+    obb = 6
+    pss = 7
+    lss = 8
+    rss = 9
+
+class Walk:
+    """A region of interest that moves through an open Store, and queries about what is there. Answers are
+    those that all parts in memory would give. A part is an int. One thread at a time may use a walk. The
+    walk keeps the store's file open.
+
+    memory      bytes for tables, geometry and hierarchies
+    look_ahead  seconds of the predicted path along which parts are read
+    prefetch    whether a second thread reads ahead
+
+    Raises Error as open_store; bad_argument if an import has not ended or the memory is too small.
+    """
+    def __init__(self, store: Store, *, memory: int = ..., look_ahead: float = ..., prefetch: bool = ...) -> None: ...
+    def move_to(self, position: ArrayLike, velocity: ArrayLike | None = ...) -> None:
+        """Says where the region of interest is, and its velocity in units a second. Never waits for the disk."""
+    def wait(self) -> None:
+        """Waits until what is near and ahead is in memory, or memory is full."""
+    def distance(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, *, upper_bound: float = ..., missing: MissingParts | str = ..., except_part: int = ...) -> NearestPart:
+        """The part nearest to the probe: a NearestPart."""
+    def within(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, tolerance: float, *, missing: MissingParts | str = ..., except_part: int = ...) -> NearParts:
+        """All parts at most `tolerance` away, and how far: NearParts."""
+    def collide(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, *, mode: ContactMode | str = ..., missing: MissingParts | str = ..., except_part: int = ...) -> TouchedParts:
+        """The parts that share a point with the probe: TouchedParts."""
+    def penetration(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, *, missing: MissingParts | str = ..., except_part: int = ...) -> NearParts:
+        """The parts that share a point with the probe, and how deep they go into each other: NearParts."""
+    def add(self, model: Model, pose: _Poses) -> int:
+        """Brings in a part that is not in the store; returns its number."""
+    def move(self, part: int, pose: _Poses) -> None:
+        """Puts a part elsewhere, for this walk. Error (bad_argument) if there is no such part."""
+    def remove(self, part: int) -> None:
+        """Takes a part out, for this walk."""
+    def name(self, part: int) -> WalkPartName:
+        """A WalkPartName."""
+    def world_from_part(self, part: int) -> NDArray[Any]:
+        """The part's pose, a matrix of shape (4, 4)."""
+    def model(self, part: int) -> Model:
+        """The part's Model."""
+    @property
+    def statistics(self) -> WalkStatistics: ...
+
+class WalkGap:
+    """How a part and the probe lie to each other, world frame."""
+    dtype: np.dtype[Any]
+    @property
+    def part(self) -> int:
+        """number of the part"""
+    @property
+    def distance(self) -> float:
+        """length; 0 if they touch, negative: minus the depth"""
+    @property
+    def point_part(self) -> NDArray[np.float64]:
+        """on the part"""
+    @property
+    def point_probe(self) -> NDArray[np.float64]:
+        """on the probe"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from the part to the probe"""
+    @property
+    def triangle_part(self) -> int:
+        """of a mesh; else 0"""
+    @property
+    def triangle_probe(self) -> int:
+        """of a mesh; else 0"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+
+class WalkPartName:
+    """A part by name."""
+    @property
+    def file(self) -> str:
+        """empty for a part that was added"""
+    @property
+    def id(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> str: ...
+
+class WalkStatistics:
+    """What a walk did since it began."""
+    @property
+    def lookups(self) -> int: ...
+    @property
+    def misses(self) -> int: ...
+    @property
+    def seconds_waited(self) -> float: ...
+    @property
+    def read_ahead(self) -> int: ...
+    @property
+    def read_in_query(self) -> int: ...
+    @property
+    def evicted(self) -> int: ...
+    @property
+    def parts_in_memory(self) -> int: ...
+    @property
+    def table_bytes(self) -> int: ...
+    @property
+    def bytes(self) -> int: ...
+    @property
+    def peak_bytes(self) -> int: ...
+
+class WarmStart:
+    """Remembers where two models met or were closest, for the next pose.
+    Use one for each pair of models. Answers do not depend on it, but for which of several
+    closest pairs is found.
+    """
+    def __init__(self) -> None: ...
+    @property
+    def used(self) -> bool: ...
+    @property
+    def last(self) -> tuple:
+        """the two triangles"""
+
+class WorkOrder(IntEnum):
+    """How the work on a store is put into an order."""
+    partition = 0
+    random = 1
+
+class WorkUnit:
+    """Parts that a job on a store works on together."""
+    @property
+    def parts(self) -> int: ...
+    @property
+    def edges(self) -> int: ...
+    @property
+    def meshes(self) -> int:
+        """in memory together; large ones are not counted"""
+    @property
+    def bytes(self) -> int:
+        """of these meshes"""
+    @property
+    def bounds(self) -> Box3:
+        """Box3 of the centres of the parts' boxes"""
+    @property
+    def middle(self) -> NDArray[Any]:
+        """mean of these centres"""
+
+class WorkerCounters:
+    """The work of one process."""
+    @property
+    def units(self) -> int:
+        """work units"""
+    @property
+    def pairs(self) -> int:
+        """of parts"""
+    @property
+    def mesh_loads(self) -> int:
+        """each time that a mesh was read"""
+    @property
+    def blocks(self) -> int:
+        """mesh blocks that were needed"""
+    @property
+    def block_loads(self) -> int:
+        """each time that one was read"""
+    @property
+    def block_bytes_needed(self) -> int:
+        """of those blocks, each once"""
+    @property
+    def hierarchies_found(self) -> int:
+        """in the store"""
+    @property
+    def bytes_read(self) -> int:
+        """from the store"""
+    @property
+    def peak_bytes(self) -> int:
+        """of models in memory at once"""
+    @property
+    def processor_seconds(self) -> float:
+        """of all threads"""
+    @property
+    def waiting_seconds(self) -> float:
+        """without work"""
+    @property
+    def peak_rss_mib(self) -> float:
+        """MiB"""
+
+class World:
+    """Many bodies that move: which of them meet, how near they are, when they may meet. A model is its surface;
+    Convex, Sphere, Capsule and Box3 are solid. A world keeps its models and deformables alive.
+
+    A body is an int; it is valid until the body is removed, and then never again.
+
+    broad_phase  a BroadPhaseMethod
+    filter       function of two bodies, a before b, that tells whether they may meet; called from any thread.
+                 What it says may change only with refilter(). If it raises, the pair counts as filtered out
+                 and the call that asked raises the same
+
+    One thread at a time may use a world: a second one gets RuntimeError. Queries give sorted results, the same
+    for any number of threads, and stop at Ctrl-C; the world is as before then.
+    """
+    def __init__(self, *, broad_phase: BroadPhaseMethod | str = ..., filter: Callable[[int, int], bool] | None = ...) -> None: ...
+    def add(self, shape: Model | Convex | Sphere | Capsule | Box3 | Deformable, pose: _Poses = ..., *, is_static: bool = ..., groups: int = ..., mask: int = ...) -> int:
+        """Adds a Model, Convex, Sphere, Capsule, Box3 or Deformable; returns its body, an int.
+
+        pose       rigid: a matrix of shape (4, 4), (translation, quaternion) or a Pose; none for a Deformable
+        is_static  static bodies do not meet each other
+        groups     bits: the groups that the body belongs to
+        mask       bits: the groups that it meets; both bodies must agree
+
+        Raises Error (bad_argument) if a value is not finite or a shape is not valid; ValueError for a matrix that is
+        no rotation and translation.
+        """
+    def move(self, body: _Bodies, pose: _Poses) -> None:
+        """Moves a body; or many: an array of bodies of shape (n,) and one of poses of shape (n, 4, 4).
+
+        Raises Error (bad_argument) if the body is not valid or is a deformable.
+        """
+    def refresh(self, body: int) -> None:
+        """Says that a deformable has another step."""
+    def remove(self, body: int) -> None:
+        """Removes a body. Error (bad_argument) if it is not valid."""
+    def set_options(self, body: int, *, is_static: bool = ..., groups: int = ..., mask: int = ...) -> None:
+        """Changes which bodies the body can meet."""
+    def refilter(self) -> None:
+        """Says that the filter has changed."""
+    def is_valid(self, body: int) -> bool: ...
+    def __len__(self) -> int: ...
+    def world_from_body(self, body: int) -> NDArray[Any]:
+        """The body's pose, a matrix of shape (4, 4)."""
+    def box(self, body: int) -> Box3:
+        """A Box3 that encloses the body."""
+    def update(self) -> None:
+        """Finds the pairs of bodies whose boxes overlap. Every query does so first."""
+    def pairs(self) -> NDArray[Any]:
+        """Pairs of bodies whose boxes overlapped at the last update: int64 array of shape (n, 2)."""
+    def begun(self) -> NDArray[Any]:
+        """Pairs that began with the last update."""
+    def ended(self) -> NDArray[Any]:
+        """Pairs that ended with the last update."""
+    def collide(self, *, progress: _Progress = ...) -> NDArray[Any]:
+        """All pairs of bodies that share a point: int64 array of shape (n, 2). Exact for models, boxes and convex
+        bodies; others to rounding.
+        """
+    def penetration(self, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
+        """All pairs that share a point, with how deep they go into each other: a record array of BodyGap."""
+    def within(self, distance: float, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
+        """All pairs at most `distance` apart, a length: a record array of BodyGap. Error (bad_argument) if it is
+        negative.
+        """
+    def time_of_impact(self, motions: dict[int, Motion] | Iterable[tuple[int, Motion]], *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> np.recarray[Any, Any]:
+        """When bodies that move first meet, each pair once: a record array of BodyImpact.
+
+        motions  a dict of body to Motion, or a list of (body, Motion); others stay where they are, and
+                 deformables move as their steps say
+        """
+    def set_speed(self, body: int, velocity: ArrayLike = ..., acceleration: ArrayLike = ..., acceleration_bound: float = ..., angular_speed: float = ...) -> None:
+        """Bounds on the body's motion from its place and the time of the last `advance`. Call it before `move`."""
+    def advance(self, time: float, *, progress: _Progress = ...) -> NDArray[Any]:
+        """Lets time pass, and returns the pairs that share a point at the places that the bodies have now. Looks only
+        at pairs that may have met by then. Deformables are left out.
+        """
+    def next_event(self) -> float:
+        """For so long from the last `advance` on, no pair that does not touch now can begin to."""
+    def schedule_counters(self) -> ScheduleCounters: ...
+
+@overload
+def all_hits(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
+    """Every triangle that each ray meets, sorted by t, then by index.
+
+    model      Model
+    pose       one pose, as for collide
+    origin     a Ray; or an array of shape (3,) or (n, 3)
+    direction  array of shape (3,) or (n, 3), of any length but 0
+    t_min      number or array of shape (n,): where rays begin, in lengths of the direction
+    t_max      number or array of shape (n,): where they end
+    progress   function of (stage, fraction)
+
+    Returns a record array with the fields of RayHit; for many rays a list of them. Otherwise as first_hit.
+    """
+@overload
+def all_hits(model: Model, pose: _OnePose | ArrayLike, origin: ArrayLike, direction: ArrayLike, t_min: ArrayLike = ..., t_max: ArrayLike = ..., *, progress: _Progress = ...) -> Any: ...
+def at(motion: Motion, t: float) -> NDArray[Any]:
+    """The matrix of shape (4, 4) to which the motion has taken the body at time t."""
+@overload
+def collide(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, mode: ContactMode | str = ..., segments: bool = ..., warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Contacts:
+    """The pairs of triangles that share a point. Touching counts; a model inside another does not collide.
+
+    a, b            two Model, or two ConvexPieces
+    pose_a, pose_b  None, a matrix of shape (4, 4), (translation, quaternion) or a Pose; or many: an array of
+                    shape (n, 4, 4). One pose of a model is used with all of the other's
+    mode            'first': stop at the first pair. 'all': every pair
+    segments        whether Contacts.segments tells where each pair meets (models only)
+    triangles       whether PiecesContacts.triangles is filled (ConvexPieces only)
+    warm_start      a WarmStart or PiecesWarmStart, for a first contact; not with many poses
+    progress        function of (stage, fraction)
+
+    Returns Contacts (PiecesContacts); with many poses ContactsList (a list of PiecesContacts), computed in
+    parallel. Exact. Raises Error (bad_argument) if a pose is not finite; KeyboardInterrupt at Ctrl-C.
+    """
+@overload
+def collide(a: Model, pose_a: _Poses, b: Model, pose_b: _Poses, *, mode: ContactMode | str = ..., segments: bool = ..., warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Any: ...
+@overload
+def collide(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, mode: ContactMode | str = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ..., triangles: bool = ...) -> PiecesContacts: ...
+@overload
+def collide(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, mode: ContactMode | str = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ..., triangles: bool = ...) -> Any: ...
+@overload
+def contains(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, progress: _Progress = ...) -> Containment:
+    """Whether each point lies inside the model, outside or on its surface.
+
+    model     Model. A closed one is decided exactly, another by its winding number
+    pose      one pose, as for collide
+    points    array of shape (3,) or (n, 3), world frame
+    progress  function of (stage, fraction)
+
+    Returns Containment, or a record array of shape (n,), computed in parallel:
+    contains(model, None, points).side == Side.inside is an array of bool.
+    """
+@overload
+def contains(model: Model, pose: _OnePose | ArrayLike, points: ArrayLike, *, progress: _Progress = ...) -> Any: ...
+@overload
+def distance(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., signed_distance: bool = ..., max_steps: int | None = ..., warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Gap:
+    """The distance of two surfaces, or of two convex bodies or solids, and a pair of closest points.
+
+    a, b             two Model, two Convex or two ConvexPieces
+    segment          a Segment in the world frame
+    pose_a, pose_b   as for collide
+    upper_bound      length; greater distances are not computed (not for Convex)
+    absolute_error   length by which the distance may exceed the true one
+    relative_error   share of the result by which it may (models only)
+    signed_distance  minus the depth where models go into each other (models only)
+    max_steps        limit of the search (models only)
+    warm_start       a WarmStart, ConvexWarmStart or PiecesWarmStart; not with many poses
+    progress         function of (stage, fraction)
+
+    Returns Gap, ConvexGap or PiecesGap; with many poses a record array of shape (n,) with their fields,
+    computed in parallel (Convex: one after another). Lengths are those of the vertices. Accurate to double
+    rounding, and 0 exactly if they meet. Raises Error (bad_argument) if a pose is not finite or a bound is
+    negative; KeyboardInterrupt at Ctrl-C.
+    """
+@overload
+def distance(a: Model, pose_a: _Poses, b: Model, pose_b: _Poses, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., signed_distance: bool = ..., max_steps: int | None = ..., warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Any: ...
+@overload
+def distance(a: Convex, pose_a: _OnePose, b: Convex, pose_b: _OnePose, *, absolute_error: float = ..., warm_start: ConvexWarmStart | None = ...) -> ConvexGap: ...
+@overload
+def distance(a: Convex, pose_a: _Poses, b: Convex, pose_b: _Poses, *, absolute_error: float = ..., warm_start: ConvexWarmStart | None = ...) -> Any: ...
+@overload
+def distance(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, upper_bound: float = ..., absolute_error: float = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> PiecesGap: ...
+@overload
+def distance(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, upper_bound: float = ..., absolute_error: float = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> Any: ...
+@overload
+def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
+def elementary_impact(kind: ElementaryKind | str, start: ArrayLike, end: ArrayLike, *, absolute_error: float = ..., thickness: float = ...) -> ElementaryImpact:
+    """The first time in [0, 1] at which a moving vertex and face, or two moving edges, share a point.
+
+    kind            'vertex_face' or 'edge_edge'
+    start, end      arrays of shape (4, 3): the vertex and the face's three, or the edges' two and two
+    absolute_error  length; 0: exact. Else pairs that come so near may be reported too
+    thickness       length at which features count as meeting
+
+    Returns ElementaryImpact. Raises Error (bad_argument) if a value is not finite or negative.
+    """
+def elementary_impacts(kinds: ElementaryKind | str | ArrayLike, start: ArrayLike, end: ArrayLike, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> np.recarray[Any, Any]:
+    """Many pairs in parallel: start and end of shape (n, 4, 3), one kind for all or an array of shape (n,).
+
+    Returns a record array of shape (n,) with the fields of ElementaryImpact.
+    """
+@overload
+def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ...) -> ClashReport:
+    """All clashes and clearances between the parts of different models; of one model, between its parts.
+
+    models            list of Scene or paths, or one of them
+    store             an open Store: models of any size in little memory
+    clearance         metres; pairs without contact that are nearer are reported
+    touch_tolerance   metres; surfaces that meet no deeper than this are of kind touch
+    self              also the pairs within each model
+    rules             list of ClashRule, or the path of a JSON file
+    progress          function of (stage, fraction)
+    memory            bytes for geometry, hierarchies and tables
+    order             a WorkOrder
+    keep              whether what is done is kept in the store, if that can be written to
+    keep_hierarchies  whether hierarchies are kept with it
+    crew              a Crew: the processes that do the job together, this one as their leader
+
+    Returns a ClashReport. Raises Error: bad_argument for a negative length, those of read_scene and of the store;
+    KeyboardInterrupt at Ctrl-C.
+    """
+@overload
+def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ...) -> ClashReport: ...
+@overload
+def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress: _Progress = ...) -> RayHit:
+    """The first triangle that each ray meets.
+
+    model      Model
+    pose       one pose, as for collide
+    origin     a Ray; or an array of shape (3,) or (n, 3)
+    direction  array of shape (3,) or (n, 3), of any length but 0
+    t_min      number or array of shape (n,): where rays begin, in lengths of the direction
+    t_max      number or array of shape (n,): where they end
+    progress   function of (stage, fraction)
+
+    Returns RayHit, or a record array of shape (n,), computed in parallel. Which triangles are met is
+    exact; a ray through an edge slips through nowhere. Raises Error (bad_argument) for a zero direction.
+    """
+@overload
+def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: ArrayLike, direction: ArrayLike, t_min: ArrayLike = ..., t_max: ArrayLike = ..., *, progress: _Progress = ...) -> Any: ...
+def forget_resolved_clashes(store: Store) -> int:
+    """Removes resolved clashes and their marks. Returns how many."""
+def help_find_clashes(store: _Path, crew: Crew, *, progress: _Progress = ...) -> None:
+    """Takes part in the job of the leader, which calls find_clashes(store, crew=crew). Returns when the leader has
+    left the crew.
+
+    store  path of the leader's store, or of a copy of it
+    """
+def impacts(a: Deformable, b: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> Impacts:
+    """Every vertex and face, and every two edges, of two Deformable that meet during their step.
+
+    absolute_error  length; 0: exact. Else features that come so near may be reported too
+    thickness       length at which features count as meeting
+    progress        function of (stage, fraction)
+
+    Returns Impacts. Complete and exact. Raises Error (bad_argument) also if their schemes differ.
+    """
+def import_models(files: Iterable[_ModelPath] | _ModelPath, store: _Path, *, memory: int = ..., unit: float = ..., up: UpAxis | str = ..., spaces: bool = ..., map: bool = ..., allow_outside_files: bool = ..., progress: _Progress = ...) -> ImportReport:
+    """Brings model files into a store, one SQLite file, which is made if it is not there. A file that has not
+    changed costs nothing.
+
+    files   list of paths, with units and axes as read_scene takes them
+    store   path of the store
+    memory  bytes that the import may keep in memory, at least 16 MiB
+    Others as read_scene.
+
+    Returns an ImportReport. Raises Error as read_scene and open_store; after one, and after Ctrl-C, the store
+    holds each model as it was before or as it is now.
+    """
+def inspect(mesh: ArrayLike | _Mesh) -> MeshReport:
+    """Counts what a mesh has that may be wrong with it. Takes what Model takes.
+
+    Returns a MeshReport. Raises Error (bad_mesh) if a coordinate is not finite or beyond 1e18.
+    """
+def into_one_frame(scenes: list[Scene]) -> list[Scene]:
+    """Returns copies of the scenes, turned so that the axis points up that does in the first one."""
+def is_free_of_impacts(a: Deformable, b: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> bool:
+    """Whether no features of two Deformable meet during their step. Stops at the first that do.
+
+    absolute_error  length; 0: exact. Else features that come so near may be reported too
+    thickness       length at which features count as meeting
+    progress        function of (stage, fraction)
+
+    Returns a bool.
+    """
+def is_free_of_self_impacts(surface: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> bool:
+    """Whether no features of a Deformable meet during its step. Stops at the first that do.
+
+    absolute_error  length; 0: exact. Else features that come so near may be reported too
+    thickness       length at which features count as meeting
+    progress        function of (stage, fraction)
+
+    Returns a bool.
+    """
+def is_helper() -> bool:
+    """Whether this process was started as one of several and is not the first of them."""
+def is_store(path: _Path) -> bool:
+    """Whether a file begins as a store does."""
+def join_crew() -> Crew | None:
+    """The Crew in which `mpirun` started this process; None if it was started alone.
+
+    Raises Error (unsupported) if this build has no MPI, or another one than the one that started the process.
+    """
+def mark_clashes(store: Store, *, reviewed: list[str] = ..., approved: list[str] = ..., cleared: list[str] = ..., note: str = ...) -> None:
+    """Marks clashes by their ids, all of them or, after an error, none. The store is opened with read_only=False.
+
+    Raises Error: bad_argument, naming the clash, cannot_write.
+    """
+@overload
+def nearest(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, upper_bound: float = ..., signed_distance: bool = ..., progress: _Progress = ...) -> Nearest:
+    """The surface point nearest to each point.
+
+    model            Model
+    pose             one pose, as for collide
+    points           array of shape (3,) or (n, 3), world frame
+    upper_bound      length; greater distances are not computed
+    signed_distance  negative strictly inside; Error (bad_argument) if the model is not closed
+    progress         function of (stage, fraction)
+
+    Returns Nearest, or a record array of shape (n,), computed in parallel. Raises Error (bad_argument) if a
+    value is not finite or beyond 1e18.
+    """
+@overload
+def nearest(model: Model, pose: _OnePose | ArrayLike, points: ArrayLike, *, upper_bound: float = ..., signed_distance: bool = ..., progress: _Progress = ...) -> Any: ...
+def open_store(path: _Path, *, read_only: bool = ...) -> Store:
+    """Opens a Store. Raises Error: file_not_found, malformed, unsupported (a newer version's), unreadable (another
+    process writes it).
+    """
+def overlap_graph(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., lines: int = ..., keep: bool = ...) -> GraphReport:
+    """The graph of a store's parts: an edge where boxes are at most the clearance apart.
+
+    lines  of about how many edges the ends are wanted
+    keep   whether edges and work units are kept in the store for SQL
+    Others as find_clashes. Returns a GraphReport.
+    """
+def overlapping_boxes(lower: ArrayLike, upper: ArrayLike, *, gap: float = ..., filter: Callable[[int, int], bool] | None = ...) -> NDArray[Any]:
+    """The pairs of boxes at most `gap` apart on every axis.
+
+    lower, upper  corners, arrays of shape (n, 3)
+    filter        function of two indices i < k; called from any thread
+
+    Returns a sorted uint32 array of shape (m, 2). Exact. Raises Error (bad_argument) if a bound is not a
+    number or the gap is negative.
+    """
+def overlapping_triangles(model: Model, pose: _Poses, shape: Sphere | Box3 | OrientedBox | Segment, *, progress: _Progress = ...) -> NDArray[np.uint32]:
+    """The triangles that share a point with a Sphere, Box3, OrientedBox or Segment, as a sorted uint32 array of
+    shape (n,). Otherwise as overlaps.
+    """
+@overload
+def overlaps(model: Model, pose: _OnePose | ArrayLike, shape: Sphere | Box3 | OrientedBox | Segment, *, progress: _Progress = ...) -> bool:
+    """Whether the surface and a solid shape share a point. Exact; touching counts.
+
+    model         Model, as a surface: a shape wholly inside a closed one does not overlap it
+    pose          one pose, as for collide
+    shape         Sphere, Box3, OrientedBox or Segment, world frame
+    lower, upper  corners of boxes, arrays of shape (3,) or (n, 3)
+    progress      function of (stage, fraction)
+
+    Returns a bool; for many boxes an array of bool of shape (n,), computed one after another.
+    """
+@overload
+def overlaps(model: Model, pose: _OnePose | ArrayLike, lower: _Point, upper: _Point, *, progress: _Progress = ...) -> bool: ...
+@overload
+def overlaps(model: Model, pose: _OnePose | ArrayLike, lower: ArrayLike, upper: ArrayLike, *, progress: _Progress = ...) -> Any: ...
+def parse_model_path(text: _Path) -> ModelPath:
+    """The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument)."""
+def peak_resident_mib() -> float:
+    """The largest resident memory of this process, or of an ended child if larger, in MiB."""
+@overload
+def penetration(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, relative_error: float = ..., separation: bool = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Depth:
+    """How deep two models go into each other, where, and a translation that parts them.
+
+    a, b            two Model, two Convex or two ConvexPieces
+    pose_a, pose_b  as for collide
+    relative_error  width that [depth, depth_at_most] should have, as a share (models only)
+    separation      False: leave `separation` zero, and save its time (not for Convex)
+    max_steps       limit of the search (models only)
+    warm_start      a ConvexWarmStart (Convex only); not with many poses
+    progress        function of (stage, fraction)
+
+    Returns Depth, ConvexDepth or PiecesDepth. With many poses a list of Depth, or a record array of the
+    others; only those of ConvexPieces are computed in parallel. Raises Error (bad_argument) if a pose is not
+    finite; KeyboardInterrupt at Ctrl-C.
+    """
+@overload
+def penetration(a: Model, pose_a: _Poses, b: Model, pose_b: _Poses, *, relative_error: float = ..., separation: bool = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
+@overload
+def penetration(a: Convex, pose_a: _OnePose, b: Convex, pose_b: _OnePose, *, warm_start: ConvexWarmStart | None = ...) -> ConvexDepth: ...
+@overload
+def penetration(a: Convex, pose_a: _Poses, b: Convex, pose_b: _Poses, *, warm_start: ConvexWarmStart | None = ...) -> Any: ...
+@overload
+def penetration(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, separation: bool = ..., progress: _Progress = ...) -> PiecesDepth: ...
+@overload
+def penetration(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, separation: bool = ..., progress: _Progress = ...) -> Any: ...
+def read_elementary_queries(file: str, kind: ElementaryKind | str | None = ...) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]:
+    """Reads pairs from comma-separated text. Returns (kinds, start, end, truth): arrays of shapes (n,),
+    (n, 4, 3), (n, 4, 3) and (n,), the last empty if the file does not tell.
+
+    Raises Error: file_not_found, unreadable, malformed, bad_argument.
+    """
+def read_frame(path: _Path) -> Mesh:
+    """Reads one frame of a deforming sequence, PLY or OBJ, as a Mesh: vertices as the file has them, in its order.
+
+    Raises Error: file_not_found, unreadable, unsupported, malformed, bad_mesh.
+    """
+def read_frame_positions(path: _Path, vertex_count: int, faces: ArrayLike | None) -> NDArray[np.float64] | None:
+    """The positions of a frame that has so many vertices and these faces, an array of shape (n, 3); None if it has
+    others. Errors as read_frame.
+    """
+def read_mesh(path: _ModelPath, *, unit: float = ..., up: UpAxis | str = ..., spaces: bool = ..., map: bool = ..., time_limit: float = ..., memory_limit: int = ..., allow_outside_files: bool = ..., progress: _Progress = ...) -> Mesh:
+    """Reads a model file as one mesh.
+
+    unit                 metres per unit, for OBJ, OFF, PLY and STL; 0: 1
+    up                   'x', 'y' or 'z': what points up in these
+    spaces               whether IFC's spaces become parts
+    map                  whether IFC parts lie on the map that the file names
+    time_limit           seconds after which a reader is stopped; 0: none
+    memory_limit         bytes that a reader may use; 0: no limit
+    allow_outside_files  whether files outside of the model's folder may be referred to
+    progress             function of (stage, fraction)
+
+    Returns a Mesh of all parts, in metres.
+    The path may end with a unit and axis: 'pump.stl:mm', 'part.obj:mm:y-up'.
+    Raises Error: file_not_found, unreadable, malformed, unsupported, bad_mesh, reader_failed.
+    """
+def read_rules(path: _Path) -> list[ClashRule]:
+    """Reads rules from JSON: a list of ClashRule. Raises Error: file_not_found, malformed."""
+def read_scene(path: _ModelPath, *, unit: float = ..., up: UpAxis | str = ..., spaces: bool = ..., map: bool = ..., time_limit: float = ..., memory_limit: int = ..., allow_outside_files: bool = ..., progress: _Progress = ...) -> Scene:
+    """Reads a model file: glTF, GLB, OBJ, PLY, STL, OFF, FBX, COLLADA, 3MF, IFC.
+
+    unit                 metres per unit, for OBJ, OFF, PLY and STL; 0: 1
+    up                   'x', 'y' or 'z': what points up in these
+    spaces               whether IFC's spaces become parts
+    map                  whether IFC parts lie on the map that the file names
+    time_limit           seconds after which a reader is stopped; 0: none
+    memory_limit         bytes that a reader may use; 0: no limit
+    allow_outside_files  whether files outside of the model's folder may be referred to
+    progress             function of (stage, fraction)
+
+    Returns a Scene in metres, in the file's axes.
+    The path may end with a unit and axis: 'pump.stl:mm', 'part.obj:mm:y-up'.
+    Raises Error: file_not_found, unreadable, malformed, unsupported, bad_mesh, reader_failed.
+    """
+def read_scenes(paths: Iterable[_ModelPath] | _ModelPath, *, progress: _Progress = ...) -> list[Scene]:
+    """Reads several model files in parallel, with the options' defaults. Returns a list of Scene. Errors as
+    read_scene.
+    """
+def remove_models(files: Iterable[_Path], store: _Path) -> RemovalReport:
+    """Takes models out of a store, all of them or none. Returns a RemovalReport. Raises Error (bad_argument) if a file
+    is no model of the store.
+    """
+def review_clashes(store: Store) -> list[ClashReview]:
+    """One ClashReview for each question that the store has been asked. Raises Error (malformed)."""
+def self_impacts(surface: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> Impacts:
+    """Every vertex and face, and every two edges, of a Deformable that meet during its step.
+
+    absolute_error  length; 0: exact. Else features that come so near may be reported too
+    thickness       length at which features count as meeting
+    progress        function of (stage, fraction)
+
+    Returns Impacts. Complete and exact. Raises Error (bad_argument) for a negative length.
+    """
+def self_time_of_impact(surface: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> FeatureImpact | None:
+    """The earliest of self_impacts.
+
+    absolute_error  length; 0: exact. Else features that come so near may be reported too
+    thickness       length at which features count as meeting
+    progress        function of (stage, fraction)
+
+    Returns FeatureImpact, or None.
+    """
+def self_within(surface: Deformable, distance: float, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
+    """Every vertex and face, and every two edges, at most `distance` apart at the start of the step.
+
+    Returns a record array of FeaturePair. Raises Error (bad_argument) if the distance is negative.
+    """
+def set_helper_folder(folder: _Path) -> None:
+    """Tells where the helper programs lie that read some model files. The package calls it for those of the wheel."""
+def set_threads(count: int) -> None:
+    """Sets the number of threads of parallel work in this process. 0: all of the machine's."""
+def summary(store: Store) -> StoreSummary:
+    """A StoreSummary. Raises Error (malformed) if the store is damaged."""
+@overload
+def time_of_impact(a: Deformable, b: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> FeatureImpact | None:
+    """The first time in [0, 1] at which two moving models, or two Deformable, share a point.
+
+    a, b                two Model
+    motion_a, motion_b  a Motion, a pose (no motion), or a list of Motion; one is used with all of the other's
+    absolute_error      length: how far apart the models may be at the time returned; None: a millionth of
+                        the larger model's diagonal
+    max_steps           limit of the search
+    progress            function of (stage, fraction)
+
+    Returns Impact; with lists of motions a record array of shape (n,), computed in parallel. Of deformables
+    FeatureImpact, or None. Never later than the first contact. Raises Error (bad_argument) if a value is not
+    finite; KeyboardInterrupt at Ctrl-C.
+    """
+@overload
+def time_of_impact(a: Model, motion_a: Motion | _OnePose, b: Model, motion_b: Motion | _OnePose, *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Impact: ...
+@overload
+def time_of_impact(a: Model, motion_a: Motion | Sequence[Motion] | _Poses, b: Model, motion_b: Motion | Sequence[Motion] | _Poses, *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
+@overload
+def to_json(report: ClashReport) -> str:
+    """The JSON text that the command writes: of a ClashReport, of a ClashReview, or of a list of ClashReview and the path
+    of their store.
+    """
+@overload
+def to_json(review: ClashReview) -> str: ...
+@overload
+def to_json(reviews: list[ClashReview], store: str) -> str: ...
+def to_mesh(scene: Scene) -> Mesh:
+    """All parts of a scene as one Mesh in the world. Raises Error (bad_mesh) if there are too many vertices."""
+def turn_up(scene: Scene, up: UpAxis | str) -> None:
+    """Turns a scene by quarter turns, so that this axis points up."""
+def verify(store: Store, *, progress: _Progress = ...) -> None:
+    """Reads all of a store and checks it against its checksums. Raises Error (malformed)."""
+def verify_jobs(store: Store) -> None:
+    """Checks what the store keeps of jobs and clashes. Raises Error (malformed)."""
+@overload
+def within(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, tolerance: float, *, warm_start: WarmStart | None = ..., progress: _Progress = ...) -> bool:
+    """Whether some two points are at most `tolerance` apart, a length.
+
+    a, b            two Model or two ConvexPieces
+    pose_a, pose_b  as for collide
+    surface_a, _b   two Deformable: lists all near pairs of features
+
+    Returns a bool; with many poses an array of bool of shape (n,). Of deformables a record array of FeaturePair.
+    Raises Error (bad_argument) if the tolerance is negative; KeyboardInterrupt at Ctrl-C.
+    """
+@overload
+def within(a: Model, pose_a: _Poses, b: Model, pose_b: _Poses, tolerance: float, *, warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Any: ...
+@overload
+def within(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, tolerance: float, *, warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> bool: ...
+@overload
+def within(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, tolerance: float, *, warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> Any: ...
+@overload
+def within(a: Deformable, b: Deformable, distance: float, *, progress: _Progress = ...) -> Any: ...
+def write_clash_csv(report: ClashReport, path: _Path) -> None:
+    """Writes a report as comma-separated text. Raises Error (cannot_write)."""
+def write_clash_html(report: ClashReport, path: _Path) -> None:
+    """Writes a report as one page of HTML. Raises Error (cannot_write)."""
+def write_clash_json(report: ClashReport, path: _Path) -> None:
+    """Writes a report as JSON. Raises Error (cannot_write)."""
+def write_frame(mesh: _Mesh, path: _Path) -> None:
+    """Writes a frame as binary PLY. Takes what Model takes. Raises Error: unsupported, bad_mesh, cannot_write."""
+def write_glb(scene: Scene, path: _Path) -> None:
+    """Writes a scene as binary glTF. Raises Error (cannot_write)."""

@@ -1,0 +1,180 @@
+#pragma once
+
+#include <abut/world.h>
+
+#include "queries.h"
+#include "surface.h"
+
+#include <map>
+
+namespace abut::python {
+
+/// Ids of bodies are integers in Python: the index, and the generation above its 32 bits.
+template <>
+struct FieldFormat<BodyId> {
+    static py::object make() { return py::dtype::of<std::int64_t>(); }
+};
+
+inline std::int64_t number_of(BodyId body) {
+    return static_cast<std::int64_t>(std::uint64_t{body.generation} << 32 | body.index);
+}
+
+inline BodyId body_of(std::int64_t number) {
+    const auto bits = static_cast<std::uint64_t>(number);
+    return {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> 32)};
+}
+
+} // namespace abut::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<abut::BodyId> {
+    PYBIND11_TYPE_CASTER(abut::BodyId, const_name("int"));
+    bool load(handle source, bool /*convert*/) {
+        const auto index = reinterpret_steal<object>(PyNumber_Index(source.ptr()));
+        const long long number = index ? PyLong_AsLongLong(index.ptr()) : -1;
+        if (PyErr_Occurred()) {
+            PyErr_Clear();
+            return false;
+        }
+        value = abut::python::body_of(number);
+        return true;
+    }
+    static handle cast(abut::BodyId body, return_value_policy /*policy*/, handle /*parent*/) {
+        return PyLong_FromLongLong(abut::python::number_of(body));
+    }
+};
+
+} // namespace pybind11::detail
+
+namespace abut::python {
+
+inline std::function<bool(BodyId, BodyId)> filter_of_bodies(Callback* callback) {
+    if (!callback)
+        return {};
+    return [callback](BodyId a, BodyId b) {
+        bool keep = false;
+        callback->call(
+            [&](const py::object& function) { keep = to_bool(function(a, b), "filter"); });
+        return keep;
+    };
+}
+
+inline std::unique_ptr<Callback> body_callback(const py::object& filter) {
+    if (filter.is_none())
+        return nullptr;
+    if (!PyCallable_Check(filter.ptr()))
+        throw py::type_error("filter: a function of two bodies is wanted");
+    return std::make_unique<Callback>(filter);
+}
+
+/// A world that keeps its deformables, and is used by one thread at a time.
+class Bodies {
+public:
+    Bodies(BroadPhaseMethod method, const py::object& filter)
+        : filter_(body_callback(filter)),
+          world_({.broad_phase = method, .filter = filter_of_bodies(filter_.get())}) {}
+
+    /// Calls `use(world)` without the interpreter's lock.
+    template <class Use>
+    auto run(Use use) {
+        const InUse::Change change(use_, kName);
+        const auto surfaces = read_surfaces();
+        if constexpr (std::is_void_v<decltype(use(world_))>) {
+            {
+                const py::gil_scoped_release unlocked;
+                use(world_);
+            }
+            check_filter();
+        } else {
+            auto result = [&] {
+                const py::gil_scoped_release unlocked;
+                return use(world_);
+            }();
+            check_filter();
+            return result;
+        }
+    }
+    /// The same for a query that can be long.
+    template <class Query>
+    auto query(const py::object& report, Query query) {
+        const InUse::Change change(use_, kName);
+        const auto surfaces = read_surfaces();
+        Work work(report);
+        auto result = work.run([&](const Progress& progress) { return query(world_, progress); });
+        check_filter();
+        return result;
+    }
+    /// Calls `use(world)` at once: for what is short and calls no filter.
+    template <class Use>
+    auto quick(Use use) {
+        const InUse::Change change(use_, kName);
+        return use(world_);
+    }
+
+    BodyId add(const py::object& shape, const py::object& pose, const BodyOptions& options) {
+        if (auto* surface = const_cast<Surface*>(peek<Surface>(shape))) {
+            if (!pose.is_none())
+                throw py::value_error("pose: a deformable has none");
+            const InUse::Change change(use_, kName);
+            const InUse::Read read(surface->use, "a deformable");
+            const BodyId body = world_.add(surface->value, options);
+            surfaces_[body] = shape;
+            return body;
+        }
+        const Pose place = to_pose(pose, "pose");
+        if (const auto* model = peek<Model>(shape))
+            return quick([&](World& world) { return world.add(*model, place, options); });
+        if (const auto* convex = peek<Convex>(shape))
+            return quick([&](World& world) { return world.add(*convex, place, options); });
+        if (const auto* sphere = peek<Sphere>(shape))
+            return quick([&](World& world) { return world.add(*sphere, place, options); });
+        if (const auto* capsule = peek<Capsule>(shape))
+            return quick([&](World& world) { return world.add(*capsule, place, options); });
+        if (const auto* box = peek<Box3>(shape))
+            return quick([&](World& world) { return world.add(*box, place, options); });
+        throw py::type_error(
+            "shape: a Model, Convex, Sphere, Capsule, Box3 or Deformable is wanted");
+    }
+    void move(const py::object& body, const py::object& pose) {
+        if (!is_array(body) || py::reinterpret_borrow<py::array>(body).ndim() == 0) {
+            const auto id = body.cast<BodyId>();
+            const Pose place = to_pose(pose, "pose");
+            return quick([&](World& world) { world.move(id, place); });
+        }
+        const auto ids = py::array_t<std::int64_t>::ensure(body);
+        const auto places = to_pose_list(pose, "pose");
+        if (!ids || ids.ndim() != 1 || static_cast<std::size_t>(ids.size()) != places.size())
+            throw py::value_error("body: there are not as many bodies as poses");
+        run([&](World& world) {
+            for (std::size_t i = 0; i < places.size(); ++i)
+                world.move(body_of(ids.data()[i]), places[i]);
+        });
+    }
+    void remove(BodyId body) {
+        quick([&](World& world) { world.remove(body); });
+        surfaces_.erase(body);
+    }
+
+private:
+    static constexpr const char* kName = "the world";
+
+    [[nodiscard]] std::vector<InUse::Read> read_surfaces() {
+        std::vector<InUse::Read> list;
+        for (const auto& [body, surface] : surfaces_)
+            list.emplace_back(surface.cast<Surface&>().use, "a deformable");
+        return list;
+    }
+    void check_filter() {
+        if (filter_)
+            filter_->raise();
+    }
+
+    std::unique_ptr<Callback> filter_;
+    std::map<BodyId, py::object> surfaces_; ///< outlive the world
+    World world_;
+    InUse use_;
+};
+
+} // namespace abut::python

@@ -1,0 +1,40 @@
+#include "module.h"
+
+#include "support/work.h"
+
+namespace abut::python {
+
+PYBIND11_MODULE(_abut, module) {
+    module.doc() = "The part of abut that is written in C++.";
+    module.attr("__version__") = ABUT_VERSION;
+    begin_watch();
+    // A header that uses another's types comes after it.
+    bind_error(module);
+    bind_types(module);
+    bind_progress(module);
+    bind_volume(module);
+    bind_mesh(module);
+    bind_model(module);
+    bind_rigid(module);
+    bind_motion(module);
+    bind_penetration(module);
+    bind_shapes(module);
+    bind_shape_queries(module);
+    bind_convex(module);
+    bind_convex_pieces(module);
+    bind_broad_phase(module);
+    bind_elementary_impact(module);
+    bind_deformable(module);
+    bind_world(module);
+    bind_scene(module);
+    bind_frame(module);
+    bind_clash(module);
+    bind_store(module);
+    bind_crew(module);
+    bind_store_clash(module);
+    bind_clash_review(module);
+    bind_walk(module);
+    bind_helper_programs(module);
+}
+
+} // namespace abut::python

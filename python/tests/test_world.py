@@ -1,0 +1,114 @@
+import gc
+
+import numpy as np
+import pytest
+
+import abut
+from shapes import box, guard, matrix, random_poses, sphere
+
+
+def test_pairs_against_single_queries(rng):
+    model, convex = abut.Model(*sphere(6)), abut.Convex(box()[0])
+    poses = random_poses(rng, 30, 2.2)
+    world = abut.World()
+    bodies = np.array([world.add(model, pose) for pose in poses])
+    assert np.array_equal(bodies, np.arange(30)) and len(world) == 30
+    i, k = np.triu_indices(30, 1)
+    gaps = abut.distance(model, poses[i], model, poses[k])
+    touching = gaps.distance == 0
+    guard(touching, 0.02)
+    expected = np.stack([i, k], axis=1)[touching]
+    assert np.array_equal(world.collide(), expected)
+    near = world.within(0.25)
+    assert np.array_equal(np.stack([near.a, near.b], axis=1), np.stack([i, k], axis=1)[gaps.distance <= 0.25])
+    assert np.allclose(near.distance, gaps.distance[gaps.distance <= 0.25], atol=1e-9)
+    deep = world.penetration()
+    assert np.array_equal(np.stack([deep.a, deep.b], axis=1), expected) and np.all(deep.distance <= 0)
+    assert deep.point_a.shape == (len(expected), 3)
+    moved = random_poses(rng, 30, 2.2)
+    world.move(bodies, moved)
+    assert np.allclose(world.world_from_body(7), moved[7])
+    touching = abut.distance(model, moved[i], model, moved[k]).distance == 0
+    assert np.array_equal(world.collide(), np.stack([i, k], axis=1)[touching])
+    world.add(convex, matrix((50, 0, 0)))
+    assert world.add(abut.Sphere((0, 0, 0), 1), matrix((51, 0, 0)), is_static=True) == 31
+    assert [30, 31] in world.collide().tolist()
+
+
+def test_bodies_end():
+    world = abut.World()
+    a = world.add(abut.Box3((0, 0, 0), (1, 1, 1)))
+    b = world.add(abut.Capsule(abut.Segment((0, 0, 0), (1, 0, 0)), 0.1), matrix((0.5, 0.5, 0.5)))
+    assert world.collide().tolist() == [[a, b]]
+    world.set_options(b, mask=2)
+    assert world.collide().tolist() == []
+    world.remove(a)
+    assert not world.is_valid(a) and world.is_valid(b)
+    again = world.add(abut.Box3((0, 0, 0), (1, 1, 1)))
+    assert again != a
+    for use in (lambda: world.move(a, np.eye(4)), lambda: world.remove(a), lambda: world.box(a), lambda: world.box(-1)):
+        with pytest.raises(abut.Error) as error:
+            use()
+        assert error.value.code is abut.ErrorCode.bad_argument
+    with pytest.raises(ValueError, match="rotation"):
+        world.move(b, np.diag((2, 2, 2, 1)))
+    with pytest.raises(TypeError):
+        world.add("shape", None)
+
+
+def test_world_keeps_what_it_holds():
+    world = abut.World()
+    world.add(abut.Model(*sphere(6)), matrix((0.5, 0, 0)))
+    world.add(abut.Model(*sphere(6)))
+    surface = abut.Deformable(*sphere(6))
+    body = world.add(surface)
+    del surface
+    gc.collect()
+    assert len(world.collide()) == 3
+    world.remove(body)
+    assert len(world.collide()) == 1
+
+
+def test_filter():
+    calls = []
+
+    def filter(a, b):
+        calls.append((a, b))
+        return (a + b) % 2 == 1
+
+    world = abut.World(filter=filter)
+    model = abut.Model(*box())
+    for _ in range(4):
+        world.add(model)
+    assert world.collide().tolist() == [[0, 1], [0, 3], [1, 2], [2, 3]] and calls
+    world = abut.World(filter=lambda a, b: 1 / 0)
+    world.add(model)
+    world.add(model)
+    with pytest.raises(ZeroDivisionError):
+        world.collide()
+
+
+def test_filter_must_not_use_the_world():
+    world = abut.World(filter=lambda a, b: len(world) > 0)
+    model = abut.Model(*box())
+    world.add(model)
+    world.add(model)
+    with pytest.raises(RuntimeError, match="in use"):
+        world.collide()
+
+
+def test_time_of_impact_and_schedule():
+    world = abut.World()
+    model = abut.Model(*sphere(8))
+    a, b = world.add(model, matrix((-5, 0, 0))), world.add(model, matrix((5, 0, 0)))
+    motion = abut.Motion(matrix((-5, 0, 0)), velocity=(10, 0, 0))
+    impacts = world.time_of_impact({a: motion})
+    assert len(impacts) == 1 and impacts[0].a == a and impacts.time[0] == pytest.approx(0.8, abs=1e-3)
+    assert np.allclose(impacts.normal[0], (1, 0, 0), atol=0.1)
+    assert world.time_of_impact([(a, motion)]).time[0] == impacts.time[0]
+    world.set_speed(a, velocity=(1, 0, 0))
+    assert world.advance(0).tolist() == []
+    assert 5 < world.next_event() <= 8.01
+    world.move(a, matrix((4, 0, 0)))
+    assert world.advance(9).tolist() == [[a, b]]
+    assert world.schedule_counters().steps >= 2
