@@ -237,7 +237,7 @@ void LevelView::fit_budgets(const ViewPoint& view) {
 /// Makes the draw calls: one for each chunk, with all its instances.
 void LevelView::list_draws() {
     draws_.clear(), distances_.clear(), instances_.clear();
-    const LevelItems items(tree_);
+    const ViewItems items(tree_);
     ++pass_;
     std::uint64_t triangles = 0;
     for (const std::uint32_t at : drawn_.drawn()) {

@@ -80,7 +80,7 @@ bool LoadPlan::is_seen(const LevelNode& node) const {
     });
 }
 
-double LoadPlan::error_of(LevelItem item) const {
+double LoadPlan::error_of(ViewItem item) const {
     const double error = items_.error(item);
     double most = 0;
     for (const ViewPoint& point : path_)
@@ -95,7 +95,7 @@ void LoadPlan::push_finer(const Step& step) {
     if (!items_.has_finer(step.item) || !(error > pixel_error_))
         return;
     const auto shown = static_cast<float>(std::min(error, double{step.error}));
-    items_.for_each_finer(step.item, [&](LevelItem item) {
+    items_.for_each_finer(step.item, [&](ViewItem item) {
         // The levels of an instance have one box.
         const bool seen = step.is_seen && (item.level > 0 || is_seen(items_.node(item)));
         heap_.push_back({item, shown, seen});

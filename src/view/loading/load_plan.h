@@ -37,7 +37,7 @@ public:
 
 private:
     struct Step {
-        LevelItem item;
+        ViewItem item;
         float error = 0; ///< in pixels, of what stands for the item until it is loaded
         bool is_seen = false;
         friend bool operator<(const Step& a, const Step& b) {
@@ -50,10 +50,10 @@ private:
         }
     };
     [[nodiscard]] bool is_seen(const LevelNode& node) const;
-    [[nodiscard]] double error_of(LevelItem item) const;
+    [[nodiscard]] double error_of(ViewItem item) const;
     void push_finer(const Step& step);
 
-    LevelItems items_;
+    ViewItems items_;
     std::vector<ViewPoint> path_;
     double pixel_error_;
     std::uint64_t bytes_left_;

@@ -76,7 +76,7 @@ bool LevelCut::replace(std::uint32_t at) {
     const CutEntry parent = entries_[at];
     const std::uint64_t outside = outside_, occluded = occluded_;
     const auto first = static_cast<std::uint32_t>(entries_.size());
-    items_.for_each_finer(parent.item, [&](LevelItem item) { visit(item, parent.planes); });
+    items_.for_each_finer(parent.item, [&](ViewItem item) { visit(item, parent.planes); });
     const auto count = static_cast<std::uint32_t>(entries_.size()) - first;
     const std::uint64_t triangles = triangles_;
     const std::uint32_t draws = draws_;
@@ -101,7 +101,7 @@ bool LevelCut::replace(std::uint32_t at) {
 }
 
 /// Appends an entry for an item, unless the item is not visible.
-void LevelCut::visit(LevelItem item, std::uint32_t planes) {
+void LevelCut::visit(ViewItem item, std::uint32_t planes) {
     const LevelNode& node = items_.node(item);
     if (not_drawn_.hidden != nullptr && items_.is_instance(item) &&
         (*not_drawn_.hidden)[items_.instance(item).placed.part])

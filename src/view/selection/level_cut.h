@@ -3,7 +3,7 @@
 #include <abut/camera.h>
 
 #include "view/selection/frustum.h"
-#include "view/selection/level_item.h"
+#include "view/selection/view_item.h"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +49,7 @@ struct NotDrawn {
 
 /// An item that was visited: it is drawn, or replaced by others.
 struct CutEntry {
-    LevelItem item;
+    ViewItem item;
     std::uint32_t chunk = kNoChunk;
     float error = 0;    ///< in pixels
     float distance = 0; ///< from the eye to the box
@@ -84,7 +84,7 @@ public:
 
 private:
     bool replace(std::uint32_t at);
-    void visit(LevelItem item, std::uint32_t planes);
+    void visit(ViewItem item, std::uint32_t planes);
     void push(std::uint32_t at);
     void add(const CutEntry& entry);
     void subtract(const CutEntry& entry);
@@ -92,7 +92,7 @@ private:
     void release(const CutEntry& entry);
     void forget();
 
-    LevelItems items_;
+    ViewItems items_;
     const ViewPoint* view_ = nullptr;
     CutLimits limits_;
     NotDrawn not_drawn_;

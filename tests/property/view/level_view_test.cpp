@@ -187,7 +187,8 @@ TEST(LevelView, AnErrorOfTheThreadReachesAFrameOnce) {
         options.background = background;
         options.pixel_error = 1e-3;
         const auto bad_node = std::ranges::find_if(
-            model.tree.nodes, [](const LevelNode& node) { return node.error == 0; });
+            model.tree.nodes,
+            [](const LevelNode& node) { return node.error == 0 && node.chunk != kNoChunk; });
         ASSERT_NE(bad_node, model.tree.nodes.end());
         const std::uint32_t bad = bad_node->chunk;
         const auto source = [&](std::uint32_t chunk) {

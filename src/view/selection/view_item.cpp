@@ -1,4 +1,4 @@
-#include "view/selection/level_item.h"
+#include "view/selection/view_item.h"
 
 #include <abut/error.h>
 
