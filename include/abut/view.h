@@ -164,6 +164,9 @@ public:
     /// Leaves parts out of the picture (carried away, or hidden), or brings them back. Those of a
     /// merged chunk are still in it: the renderer hides them by their index.
     void set_hidden(std::uint32_t part, bool hidden);
+    /// Whether parts hide what is behind them, as at the beginning. Turn it off while the renderer
+    /// cuts parts away or makes them transparent, other than by set_hidden.
+    void set_occlusion(bool on);
     [[nodiscard]] const ViewStatistics& statistics() const;
 
 private:

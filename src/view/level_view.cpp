@@ -21,6 +21,11 @@ constexpr std::uint64_t share_of(std::uint64_t gpu_memory) {
     return gpu_memory - gpu_memory / 8;
 }
 
+/// The share of the memory that occluders may take.
+constexpr std::uint64_t occluder_memory(const ViewOptions& options) {
+    return options.memory / 16;
+}
+
 LevelTree checked(LevelTree tree, const std::string& name) {
     check_level_tree(tree, name);
     return tree;
@@ -39,8 +44,9 @@ ViewOptions checked(const ViewOptions& options) {
 LevelView::LevelView(LevelTree tree, ChunkSource source, const std::string& name,
                      const ViewOptions& options, Reader reader)
     : tree_(checked(std::move(tree), name)), options_(checked(options)),
-      table_(tree_.chunks.size()), residency_(tree_, table_, options.gpu_memory), cut_(tree_),
-      hidden_(tree_.parts.size()), marks_(tree_.chunks.size()), draw_of_(tree_.chunks.size()),
+      table_(tree_.chunks.size()), residency_(tree_, table_, options.gpu_memory),
+      occluders_(occluder_memory(options)), cut_(tree_), hidden_(tree_.parts.size()),
+      marks_(tree_.chunks.size()), draw_of_(tree_.chunks.size()),
       loader_(tree_, table_, std::move(source),
               {name, room(name), share_of(options.gpu_memory), options.look_ahead,
                options.background && reader == Reader::background}) {
@@ -50,7 +56,7 @@ LevelView::LevelView(LevelTree tree, ChunkSource source, const std::string& name
 std::uint64_t LevelView::room(const std::string& name) const {
     std::uint64_t largest = 0;
     for (const ChunkSize& size : tree_.chunks)
-        largest = std::max(largest, size.bytes());
+        largest = std::max(largest, size.bytes() + kMostOccluderBytes);
     const std::uint64_t tables = tree_.bytes() + table_.bytes() + residency_.own_bytes() +
                                  cut_.bytes() + LoadPlan::most_bytes(tree_) + hidden_.size() / 8 +
                                  (marks_.capacity() + draw_of_.capacity()) * sizeof(std::uint32_t);
@@ -73,6 +79,10 @@ CutLimits LevelView::limits() const {
             share_of(options_.gpu_memory)};
 }
 
+NotDrawn LevelView::not_drawn() const {
+    return {&hidden_, has_occlusion_ && !occluders_.empty() ? &occlusion_ : nullptr};
+}
+
 const ViewFrame& LevelView::frame(const CameraMotion& motion) {
     const StopWatch watch;
     const ViewPoint view(motion.camera, tree_.origin);
@@ -85,7 +95,7 @@ const ViewFrame& LevelView::frame(const CameraMotion& motion) {
         residency_.drops().clear();
     }
     residency_.begin_frame(frame_number_);
-    choose(view);
+    choose(motion.camera, view);
     if (options_.background)
         upload(motion);
     else
@@ -98,8 +108,10 @@ const ViewFrame& LevelView::frame(const CameraMotion& motion) {
 }
 
 /// Chooses the cut, and notes which of its chunks are missing.
-void LevelView::choose(const ViewPoint& view) {
-    cut_.choose(view, limits(), {&hidden_, nullptr});
+void LevelView::choose(const Camera& camera, const ViewPoint& view) {
+    if (has_occlusion_)
+        occluders_.draw(occlusion_, camera, tree_.origin, hidden_);
+    cut_.choose(view, limits(), not_drawn());
     statistics_.culled_by_frustum = cut_.outside();
     statistics_.culled_by_occlusion = cut_.occluded();
     list_chunks();
@@ -153,10 +165,14 @@ void LevelView::upload(const CameraMotion& motion) {
     if (!taken)
         return;
     counters_ = taken->counters;
-    for (ChunkUpload& one : taken->uploads) {
-        residency_.add(one.chunk);
-        uploads_.push_back(std::move(one));
-    }
+    for (LoadedChunk& chunk : taken->chunks)
+        take(std::move(chunk));
+}
+
+void LevelView::take(LoadedChunk chunk) {
+    residency_.add(chunk.chunk);
+    occluders_.add(chunk.chunk, std::move(chunk.occluders));
+    uploads_.push_back({chunk.chunk, std::move(chunk.data)});
 }
 
 /// Reads all that is missing, as far as the memory allows.
@@ -170,11 +186,10 @@ void LevelView::upload_at_once() {
         const std::uint64_t bytes = tree_.chunks[chunk].bytes();
         if (residency_.make_room(bytes, frame_number_) < bytes)
             break;
-        auto data = loader_.read_now(chunk);
-        if (data == nullptr)
+        auto loaded = loader_.read_now(chunk);
+        if (!loaded)
             break;
-        residency_.add(chunk);
-        uploads_.push_back({chunk, std::move(data)});
+        take(std::move(*loaded));
     }
     counters_ = loader_.counters();
 }
@@ -222,7 +237,7 @@ void LevelView::fit_budgets(const ViewPoint& view) {
     for (int attempt = 0; attempt < 32 && is_over_budget(); ++attempt) {
         coarser.triangles = coarser.triangles / 4 * 3;
         coarser.draws = coarser.draws / 4 * 3;
-        cut_.choose(view, coarser, {&hidden_, nullptr});
+        cut_.choose(view, coarser, not_drawn());
         drawn_.choose(cut_.entries(), [&](std::uint32_t chunk) {
             return table_.state(chunk) == ChunkState::resident;
         });
@@ -275,6 +290,9 @@ void LevelView::finish(double seconds) {
     std::erase_if(uploads_, [&](const ChunkUpload& upload) {
         return table_.state(upload.chunk) != ChunkState::resident;
     });
+    for (const std::uint32_t chunk : residency_.drops())
+        if (table_.state(chunk) != ChunkState::resident)
+            occluders_.remove(chunk);
     frame_.uploads = uploads_;
     frame_.drops = residency_.drops();
     frame_.draws = draws_;

@@ -7,6 +7,8 @@
 #include "view/loading/chunk_table.h"
 #include "view/loading/residency.h"
 #include "view/selection/level_cut.h"
+#include "view/selection/occluder_set.h"
+#include "view/selection/occlusion_buffer.h"
 
 #include <cstdint>
 #include <string>
@@ -33,6 +35,7 @@ public:
     /// As View::frame.
     const ViewFrame& frame(const CameraMotion& motion);
     void wait();
+    void set_occlusion(bool on) { has_occlusion_ = on; }
     void set_hidden(std::uint32_t part, bool hidden);
 
     [[nodiscard]] const LevelTree& tree() const { return tree_; }
@@ -46,7 +49,8 @@ public:
 private:
     /// The room for chunks beside the tables.
     [[nodiscard]] std::uint64_t room(const std::string& name) const;
-    void choose(const ViewPoint& view);
+    void choose(const Camera& camera, const ViewPoint& view);
+    void take(LoadedChunk chunk);
     void list_chunks();
     void upload(const CameraMotion& motion);
     void upload_at_once();
@@ -55,6 +59,7 @@ private:
     void list_draws();
     void finish(double seconds);
     [[nodiscard]] CutLimits limits() const;
+    [[nodiscard]] NotDrawn not_drawn() const;
     bool is_over_budget();
     bool mark(std::uint32_t chunk);
 
@@ -62,6 +67,9 @@ private:
     ViewOptions options_;
     ChunkTable table_;
     Residency residency_;
+    OccluderSet occluders_;
+    OcclusionBuffer occlusion_;
+    bool has_occlusion_ = true;
     LevelCut cut_;
     DrawnCut drawn_;
     std::vector<bool> hidden_; ///< by part

@@ -87,6 +87,10 @@ void View::set_hidden(std::uint32_t part, bool hidden) {
     data_->view().set_hidden(part, hidden);
 }
 
+void View::set_occlusion(bool on) {
+    data_->view().set_occlusion(on);
+}
+
 const ViewStatistics& View::statistics() const {
     return data_->view().statistics();
 }

@@ -11,7 +11,11 @@ namespace abut {
 
 ChunkLoader::ChunkLoader(const LevelTree& tree, ChunkTable& table, ChunkSource source,
                          const LoaderOptions& options)
-    : tree_(tree), table_(table), source_(std::move(source)), options_(options) {
+    : tree_(tree), table_(table), source_(std::move(source)), options_(options),
+      is_exact_(tree.chunks.size()) {
+    for (const LevelNode& node : tree.nodes)
+        if (node.chunk != kNoChunk && node.error == 0 && node.children == 0)
+            is_exact_[node.chunk] = true;
     if (options_.threaded)
         thread_ = std::thread([this] { run(); });
 }
@@ -39,14 +43,14 @@ std::optional<TakenChunks> ChunkLoader::exchange(std::span<const std::uint32_t> 
     TakenChunks taken;
     for (const std::uint32_t chunk : first)
         if (staged_.contains(chunk))
-            take_one(chunk, taken.uploads);
+            take_one(chunk, taken.chunks);
     while (!order_.empty()) {
         const std::uint32_t chunk = order_.front();
         if (staged_.contains(chunk)) {
             if (size_of(chunk) > more_bytes)
                 break;
             more_bytes -= size_of(chunk);
-            take_one(chunk, taken.uploads);
+            take_one(chunk, taken.chunks);
         }
         order_.pop_front();
     }
@@ -64,9 +68,9 @@ std::optional<TakenChunks> ChunkLoader::exchange(std::span<const std::uint32_t> 
     return taken;
 }
 
-void ChunkLoader::take_one(std::uint32_t chunk, std::vector<ChunkUpload>& uploads) {
+void ChunkLoader::take_one(std::uint32_t chunk, std::vector<LoadedChunk>& taken) {
     const auto found = staged_.find(chunk);
-    uploads.push_back({chunk, std::move(found->second.data)});
+    taken.push_back(std::move(found->second.loaded));
     staged_.erase(found);
     staged_bytes_ -= size_of(chunk);
     taken_bytes_ += size_of(chunk);
@@ -231,15 +235,19 @@ void ChunkLoader::discard(bool even_planned, std::uint64_t bytes) {
     order_ = std::move(kept);
 }
 
-ViewChunk ChunkLoader::read(std::uint32_t chunk) const {
-    ViewChunk data = source_(chunk);
+LoadedChunk ChunkLoader::read(std::uint32_t chunk) const {
+    LoadedChunk loaded;
+    loaded.chunk = chunk;
+    loaded.data = std::make_shared<const ViewChunk>(source_(chunk));
     const ChunkSize& size = tree_.chunks[chunk];
-    if (data.vertices.size() != size.vertices ||
-        data.indices.size() != std::size_t{3} * size.triangles)
+    if (loaded.data->vertices.size() != size.vertices ||
+        loaded.data->indices.size() != std::size_t{3} * size.triangles)
         throw Error(ErrorCode::malformed, options_.name,
                     "chunk " + std::to_string(chunk) +
                         " of the levels is damaged: it has another size than stated");
-    return data;
+    if (is_exact_[chunk])
+        loaded.occluders = find_occluders(*loaded.data);
+    return loaded;
 }
 
 void ChunkLoader::load(Lock& lock, const Job& job) {
@@ -247,10 +255,10 @@ void ChunkLoader::load(Lock& lock, const Job& job) {
     table_.set(job.chunk, ChunkState::loading);
     add_bytes(2 * bytes);
     lock.unlock();
-    std::shared_ptr<const ViewChunk> data;
+    LoadedChunk loaded;
     std::exception_ptr error;
     try {
-        data = std::make_shared<const ViewChunk>(read(job.chunk));
+        loaded = read(job.chunk);
     } catch (...) {
         error = std::current_exception();
     }
@@ -265,7 +273,7 @@ void ChunkLoader::load(Lock& lock, const Job& job) {
         return;
     }
     counters_.bytes_loaded += bytes;
-    staged_[job.chunk] = {std::move(data), job.is_wanted};
+    staged_[job.chunk] = {std::move(loaded), job.is_wanted};
     staged_bytes_ += bytes;
     order_.push_back(job.chunk);
     table_.set(job.chunk, ChunkState::staged);
@@ -276,18 +284,18 @@ void ChunkLoader::add_bytes(std::uint64_t bytes) {
     counters_.peak_bytes = std::max(counters_.peak_bytes, counters_.bytes);
 }
 
-std::shared_ptr<const ViewChunk> ChunkLoader::read_now(std::uint32_t chunk) {
+std::optional<LoadedChunk> ChunkLoader::read_now(std::uint32_t chunk) {
     Lock lock(mutex_);
     if (!make_room({chunk, true}))
-        return nullptr;
+        return std::nullopt;
     load(lock, {chunk, true});
     if (has_error_) {
         lock.unlock();
         throw_error();
     }
-    std::vector<ChunkUpload> uploads;
-    take_one(chunk, uploads);
-    return uploads.front().data;
+    std::vector<LoadedChunk> taken;
+    take_one(chunk, taken);
+    return std::move(taken.front());
 }
 
 void ChunkLoader::forget_taken() {

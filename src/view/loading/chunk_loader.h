@@ -2,6 +2,7 @@
 
 #include "view/loading/chunk_table.h"
 #include "view/loading/load_plan.h"
+#include "view/selection/occluder.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -40,9 +41,16 @@ struct LoaderCounters {
     std::uint64_t bytes_loaded = 0;
 };
 
+/// A chunk that was read.
+struct LoadedChunk {
+    std::uint32_t chunk = 0;
+    std::shared_ptr<const ViewChunk> data;
+    std::vector<Occluder> occluders; ///< of a chunk of full detail
+};
+
 /// What a frame takes.
 struct TakenChunks {
-    std::vector<ChunkUpload> uploads;
+    std::vector<LoadedChunk> chunks;
     LoaderCounters counters;
 };
 
@@ -81,7 +89,7 @@ public:
     /// room. Only without a thread.
     ///
     /// Errors      those of the source; the chunk has failed then.
-    std::shared_ptr<const ViewChunk> read_now(std::uint32_t chunk);
+    std::optional<LoadedChunk> read_now(std::uint32_t chunk);
     /// Frees what was read by read_now() before.
     void forget_taken();
     /// Without a thread: reads up to `chunks` chunks, as the thread would.
@@ -95,7 +103,7 @@ public:
 private:
     using Lock = std::unique_lock<std::mutex>;
     struct Staged {
-        std::shared_ptr<const ViewChunk> data;
+        LoadedChunk loaded;
         bool is_wanted = false;
     };
     struct Job {
@@ -114,17 +122,18 @@ private:
     bool make_room(const Job& job);
     void discard(bool even_planned, std::uint64_t bytes);
     void load(Lock& lock, const Job& job);
-    ViewChunk read(std::uint32_t chunk) const;
-    void take_one(std::uint32_t chunk, std::vector<ChunkUpload>& uploads);
+    [[nodiscard]] LoadedChunk read(std::uint32_t chunk) const;
+    void take_one(std::uint32_t chunk, std::vector<LoadedChunk>& taken);
     void add_bytes(std::uint64_t bytes);
     [[nodiscard]] std::uint64_t size_of(std::uint32_t chunk) const {
-        return tree_.chunks[chunk].bytes();
+        return tree_.chunks[chunk].bytes() + (is_exact_[chunk] ? kMostOccluderBytes : 0);
     }
 
     const LevelTree& tree_;
     ChunkTable& table_;
     ChunkSource source_;
     LoaderOptions options_;
+    std::vector<bool> is_exact_; ///< by chunk: shows world geometry at full detail
 
     mutable std::mutex mutex_;
     std::condition_variable news_, idle_;

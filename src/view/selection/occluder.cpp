@@ -79,14 +79,14 @@ Occluder occluder_of(const ViewChunk& chunk, const std::vector<ChunkTriangle>& t
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint16_t vertex = chunk.indices[triangles[t].first + i];
             const auto& p = chunk.vertices[vertex].position;
-            const std::uint64_t key = std::uint64_t{p[0]} | std::uint64_t{p[1]} << 16U |
-                                      std::uint64_t{p[2]} << 32U;
-            const auto [found, is_new] = numbers.try_emplace(
-                key, static_cast<std::uint16_t>(occluder.vertices.size()));
+            const std::uint64_t key =
+                std::uint64_t{p[0]} | std::uint64_t{p[1]} << 16U | std::uint64_t{p[2]} << 32U;
+            const auto [found, is_new] =
+                numbers.try_emplace(key, static_cast<std::uint16_t>(occluder.vertices.size()));
             if (is_new) {
                 const Vec3 at = position_of(chunk, vertex);
-                occluder.vertices.push_back({static_cast<float>(at.x), static_cast<float>(at.y),
-                                             static_cast<float>(at.z)});
+                occluder.vertices.push_back(
+                    {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)});
                 extend(box, at);
             }
             corners.at(i) = found->second;

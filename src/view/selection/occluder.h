@@ -32,6 +32,9 @@ struct Occluder {
     }
 };
 
+/// At most the bytes of all occluders of a chunk.
+inline constexpr std::uint64_t kMostOccluderBytes = std::uint64_t{64} << 10;
+
 /// Returns the occluders of the parts with the largest surfaces in a chunk that is not instanced:
 /// at most 8, of at most 128 triangles each.
 std::vector<Occluder> find_occluders(const ViewChunk& chunk);

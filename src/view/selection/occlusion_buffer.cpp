@@ -61,8 +61,8 @@ double OcclusionBuffer::cells(const Occluder& occluder) const {
     double square = 0;
     const std::array<double, 3> eye{eye_.x, eye_.y, eye_.z};
     for (std::size_t i = 0; i < 3; ++i) {
-        const double gap = std::max(
-            {0.0, occluder.lower.at(i) - eye.at(i), eye.at(i) - occluder.upper.at(i)});
+        const double gap =
+            std::max({0.0, occluder.lower.at(i) - eye.at(i), eye.at(i) - occluder.upper.at(i)});
         square += gap * gap;
     }
     const double per_length = 0.5 * kHeight / frame_.slope_y;
@@ -128,7 +128,8 @@ void OcclusionBuffer::draw_triangle(const std::array<Vec3, 3>& corners) {
 /// Fills a convex polygon of the plane dot(normal, p) = offset.
 void OcclusionBuffer::fill(const std::vector<Point>& polygon, const Vec3& normal, double offset) {
     // 1 / depth is linear in the picture: p = depth (slope_x u, slope_y v, 1).
-    const double to_x = normal.x * frame_.slope_x / offset, to_y = normal.y * frame_.slope_y / offset;
+    const double to_x = normal.x * frame_.slope_x / offset,
+                 to_y = normal.y * frame_.slope_y / offset;
     const double per_x = 2 * to_x / kWidth, per_y = -2 * to_y / kHeight;
     const double at_corner = normal.z / offset - to_x + to_y;
     double top = HUGE_VAL, bottom = -HUGE_VAL, least = HUGE_VAL;
@@ -136,10 +137,14 @@ void OcclusionBuffer::fill(const std::vector<Point>& polygon, const Vec3& normal
         top = std::min(top, p.y), bottom = std::max(bottom, p.y);
         least = std::min(least, p.w);
     }
-    const double spread = 0.5 * (std::abs(per_x) + std::abs(per_y));
+    // The least value in a cell is that in its middle less this; rounding to single precision
+    // included.
+    const double spread =
+        0.5 * (std::abs(per_x) + std::abs(per_y)) +
+        0x1p-21 * (std::abs(at_corner) + kWidth * std::abs(per_x) + kHeight * std::abs(per_y));
     const int last = std::min(cell_of(bottom + kCellError, kHeight), kHeight - 1);
     for (int y = std::max(cell_of(top - kCellError, kHeight), 0); y <= last; ++y) {
-        double left = HUGE_VAL, right = -HUGE_VAL;             // in the row of cells
+        double left = HUGE_VAL, right = -HUGE_VAL;               // in the row of cells
         double middle_left = HUGE_VAL, middle_right = -HUGE_VAL; // on its middle
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const Point *a = &polygon[i], *b = &polygon[(i + 1) % polygon.size()];
@@ -162,13 +167,18 @@ void OcclusionBuffer::fill(const std::vector<Point>& polygon, const Vec3& normal
         const int first = std::max(cell_of(left - kCellError, kWidth), 0);
         const int end = std::min(cell_of(right + kCellError, kWidth), kWidth - 1);
         touch(first, end, y);
-        for (int x = first; x <= end; ++x) {
-            const std::size_t i = index_of_cell(x, y, kWidth);
-            const double w = at_corner + per_x * (x + 0.5) + per_y * (y + 0.5) - spread;
-            farthest_[i] = std::min(farthest_[i], static_cast<float>(std::max(w, least)));
-            if (middle_left <= x + 0.5 && x + 0.5 <= middle_right)
-                covered_[i] |= 1U;
-        }
+        const std::size_t row = index_of_cell(0, y, kWidth);
+        const auto at_row = static_cast<float>(at_corner + per_y * (y + 0.5) - spread);
+        const auto per_cell = static_cast<float>(per_x), floor = static_cast<float>(least);
+        float* const farthest = farthest_.data() + row;
+        for (int x = first; x <= end; ++x)
+            farthest[x] = std::min(
+                farthest[x], std::max(at_row + per_cell * (static_cast<float>(x) + 0.5F), floor));
+        std::uint32_t* const covered = covered_.data() + row;
+        const int from = std::max(cell_of(std::ceil(middle_left - 0.5), kWidth), first);
+        const int to = std::min(cell_of(middle_right - 0.5, kWidth), end);
+        for (int x = from; x <= to; ++x)
+            covered[x] |= 1U;
     }
 }
 
@@ -212,15 +222,18 @@ void OcclusionBuffer::touch(int x0, int x1, int y) {
 
 /// Adds the cells that the occluder covers whole, and forgets it.
 void OcclusionBuffer::merge() {
-    for (int y = dirty_.y0; y <= dirty_.y1; ++y)
+    for (int y = dirty_.y0; y <= dirty_.y1; ++y) {
+        const std::size_t row = index_of_cell(0, y, kWidth);
+        float *const nearest = levels_[0].data() + row, *const farthest = farthest_.data() + row;
+        std::uint32_t* const covered = covered_.data() + row;
         for (int x = dirty_.x0; x <= dirty_.x1; ++x) {
-            const std::size_t i = index_of_cell(x, y, kWidth);
-            if (covered_[i] == 1)
-                levels_[0][i] = std::max(levels_[0][i], farthest_[i]);
-            covered_[i] = 0;
-            farthest_[i] = kNothing;
-            ++looked_at_;
+            const float w = covered[x] == 1 ? farthest[x] : 0;
+            nearest[x] = std::max(nearest[x], w);
+            farthest[x] = kNothing;
+            covered[x] = 0;
         }
+        looked_at_ += static_cast<std::size_t>(std::max(dirty_.x1 - dirty_.x0 + 1, 0));
+    }
 }
 
 void OcclusionBuffer::finish() {

@@ -57,10 +57,11 @@ private:
     CameraFrame frame_{Camera{}};
     Vec3 eye_; ///< world minus origin
     double near_ = 0;
-    std::vector<std::vector<float>> levels_; ///< 1 / depth; each next one has a quarter of the cells
+    std::vector<std::vector<float>>
+        levels_; ///< 1 / depth; each next one has a quarter of the cells
     // Of the occluder being drawn:
-    std::vector<float> farthest_;       ///< 1 / largest depth of its triangles in the cell
-    std::vector<std::uint8_t> covered_; ///< 1: the middle is covered; 2: an edge passes
+    std::vector<float> farthest_;        ///< 1 / largest depth of its triangles in the cell
+    std::vector<std::uint32_t> covered_; ///< 1: the middle is covered; 2: an edge passes
     Cells dirty_;
     std::vector<Vec3> corners_;
     std::vector<std::uint8_t> is_drawn_; ///< by triangle

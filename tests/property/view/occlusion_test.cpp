@@ -1,12 +1,11 @@
 // What the occlusion buffer hides, against rays.
-#include "view/selection/occlusion_buffer.h"
-
 #include "math/transform.h"
 #include "math/vector.h"
 #include "tests/support/level_trees.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
+#include "view/selection/occlusion_buffer.h"
 
 #include <array>
 #include <cmath>
@@ -167,8 +166,8 @@ TEST(Occluder, HasTheLargestTrianglesOfAChunk) {
     Random random(142);
     for (int i = 0; i < many(100); ++i) {
         const LevelModel model = LevelModelMaker(random, {.most_triangles = 400}).make();
-        const ViewChunk& chunk = model.chunks[static_cast<std::size_t>(
-            random.integer(0, int(model.chunks.size()) - 1))];
+        const ViewChunk& chunk =
+            model.chunks[static_cast<std::size_t>(random.integer(0, int(model.chunks.size()) - 1))];
         std::multiset<std::array<float, 9>> triangles;
         const auto add = [](std::multiset<std::array<float, 9>>& to, const auto& corner) {
             std::array<float, 9> one{};
