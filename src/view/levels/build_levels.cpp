@@ -10,7 +10,6 @@
 #include "store/database/exclusive_store.h"
 #include "store/database/level_table.h"
 #include "store/database/row_hash.h"
-#include "view/levels/chunk_codec.h"
 #include "view/levels/chunk_maker.h"
 #include "view/levels/level_items.h"
 #include "view/levels/tree_writer.h"
@@ -112,10 +111,14 @@ private:
         for (const auto& jobs : heights)
             total += jobs.size();
         ProgressMeter meter(options_.progress, "levels", std::max<std::size_t>(total, 1));
-        for (auto& jobs : heights) {
-            make(jobs, meter);
-            commit();
+        try {
+            for (auto& jobs : heights)
+                make(jobs, meter);
+        } catch (const Error&) {
+            keep_made();
+            throw;
         }
+        commit();
     }
 
     [[nodiscard]] bool is_instance(const PlannedNode& node) const {
@@ -217,7 +220,7 @@ private:
             const std::scoped_lock lock(mutex_);
             data = chunks_->read(row);
         }
-        return {surface_of(decode_chunk(data)), row.error, row.box};
+        return chunk_surface(row, data);
     }
 
     void store(Job& job) {
@@ -250,6 +253,14 @@ private:
     void commit() {
         const std::scoped_lock lock(mutex_);
         commit_now();
+    }
+    /// Keeps the chunks for the next call, if the store can still be written.
+    void keep_made() noexcept {
+        try {
+            commit();
+        } catch (const Error&) { // NOLINT: the caller tells the first error
+            transaction_.reset();
+        }
     }
     void commit_now() {
         if (transaction_)

@@ -18,7 +18,7 @@ struct ChunkHeader {
     std::array<float, 3> lower{}, step{};
 };
 
-constexpr std::size_t kMostVertices = 65536, kMostTriangles = std::size_t{1} << 20;
+constexpr std::size_t kMostVertices = 65536, kMostCodedTriangles = std::size_t{1} << 20;
 /// The largest chunk before compression.
 constexpr std::uint64_t kLargestChunkBytes = std::uint64_t{1} << 25;
 
@@ -117,12 +117,13 @@ void take_parts(std::span<const std::byte>& in, const ChunkHeader& header, PartC
     std::uint64_t row = 0;
     for (const std::uint64_t step : take_list<std::uint64_t>(in, header.parts))
         to.parts.push_back(static_cast<std::int64_t>(row += step));
+    to.errors = take_list<std::uint8_t>(in, header.parts);
     const std::vector<std::uint32_t> runs = take_list<std::uint32_t>(in, 2 * header.runs);
     std::size_t at = 0;
     std::uint32_t part = 0;
     for (std::size_t i = 0; i < runs.size(); i += 2) {
         part = i == 0 ? runs[0] : part + unzigzag(runs[i]);
-        if (runs[i + 1] > header.vertices - at || part >= std::max(header.parts, 1U))
+        if (runs[i + 1] > header.vertices - at || part >= header.parts)
             malformed("its parts are wrong");
         for (std::uint32_t k = 0; k < runs[i + 1]; ++k)
             to.chunk.vertices[at++].part = part;
@@ -169,6 +170,7 @@ std::vector<std::byte> encode_chunk(const PartChunk& from) {
     std::vector<std::byte> raw(sizeof header);
     std::memcpy(raw.data(), &header, sizeof header);
     append_part_rows(raw, from.parts);
+    append_list(raw, from.errors);
     append_list(raw, runs);
     append_list(raw, points.back);
     for (const auto& axis : points.steps)
@@ -189,7 +191,7 @@ PartChunk decode_chunk(std::span<const std::byte> data) {
         malformed("it cannot be decompressed");
     ChunkHeader header;
     std::memcpy(&header, raw.data(), sizeof header);
-    if (header.vertices > kMostVertices || header.triangles > kMostTriangles ||
+    if (header.vertices > kMostVertices || header.triangles > kMostCodedTriangles ||
         header.runs > header.vertices || header.points > header.vertices ||
         header.parts > bytes / sizeof(std::uint64_t))
         malformed("its header is wrong");

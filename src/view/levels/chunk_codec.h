@@ -13,7 +13,7 @@ namespace abut {
 /// them, as quantise() leaves them.
 ///
 ///     u32 vertices | u32 triangles | u32 parts | 3 floats lower | 3 floats step
-///     part rows | lengths of the runs of vertices of one part | new points | x | y | z
+///     part rows | error codes of parts | lengths of the runs of vertices of one part | new points | x | y | z
 ///     normals | corners
 ///
 /// A vertex whose point an earlier vertex has states how many points back that is, others state 0

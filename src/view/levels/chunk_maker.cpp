@@ -15,7 +15,9 @@ namespace abut {
 namespace {
 
 constexpr std::uint32_t kLeastTriangles = 64; ///< of a level of a shared mesh
-constexpr std::uint32_t kReduction = 4;       ///< triangles of children to those of their parent
+constexpr std::uint32_t kReduction = 3;       ///< triangles of children to those of their parent
+/// Of a parent. With three vertices each, they stay below 65,536 vertices.
+constexpr std::uint32_t kMostTriangles = 16384;
 
 Box3 box_of(const LevelSurface& surface) {
     Box3 box;
@@ -80,6 +82,7 @@ MadeChunk make_leaf(StoreFile& store, std::span<const LevelItem> items, const Ve
     std::sort(surface.parts.begin(), surface.parts.end());
     surface.parts.erase(std::unique(surface.parts.begin(), surface.parts.end()),
                         surface.parts.end());
+    surface.errors.assign(surface.parts.size(), 0);
     int least_exponent = -1000;
     for (const LevelItem& item : items) {
         const PartRow part = store.part(item.part);
@@ -105,13 +108,14 @@ MadeChunk make_leaf(StoreFile& store, std::span<const LevelItem> items, const Ve
 
 std::vector<MadeChunk> make_mesh_levels(StoreFile& store, std::int64_t mesh, const Vec3& centre) {
     LevelSurface surface;
+    surface.parts = {kSharedMesh};
+    surface.errors = {0};
     add_shaded(store.read_mesh(mesh), translated(Transform(), -centre), 0, surface);
     std::vector<MadeChunk> levels;
     levels.push_back(pack_leaf(surface, -1000));
     while (levels.back().row.triangles > kLeastTriangles) {
-        const PartChunk finer = decode_chunk(levels.back().data);
         std::vector<ChildSurface> child;
-        child.push_back({surface_of(finer), levels.back().row.error, levels.back().row.box});
+        child.push_back(chunk_surface(levels.back().row, levels.back().data));
         MadeChunk coarser = make_parent(std::move(child));
         if (coarser.row.triangles == 0 ||
             coarser.row.triangles * 3 > levels.back().row.triangles * 2)
@@ -121,53 +125,72 @@ std::vector<MadeChunk> make_mesh_levels(StoreFile& store, std::int64_t mesh, con
     return levels;
 }
 
+ChildSurface chunk_surface(const LevelChunkRow& row, std::span<const std::byte> data) {
+    ChildSurface child{surface_of(decode_chunk(data)), row.box};
+    for (double& error : child.surface.errors)
+        error = std::min(error, row.error); // a code has a limited range
+    return child;
+}
+
 ChildSurface instance_surface(StoreFile& store, const LevelItem& item, const Vec3& origin) {
     ChildSurface child;
     const PartRow part = store.part(item.part);
     child.surface.parts = {item.part};
+    child.surface.errors = {0};
     add_shaded(store.read_mesh(part.mesh), translated(part.world_from_mesh, -origin), 0,
                child.surface);
     child.box = box_of(child.surface);
     return child;
 }
 
-MadeChunk make_parent(std::vector<ChildSurface> children) {
+namespace {
+
+/// The triangles of all children. A part of several children has the largest of its errors.
+LevelSurface merge(const std::vector<ChildSurface>& children) {
     LevelSurface merged;
-    Box3 box;
-    double error = 0;
-    for (const ChildSurface& child : children) {
+    for (const ChildSurface& child : children)
         merged.parts.insert(merged.parts.end(), child.surface.parts.begin(),
                             child.surface.parts.end());
-        extend(box, child.box.lower);
-        extend(box, child.box.upper);
-        error = std::max(error, child.error);
-    }
     std::sort(merged.parts.begin(), merged.parts.end());
     merged.parts.erase(std::unique(merged.parts.begin(), merged.parts.end()), merged.parts.end());
-    for (ChildSurface& child : children) {
+    merged.errors.assign(merged.parts.size(), 0);
+    for (const ChildSurface& child : children) {
+        std::vector<std::uint32_t> number_of;
+        for (std::size_t i = 0; i < child.surface.parts.size(); ++i) {
+            const auto found =
+                std::lower_bound(merged.parts.begin(), merged.parts.end(), child.surface.parts[i]);
+            number_of.push_back(static_cast<std::uint32_t>(found - merged.parts.begin()));
+            double& error = merged.errors[number_of.back()];
+            error = std::max(error, child.surface.errors[i]);
+        }
         const auto base = static_cast<std::uint32_t>(merged.vertices.size());
         for (SurfaceVertex v : child.surface.vertices) {
-            if (!child.surface.parts.empty())
-                v.part = static_cast<std::uint32_t>(std::lower_bound(merged.parts.begin(),
-                                                                     merged.parts.end(),
-                                                                     child.surface.parts[v.part]) -
-                                                    merged.parts.begin());
+            v.part = number_of[v.part];
             merged.vertices.push_back(v);
         }
-        for (auto t : child.surface.triangles) {
-            for (std::uint32_t& v : t)
-                v += base;
-            merged.triangles.push_back(t);
-        }
-        child = {};
+        for (const auto& [a, b, c] : child.surface.triangles)
+            merged.triangles.push_back({base + a, base + b, base + c});
     }
+    return merged;
+}
+
+} // namespace
+
+MadeChunk make_parent(std::vector<ChildSurface> children) {
+    Box3 box;
+    for (const ChildSurface& child : children)
+        if (!is_empty(child.box)) {
+            extend(box, child.box.lower);
+            extend(box, child.box.upper);
+        }
+    const LevelSurface merged = merge(children);
+    children.clear();
     const auto target = std::min<std::uint32_t>(
-        static_cast<std::uint32_t>(merged.triangles.size() / kReduction), kLeafTriangles);
+        static_cast<std::uint32_t>(merged.triangles.size() / kReduction), kMostTriangles);
     const SimplifiedSurface simple = simplify(merged, target);
     const Box3 kept = box_of(simple.surface);
     const ChunkGrid grid = grid_of(is_empty(kept) ? Box3{{}, {}} : kept, -1000);
-    error += std::max(simple.left_out + error, 4 * simple.estimate) + grid.error();
-    return pack(quantise(simple.surface, grid, false), box, error);
+    return pack(quantise(simple.surface, grid, true), box, simple.error + grid.error());
 }
 
 } // namespace abut

@@ -19,8 +19,7 @@ struct MadeChunk {
 /// A child of a node whose chunk is made.
 struct ChildSurface {
     LevelSurface surface;
-    double error = 0;
-    Box3 box;
+    Box3 box; ///< of the surface and of what it stands for
 };
 
 /// Full detail of some parts.
@@ -32,6 +31,10 @@ MadeChunk make_leaf(StoreFile& store, std::span<const LevelItem> items, const Ve
 /// The levels of a mesh that parts share, finest first, relative to `centre`.
 std::vector<MadeChunk> make_mesh_levels(StoreFile& store, std::int64_t mesh, const Vec3& centre);
 
+/// A chunk as the child of another one.
+///
+/// Errors      Fault malformed if the data are not those of a chunk.
+ChildSurface chunk_surface(const LevelChunkRow& row, std::span<const std::byte> data);
 /// Full detail of an instance.
 ChildSurface instance_surface(StoreFile& store, const LevelItem& item, const Vec3& origin);
 

@@ -59,14 +59,17 @@ ViewChunk read_level_chunk(StoreFile& store, const LevelTree& tree, std::uint32_
         // Numbers of parts in the store become their indices in the tree.
         std::vector<std::uint32_t> index_of;
         for (const std::int64_t part : read.parts) {
+            if (part == kSharedMesh) {
+                index_of.push_back(0);
+                continue;
+            }
             const auto found = std::lower_bound(tree.parts.begin(), tree.parts.end(), part);
             if (found == tree.parts.end() || *found != part)
                 throw damaged("it shows a part that is not in the store");
             index_of.push_back(static_cast<std::uint32_t>(found - tree.parts.begin()));
         }
-        if (!read.parts.empty())
-            for (ChunkVertex& vertex : read.chunk.vertices)
-                vertex.part = index_of.at(vertex.part);
+        for (ChunkVertex& vertex : read.chunk.vertices)
+            vertex.part = index_of.at(vertex.part);
         return std::move(read.chunk);
     } catch (const Fault& fault) {
         throw damaged(fault.what());

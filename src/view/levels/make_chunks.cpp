@@ -35,6 +35,8 @@ std::vector<ViewChunk> make_chunks(const Mesh& mesh, const Transform& mesh_to_fr
             chosen.push_back(order[i].second);
         std::sort(chosen.begin(), chosen.end());
         LevelSurface surface;
+        surface.parts = {kSharedMesh};
+        surface.errors = {0};
         add_shaded(mesh, chosen, mesh_to_frame, 0, surface);
         Box3 box;
         for (const SurfaceVertex& v : surface.vertices)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace abut {
@@ -9,6 +10,7 @@ namespace abut {
 namespace {
 
 constexpr double kLast = 65535;
+constexpr double kLeastErrorExponent = -20;
 
 /// The exponent of the least power of two that is at least v.
 int ceil_exponent(double v) {
@@ -32,6 +34,22 @@ struct VertexHash {
 };
 
 } // namespace
+
+std::uint8_t code_of_error(double error) {
+    if (!(error > 0))
+        return 0;
+    const double steps = std::ceil(8 * (std::log2(error) - kLeastErrorExponent)) + 1;
+    auto code = static_cast<std::uint8_t>(std::clamp(steps, 1.0, 255.0));
+    while (code < 255 && error_of_code(code) < error) // the logarithm was rounded
+        ++code;
+    return code;
+}
+
+double error_of_code(std::uint8_t code) {
+    return code == 0     ? 0
+           : code == 255 ? std::numeric_limits<double>::infinity()
+                         : std::exp2(kLeastErrorExponent + (code - 1) / 8.0);
+}
 
 double ChunkGrid::step() const {
     return std::ldexp(1.0, exponent);
@@ -57,9 +75,29 @@ ChunkGrid grid_of(const Box3& box, int least_exponent) {
     return grid;
 }
 
+namespace {
+
+/// Lists the parts that triangles show, and returns their new numbers.
+std::vector<std::uint32_t> used_parts(const LevelSurface& surface, double rounding, PartChunk& to) {
+    std::vector<std::uint32_t> number_of(std::max<std::size_t>(surface.parts.size(), 1), 0);
+    for (const auto& t : surface.triangles)
+        number_of[surface.vertices[t[0]].part] = 1;
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < surface.parts.size(); ++i) {
+        if (number_of[i] == 0)
+            continue;
+        number_of[i] = count++;
+        to.parts.push_back(surface.parts[i]);
+        to.errors.push_back(code_of_error(surface.errors[i] + rounding));
+    }
+    return number_of;
+}
+
+} // namespace
+
 PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep_flat) {
     PartChunk result;
-    result.parts = surface.parts;
+    const std::vector<std::uint32_t> part = used_parts(surface, grid.error(), result);
     ViewChunk& chunk = result.chunk;
     for (std::size_t k = 0; k < 3; ++k) {
         chunk.lower.at(k) =
@@ -69,7 +107,7 @@ PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep
     std::unordered_map<ChunkVertex, std::uint16_t, VertexHash> number_of;
     number_of.reserve(surface.vertices.size());
     const auto rounded = [&](const SurfaceVertex& v) {
-        ChunkVertex to{{}, v.normal, v.part};
+        ChunkVertex to{{}, v.normal, part[v.part]};
         for (std::size_t k = 0; k < 3; ++k) {
             const double at = std::nearbyint(std::ldexp(component(v.position, static_cast<int>(k)),
                                                         -grid.exponent)) -
@@ -101,6 +139,8 @@ PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep
 LevelSurface surface_of(const PartChunk& from) {
     LevelSurface surface;
     surface.parts = from.parts;
+    for (const std::uint8_t code : from.errors)
+        surface.errors.push_back(error_of_code(code));
     const ViewChunk& chunk = from.chunk;
     surface.vertices.reserve(chunk.vertices.size());
     for (const ChunkVertex& v : chunk.vertices) {

@@ -10,9 +10,14 @@ namespace abut {
 
 /// A chunk, and what its parts' numbers stand for.
 struct PartChunk {
-    ViewChunk chunk;                 ///< ChunkVertex::part is an index in `parts`
-    std::vector<std::int64_t> parts; ///< rows of the table `part`, ascending
+    ViewChunk chunk;                  ///< ChunkVertex::part is an index in `parts`
+    std::vector<std::int64_t> parts;  ///< rows of the table `part`, ascending
+    std::vector<std::uint8_t> errors; ///< by part: code of LevelSurface::errors
 };
+
+/// The least code whose error is at least this; codes are an eighth of a power of two apart.
+std::uint8_t code_of_error(double error);
+double error_of_code(std::uint8_t code);
 
 /// The grid of a chunk's positions. Its step is a power of two, and its points are multiples of the
 /// step: they are floats, and chunks with one step share their points.
@@ -25,12 +30,12 @@ struct ChunkGrid {
     [[nodiscard]] double error() const;
 };
 
-/// The finest grid with 65,536 points an axis that encloses a box.
-///
-/// In          coarsest: least exponent that the grid may have.
+/// The finest grid with 65,536 points an axis that encloses a box, and whose exponent is at least
+/// this.
 ChunkGrid grid_of(const Box3& box, int least_exponent);
 
-/// Rounds a surface to a grid that encloses it. Vertices that become equal are one.
+/// Rounds a surface to a grid that encloses it. Vertices that become equal are one, and parts
+/// without triangles are left out. The errors of parts include the rounding.
 ///
 /// In          keep_flat: whether triangles are kept that have become degenerate.
 PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep_flat);

@@ -7,18 +7,21 @@
 namespace abut {
 
 struct SimplifiedSurface {
-    LevelSurface surface;
-    /// The largest piece that was left out. A piece is a set of triangles of one part that are
-    /// connected through vertices; its size is the diagonal of its box.
-    double left_out = 0;
-    double estimate = 0; ///< of the distance between the surfaces; not a bound
+    LevelSurface surface; ///< its errors include those of the given surface
+    /// At least the errors of all parts and the sizes of the pieces that were left out. A piece is a
+    /// set of triangles of one part that are connected through vertices; its size is the diagonal of
+    /// its box, enlarged on both sides by the error that it had.
+    double error = 0;
 };
 
-/// Makes fewer triangles of a surface. Vertices keep their places and normals; most are removed.
+/// Makes fewer triangles of a surface, with the least error that the pieces allow. Vertices keep
+/// their places and normals; most are removed.
 ///
-/// In          target: triangles to reach; the result may have more if the pieces do not allow it.
-/// Cost        O(n log n).
-/// Source      edge collapse by quadrics [Garland, Heckbert 1997], by meshoptimizer.
+/// In          target: triangles that the result may have.
+/// Accuracy    the errors are proven, see deviation.h.
+/// Source      edge collapse by quadrics [Garland, Heckbert 1997], by meshoptimizer. It gives each
+///             piece several versions, whose errors are then bounded. Of each piece the coarsest
+///             version within the common error is taken.
 SimplifiedSurface simplify(const LevelSurface& surface, std::uint32_t target);
 
 } // namespace abut
