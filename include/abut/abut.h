@@ -4,6 +4,7 @@
 /// alone.
 #include <abut/batch.h>
 #include <abut/broad_phase.h>
+#include <abut/camera.h>
 #include <abut/carry.h>
 #include <abut/clash.h>
 #include <abut/clash_review.h>
@@ -15,6 +16,7 @@
 #include <abut/error.h>
 #include <abut/frame.h>
 #include <abut/helper_programs.h>
+#include <abut/levels.h>
 #include <abut/maintenance_path.h>
 #include <abut/make_mesh.h>
 #include <abut/mesh.h>
@@ -28,7 +30,9 @@
 #include <abut/shapes.h>
 #include <abut/store.h>
 #include <abut/store_clash.h>
+#include <abut/tour.h>
 #include <abut/types.h>
+#include <abut/view.h>
 #include <abut/volume.h>
 #include <abut/walk.h>
 #include <abut/walker.h>
