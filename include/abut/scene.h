@@ -12,6 +12,14 @@
 
 namespace abut {
 
+/// A colour as displays take it: sRGB, alpha not multiplied in. 0 is transparent.
+struct Colour {
+    std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+    friend bool operator==(const Colour&, const Colour&) = default;
+};
+/// "#rrggbb"; "#rrggbbaa" if it is not opaque.
+std::string to_string(const Colour& colour);
+
 /// One node of a model file that has geometry.
 struct Part {
     std::string id; ///< the node's name (glTF of a building: the GlobalId); unique within its scene
@@ -19,6 +27,9 @@ struct Part {
     std::string type;       ///< `extras.type`; if missing, empty
     std::uint32_t mesh = 0; ///< index in Scene::meshes
     Transform world_from_mesh;
+    /// The colour of the material that covers the most of its triangles. None if the file states
+    /// none there, or if the material has a texture, because textures are not read.
+    std::optional<Colour> colour{};
 };
 
 /// The axis of a right-handed frame that points up. Frames with different up axes differ by quarter

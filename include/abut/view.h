@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -94,8 +95,8 @@ struct ViewOptions {
 struct ViewPart {
     std::int64_t number = 0;
     std::string file, id, name, type;
-    Box3 box;                             ///< world
-    std::array<std::uint8_t, 4> colour{}; ///< of its material, red green blue alpha; alpha 0: none
+    Box3 box;                     ///< world
+    std::optional<Colour> colour; ///< as Part::colour
 };
 
 class ViewData;

@@ -7,8 +7,10 @@
 #include "io/reader/collada_asset.h"
 #include "io/reader/fbx_frame.h"
 #include "io/reader/joined_vertices.h"
+#include "io/reader/material_colour.h"
 #include "io/reader/node_parts.h"
 #include "io/reader/threemf.h"
+#include "io/scene/colour.h"
 
 #include <algorithm>
 #include <assimp/DefaultIOSystem.h>
@@ -18,6 +20,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <optional>
 #include <span>
 
 namespace abut {
@@ -89,6 +92,19 @@ Sizes sizes_of(const aiScene& scene, const MeshList& list) {
     if (std::max(sizes.vertices, sizes.triangles) > kLargestMesh)
         throw Fault(ErrorCode::unsupported, "has a part with more than 4 billion vertices");
     return sizes;
+}
+
+/// The colour that covers the most triangles of a mesh.
+std::optional<Colour> colour_of(const aiScene& scene, const MeshList& list) {
+    ColourTally colours;
+    for (const unsigned number : list) {
+        const aiMesh& mesh = *scene.mMeshes[number];
+        colours.add(mesh.mMaterialIndex < scene.mNumMaterials
+                        ? colour_of_material(*scene.mMaterials[mesh.mMaterialIndex])
+                        : std::nullopt,
+                    triangle_count(mesh));
+    }
+    return colours.largest();
 }
 
 /// In          number_of: the index under which each of the mesh's vertices is written.
@@ -172,19 +188,23 @@ void read_model(const std::string& file, StreamWriter& writer) {
     std::map<MeshList, std::uint32_t> number_of;
     std::vector<const MeshList*> lists;
     std::vector<Sizes> sizes;
+    std::vector<std::optional<Colour>> colours;
     for (const NodePart& part : parts) {
         const auto [entry, is_new] =
             number_of.emplace(part.meshes, static_cast<std::uint32_t>(lists.size()));
         if (is_new) {
             lists.push_back(&entry->first);
             sizes.push_back(sizes_of(scene, entry->first));
+            colours.push_back(colour_of(scene, entry->first));
         }
     }
     writer.begin(frame, applied, lists.size(), parts.size());
     for (std::size_t i = 0; i < lists.size(); ++i)
         write_mesh(scene, *lists[i], sizes[i], writer);
-    for (const NodePart& part : parts)
-        writer.part(part.world_from_node, number_of.at(part.meshes), part.id, part.name, part.type);
+    for (const NodePart& part : parts) {
+        const std::uint32_t mesh = number_of.at(part.meshes);
+        writer.part(part.world_from_node, mesh, part.id, part.name, part.type, colours[mesh]);
+    }
     writer.end();
 }
 
