@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/camera.h>
+#include <abut/scene.h>
 #include <abut/types.h>
 #include <abut/view.h>
 
@@ -14,8 +15,6 @@
 
 /// Draws what a View chooses, with OpenGL 3.3. It belongs to the library target Abut::render.
 namespace abut {
-
-using Colour = std::array<std::uint8_t, 3>; ///< red, green, blue
 
 /// An 8-bit picture: rows from top to bottom, three bytes a pixel.
 struct Picture {
@@ -42,7 +41,7 @@ private:
     std::unique_ptr<Handles> handles_;
 };
 
-/// How a part is drawn.
+/// How a part is drawn. The alpha of colours has no effect.
 struct PartState {
     Colour colour{200, 200, 200};
     bool hidden = false;

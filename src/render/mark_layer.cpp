@@ -16,13 +16,13 @@ struct MarkVertex {
 };
 
 /// A point of the picture: pixels from the lower left corner, and depth.
-Vec3 pixel_of(const CameraFrame& camera, const Vec3& point) {
+Vec3 pixel_of(const DrawnCamera& camera, const Vec3& point) {
     const Vec3 seen = camera.project(point);
     return {(seen.x + 1) / 2 * camera.width, (seen.y + 1) / 2 * camera.height, seen.z};
 }
 
 /// The part of a segment in front of the camera; false if there is none.
-bool clip_to_front(const CameraFrame& camera, Vec3& a, Vec3& b) {
+bool clip_to_front(const DrawnCamera& camera, Vec3& a, Vec3& b) {
     const double depth_a = dot(camera.forward, a - camera.eye) - camera.near;
     const double depth_b = dot(camera.forward, b - camera.eye) - camera.near;
     if (!(depth_a > 0) && !(depth_b > 0))
@@ -39,9 +39,9 @@ void add_quad(std::vector<MarkVertex>& vertices, const Mark& mark, const Vec3& a
     const double half = std::max(0.5, static_cast<double>(mark.width) / 2), reach = half + 1;
     const double dx = b.x - a.x, dy = b.y - a.y, span = std::hypot(dx, dy);
     const double ux = span > 0 ? dx / span : 1, uy = span > 0 ? dy / span : 0;
-    std::array<float, 3> colour{};
-    for (std::size_t i = 0; i < 3; ++i)
-        colour[i] = to_float(mark.colour[i] / 255.0);
+    const std::array<float, 3> colour{to_float(mark.colour.red / 255.0),
+                                      to_float(mark.colour.green / 255.0),
+                                      to_float(mark.colour.blue / 255.0)};
     const auto corner = [&](bool at_b, double side) -> MarkVertex {
         const Vec3& end = at_b ? b : a;
         const double along = at_b ? reach : -reach;
@@ -59,7 +59,7 @@ void add_quad(std::vector<MarkVertex>& vertices, const Mark& mark, const Vec3& a
 
 } // namespace
 
-void MarkLayer::draw(std::span<const Mark> marks, const CameraFrame& camera,
+void MarkLayer::draw(std::span<const Mark> marks, const DrawnCamera& camera,
                      const std::array<float, 3>& depth_to_w, std::uint32_t samples) {
     std::vector<MarkVertex> vertices;
     for (const Mark& mark : marks) {

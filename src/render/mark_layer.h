@@ -2,7 +2,7 @@
 
 #include <abut/renderer.h>
 
-#include "render/camera_frame.h"
+#include "render/drawn_camera.h"
 #include "render/gl_handle.h"
 #include "render/shader_program.h"
 
@@ -18,7 +18,7 @@ public:
     ///
     /// In          depth_to_w: as the shaders know it; samples: of the depth texture, along a side
     ///             of a pixel.
-    void draw(std::span<const Mark> marks, const CameraFrame& camera,
+    void draw(std::span<const Mark> marks, const DrawnCamera& camera,
               const std::array<float, 3>& depth_to_w, std::uint32_t samples);
 
 private:

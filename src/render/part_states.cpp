@@ -19,7 +19,7 @@ PartStates::PartStates(std::size_t parts) : parts_(parts) {
     if (rows > static_cast<std::size_t>(most) || kRow > static_cast<std::uint32_t>(most))
         throw Error(ErrorCode::unsupported, "the graphics card has no room for so many parts");
     const PartState none;
-    texels_.assign(rows * kRow, {none.colour[0], none.colour[1], none.colour[2], 0});
+    texels_.assign(rows * kRow, {none.colour.red, none.colour.green, none.colour.blue, 0});
     changed_.assign(rows, false);
     glBindTexture(GL_TEXTURE_2D, texture_.name());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -39,7 +39,7 @@ void PartStates::count(Texel texel, int by) {
 void PartStates::set(std::uint32_t part, const PartState& state) {
     if (part >= parts_)
         throw Error(ErrorCode::bad_argument, "the renderer has no such part");
-    const Texel texel{state.colour[0], state.colour[1], state.colour[2],
+    const Texel texel{state.colour.red, state.colour.green, state.colour.blue,
                       static_cast<std::uint8_t>((state.hidden ? kHidden : 0) |
                                                 (state.ghosted ? kGhosted : 0) |
                                                 (state.highlighted ? kHighlighted : 0))};

@@ -41,7 +41,7 @@ void reset_state() {
 }
 
 std::array<float, 3> to_floats(const Colour& colour) {
-    return {to_float(colour[0] / 255.0), to_float(colour[1] / 255.0), to_float(colour[2] / 255.0)};
+    return {to_float(colour.red / 255.0), to_float(colour.green / 255.0), to_float(colour.blue / 255.0)};
 }
 
 } // namespace
@@ -103,7 +103,7 @@ void RendererData::set_sections(ShaderProgram& used) const {
 }
 
 void RendererData::begin(const Camera& seen_by, const RenderStyle& drawn_in) {
-    const CameraFrame checked(seen_by);
+    const DrawnCamera checked(seen_by);
     require_valid_style(drawn_in);
     camera = checked;
     style = drawn_in;

@@ -2,7 +2,7 @@
 
 #include <abut/renderer.h>
 
-#include "render/camera_frame.h"
+#include "render/drawn_camera.h"
 #include "render/chunk_buffers.h"
 #include "render/frame_targets.h"
 #include "render/mark_layer.h"
@@ -31,7 +31,7 @@ public:
     PartStates states;
     ChunkBuffers chunks;
     FrameTargets targets;
-    std::optional<CameraFrame> camera; ///< of the last picture
+    std::optional<DrawnCamera> camera; ///< of the last picture
     RenderStyle style;
     bool is_open = false; ///< between begin and end
     GLuint target = 0;    ///< the framebuffer that was bound at begin

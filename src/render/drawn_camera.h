@@ -9,14 +9,14 @@
 namespace abut {
 
 /// A camera as the shaders need it: orthonormal axes and the slopes of the picture's borders.
-struct CameraFrame {
+struct DrawnCamera {
     Vec3 eye, right, up, forward;       ///< unit vectors, world
     double slope_x = 1, slope_y = 1;    ///< of the right and the upper border of the picture
     double near = 0.05, far = 10'000;
     std::uint32_t width = 1, height = 1;
 
     /// Errors      Error{bad_argument} if the camera is not as its members say.
-    explicit CameraFrame(const Camera& camera);
+    explicit DrawnCamera(const Camera& camera);
 
     /// The matrix from world minus origin to clip space. With `reversed`, depth runs from 1 at the
     /// near plane to 0 at the far plane, for a clip space with z in [0, w].

@@ -1,4 +1,4 @@
-#include "render/camera_frame.h"
+#include "render/drawn_camera.h"
 
 #include <abut/error.h>
 #include <abut/renderer.h>
@@ -32,7 +32,7 @@ std::array<float, 3> to_floats(const Vec3& v) {
     return {to_float(v.x), to_float(v.y), to_float(v.z)};
 }
 
-CameraFrame::CameraFrame(const Camera& camera)
+DrawnCamera::DrawnCamera(const Camera& camera)
     : eye(camera.eye), near(camera.near), far(camera.far), width(camera.width),
       height(camera.height) {
     require_valid(camera);
@@ -45,7 +45,7 @@ CameraFrame::CameraFrame(const Camera& camera)
     slope_x = slope_y * width / height;
 }
 
-std::array<float, 16> CameraFrame::clip_from_world(const Vec3& origin, bool reversed) const {
+std::array<float, 16> DrawnCamera::clip_from_world(const Vec3& origin, bool reversed) const {
     const Vec3 shift = origin - eye;
     const double range = far - near;
     // Depth is n (f - w) / (f - n) if it is reversed, else ((f + n) w - 2 f n) / (f - n).
@@ -62,14 +62,14 @@ std::array<float, 16> CameraFrame::clip_from_world(const Vec3& origin, bool reve
     return matrix;
 }
 
-Vec3 CameraFrame::project(const Vec3& point) const {
+Vec3 DrawnCamera::project(const Vec3& point) const {
     const Vec3 from_eye = point - eye;
     const double depth = dot(forward, from_eye);
     return {dot(right, from_eye) / (slope_x * depth), dot(up, from_eye) / (slope_y * depth), depth};
 }
 
 std::optional<Vec3> on_screen(const Camera& camera, const Vec3& point) {
-    const CameraFrame frame(camera);
+    const DrawnCamera frame(camera);
     const Vec3 seen = frame.project(point);
     if (!(seen.z >= frame.near))
         return std::nullopt;
