@@ -61,8 +61,9 @@ struct LevelTree {
     std::vector<LevelInstance> instances;
     std::vector<LevelMesh> meshes;
     std::vector<MeshLevel> mesh_levels;
-    std::vector<ChunkSize> chunks;   ///< by number
-    std::vector<std::int64_t> parts; ///< rows of the table `part`, ascending
+    std::vector<ChunkSize> chunks;        ///< by number
+    std::vector<std::int64_t> chunk_rows; ///< by number: rows of the table `level_chunk`
+    std::vector<std::int64_t> parts;      ///< rows of the table `part`, ascending
     [[nodiscard]] std::uint64_t bytes() const;
 };
 
@@ -74,8 +75,9 @@ LevelTree read_level_tree(StoreFile& store);
 
 /// Reads and decodes a chunk. May be called from any thread.
 ///
+/// In          tree: as read from this store; chunk: below tree.chunks.size().
 /// Errors      Error{malformed}, naming the store and the chunk, if it is damaged.
-ViewChunk read_level_chunk(StoreFile& store, std::uint32_t chunk);
+ViewChunk read_level_chunk(StoreFile& store, const LevelTree& tree, std::uint32_t chunk);
 
 /// Makes a chunk of a mesh at full detail, for pictures of models that are not in a store. Its
 /// vertices are split where faces meet at a crease. A mesh of more than 65,536 triangles, or
