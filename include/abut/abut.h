@@ -4,6 +4,7 @@
 /// alone.
 #include <abut/batch.h>
 #include <abut/broad_phase.h>
+#include <abut/camera.h>
 #include <abut/clash.h>
 #include <abut/clash_review.h>
 #include <abut/convex.h>
@@ -14,6 +15,7 @@
 #include <abut/error.h>
 #include <abut/frame.h>
 #include <abut/helper_programs.h>
+#include <abut/levels.h>
 #include <abut/make_mesh.h>
 #include <abut/mesh.h>
 #include <abut/model.h>
@@ -26,7 +28,9 @@
 #include <abut/shapes.h>
 #include <abut/store.h>
 #include <abut/store_clash.h>
+#include <abut/tour.h>
 #include <abut/types.h>
+#include <abut/view.h>
 #include <abut/volume.h>
 #include <abut/walk.h>
 #include <abut/world.h>

@@ -5,6 +5,7 @@
 #include <abut/types.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -70,12 +71,15 @@ struct ViewStatistics {
 
 /// What to draw. Valid until the next call of View::frame.
 struct ViewFrame {
-    std::span<const ChunkUpload> uploads; ///< before drawing
-    std::span<const std::uint32_t> drops; ///< chunks that are no longer needed
+    std::span<const std::uint32_t> drops; ///< chunks that are no longer needed; first of all
+    std::span<const ChunkUpload> uploads; ///< after the drops, before drawing
     std::span<const ChunkDraw> draws;     ///< nearest first
     std::span<const ChunkInstance> instances;
     /// Whether every chunk is at the level that the pixel error asks for.
     bool complete = false;
+    /// Whether nothing that this frame wanted is missing, except what cannot be read. The same
+    /// camera then gives the same draws again. True also where a budget keeps the picture coarse.
+    bool loaded = false;
     double pixel_error = 0; ///< the largest error of what is drawn, in pixels
 };
 
@@ -87,6 +91,9 @@ struct ViewOptions {
     double pixel_error = 1; ///< largest error in pixels; more if the budgets demand it
     std::uint64_t triangle_budget = 500'000;
     std::uint32_t draw_budget = 1'500;
+    /// Bytes of chunks that one frame hands to the renderer, or one chunk. A frame after `wait` has
+    /// no such limit.
+    std::uint64_t upload_budget = std::uint64_t{4} << 20;
     double look_ahead = 1;  ///< seconds of the predicted path for which chunks are read ahead
     bool background = true; ///< whether a second thread reads; otherwise `frame` reads all it needs
 };
@@ -97,6 +104,13 @@ struct ViewPart {
     std::string file, id, name, type;
     Box3 box;                     ///< world
     std::optional<Colour> colour; ///< as Part::colour
+};
+
+/// An answer of View::find_parts.
+struct FoundParts {
+    std::vector<std::uint32_t> parts; ///< indices in View::parts(), ascending
+    /// Where to go on: the first part that was not compared. The number of parts if all were.
+    std::uint32_t next = 0;
 };
 
 class ViewData;
@@ -119,8 +133,12 @@ public:
     /// In          velocity: of the eye, in units a second, for loading ahead.
     /// Errors      Error{bad_argument} if the camera is not valid; Error{malformed} if a chunk that
     ///             was read is damaged.
+    /// Cost        O(n log n) of the n chunks and instances drawn and those that they replace,
+    ///             whatever the size of the store; and at most ViewOptions::upload_budget of
+    ///             chunks change hands.
     const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {});
-    /// Waits until all that the last frame wanted is loaded, or memory is full.
+    /// Waits until all that the last frame wanted is loaded, or memory is full. The next frame shows
+    /// it. If a chunk cannot be read, it returns at once and the next frame throws the Error.
     void wait();
 
     /// A point in the middle of the model; chunks are relative to it.
@@ -129,6 +147,20 @@ public:
     [[nodiscard]] UpAxis up() const;
     /// Rows of the store's table `part`, ascending. ChunkVertex::part is an index in it.
     [[nodiscard]] std::span<const std::int64_t> parts() const;
+    /// The index in parts() of a row; none if there is no such part.
+    [[nodiscard]] std::optional<std::uint32_t> index_of(std::int64_t number) const;
+    /// Reads the row of a part.
+    ///
+    /// Errors      Error{bad_argument} if there is no such part; those of the store.
+    [[nodiscard]] ViewPart part(std::uint32_t index) const;
+    /// Finds parts whose id, name or type contains a text; capital letters of the Latin alphabet
+    /// count as small ones. It ends after `most` parts, or when the time is used up. The caller may
+    /// go on with FoundParts::next, for example in the next frame.
+    ///
+    /// In          from: the first part to compare, as an index in parts().
+    /// Errors      those of the store.
+    [[nodiscard]] FoundParts find_parts(const std::string& text, std::size_t most,
+                                        std::uint32_t from = 0, double seconds = 0.01) const;
     /// Leaves parts out of the picture (carried away, or hidden), or brings them back. Those of a
     /// merged chunk are still in it: the renderer hides them by their index.
     void set_hidden(std::uint32_t part, bool hidden);

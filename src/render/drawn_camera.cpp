@@ -1,48 +1,15 @@
 #include "render/drawn_camera.h"
 
-#include <abut/error.h>
 #include <abut/renderer.h>
 
 #include "math/rounding.h"
 #include "math/vector.h"
 
-#include <cmath>
-#include <numbers>
 
 namespace abut {
 
-namespace {
-
-void require_valid(const Camera& camera) {
-    const bool has_lens = camera.field_of_view > 0 && camera.field_of_view < std::numbers::pi &&
-                          camera.width >= 1 && camera.height >= 1;
-    const bool has_range =
-        camera.near > 0 && camera.far > camera.near && std::isfinite(camera.far);
-    const bool has_place =
-        is_finite(camera.eye) && is_finite(camera.forward) && is_finite(camera.up);
-    if (!has_lens || !has_range || !has_place)
-        throw Error(ErrorCode::bad_argument,
-                    "a camera needs an angle of view in (0, pi), a size of at least one pixel, "
-                    "0 < near < far and finite vectors");
-}
-
-} // namespace
-
 std::array<float, 3> to_floats(const Vec3& v) {
     return {to_float(v.x), to_float(v.y), to_float(v.z)};
-}
-
-DrawnCamera::DrawnCamera(const Camera& camera)
-    : eye(camera.eye), near(camera.near), far(camera.far), width(camera.width),
-      height(camera.height) {
-    require_valid(camera);
-    forward = normalized_or_zero(camera.forward);
-    right = normalized_or_zero(cross(forward, normalized_or_zero(camera.up)));
-    up = cross(right, forward);
-    if (length_sq(right) == 0)
-        throw Error(ErrorCode::bad_argument, "a camera looks along its up direction");
-    slope_y = std::tan(camera.field_of_view / 2);
-    slope_x = slope_y * width / height;
 }
 
 std::array<float, 16> DrawnCamera::clip_from_world(const Vec3& origin, bool reversed) const {
