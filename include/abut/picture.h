@@ -21,8 +21,8 @@ namespace abut {
 /// Directions from which a whole model is seen. Front is the side towards the viewer of the frames
 /// that UpAxis describes.
 enum class NamedView : std::uint8_t { iso, front, back, left, right, top, bottom };
-inline constexpr std::array kNamedViews{NamedView::iso,  NamedView::front, NamedView::back,
-                                        NamedView::left, NamedView::right, NamedView::top,
+inline constexpr std::array kNamedViews{NamedView::iso,   NamedView::front, NamedView::back,
+                                        NamedView::left,  NamedView::right, NamedView::top,
                                         NamedView::bottom};
 /// "iso", "front", "back", "left", "right", "top", "bottom".
 const char* to_string(NamedView view);

@@ -25,8 +25,8 @@ void ChunkBuffers::upload(std::uint32_t number, const ViewChunk& data) {
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertex_bytes), data.vertices.data(),
                  GL_STATIC_DRAW);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chunk.indices.name());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(index_bytes),
-                 data.indices.data(), GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(index_bytes), data.indices.data(),
+                 GL_STATIC_DRAW);
     constexpr GLsizei stride = sizeof(ChunkVertex);
     glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_FALSE, stride,
                           offset_of(offsetof(ChunkVertex, position)));

@@ -5,7 +5,6 @@
 #include "math/rounding.h"
 #include "math/vector.h"
 
-
 namespace abut {
 
 std::array<float, 3> to_floats(const Vec3& v) {

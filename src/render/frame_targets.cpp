@@ -14,11 +14,16 @@ struct PixelLayout {
 
 PixelLayout layout_of(GLenum internal) {
     switch (internal) {
-    case GL_RG32UI: return {GL_RG_INTEGER, GL_UNSIGNED_INT};
-    case GL_DEPTH_COMPONENT32F: return {GL_DEPTH_COMPONENT, GL_FLOAT};
-    case GL_RG16F: return {GL_RG, GL_FLOAT};
-    case GL_R8: return {GL_RED, GL_UNSIGNED_BYTE};
-    default: return {GL_RGBA, GL_UNSIGNED_BYTE};
+    case GL_RG32UI:
+        return {GL_RG_INTEGER, GL_UNSIGNED_INT};
+    case GL_DEPTH_COMPONENT32F:
+        return {GL_DEPTH_COMPONENT, GL_FLOAT};
+    case GL_RG16F:
+        return {GL_RG, GL_FLOAT};
+    case GL_R8:
+        return {GL_RED, GL_UNSIGNED_BYTE};
+    default:
+        return {GL_RGBA, GL_UNSIGNED_BYTE};
     }
 }
 
@@ -43,8 +48,9 @@ RenderTarget::RenderTarget(std::uint32_t width, std::uint32_t height,
         for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
             glTexParameteri(GL_TEXTURE_2D, filter, GL_NEAREST);
         const bool is_depth = layout.format == GL_DEPTH_COMPONENT;
-        glFramebufferTexture2D(GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
-                               GL_TEXTURE_2D, name, 0);
+        glFramebufferTexture2D(GL_FRAMEBUFFER,
+                               is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                               name, 0);
     }
     if (depth != 0)
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
@@ -98,7 +104,11 @@ const RenderTarget& FrameTargets::half() {
 const RenderTarget& FrameTargets::occlusion() {
     return made(occlusion_, width_, height_, GL_RG16F);
 }
-const RenderTarget& FrameTargets::smooth() { return made(smooth_, width_, height_, GL_R8); }
-const RenderTarget& FrameTargets::picture() { return made(picture_, width_, height_, GL_RGBA8); }
+const RenderTarget& FrameTargets::smooth() {
+    return made(smooth_, width_, height_, GL_R8);
+}
+const RenderTarget& FrameTargets::picture() {
+    return made(picture_, width_, height_, GL_RGBA8);
+}
 
 } // namespace abut

@@ -2,8 +2,8 @@
 
 #include "render/gl_handle.h"
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 

@@ -89,8 +89,7 @@ struct OffscreenContext::Handles {
     Handles& operator=(const Handles&) = delete;
 
     void create() {
-        const bool needs_surface =
-            !epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context");
+        const bool needs_surface = !epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context");
         if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE)
             fail("EGL has no OpenGL");
         const EGLConfig config = choose_config(display, needs_surface ? EGL_PBUFFER_BIT : 0);
@@ -135,6 +134,8 @@ struct OffscreenContext::Handles {
 OffscreenContext::OffscreenContext() : handles_(std::make_unique<Handles>()) {}
 OffscreenContext::~OffscreenContext() = default;
 
-void OffscreenContext::make_current() { handles_->make_current(); }
+void OffscreenContext::make_current() {
+    handles_->make_current();
+}
 
 } // namespace abut

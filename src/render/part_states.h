@@ -34,7 +34,7 @@ private:
 
     std::size_t parts_;
     std::vector<Texel> texels_;
-    std::vector<bool> changed_; ///< by row
+    std::vector<bool> changed_;                ///< by row
     std::int64_t ghosts_ = 0, highlights_ = 0; ///< of parts that are not hidden
     GlTexture texture_;
 };

@@ -55,8 +55,12 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 void Renderer::set_state(std::uint32_t part, const PartState& state) {
     data_->states.set(part, state);
 }
-PartState Renderer::state(std::uint32_t part) const { return data_->states.state(part); }
-bool Renderer::has_ghosts() const { return data_->states.has_ghosts(); }
+PartState Renderer::state(std::uint32_t part) const {
+    return data_->states.state(part);
+}
+bool Renderer::has_ghosts() const {
+    return data_->states.has_ghosts();
+}
 
 void Renderer::begin(const Camera& camera, const RenderStyle& style) {
     const GLuint target = bound_framebuffer();

@@ -17,9 +17,7 @@ constexpr GLuint kPartsUnit = 0, kDepthUnit = 1, kStatesUnit = 2, kOcclusionUnit
                  kGhostsUnit = 4;
 
 void require_valid_style(const RenderStyle& style) {
-    const auto fail = [](const char* message) {
-        throw Error(ErrorCode::bad_argument, message);
-    };
+    const auto fail = [](const char* message) { throw Error(ErrorCode::bad_argument, message); };
     if (style.samples != 1 && style.samples != 2 && style.samples != 4)
         fail("a picture has 1, 2 or 4 samples along a side of a pixel");
     if (style.sections.size() > 6)
@@ -41,7 +39,8 @@ void reset_state() {
 }
 
 std::array<float, 3> to_floats(const Colour& colour) {
-    return {to_float(colour.red / 255.0), to_float(colour.green / 255.0), to_float(colour.blue / 255.0)};
+    return {to_float(colour.red / 255.0), to_float(colour.green / 255.0),
+            to_float(colour.blue / 255.0)};
 }
 
 } // namespace
@@ -225,8 +224,7 @@ void RendererData::shade() {
     if (style.ground) {
         used.set("u_eye", abut::to_floats(camera->eye - style.ground->middle));
         used.set("u_ground_reach", to_float(style.ground->reach));
-        used.set("u_grid",
-                 to_float(std::pow(10, std::floor(std::log10(style.ground->reach / 4)))));
+        used.set("u_grid", to_float(std::pow(10, std::floor(std::log10(style.ground->reach / 4)))));
     }
     if (has_ghosts_)
         targets.ghosts().bind_texture(0, kGhostsUnit);

@@ -2,8 +2,8 @@
 
 #include <abut/renderer.h>
 
-#include "render/drawn_camera.h"
 #include "render/chunk_buffers.h"
+#include "render/drawn_camera.h"
 #include "render/frame_targets.h"
 #include "render/mark_layer.h"
 #include "render/part_states.h"

@@ -52,7 +52,9 @@ ShaderProgram::ShaderProgram(const std::string& definitions, const char* vertex,
     throw Error(ErrorCode::unsupported, "OpenGL refuses a program: " + first_line(message));
 }
 
-ShaderProgram::~ShaderProgram() { glDeleteProgram(name_); }
+ShaderProgram::~ShaderProgram() {
+    glDeleteProgram(name_);
+}
 
 GLint ShaderProgram::place(const char* name) {
     const auto found = places_.find(name);
@@ -61,8 +63,12 @@ GLint ShaderProgram::place(const char* name) {
     return places_.emplace(name, glGetUniformLocation(name_, name)).first->second;
 }
 
-void ShaderProgram::set(const char* name, int value) { glUniform1i(place(name), value); }
-void ShaderProgram::set(const char* name, float value) { glUniform1f(place(name), value); }
+void ShaderProgram::set(const char* name, int value) {
+    glUniform1i(place(name), value);
+}
+void ShaderProgram::set(const char* name, float value) {
+    glUniform1f(place(name), value);
+}
 void ShaderProgram::set(const char* name, const std::array<float, 2>& value) {
     glUniform2fv(place(name), 1, value.data());
 }

@@ -19,13 +19,20 @@ Vec3 front_direction(UpAxis up) {
 
 const char* to_string(NamedView view) {
     switch (view) {
-    case NamedView::iso: return "iso";
-    case NamedView::front: return "front";
-    case NamedView::back: return "back";
-    case NamedView::left: return "left";
-    case NamedView::right: return "right";
-    case NamedView::top: return "top";
-    default: return "bottom";
+    case NamedView::iso:
+        return "iso";
+    case NamedView::front:
+        return "front";
+    case NamedView::back:
+        return "back";
+    case NamedView::left:
+        return "left";
+    case NamedView::right:
+        return "right";
+    case NamedView::top:
+        return "top";
+    default:
+        return "bottom";
     }
 }
 
@@ -33,13 +40,20 @@ ViewDirection direction_of(NamedView view, UpAxis up_axis) {
     const Vec3 up = up_vector(up_axis), front = front_direction(up_axis);
     const Vec3 right = cross(front, up);
     switch (view) {
-    case NamedView::front: return {front, up};
-    case NamedView::back: return {-front, up};
-    case NamedView::left: return {right, up};
-    case NamedView::right: return {-right, up};
-    case NamedView::top: return {-up, front};
-    case NamedView::bottom: return {up, front};
-    default: return {normalized_or_zero(0.8 * front + -0.6 * right + -0.55 * up), up};
+    case NamedView::front:
+        return {front, up};
+    case NamedView::back:
+        return {-front, up};
+    case NamedView::left:
+        return {right, up};
+    case NamedView::right:
+        return {-right, up};
+    case NamedView::top:
+        return {-up, front};
+    case NamedView::bottom:
+        return {up, front};
+    default:
+        return {normalized_or_zero(0.8 * front + -0.6 * right + -0.55 * up), up};
     }
 }
 

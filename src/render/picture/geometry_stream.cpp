@@ -81,8 +81,8 @@ GeometryStream::Drawn GeometryStream::make(const Group& group) const {
     Drawn drawn;
     if (group.parts.size() == 1) {
         const std::uint32_t part = group.parts.front();
-        drawn.chunks = make_chunks(
-            *mesh, translated(model_.parts[part].world_from_mesh, -origin_), part);
+        drawn.chunks =
+            make_chunks(*mesh, translated(model_.parts[part].world_from_mesh, -origin_), part);
         return drawn;
     }
     drawn.chunks = make_chunks(*mesh, Transform(), 0);

@@ -17,16 +17,21 @@ struct TypeColour {
 /// Colours of the types of buildings and plants, by a word of the type's name in lower case. The
 /// first that matches counts.
 constexpr TypeColour kTypeColours[]{
-    {"wallstandard", {222, 216, 205}}, {"curtainwall", {170, 197, 212}}, {"wall", {222, 216, 205}},
-    {"slab", {196, 195, 190}},         {"footing", {172, 168, 160}},     {"roof", {186, 120, 98}},
-    {"stair", {204, 186, 140}},        {"railing", {226, 184, 60}},      {"ramp", {204, 186, 140}},
-    {"window", {142, 190, 214}},       {"plate", {176, 184, 190}},       {"door", {176, 124, 80}},
-    {"beam", {118, 138, 166}},         {"column", {104, 124, 154}},      {"member", {134, 150, 172}},
-    {"fastener", {150, 126, 110}},     {"covering", {214, 206, 190}},    {"furni", {190, 142, 96}},
-    {"pipe", {80, 150, 152}},          {"duct", {150, 176, 120}},        {"cable", {224, 144, 62}},
-    {"valve", {196, 70, 60}},          {"pump", {62, 118, 180}},         {"tank", {172, 186, 200}},
-    {"boiler", {178, 108, 84}},        {"turbine", {92, 128, 110}},      {"terminal", {214, 168, 96}},
-    {"light", {238, 214, 120}},        {"site", {160, 172, 136}},        {"proxy", {182, 176, 188}},
+    {"wallstandard", {222, 216, 205}}, {"curtainwall", {170, 197, 212}},
+    {"wall", {222, 216, 205}},         {"slab", {196, 195, 190}},
+    {"footing", {172, 168, 160}},      {"roof", {186, 120, 98}},
+    {"stair", {204, 186, 140}},        {"railing", {226, 184, 60}},
+    {"ramp", {204, 186, 140}},         {"window", {142, 190, 214}},
+    {"plate", {176, 184, 190}},        {"door", {176, 124, 80}},
+    {"beam", {118, 138, 166}},         {"column", {104, 124, 154}},
+    {"member", {134, 150, 172}},       {"fastener", {150, 126, 110}},
+    {"covering", {214, 206, 190}},     {"furni", {190, 142, 96}},
+    {"pipe", {80, 150, 152}},          {"duct", {150, 176, 120}},
+    {"cable", {224, 144, 62}},         {"valve", {196, 70, 60}},
+    {"pump", {62, 118, 180}},          {"tank", {172, 186, 200}},
+    {"boiler", {178, 108, 84}},        {"turbine", {92, 128, 110}},
+    {"terminal", {214, 168, 96}},      {"light", {238, 214, 120}},
+    {"site", {160, 172, 136}},         {"proxy", {182, 176, 188}},
 };
 
 std::string lower_case(std::string_view text) {
@@ -72,10 +77,14 @@ Colour type_colour(const std::string& type) {
 
 const char* to_string(ColourBy by) {
     switch (by) {
-    case ColourBy::material: return "material";
-    case ColourBy::type: return "type";
-    case ColourBy::file: return "file";
-    default: return "part";
+    case ColourBy::material:
+        return "material";
+    case ColourBy::type:
+        return "type";
+    case ColourBy::file:
+        return "file";
+    default:
+        return "part";
     }
 }
 
@@ -87,9 +96,15 @@ std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by) {
         case ColourBy::material:
             colours.push_back(part.colour ? *part.colour : type_colour(part.type));
             break;
-        case ColourBy::type: colours.push_back(type_colour(part.type)); break;
-        case ColourBy::file: colours.push_back(hashed_colour(part.file)); break;
-        case ColourBy::part: colours.push_back(hashed_colour(part.id)); break;
+        case ColourBy::type:
+            colours.push_back(type_colour(part.type));
+            break;
+        case ColourBy::file:
+            colours.push_back(hashed_colour(part.file));
+            break;
+        case ColourBy::part:
+            colours.push_back(hashed_colour(part.id));
+            break;
         }
     return colours;
 }

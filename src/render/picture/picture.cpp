@@ -1,6 +1,5 @@
-#include <abut/picture.h>
-
 #include <abut/error.h>
+#include <abut/picture.h>
 
 #include "core/stop.h"
 #include "math/vector.h"

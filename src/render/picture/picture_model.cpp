@@ -63,10 +63,10 @@ public:
         for (const ModelRow& model : store_.file().models()) {
             up = model.world_up;
             store_.file().for_each_part(model, [&](const PartRow& part) {
-                parts.push_back({{part.part, model.file, part.id, part.name, part.type, part.box,
-                                  part.colour},
-                                 part.mesh,
-                                 part.world_from_mesh});
+                parts.push_back(
+                    {{part.part, model.file, part.id, part.name, part.type, part.box, part.colour},
+                     part.mesh,
+                     part.world_from_mesh});
             });
         }
         take_bounds(*this);
