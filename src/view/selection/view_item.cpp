@@ -13,11 +13,11 @@ namespace abut {
 namespace {
 
 /// Whether a range of numbers lies in [0, size).
-bool is_range(std::uint64_t first, std::uint64_t count, std::size_t size) {
+bool is_within(std::uint64_t first, std::uint64_t count, std::size_t size) {
     return first + count <= size;
 }
 
-bool is_chunk(const LevelTree& tree, std::uint32_t chunk) {
+bool is_chunk_or_none(const LevelTree& tree, std::uint32_t chunk) {
     return chunk == kNoChunk || chunk < tree.chunks.size();
 }
 
@@ -31,11 +31,11 @@ bool is_node(const LevelTree& tree, std::size_t at) {
         if (!std::isfinite(node.lower.at(axis)) || !std::isfinite(node.upper.at(axis)))
             return false;
     const bool is_leaf = node.children == 0;
-    const bool in_range = is_leaf || (node.first_child > at && is_range(node.first_child,
+    const bool in_range = is_leaf || (node.first_child > at && is_within(node.first_child,
                                                                         node.children,
                                                                         tree.nodes.size()));
     const bool has_instance = node.instance != kNoChunk;
-    return in_range && is_error(node.error) && is_chunk(tree, node.chunk) &&
+    return in_range && is_error(node.error) && is_chunk_or_none(tree, node.chunk) &&
            (!has_instance || (is_leaf && node.instance < tree.instances.size()));
 }
 
@@ -67,7 +67,7 @@ void check_level_tree(const LevelTree& tree, const std::string& store) {
         need(is_node(tree, at), "a node is out of range");
     need(has_one_parent_each(tree), "a node has no parent, or two");
     for (const LevelMesh& mesh : tree.meshes)
-        need(mesh.levels > 0 && is_range(mesh.first_level, mesh.levels, tree.mesh_levels.size()),
+        need(mesh.levels > 0 && is_within(mesh.first_level, mesh.levels, tree.mesh_levels.size()),
              "a mesh has no levels");
     for (const MeshLevel& level : tree.mesh_levels)
         need(is_error(level.error) && level.chunk < tree.chunks.size(),
