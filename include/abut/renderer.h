@@ -50,7 +50,8 @@ struct PartState {
     friend bool operator==(const PartState&, const PartState&) = default;
 };
 
-/// A half-space that is cut away: the points with dot(normal, point) > offset, world frame.
+/// A half-space that is cut away: the points with dot(normal, point) > offset, world frame. The
+/// inside of solids that it opens is hatched.
 struct SectionPlane {
     Vec3 normal{0, 0, 1};
     double offset = 0;
@@ -82,7 +83,6 @@ struct RenderStyle {
     double detail = 0.5;
     std::vector<SectionPlane> sections; ///< at most 6
     std::optional<Box3> section_box;    ///< what lies outside is cut away
-    Colour cut_colour{214, 108, 74};    ///< of back faces that a section lays open
     Colour background_low{236, 239, 242}, background_high{171, 189, 208};
 };
 

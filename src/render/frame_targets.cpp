@@ -37,6 +37,8 @@ RenderTarget::RenderTarget(std::uint32_t width, std::uint32_t height,
     if (std::max(width, height) > static_cast<std::uint32_t>(most))
         throw Error(ErrorCode::bad_argument,
                     "a picture can have at most " + std::to_string(most) + " samples a side");
+    // A unit that no pass uses, so that their bindings stay.
+    glActiveTexture(GL_TEXTURE15);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     std::size_t index = 0;
     for (const GLenum format : formats) {

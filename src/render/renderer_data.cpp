@@ -220,7 +220,7 @@ void RendererData::shade() {
     used.set("u_light", abut::to_floats(normalized_or_zero(light)));
     used.set("u_low", to_floats(style.background_low));
     used.set("u_high", to_floats(style.background_high));
-    used.set("u_cut", to_floats(style.cut_colour));
+    used.set("u_samples", static_cast<float>(style.samples));
     if (style.ground) {
         used.set("u_eye", abut::to_floats(camera->eye - style.ground->middle));
         used.set("u_ground_reach", to_float(style.ground->reach));

@@ -2,8 +2,11 @@
 
 #include "math/vector.h"
 #include "render/picture/picture_model.h"
+#include "view/camera/camera_frame.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace abut {
@@ -55,6 +58,42 @@ ViewDirection direction_of(NamedView view, UpAxis up_axis) {
     default:
         return {normalized_or_zero(0.8 * front + -0.6 * right + -0.55 * up), up};
     }
+}
+
+Camera fit_boxes(std::span<const Box3> boxes, const ViewDirection& direction, const Camera& lens) {
+    constexpr double kMargin = 0.94; // of the picture that the boxes fill
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    Camera camera = lens;
+    camera.forward = direction.towards;
+    camera.up = direction.up;
+    camera.eye = {};
+    const CameraFrame frame(camera);
+    // A point (x, y, z) along right, up, forward is in the picture of an eye at (p, q, r) if
+    // |x - p| <= s (z - r): p - s r >= x - s z and p + s r <= x + s z; y likewise.
+    std::array<double, 2> most{-kInfinite, -kInfinite}, least{kInfinite, kInfinite};
+    const std::array<double, 2> slope{kMargin * frame.slope_x, kMargin * frame.slope_y};
+    const std::array<Vec3, 2> across{frame.right, frame.up};
+    double size = 0;
+    for (const Box3& box : boxes)
+        for (int i = 0; i < (is_empty(box) ? 0 : 8); ++i) {
+            const Vec3 corner = corner_of(box, i);
+            const double z = dot(frame.forward, corner);
+            size = std::max(size, max_abs(corner));
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                const double x = dot(across.at(axis), corner);
+                most.at(axis) = std::max(most.at(axis), x - slope.at(axis) * z);
+                least.at(axis) = std::min(least.at(axis), x + slope.at(axis) * z);
+            }
+        }
+    if (most[0] == -kInfinite)
+        return camera;
+    double depth = kInfinite;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        depth = std::min(depth, (least.at(axis) - most.at(axis)) / (2 * slope.at(axis)));
+    depth -= 1e-9 * size + 1e-12; // a point is seen from a little away
+    camera.eye = 0.5 * (least[0] + most[0]) * frame.right + 0.5 * (least[1] + most[1]) * frame.up +
+                 depth * frame.forward;
+    return camera;
 }
 
 Camera with_range(Camera camera, const Box3& box) {

@@ -10,6 +10,11 @@ struct ViewDirection {
 };
 ViewDirection direction_of(NamedView view, UpAxis up);
 
+/// Returns the camera that looks in a direction and whose picture all boxes just fit into.
+///
+/// In          boxes: empty ones are ignored; lens: field of view and size.
+Camera fit_boxes(std::span<const Box3> boxes, const ViewDirection& direction, const Camera& lens);
+
 /// Sets the clipping distances of a camera so that a whole box is drawn.
 Camera with_range(Camera camera, const Box3& box);
 

@@ -15,11 +15,6 @@ namespace {
 
 constexpr std::size_t kMeshesOfBatch = 2048;
 
-Vec3 corner_of(const Box3& box, int i) {
-    return {(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
-            (i & 4) != 0 ? box.upper.z : box.lower.z};
-}
-
 /// Whether a box is not wholly beyond one of the planes of the picture.
 bool may_be_seen(const DrawnCamera& camera, const Box3& box) {
     std::array<int, 5> beyond{};

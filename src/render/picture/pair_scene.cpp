@@ -56,7 +56,7 @@ PictureScene PictureJob::best_scene(const Sides& sides, const std::vector<Sectio
     PictureScene best;
     double best_score = -1;
     for (const ViewDirection& direction : directions_around(model_.up)) {
-        Camera camera = look_at_box(sides.frame, direction.towards, direction.up, lens());
+        const Camera camera = fit_boxes(std::array{sides.frame}, direction, lens());
         PictureScene trial{with_range(camera, model_.bounds), style(false), {}};
         trial.style.sections.insert(trial.style.sections.end(), sections.begin(), sections.end());
         PictureScene small = trial;

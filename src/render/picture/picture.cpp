@@ -87,7 +87,11 @@ Camera PictureJob::lens() const {
 
 PictureScene PictureJob::aimed(NamedView view) {
     const ViewDirection direction = direction_of(view, model_.up);
-    const Camera camera = look_at_box(model_.bounds, direction.towards, direction.up, lens());
+    std::vector<Box3> boxes;
+    boxes.reserve(model_.parts.size());
+    for (const PicturePart& part : model_.parts)
+        boxes.push_back(part.view.box);
+    const Camera camera = fit_boxes(boxes, direction, lens());
     return {with_range(camera, model_.bounds), style(true), {}};
 }
 
@@ -103,7 +107,8 @@ PictureScene PictureJob::aimed(const PartAim& aim) {
     ghost_all_but(std::array{part});
     const ViewDirection direction = direction_of(NamedView::iso, model_.up);
     const Box3& box = model_.parts[part].view.box;
-    const Camera camera = look_at_box(box, direction.towards, direction.up, lens());
+    const Camera camera =
+        fit_boxes(std::array{grown(box, 0.1 * length(box.upper - box.lower))}, direction, lens());
     return {with_range(camera, model_.bounds), style(false), {}};
 }
 

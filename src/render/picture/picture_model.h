@@ -39,4 +39,7 @@ std::uint32_t find_part(const PictureModel& model, const std::string& file,
 
 Vec3 up_vector(UpAxis up);
 
+/// The corner of a box that is upper along x, y and z where the bits 1, 2 and 4 of `i` are set.
+Vec3 corner_of(const Box3& box, int i);
+
 } // namespace abut

@@ -17,7 +17,8 @@ uniform vec3 u_sky, u_light;         // unit vectors: up, and to the light
 uniform vec2 u_size;
 uniform float u_pixel;               // length of a sample at depth 1
 uniform float u_detail;
-uniform vec3 u_low, u_high, u_cut;
+uniform float u_samples;            // along a side of a pixel
+uniform vec3 u_low, u_high;
 uniform vec3 u_eye;                  // from the middle of the ground
 uniform float u_ground_reach, u_grid;
 uniform int u_occlusion_scale;
@@ -56,7 +57,7 @@ float edge(ivec2 here, ivec2 step, uvec2 part, vec3 n, vec3 at, float w, float f
         return fade;
     float turned = 1.0 - smoothstep(0.76, 0.90, abs(bend));
     if (turned > 0.0)
-        return 0.75 * turned * fade;
+        return 0.7 * turned * fade * fade;
     // The same part again at another depth: a silhouette of the part before itself.
     float w_there = w_of(texelFetch(u_depth, there, 0).r);
     float off = abs(dot(n, ray_of(vec2(there) + 0.5) * w_there - at));
@@ -105,9 +106,6 @@ void main() {
         colour = background(ray);
     } else if (number == kGround) {
         colour = ground(ray, w, background(ray)) * mix(0.35, 1.0, open);
-    } else if ((part.x & 0x40000000u) != 0u) {
-        colour = u_cut * mix(0.8, 1.0, open);
-        n = normalize(ray);
     } else {
         uint state = number - 1u;
         vec3 own = texelFetch(u_states, ivec2(int(state & 4095u), int(state >> 12)), 0).rgb;
@@ -117,6 +115,12 @@ void main() {
         vec3 light = mix(vec3(0.33, 0.31, 0.30), vec3(0.60, 0.63, 0.68), sky) * open +
                      vec3(0.52, 0.50, 0.46) * lit * mix(1.0, open, 0.5);
         colour = sqrt(own * own * light);
+        if ((part.x & 0x40000000u) != 0u) {
+            // The inside of a solid that is cut: flat, and hatched as in a drawing.
+            float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * u_samples)) - 0.5);
+            colour = mix(own, vec3(1.0), 0.35) * (stripe < 0.07 ? 0.72 : 0.97);
+            n = normalize(ray);
+        }
     }
 #ifdef EDGES
     float line = max(edge(here, ivec2(1, 0), part, n, at, w, fade),
