@@ -39,9 +39,8 @@ ViewOptions checked(const ViewOptions& options) {
 LevelView::LevelView(LevelTree tree, ChunkSource source, const std::string& name,
                      const ViewOptions& options, Reader reader)
     : tree_(checked(std::move(tree), name)), options_(checked(options)),
-      table_(tree_.chunks.size()),
-      residency_(tree_, table_, options.gpu_memory), cut_(tree_), hidden_(tree_.parts.size()),
-      marks_(tree_.chunks.size()), draw_of_(tree_.chunks.size()),
+      table_(tree_.chunks.size()), residency_(tree_, table_, options.gpu_memory), cut_(tree_),
+      hidden_(tree_.parts.size()), marks_(tree_.chunks.size()), draw_of_(tree_.chunks.size()),
       loader_(tree_, table_, std::move(source),
               {name, room(name), share_of(options.gpu_memory), options.look_ahead,
                options.background && reader == Reader::background}) {
@@ -52,10 +51,9 @@ std::uint64_t LevelView::room(const std::string& name) const {
     std::uint64_t largest = 0;
     for (const ChunkSize& size : tree_.chunks)
         largest = std::max(largest, size.bytes());
-    const std::uint64_t tables =
-        tree_.bytes() + table_.bytes() + residency_.own_bytes() + cut_.bytes() +
-        LoadPlan::most_bytes(tree_) + hidden_.size() / 8 +
-        (marks_.capacity() + draw_of_.capacity()) * sizeof(std::uint32_t);
+    const std::uint64_t tables = tree_.bytes() + table_.bytes() + residency_.own_bytes() +
+                                 cut_.bytes() + LoadPlan::most_bytes(tree_) + hidden_.size() / 8 +
+                                 (marks_.capacity() + draw_of_.capacity()) * sizeof(std::uint32_t);
     const auto in_mib = [](std::uint64_t bytes) { return std::to_string((bytes >> 20) + 1); };
     if (tables + 2 * largest > options_.memory)
         throw Error(ErrorCode::bad_argument, name,

@@ -23,9 +23,8 @@ public:
         const double angle = std::atan2(length(axis), dot(before_, now));
         before_ = now;
         std::rotate(turns_.begin(), turns_.begin() + 1, turns_.end());
-        turns_.back() = seconds > 0 && seconds < kPause
-                            ? (angle / seconds) * normalized_or_zero(axis)
-                            : Vec3{};
+        turns_.back() =
+            seconds > 0 && seconds < kPause ? (angle / seconds) * normalized_or_zero(axis) : Vec3{};
         // The median of three frames ignores a single jump or a late frame.
         const auto& [a, b, c] = turns_;
         return {median(a.x, b.x, c.x), median(a.y, b.y, c.y), median(a.z, b.z, c.z)};

@@ -11,8 +11,8 @@ namespace abut {
 class ViewData {
 public:
     ViewData(const Store& store, const ViewOptions& options)
-        : store_(store), view_(read_level_tree(store.file()), source(), store.file().path(),
-                               options),
+        : store_(store),
+          view_(read_level_tree(store.file()), source(), store.file().path(), options),
           parts_(store.file(), view_.tree().parts), up_(up_of(store.file())) {}
 
     LevelView& view() { return view_; }

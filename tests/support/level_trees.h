@@ -58,8 +58,8 @@ private:
             chunk.vertices.push_back(vertex);
             chunk.indices.push_back(static_cast<std::uint16_t>(i));
         }
-        model_.tree.chunks.push_back({static_cast<std::uint32_t>(triangles),
-                                      static_cast<std::uint32_t>(3 * triangles)});
+        model_.tree.chunks.push_back(
+            {static_cast<std::uint32_t>(triangles), static_cast<std::uint32_t>(3 * triangles)});
         model_.chunks.push_back(std::move(chunk));
         return static_cast<std::uint32_t>(model_.chunks.size() - 1);
     }
@@ -101,7 +101,8 @@ private:
         node.first_child = first;
         node.children = static_cast<std::uint32_t>(count);
         for (int i = 0; i < count; ++i)
-            node.error = std::max(node.error, tree.nodes[first + static_cast<std::uint32_t>(i)].error);
+            node.error =
+                std::max(node.error, tree.nodes[first + static_cast<std::uint32_t>(i)].error);
         node.error += static_cast<float>(random_.uniform(0.001, 0.05));
         const auto lower = node.lower, upper = node.upper;
         const std::uint32_t chunk = add_chunk(lower, upper, first_part, parts_ - first_part);

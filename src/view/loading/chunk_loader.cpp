@@ -172,9 +172,9 @@ std::optional<std::uint32_t> ChunkLoader::next_wanted() {
 }
 
 void ChunkLoader::update_plan(Lock& lock) {
-    const bool is_outdated =
-        !plan_ || request_.motion.differs(planned_, options_.look_ahead) ||
-        !(request_.pixel_error > planned_error_ * 0.75 && request_.pixel_error < planned_error_ * 1.5);
+    const bool is_outdated = !plan_ || request_.motion.differs(planned_, options_.look_ahead) ||
+                             !(request_.pixel_error > planned_error_ * 0.75 &&
+                               request_.pixel_error < planned_error_ * 1.5);
     if (!is_outdated)
         return;
     planned_ = request_.motion;

@@ -129,8 +129,8 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable news_, idle_;
     LoadRequest request_;
-    std::size_t next_wanted_ = 0;    ///< in request_.wanted
-    bool has_request_ = false;       ///< the plan may be outdated
+    std::size_t next_wanted_ = 0; ///< in request_.wanted
+    bool has_request_ = false;    ///< the plan may be outdated
     bool is_idle_ = false, wanted_done_ = true;
     std::unordered_map<std::uint32_t, Staged> staged_;
     std::deque<std::uint32_t> order_; ///< of staging; may hold chunks that are no longer staged

@@ -39,7 +39,7 @@ private:
     std::uint32_t frame_ = 0;
     std::vector<std::uint32_t> residents_; ///< the first ones are `candidates_`, a heap
     std::size_t candidates_ = 0;
-    bool has_candidates_ = false; ///< `candidates_` is of this frame
+    bool has_candidates_ = false;      ///< `candidates_` is of this frame
     std::vector<std::uint32_t> depth_; ///< by chunk: a number greater than those of its ancestors
     std::vector<std::uint32_t> drops_;
 };

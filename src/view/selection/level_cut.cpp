@@ -112,7 +112,8 @@ void LevelCut::visit(ViewItem item, std::uint32_t planes) {
             ++outside_;
             return;
         }
-        if (not_drawn_.occlusion != nullptr && not_drawn_.occlusion->hides(node.lower, node.upper)) {
+        if (not_drawn_.occlusion != nullptr &&
+            not_drawn_.occlusion->hides(node.lower, node.upper)) {
             ++occluded_;
             return;
         }

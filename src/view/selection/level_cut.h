@@ -43,7 +43,7 @@ struct CutLimits {
 
 /// What must not be drawn.
 struct NotDrawn {
-    const std::vector<bool>* hidden = nullptr;    ///< by part; of instances only
+    const std::vector<bool>* hidden = nullptr; ///< by part; of instances only
     const OcclusionBuffer* occlusion = nullptr;
 };
 
@@ -76,8 +76,8 @@ public:
     /// come first, so this is an order to load in.
     [[nodiscard]] std::span<const CutEntry> entries() const { return entries_; }
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
-    [[nodiscard]] std::uint32_t draws() const { return draws_; } ///< different chunks
-    [[nodiscard]] double error() const { return error_; }        ///< largest, in pixels
+    [[nodiscard]] std::uint32_t draws() const { return draws_; }     ///< different chunks
+    [[nodiscard]] double error() const { return error_; }            ///< largest, in pixels
     [[nodiscard]] std::uint64_t outside() const { return outside_; } ///< of the frustum
     [[nodiscard]] std::uint64_t occluded() const { return occluded_; }
     [[nodiscard]] std::uint64_t bytes() const;

@@ -31,9 +31,9 @@ bool is_node(const LevelTree& tree, std::size_t at) {
         if (!std::isfinite(node.lower.at(axis)) || !std::isfinite(node.upper.at(axis)))
             return false;
     const bool is_leaf = node.children == 0;
-    const bool in_range = is_leaf || (node.first_child > at && is_within(node.first_child,
-                                                                        node.children,
-                                                                        tree.nodes.size()));
+    const bool in_range =
+        is_leaf ||
+        (node.first_child > at && is_within(node.first_child, node.children, tree.nodes.size()));
     const bool has_instance = node.instance != kNoChunk;
     return in_range && is_error(node.error) && is_chunk_or_none(tree, node.chunk) &&
            (!has_instance || (is_leaf && node.instance < tree.instances.size()));

@@ -1,9 +1,8 @@
 // Cuts of random trees, compared with their definition.
-#include "view/selection/level_cut.h"
-
 #include "tests/support/level_trees.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "view/selection/level_cut.h"
 
 #include <algorithm>
 #include <cmath>
@@ -287,8 +286,8 @@ TEST(LevelCut, LeavesOutHiddenInstances) {
         std::set<Item> expected = cut_of(all);
         std::erase_if(expected, [&](const Item& item) {
             const std::uint32_t instance = model.tree.nodes[item.first].instance;
-            const bool is_hidden = instance != kNoChunk &&
-                                   hidden[model.tree.instances[instance].placed.part];
+            const bool is_hidden =
+                instance != kNoChunk && hidden[model.tree.instances[instance].placed.part];
             hidden_instances += is_hidden ? 1 : 0;
             return is_hidden;
         });

@@ -1,11 +1,10 @@
 // Views of random trees with a renderer that only counts: residency, memory, threads, errors.
-#include "view/level_view.h"
-
 #include <abut/error.h>
 
 #include "tests/support/level_trees.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
+#include "view/level_view.h"
 
 #include <atomic>
 #include <functional>
@@ -94,8 +93,8 @@ ViewOptions options_for(Random& random, const LevelModel& model) {
     }
     const double share = std::pow(random.uniform(0, 1), 3);
     options.gpu_memory = 4 * largest + static_cast<std::uint64_t>(share * 1.2 * double(all));
-    options.memory = (std::uint64_t{1} << 20) +
-                     static_cast<std::uint64_t>(random.uniform(0, 1) * double(all));
+    options.memory =
+        (std::uint64_t{1} << 20) + static_cast<std::uint64_t>(random.uniform(0, 1) * double(all));
     options.upload_budget = random.chance(0.5) ? options.upload_budget : 5000;
     if (random.chance(0.3))
         options.triangle_budget = static_cast<std::uint64_t>(random.integer(200, 5000));
@@ -186,9 +185,9 @@ TEST(LevelView, AnErrorOfTheThreadReachesAFrameOnce) {
         ViewOptions options;
         options.background = background;
         options.pixel_error = 1e-3;
-        const auto bad_node = std::ranges::find_if(
-            model.tree.nodes,
-            [](const LevelNode& node) { return node.error == 0 && node.chunk != kNoChunk; });
+        const auto bad_node = std::ranges::find_if(model.tree.nodes, [](const LevelNode& node) {
+            return node.error == 0 && node.chunk != kNoChunk;
+        });
         ASSERT_NE(bad_node, model.tree.nodes.end());
         const std::uint32_t bad = bad_node->chunk;
         const auto source = [&](std::uint32_t chunk) {
@@ -260,16 +259,36 @@ TEST(LevelView, RefusesDamagedTrees) {
         };
         const auto number = static_cast<std::uint32_t>(random.integer(0, 1000));
         switch (random.integer(0, 9)) {
-        case 0: any(tree.nodes).first_child = number; break;
-        case 1: any(tree.nodes).children = number; break;
-        case 2: any(tree.nodes).chunk = number; break;
-        case 3: any(tree.nodes).instance = number; break;
-        case 4: any(tree.nodes).error = random.chance(0.5) ? NAN : -1; break;
-        case 5: any(tree.nodes).lower[1] = random.chance(0.5) ? NAN : INFINITY; break;
-        case 6: any(tree.meshes).levels = number; break;
-        case 7: any(tree.mesh_levels).chunk = kNoChunk - (number % 2); break;
-        case 8: any(tree.meshes).first_level = number; break;
-        default: tree.nodes.pop_back(); break;
+        case 0:
+            any(tree.nodes).first_child = number;
+            break;
+        case 1:
+            any(tree.nodes).children = number;
+            break;
+        case 2:
+            any(tree.nodes).chunk = number;
+            break;
+        case 3:
+            any(tree.nodes).instance = number;
+            break;
+        case 4:
+            any(tree.nodes).error = random.chance(0.5) ? NAN : -1;
+            break;
+        case 5:
+            any(tree.nodes).lower[1] = random.chance(0.5) ? NAN : INFINITY;
+            break;
+        case 6:
+            any(tree.meshes).levels = number;
+            break;
+        case 7:
+            any(tree.mesh_levels).chunk = kNoChunk - (number % 2);
+            break;
+        case 8:
+            any(tree.meshes).first_level = number;
+            break;
+        default:
+            tree.nodes.pop_back();
+            break;
         }
         ViewOptions options;
         options.background = false;

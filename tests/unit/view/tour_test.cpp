@@ -145,8 +145,15 @@ TEST(Tour, RefusesBadFiles) {
     };
     EXPECT_EQ(error_of(tour_of(good)).second, "no error");
     const std::vector<std::string> bad{
-        "", "[", "null", "[]", "{}", R"({"abut_tour":1})", R"({"abut_tour":1,"points":{}})",
-        tour_of("1"), tour_of("{}"),
+        "",
+        "[",
+        "null",
+        "[]",
+        "{}",
+        R"({"abut_tour":1})",
+        R"({"abut_tour":1,"points":{}})",
+        tour_of("1"),
+        tour_of("{}"),
         tour_of(R"({"seconds":"0","eye":[0,0,0],"forward":[0,1,0],"up":[0,0,1]})"),
         tour_of(R"({"seconds":0,"eye":[0,0],"forward":[0,1,0],"up":[0,0,1]})"),
         tour_of(R"({"seconds":0,"eye":[0,0,null],"forward":[0,1,0],"up":[0,0,1]})"),
