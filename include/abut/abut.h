@@ -5,6 +5,7 @@
 #include <abut/batch.h>
 #include <abut/broad_phase.h>
 #include <abut/camera.h>
+#include <abut/carry.h>
 #include <abut/clash.h>
 #include <abut/clash_review.h>
 #include <abut/convex.h>
@@ -16,6 +17,7 @@
 #include <abut/frame.h>
 #include <abut/helper_programs.h>
 #include <abut/levels.h>
+#include <abut/maintenance_path.h>
 #include <abut/make_mesh.h>
 #include <abut/mesh.h>
 #include <abut/model.h>
@@ -33,4 +35,5 @@
 #include <abut/view.h>
 #include <abut/volume.h>
 #include <abut/walk.h>
+#include <abut/walker.h>
 #include <abut/world.h>

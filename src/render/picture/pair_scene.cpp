@@ -72,9 +72,8 @@ PictureScene PictureJob::best_scene(const Sides& sides, const std::vector<Sectio
         double before = 0; // ghosts between the eye and the middle
         for (std::size_t i = 0; i < model_.parts.size(); ++i)
             before += !opaque_[i] && crosses(camera.eye, sides.middle, model_.parts[i].view.box);
-        const double score =
-            std::sqrt(static_cast<double>(seen[0]) * static_cast<double>(seen[1])) / all /
-            (1 + 0.15 * before);
+        const auto more = static_cast<double>(std::max(seen[0], seen[1])) / all;
+        const double score = std::cbrt(least * least * more) / (1 + 0.15 * before);
         if (score > best_score) {
             best_score = score;
             shown = least;

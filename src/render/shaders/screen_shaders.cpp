@@ -118,7 +118,7 @@ void main() {
         if ((part.x & 0x40000000u) != 0u) {
             // The inside of a solid that is cut: flat, and hatched as in a drawing.
             float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * u_samples)) - 0.5);
-            colour = mix(own, vec3(1.0), 0.35) * (stripe < 0.07 ? 0.72 : 0.97);
+            colour = mix(own, vec3(1.0), 0.35) * (stripe < 0.07 ? 0.72 : 0.97) * mix(0.85, 1.0, open);
             n = normalize(ray);
         }
     }
