@@ -55,6 +55,11 @@ const char* to_string(ColourBy by);
 /// Returns the colours of parts. Equal words get equal colours, in every model.
 std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by);
 
+/// The same of a store's parts, in the order of View::parts().
+///
+/// Errors      those of the store.
+std::vector<Colour> part_colours(const Store& store, ColourBy by);
+
 struct PictureOptions {
     /// What is seen: the whole model, by a camera (whose size is ignored), one part, or a pair.
     std::variant<NamedView, Camera, PartAim, PairAim> aim = NamedView::iso;

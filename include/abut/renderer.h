@@ -112,6 +112,15 @@ public:
     void set_state(std::uint32_t part, const PartState& state);
     [[nodiscard]] PartState state(std::uint32_t part) const;
 
+    /// Draws a mesh beside the chunks of the view, for example a part that is carried; at most 64 at
+    /// a time. Returns its number, which `set_state` and `part_at` know.
+    ///
+    /// Errors      Error{bad_argument} if there are 64.
+    std::uint32_t add_part(const Mesh& mesh, const Transform& world_from_mesh,
+                           const PartState& state = {});
+    void move_part(std::uint32_t part, const Transform& world_from_mesh);
+    void remove_part(std::uint32_t part);
+
     /// Draws a picture into the framebuffer that is bound for drawing, of the camera's size.
     /// Equal to begin, add, end.
     ///

@@ -62,6 +62,20 @@ bool Renderer::has_ghosts() const {
     return data_->states.has_ghosts();
 }
 
+std::uint32_t Renderer::add_part(const Mesh& mesh, const Transform& world_from_mesh,
+                                 const PartState& state) {
+    const std::uint32_t part = data_->extra.add(mesh, world_from_mesh);
+    data_->states.set(part, state);
+    return part;
+}
+void Renderer::move_part(std::uint32_t part, const Transform& world_from_mesh) {
+    data_->extra.move(part, world_from_mesh);
+}
+void Renderer::remove_part(std::uint32_t part) {
+    data_->extra.remove(part);
+    data_->states.set(part, {.hidden = true});
+}
+
 void Renderer::begin(const Camera& camera, const RenderStyle& style) {
     const GLuint target = bound_framebuffer();
     data_->begin(camera, style);

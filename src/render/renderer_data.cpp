@@ -46,7 +46,8 @@ std::array<float, 3> to_floats(const Colour& colour) {
 } // namespace
 
 RendererData::RendererData(std::size_t parts, const Vec3& origin)
-    : states(parts), origin_(origin), reversed_(epoxy_has_gl_extension("GL_ARB_clip_control")) {}
+    : states(parts + ExtraParts::kMost), extra(static_cast<std::uint32_t>(parts), origin),
+      origin_(origin), reversed_(epoxy_has_gl_extension("GL_ARB_clip_control")) {}
 
 ShaderProgram& RendererData::program(const std::string& name, const std::string& definitions,
                                      const char* vertex, const char* fragment) {
@@ -129,10 +130,19 @@ void RendererData::draw_both(const ViewFrame& frame, Pass pass) {
         chunks.draw(frame, instanced, geometry(pass, instanced));
 }
 
+void RendererData::draw_extra(Pass pass) {
+    if (extra.empty())
+        return;
+    extra.update();
+    states.bind(kStatesUnit);
+    extra.draw(geometry(pass, true));
+}
+
 void RendererData::draw_chunks(const ViewFrame& frame) {
     chunks.update(frame);
     targets.parts().bind();
     draw_both(frame, Pass::parts);
+    draw_extra(Pass::parts);
 }
 
 void RendererData::draw_ground() {
@@ -164,6 +174,7 @@ void RendererData::draw_ghosts(const ViewFrame& frame) {
     glBlendFunc(GL_ZERO, GL_SRC_COLOR);
     glDepthMask(GL_FALSE);
     draw_both(frame, Pass::ghosts);
+    draw_extra(Pass::ghosts);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
 }

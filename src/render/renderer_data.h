@@ -4,6 +4,7 @@
 
 #include "render/chunk_buffers.h"
 #include "render/drawn_camera.h"
+#include "render/extra_parts.h"
 #include "render/frame_targets.h"
 #include "render/mark_layer.h"
 #include "render/part_states.h"
@@ -30,6 +31,7 @@ public:
 
     PartStates states;
     ChunkBuffers chunks;
+    ExtraParts extra;
     FrameTargets targets;
     std::optional<DrawnCamera> camera; ///< of the last picture
     RenderStyle style;
@@ -44,6 +46,7 @@ private:
     ShaderProgram& geometry(Pass pass, bool instanced);
     void set_sections(ShaderProgram& program) const;
     void draw_both(const ViewFrame& frame, Pass pass);
+    void draw_extra(Pass pass);
     void draw_ground();
     void draw_occlusion();
     void shade();

@@ -2,8 +2,8 @@
 
 #include "core/parallel.h"
 #include "core/stop.h"
-#include "math/rounding.h"
 #include "math/transform.h"
+#include "render/extra_parts.h"
 #include "view/levels/level_tree.h"
 
 #include <algorithm>
@@ -34,14 +34,6 @@ bool may_be_seen(const DrawnCamera& camera, const Box3& box) {
 double distance_to_box(const Vec3& p, const Box3& box) {
     const Vec3 nearest = max(box.lower, min(p, box.upper));
     return length(p - nearest);
-}
-
-std::array<float, 12> rows_of(const Transform& t) {
-    std::array<float, 12> rows{};
-    for (std::size_t row = 0; row < 3; ++row)
-        for (std::size_t column = 0; column < 4; ++column)
-            rows[row * 4 + column] = to_float(t.m[column * 3 + row]);
-    return rows;
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include <abut/picture.h>
 
+#include "store/database/store_file.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -106,6 +108,22 @@ std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by) {
             colours.push_back(hashed_colour(part.id));
             break;
         }
+    return colours;
+}
+
+std::vector<Colour> part_colours(const Store& store, ColourBy by) {
+    std::vector<std::pair<std::int64_t, Colour>> found;
+    StoreFile& file = store.file();
+    for (const ModelRow& model : file.models())
+        file.for_each_part(model, [&](const PartRow& row) {
+            const ViewPart part{row.part, model.file, row.id, row.name, row.type, {}, row.colour};
+            found.emplace_back(row.part, part_colours(std::span(&part, 1), by).front());
+        });
+    std::ranges::sort(found, {}, &std::pair<std::int64_t, Colour>::first);
+    std::vector<Colour> colours;
+    colours.reserve(found.size());
+    for (const auto& each : found)
+        colours.push_back(each.second);
     return colours;
 }
 
