@@ -13,7 +13,7 @@ namespace abut::viewer {
 namespace {
 
 constexpr Colour kNearColour{255, 170, 0}, kTouchColour{226, 48, 40}, kMeasureColour{0, 140, 255};
-constexpr WalkQuery kSkip{.missing = MissingParts::skip};
+const WalkQuery kSkip{.missing = MissingParts::skip};
 
 Vec3 up_of(const Session& session) {
     const UpAxis up = session.view.up();
@@ -110,9 +110,9 @@ void Carrying::take(Session& session, std::uint32_t chosen) {
     part = chosen;
     const Camera camera = session.camera();
     const Vec3 place = middle(session.view.part(chosen).box);
-    const Vec3 way = unit(camera.forward);
-    ahead = dot(place - camera.eye, way);
-    const Vec3 held = camera.eye + ahead * way;
+    const Vec3 forward = unit(camera.forward);
+    ahead = dot(place - camera.eye, forward);
+    const Vec3 held = camera.eye + ahead * forward;
     aside = carry->carried().pose.translation - held;
     PartState state = session.renderer.state(chosen);
     drawn = session.renderer.add_part(session.walk.model(number).mesh(),
