@@ -1,7 +1,10 @@
 # Supports find_package(Abut) after `cmake --install`.
 include(CMakePackageConfigHelpers)
-install(TARGETS abut EXPORT AbutTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS abut abut_render EXPORT AbutTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS abut_command DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET abut_walk)
+    install(TARGETS abut_walk DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/documents/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
 install(FILES ${PROJECT_BINARY_DIR}/documents/bash/abut
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

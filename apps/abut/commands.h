@@ -7,6 +7,7 @@ namespace abut::command {
 
 Subcommand add_info(CLI::App& root, CommonOptions& common);
 Subcommand add_import(CLI::App& root, CommonOptions& common);
+Subcommand add_picture(CLI::App& root, CommonOptions& common);
 Subcommand add_collide(CLI::App& root, CommonOptions& common);
 Subcommand add_distance(CLI::App& root, CommonOptions& common);
 Subcommand add_within(CLI::App& root, CommonOptions& common);

@@ -1,0 +1,119 @@
+#include "replay.h"
+
+#include <abut/error.h>
+#include <abut/progress.h>
+
+#include "open_model.h"
+#include "session.h"
+#include "vec.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace abut::viewer {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Seconds since the last call.
+class Lap {
+public:
+    double seconds() {
+        const auto now = std::chrono::steady_clock::now();
+        const double passed = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        return passed;
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Json figures_of(const Session& session, const NearestPart& nearest) {
+    const ViewStatistics& view = session.view.statistics();
+    const WalkStatistics walk = session.walk.statistics();
+    const RenderStatistics drawn = session.renderer.statistics();
+    return {{"triangles", drawn.triangles},
+            {"draw_calls", drawn.draw_calls},
+            {"bytes_uploaded", drawn.uploaded_bytes},
+            {"bytes_loaded", view.bytes_loaded},
+            {"wanted", view.wanted},
+            {"missing", view.missing},
+            {"view_bytes", view.bytes},
+            {"gpu_bytes", view.gpu_bytes},
+            {"walk_bytes", walk.bytes},
+            {"query_misses", nearest.misses},
+            {"nearest", nearest.found ? Json(nearest.gap.distance) : Json()}};
+}
+
+void write_figures(const std::string& path, const Json& figures) {
+    std::ofstream file(path);
+    file << figures.dump(1) << '\n';
+    if (!file.flush())
+        throw Error(ErrorCode::cannot_write, path, "cannot be written");
+}
+
+} // namespace
+
+void replay(const Arguments& arguments) {
+    const Tour tour = read_tour(arguments.path);
+    if (tour.points.empty())
+        throw Error(ErrorCode::malformed, arguments.path, "has no points");
+    std::error_code fault;
+    std::filesystem::create_directories(arguments.frames, fault);
+    if (fault)
+        throw Error(ErrorCode::cannot_write, arguments.frames,
+                    "cannot be created: " + fault.message());
+    OffscreenContext context;
+    const std::string store = ready_store(arguments.files, arguments.quiet);
+    Session session(store, {arguments.memory, arguments.gpu_memory, arguments.pixel_error},
+                    arguments.width, arguments.height);
+    const Probe head(Sphere{{0, 0, 0}, 0.1});
+    const auto count = static_cast<std::size_t>(duration(tour) * arguments.rate) + 1;
+    Json frames = Json::array();
+    Vec3 last = camera_at(tour, 0, session.lens).eye;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double seconds = static_cast<double>(i) / arguments.rate;
+        const Camera camera = camera_at(tour, seconds, session.lens);
+        const Vec3 velocity = arguments.rate * (camera.eye - last);
+        last = camera.eye;
+        Lap lap;
+        session.walk.move_to(camera.eye, velocity);
+        const NearestPart nearest =
+            session.walk.distance(head, Pose{camera.eye}, {.missing = MissingParts::skip});
+        const double querying = lap.seconds();
+        const ViewFrame& frame = session.view.frame(camera, velocity);
+        const double selecting = lap.seconds();
+        session.renderer.begin(camera, session.style(false));
+        ViewFrame uploads = frame;
+        uploads.draws = {};
+        session.renderer.add(uploads);
+        const double uploading = lap.seconds();
+        ViewFrame draws = frame;
+        draws.uploads = {};
+        draws.drops = {};
+        session.renderer.add(draws);
+        const Picture picture = session.renderer.end_picture();
+        const double drawing = lap.seconds();
+        Json row{{"seconds", seconds},
+                 {"query", querying},
+                 {"selection", selecting},
+                 {"upload", uploading},
+                 {"draw", drawing}};
+        row.update(figures_of(session, nearest));
+        frames.push_back(std::move(row));
+        write_png(picture, fmt::format("{}/{:05}.png", arguments.frames, i));
+    }
+    write_figures(arguments.frames + "/figures.json", {{"store", store},
+                                                       {"width", arguments.width},
+                                                       {"height", arguments.height},
+                                                       {"peak_rss_mib", peak_resident_mib()},
+                                                       {"frames", std::move(frames)}});
+}
+
+} // namespace abut::viewer

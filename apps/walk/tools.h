@@ -1,0 +1,98 @@
+#pragma once
+
+#include "session.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace abut::viewer {
+
+/// What is near the person, or near the chosen part.
+struct Proximity {
+    bool on = true, of_chosen = false, with_list = false;
+    double reach = 1; ///< metres
+    std::optional<WalkGap> nearest;
+    std::vector<WalkGap> near;
+    bool complete = true;
+    double milliseconds = 0; ///< that the queries took
+
+    void update(Session& session);
+};
+
+enum class Measured : std::uint8_t { points, point_part, parts };
+
+/// Distances between two clicks.
+struct Measure {
+    bool on = false;
+    Measured kind = Measured::parts;
+    std::vector<Pick> picks;
+    std::string result;
+    std::array<Vec3, 2> ends{};
+    bool has_ends = false;
+
+    void take(Session& session, const Pick& pick);
+    void clear();
+};
+
+/// A part in the hand.
+struct Carrying {
+    CarryMode mode = CarryMode::stop;
+    std::unique_ptr<Carry> carry;
+    std::uint32_t part = 0, drawn = 0; ///< in the view; and as the renderer draws it now
+    double ahead = 0;                  ///< its distance from the eye
+    Vec3 aside;                        ///< of its place, from the point straight ahead
+    std::vector<Pose> way;             ///< since it was taken
+    std::optional<PathReport> report;  ///< of that way, once asked for
+
+    void take(Session& session, std::uint32_t chosen);
+    void put_down(Session& session);
+    void update(Session& session);
+    void check_way(Session& session);
+
+private:
+    void way_begin(Session& session);
+};
+
+/// Saved viewpoints, and a path that is recorded or replayed.
+struct Viewpoints {
+    Tour saved, path;
+    bool recording = false, replaying = false;
+    double clock = 0;
+    std::string file = "tour.json", message;
+
+    void update(Session& session, double seconds);
+};
+
+struct Search {
+    std::array<char, 128> text{};
+    std::vector<std::uint32_t> found;
+    std::uint32_t next = 0;
+    bool is_over = true;
+};
+
+struct ClashList {
+    bool is_read = false;
+    std::vector<ClashReview> reviews;
+    std::string message;
+};
+
+/// What the panels keep.
+struct Tools {
+    Proximity proximity;
+    Measure measure;
+    Carrying carrying;
+    Viewpoints viewpoints;
+    Search search;
+    ClashList clashes;
+    bool with_help = false, with_panels = true;
+    double frame_milliseconds = 0;
+
+    /// Adds what the tools show to the marks of the frame.
+    void add_marks(Session& session) const;
+};
+
+/// The name of a part on one line.
+std::string name_of(Session& session, WalkPart part);
+
+} // namespace abut::viewer

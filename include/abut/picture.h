@@ -1,0 +1,91 @@
+#pragma once
+
+#include <abut/clash.h>
+#include <abut/progress.h>
+#include <abut/renderer.h>
+#include <abut/scene.h>
+#include <abut/store.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// Pictures of models without a window: for documents, reports and snapshots. They belong to the
+/// library target Abut::render. docs/viewer.md shows some.
+namespace abut {
+
+/// Directions from which a whole model is seen. Front is the side towards the viewer of the frames
+/// that UpAxis describes.
+enum class NamedView : std::uint8_t { iso, front, back, left, right, top, bottom };
+inline constexpr std::array kNamedViews{NamedView::iso,   NamedView::front, NamedView::back,
+                                        NamedView::left,  NamedView::right, NamedView::top,
+                                        NamedView::bottom};
+/// "iso", "front", "back", "left", "right", "top", "bottom".
+const char* to_string(NamedView view);
+
+/// One part in its colour, filling the picture; all others are ghosts.
+struct PartAim {
+    std::string part; ///< its id or, if no part has that id, its name
+};
+
+/// A pair of parts in red and blue, seen from where most of both shows; all others are ghosts. If
+/// one of them is inside the other, a section plane opens it.
+struct PairAim {
+    std::array<std::string, 2> file, part; ///< ids, as a clash report has them
+    /// Points of both surfaces that the picture is about; if none, they are computed.
+    std::optional<std::array<Vec3, 2>> points;
+};
+
+/// What parts take their colours from.
+enum class ColourBy : std::uint8_t {
+    material, ///< the file's materials; of parts without one, as `type`
+    type,
+    file,
+    part,
+};
+inline constexpr std::array kColourings{ColourBy::material, ColourBy::type, ColourBy::file,
+                                        ColourBy::part};
+/// "material", "type", "file", "part".
+const char* to_string(ColourBy by);
+
+/// Returns the colours of parts. Equal words get equal colours, in every model.
+std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by);
+
+/// The same of a store's parts, in the order of View::parts().
+///
+/// Errors      those of the store.
+std::vector<Colour> part_colours(const Store& store, ColourBy by);
+
+struct PictureOptions {
+    /// What is seen: the whole model, by a camera (whose size is ignored), one part, or a pair.
+    std::variant<NamedView, Camera, PartAim, PairAim> aim = NamedView::iso;
+    std::uint32_t width = 1600, height = 1000; ///< pixels; at most 8192
+    ColourBy colour_by = ColourBy::material;
+    std::uint32_t samples = 2; ///< along each side of a pixel: 1, 2 or 4
+    bool edges = true, ambient_occlusion = true, ground = true;
+    std::vector<SectionPlane> sections; ///< at most 6
+    std::optional<Box3> section_box;
+    Progress progress{};
+};
+
+/// Draws parts at full detail. Models whose axes differ from the first model's are turned.
+///
+/// Errors      Error{unsupported} if EGL or OpenGL 3.3 is not available; Error{bad_argument} if the
+///             options are not valid, or no part or several have the given id; Error{interrupted}.
+/// Cost        memory for the geometry of a few thousand parts at a time, beside the models.
+Picture picture(const std::vector<Scene>& models, const PictureOptions& options = {});
+/// As above, of a store. Reads only the parts that the camera may see.
+///
+/// Errors      as above; those of the store.
+Picture picture(const Store& store, const PictureOptions& options = {});
+
+/// Writes a picture as PNG, atomically.
+///
+/// Errors      Error{cannot_write}, naming the file.
+void write_png(const Picture& picture, const std::string& path);
+
+} // namespace abut

@@ -1,0 +1,161 @@
+#include <abut/error.h>
+#include <abut/picture.h>
+
+#include "core/stop.h"
+#include "math/vector.h"
+#include "render/picture/framing.h"
+#include "render/picture/picture_job.h"
+
+#include <algorithm>
+
+namespace abut {
+
+namespace {
+
+constexpr std::uint32_t kMostPixels = 8192;
+
+Vec3 middle_of(const Box3& box) {
+    return is_empty(box) ? Vec3{} : 0.5 * box.lower + 0.5 * box.upper;
+}
+
+/// About the size of a common part: half of the median diagonal, within bounds of the whole.
+double detail_of(const PictureModel& model) {
+    std::vector<double> diagonals;
+    for (const PicturePart& part : model.parts)
+        if (!is_empty(part.view.box))
+            diagonals.push_back(length(part.view.box.upper - part.view.box.lower));
+    if (diagonals.empty())
+        return 1;
+    const auto median = diagonals.begin() + static_cast<std::ptrdiff_t>(diagonals.size() / 2);
+    std::ranges::nth_element(diagonals, median);
+    const double whole = length(model.bounds.upper - model.bounds.lower);
+    const double detail = std::clamp(*median / 2, whole / 3000, whole / 25);
+    return detail > 0 ? detail : 1;
+}
+
+const PictureOptions& checked(const PictureOptions& options) {
+    if (options.width < 1 || options.height < 1 || options.width > kMostPixels ||
+        options.height > kMostPixels)
+        throw Error(ErrorCode::bad_argument, "a picture has 1 to 8192 pixels a side");
+    return options;
+}
+
+} // namespace
+
+PictureJob::PictureJob(const PictureModel& model, const PictureOptions& options)
+    : model_(model), options_(checked(options)),
+      renderer_(model.parts.size(), middle_of(model.bounds)),
+      stream_(model, middle_of(model.bounds)), opaque_(model.parts.size(), true) {
+    std::vector<ViewPart> views;
+    views.reserve(model.parts.size());
+    for (const PicturePart& part : model.parts)
+        views.push_back(part.view);
+    const std::vector<Colour> colours = part_colours(views, options.colour_by);
+    for (std::uint32_t i = 0; i < colours.size(); ++i)
+        renderer_.set_state(i, {.colour = colours[i]});
+}
+
+RenderStyle PictureJob::style(bool with_ground) const {
+    RenderStyle style;
+    style.up = up_vector(model_.up);
+    style.edges = options_.edges;
+    style.ambient_occlusion = options_.ambient_occlusion;
+    style.samples = options_.samples;
+    style.detail = detail_of(model_);
+    style.sections = options_.sections;
+    style.section_box = options_.section_box;
+    if (options_.ground && with_ground && !is_empty(model_.bounds)) {
+        const Box3& bounds = model_.bounds;
+        const double diagonal = length(bounds.upper - bounds.lower);
+        Vec3 middle = middle_of(bounds);
+        // Slightly below, so that floors which lie on it are in front of it.
+        const double drop = dot(style.up, middle - bounds.lower) + 1e-4 * diagonal;
+        middle = middle - drop * style.up;
+        if (diagonal > 0)
+            style.ground = Ground{middle, 2.5 * diagonal};
+    }
+    return style;
+}
+
+Camera PictureJob::lens() const {
+    Camera lens;
+    lens.field_of_view = 0.7;
+    lens.width = options_.width;
+    lens.height = options_.height;
+    return lens;
+}
+
+PictureScene PictureJob::aimed(NamedView view) {
+    const ViewDirection direction = direction_of(view, model_.up);
+    std::vector<Box3> boxes;
+    boxes.reserve(model_.parts.size());
+    for (const PicturePart& part : model_.parts)
+        boxes.push_back(part.view.box);
+    const Camera camera = fit_boxes(boxes, direction, lens());
+    return {with_range(camera, model_.bounds), style(true), {}};
+}
+
+PictureScene PictureJob::aimed(const Camera& camera) {
+    Camera sized = camera;
+    sized.width = options_.width;
+    sized.height = options_.height;
+    return {with_range(sized, model_.bounds), style(true), {}};
+}
+
+PictureScene PictureJob::aimed(const PartAim& aim) {
+    const std::uint32_t part = find_part(model_, "", aim.part);
+    ghost_all_but(std::array{part});
+    const ViewDirection direction = direction_of(NamedView::iso, model_.up);
+    const Box3& box = model_.parts[part].view.box;
+    const Camera camera =
+        fit_boxes(std::array{grown(box, 0.1 * length(box.upper - box.lower))}, direction, lens());
+    return {with_range(camera, model_.bounds), style(false), {}};
+}
+
+void PictureJob::ghost_all_but(std::span<const std::uint32_t> parts) {
+    for (std::uint32_t i = 0; i < opaque_.size(); ++i) {
+        opaque_[i] = std::ranges::find(parts, i) != parts.end();
+        PartState state = renderer_.state(i);
+        state.ghosted = !opaque_[i];
+        renderer_.set_state(i, state);
+    }
+}
+
+void PictureJob::draw(const PictureScene& scene) {
+    const DrawnCamera camera(scene.camera);
+    renderer_.begin(scene.camera, scene.style);
+    stream_.visit(
+        camera, opaque_, [&](const ViewFrame& frame) { renderer_.add(frame); }, options_.progress);
+    if (!renderer_.has_ghosts())
+        return;
+    std::vector<bool> ghosts = opaque_;
+    ghosts.flip();
+    stream_.visit(
+        camera, ghosts, [&](const ViewFrame& frame) { renderer_.add_ghosts(frame); },
+        options_.progress);
+}
+
+PictureScene PictureJob::aimed() {
+    return std::visit([&](const auto& aim) { return aimed(aim); }, options_.aim);
+}
+
+Picture PictureJob::run() {
+    const PictureScene scene = aimed();
+    draw(scene);
+    Picture picture = renderer_.end_picture(scene.marks);
+    if (options_.progress.report)
+        options_.progress.report("draw", 1);
+    return picture;
+}
+
+Picture picture(const std::vector<Scene>& models, const PictureOptions& options) {
+    const StopScope stop(options.progress);
+    return PictureJob(*picture_model(models), options).run();
+}
+
+Picture picture(const Store& store, const PictureOptions& options) {
+    const StopScope stop(options.progress);
+    return PictureJob(*picture_model(store), options).run();
+}
+
+} // namespace abut

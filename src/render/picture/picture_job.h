@@ -1,0 +1,54 @@
+#pragma once
+
+#include <abut/picture.h>
+
+#include "render/picture/geometry_stream.h"
+#include "render/picture/picture_model.h"
+
+#include <memory>
+#include <vector>
+
+namespace abut {
+
+/// What a picture shows, once its aim is known.
+struct PictureScene {
+    Camera camera;
+    RenderStyle style;
+    std::vector<Mark> marks;
+};
+
+/// Makes pictures of one model off screen.
+class PictureJob {
+public:
+    PictureJob(const PictureModel& model, const PictureOptions& options);
+
+    Picture run();
+
+private:
+    struct Sides; ///< of a pair: what is known of it while its view is chosen
+
+    [[nodiscard]] PictureScene aimed();
+    PictureScene aimed(NamedView view);
+    PictureScene aimed(const Camera& camera);
+    PictureScene aimed(const PartAim& aim);
+    PictureScene aimed(const PairAim& aim);
+
+    [[nodiscard]] RenderStyle style(bool with_ground) const;
+    [[nodiscard]] Camera lens() const;
+    void ghost_all_but(std::span<const std::uint32_t> parts);
+
+    /// Draws the parts that are not ghosts, and then the ghosts.
+    void draw(const PictureScene& scene);
+    /// Tries directions, and returns the scene that shows most of both sides.
+    PictureScene best_scene(const Sides& sides, const std::vector<SectionPlane>& sections,
+                            double& shown);
+
+    const PictureModel& model_;
+    const PictureOptions& options_;
+    OffscreenContext context_;
+    Renderer renderer_;
+    GeometryStream stream_;
+    std::vector<bool> opaque_; ///< by part; the others are ghosts
+};
+
+} // namespace abut
