@@ -73,7 +73,11 @@ PictureScene PictureJob::best_scene(const Sides& sides, const std::vector<Sectio
         for (std::size_t i = 0; i < model_.parts.size(); ++i)
             before += !opaque_[i] && crosses(camera.eye, sides.middle, model_.parts[i].view.box);
         const auto more = static_cast<double>(std::max(seen[0], seen[1])) / all;
-        const double score = std::cbrt(least * least * more) / (1 + 0.15 * before);
+        double score = std::cbrt(least * least * more) / (1 + 0.15 * before);
+        for (const SectionPlane& plane : sections) { // seen from the front rather than askew
+            const double facing = std::max(0.0, -dot(plane.normal, direction.towards));
+            score *= facing * facing;
+        }
         if (score > best_score) {
             best_score = score;
             shown = least;
