@@ -55,6 +55,8 @@ float edge(ivec2 here, ivec2 step, uvec2 part, vec3 n, vec3 at, float w, float f
     float bend = dot(n, decode(other.y));
     if ((part.x ^ other.x) != 0u)
         return fade;
+    if ((part.x & 0x40000000u) != 0u)
+        return 0.0; // what is cut is flat
     float turned = 1.0 - smoothstep(0.76, 0.90, abs(bend));
     if (turned > 0.0)
         return 0.7 * turned * fade * fade;
