@@ -76,6 +76,8 @@ void replay(const Arguments& arguments) {
     const Probe head(Sphere{{0, 0, 0}, 0.1});
     const auto count = static_cast<std::size_t>(duration(tour) * arguments.rate) + 1;
     Json frames = Json::array();
+    (void)session.view.frame(camera_at(tour, 0, session.lens));
+    session.view.wait(); // the first picture is complete
     Vec3 last = camera_at(tour, 0, session.lens).eye;
     for (std::size_t i = 0; i < count; ++i) {
         const double seconds = static_cast<double>(i) / arguments.rate;

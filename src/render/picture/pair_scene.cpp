@@ -73,7 +73,11 @@ PictureScene PictureJob::best_scene(const Sides& sides, const std::vector<Sectio
         for (std::size_t i = 0; i < model_.parts.size(); ++i)
             before += !opaque_[i] && crosses(camera.eye, sides.middle, model_.parts[i].view.box);
         const auto more = static_cast<double>(std::max(seen[0], seen[1])) / all;
-        const double score = std::cbrt(least * least * more) / (1 + 0.15 * before);
+        double score = std::cbrt(least * least * more) / (1 + 0.15 * before);
+        for (const SectionPlane& plane : sections) { // seen from the front rather than askew
+            const double facing = std::max(0.0, -dot(plane.normal, direction.towards));
+            score *= facing * facing;
+        }
         if (score > best_score) {
             best_score = score;
             shown = least;
@@ -126,7 +130,7 @@ PictureScene PictureJob::aimed(const PairAim& aim) {
     const double shared = overlap(box_a, box_b) ? diagonal_of(common) : 0;
     const double gap = length(sides.points[1] - sides.points[0]);
     sides.reach = std::min(
-        std::max({0.6 * std::min(shared, small), 0.3 * small, 0.02 * whole, 2 * gap, 1e-9}),
+        std::max({0.6 * std::min(shared, small), 0.3 * small, 0.02 * whole, gap, 1e-9}),
         0.6 * (whole + gap) + 1e-9);
     sides.frame = grown({sides.middle, sides.middle}, sides.reach);
 

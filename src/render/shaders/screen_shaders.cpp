@@ -55,6 +55,8 @@ float edge(ivec2 here, ivec2 step, uvec2 part, vec3 n, vec3 at, float w, float f
     float bend = dot(n, decode(other.y));
     if ((part.x ^ other.x) != 0u)
         return fade;
+    if ((part.x & 0x40000000u) != 0u)
+        return 0.0; // what is cut is flat
     float turned = 1.0 - smoothstep(0.76, 0.90, abs(bend));
     if (turned > 0.0)
         return 0.7 * turned * fade * fade;
@@ -114,7 +116,7 @@ void main() {
         float lit = max(dot(facing, u_light), 0.0);
         vec3 light = mix(vec3(0.33, 0.31, 0.30), vec3(0.60, 0.63, 0.68), sky) * open +
                      vec3(0.52, 0.50, 0.46) * lit * mix(1.0, open, 0.5);
-        colour = sqrt(own * own * light);
+        colour = own * sqrt(0.84 * light);
         if ((part.x & 0x40000000u) != 0u) {
             // The inside of a solid that is cut: flat, and hatched as in a drawing.
             float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * u_samples)) - 0.5);
