@@ -165,11 +165,11 @@ void LevelView::upload(const CameraMotion& motion) {
     if (!taken)
         return;
     counters_ = taken->counters;
-    for (LoadedChunk& chunk : taken->chunks)
+    for (ReadChunk& chunk : taken->chunks)
         take(std::move(chunk));
 }
 
-void LevelView::take(LoadedChunk chunk) {
+void LevelView::take(ReadChunk chunk) {
     residency_.add(chunk.chunk);
     occluders_.add(chunk.chunk, std::move(chunk.occluders));
     uploads_.push_back({chunk.chunk, std::move(chunk.data)});

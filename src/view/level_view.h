@@ -50,7 +50,7 @@ private:
     /// The room for chunks beside the tables.
     [[nodiscard]] std::uint64_t room(const std::string& name) const;
     void choose(const Camera& camera, const ViewPoint& view);
-    void take(LoadedChunk chunk);
+    void take(ReadChunk chunk);
     void list_chunks();
     void upload(const CameraMotion& motion);
     void upload_at_once();

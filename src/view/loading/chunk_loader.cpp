@@ -68,7 +68,7 @@ std::optional<TakenChunks> ChunkLoader::exchange(std::span<const std::uint32_t> 
     return taken;
 }
 
-void ChunkLoader::take_one(std::uint32_t chunk, std::vector<LoadedChunk>& taken) {
+void ChunkLoader::take_one(std::uint32_t chunk, std::vector<ReadChunk>& taken) {
     const auto found = staged_.find(chunk);
     taken.push_back(std::move(found->second.loaded));
     staged_.erase(found);
@@ -235,8 +235,8 @@ void ChunkLoader::discard(bool even_planned, std::uint64_t bytes) {
     order_ = std::move(kept);
 }
 
-LoadedChunk ChunkLoader::read(std::uint32_t chunk) const {
-    LoadedChunk loaded;
+ReadChunk ChunkLoader::read(std::uint32_t chunk) const {
+    ReadChunk loaded;
     loaded.chunk = chunk;
     loaded.data = std::make_shared<const ViewChunk>(source_(chunk));
     const ChunkSize& size = tree_.chunks[chunk];
@@ -255,7 +255,7 @@ void ChunkLoader::load(Lock& lock, const Job& job) {
     table_.set(job.chunk, ChunkState::loading);
     add_bytes(2 * bytes);
     lock.unlock();
-    LoadedChunk loaded;
+    ReadChunk loaded;
     std::exception_ptr error;
     try {
         loaded = read(job.chunk);
@@ -284,7 +284,7 @@ void ChunkLoader::add_bytes(std::uint64_t bytes) {
     counters_.peak_bytes = std::max(counters_.peak_bytes, counters_.bytes);
 }
 
-std::optional<LoadedChunk> ChunkLoader::read_now(std::uint32_t chunk) {
+std::optional<ReadChunk> ChunkLoader::read_now(std::uint32_t chunk) {
     Lock lock(mutex_);
     if (!make_room({chunk, true}))
         return std::nullopt;
@@ -293,7 +293,7 @@ std::optional<LoadedChunk> ChunkLoader::read_now(std::uint32_t chunk) {
         lock.unlock();
         throw_error();
     }
-    std::vector<LoadedChunk> taken;
+    std::vector<ReadChunk> taken;
     take_one(chunk, taken);
     return std::move(taken.front());
 }

@@ -42,7 +42,7 @@ struct LoaderCounters {
 };
 
 /// A chunk that was read.
-struct LoadedChunk {
+struct ReadChunk {
     std::uint32_t chunk = 0;
     std::shared_ptr<const ViewChunk> data;
     std::vector<Occluder> occluders; ///< of a chunk of full detail
@@ -50,7 +50,7 @@ struct LoadedChunk {
 
 /// What a frame takes.
 struct TakenChunks {
-    std::vector<LoadedChunk> chunks;
+    std::vector<ReadChunk> chunks;
     LoaderCounters counters;
 };
 
@@ -89,7 +89,7 @@ public:
     /// room. Only without a thread.
     ///
     /// Errors      those of the source; the chunk has failed then.
-    std::optional<LoadedChunk> read_now(std::uint32_t chunk);
+    std::optional<ReadChunk> read_now(std::uint32_t chunk);
     /// Frees what was read by read_now() before.
     void forget_taken();
     /// Without a thread: reads up to `chunks` chunks, as the thread would.
@@ -103,7 +103,7 @@ public:
 private:
     using Lock = std::unique_lock<std::mutex>;
     struct Staged {
-        LoadedChunk loaded;
+        ReadChunk loaded;
         bool is_wanted = false;
     };
     struct Job {
@@ -122,8 +122,8 @@ private:
     bool make_room(const Job& job);
     void discard(bool even_planned, std::uint64_t bytes);
     void load(Lock& lock, const Job& job);
-    [[nodiscard]] LoadedChunk read(std::uint32_t chunk) const;
-    void take_one(std::uint32_t chunk, std::vector<LoadedChunk>& taken);
+    [[nodiscard]] ReadChunk read(std::uint32_t chunk) const;
+    void take_one(std::uint32_t chunk, std::vector<ReadChunk>& taken);
     void add_bytes(std::uint64_t bytes);
     [[nodiscard]] std::uint64_t size_of(std::uint32_t chunk) const {
         return tree_.chunks[chunk].bytes() + (is_exact_[chunk] ? kMostOccluderBytes : 0);
