@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-/// Moves a part by hand through the others. docs/viewer.md explains it.
+/// Moves a part by hand through the others. docs/walking.md explains it.
 namespace abut {
 
 enum class CarryMode : std::uint8_t {

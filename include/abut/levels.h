@@ -25,7 +25,7 @@ struct LevelReport {
 
 /// Builds the levels of detail of a store, if they are missing or outdated: simplified geometry of
 /// large meshes, and of groups of small parts together, each with a bound of its error.
-/// docs/viewer.md explains them.
+/// docs/levels.md explains them.
 ///
 /// Work that is interrupted or killed is continued by the next call.
 ///

@@ -148,6 +148,9 @@ struct StoreSummary {
     std::uint64_t stored_bytes = 0; ///< of the compressed blocks
     std::uint64_t hierarchies = 0;  ///< kept by jobs; at most one for each mesh block
     std::uint64_t hierarchy_bytes = 0;
+    bool levels = false; ///< levels of detail of the present parts are there (see levels.h)
+    std::uint64_t level_chunks = 0; ///< of them, or of earlier parts, or of a build that goes on
+    std::uint64_t level_bytes = 0;
     std::uint64_t file_bytes = 0;
     std::uint64_t unused_bytes = 0; ///< of the file; later imports reuse them
     Box3 bounds;                    ///< of all parts, in the world
@@ -159,7 +162,8 @@ struct StoreSummary {
 /// Cost        one pass over the parts.
 StoreSummary summary(const Store& store);
 
-/// Reads a whole store and checks every page, row, mesh block and hierarchy against its checksum.
+/// Reads a whole store and checks every page, row, mesh block, hierarchy and level of
+/// detail against its checksum.
 ///
 /// Errors      Error{malformed}, naming the file and the damage; Error{interrupted}.
 void verify(const Store& store, const Progress& progress = {});

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// A person who walks or flies through the parts of a walk and never passes through one.
-/// docs/viewer.md explains it.
+/// docs/walking.md explains it.
 namespace abut {
 
 enum class WalkerMode : std::uint8_t {

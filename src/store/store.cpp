@@ -128,7 +128,8 @@ StoreSummary summary(const Store& store) {
     result.path = file.path();
     result.version = kStoreVersion;
     result.complete = true;
-    for (const ModelRow& model : file.models()) {
+    const std::vector<ModelRow> models = file.models();
+    for (const ModelRow& model : models) {
         result.models.push_back({model.file, !model.importing, model.parts, model.triangles,
                                  model.generation, model.unit, model.up,
                                  parse_notes(model.notes, file.path())});
@@ -156,6 +157,14 @@ StoreSummary summary(const Store& store) {
             };
             result.hierarchies = number("SELECT count(*) FROM hierarchy");
             result.hierarchy_bytes = number("SELECT sum(length(data)) FROM hierarchy");
+        }
+        if (has_level_tables(database)) {
+            const auto number = [&](const char* sql) {
+                return static_cast<std::uint64_t>(database.number(sql));
+            };
+            result.levels = level_tree_content(database) == level_content(models);
+            result.level_chunks = number("SELECT count(*) FROM level_chunk");
+            result.level_bytes = number("SELECT sum(bytes) FROM level_chunk");
         }
         const auto page = static_cast<std::uint64_t>(database.number("PRAGMA page_size"));
         result.file_bytes = page * static_cast<std::uint64_t>(database.number("PRAGMA page_count"));

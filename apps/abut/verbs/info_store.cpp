@@ -43,6 +43,9 @@ nlohmann::ordered_json describe(const StoreSummary& summary, bool verified) {
                                  {"stored_bytes", summary.stored_bytes},
                                  {"hierarchies", summary.hierarchies},
                                  {"hierarchy_bytes", summary.hierarchy_bytes},
+                                 {"levels", summary.levels},
+                                 {"level_chunks", summary.level_chunks},
+                                 {"level_bytes", summary.level_bytes},
                                  {"file_bytes", summary.file_bytes},
                                  {"unused_bytes", summary.unused_bytes}};
     // An empty store has infinite bounds, which JSON cannot express.
@@ -72,11 +75,16 @@ std::string table(const StoreSummary& summary, bool verified) {
                         "  meshes      {:>14}  {} triangles in {} blocks\n"
                         "  geometry    {:>14}  bytes, {} before compression\n"
                         "  hierarchies {:>14}  bytes, of {} blocks\n"
+                        "  levels      {:>14}  bytes in {} chunks{}\n"
                         "  file        {:>14}  bytes, {} of them unused\n",
                         grouped(summary.parts), grouped(summary.triangles), grouped(summary.meshes),
                         grouped(summary.stored_triangles), grouped(summary.blocks),
                         grouped(summary.stored_bytes), grouped(summary.raw_bytes),
                         grouped(summary.hierarchy_bytes), grouped(summary.hierarchies),
+                        grouped(summary.level_bytes), grouped(summary.level_chunks),
+                        summary.levels              ? ""
+                        : summary.level_chunks == 0 ? ": none"
+                                                    : ": incomplete or outdated",
                         grouped(summary.file_bytes), grouped(summary.unused_bytes));
     const Vec3 &lower = summary.bounds.lower, &upper = summary.bounds.upper;
     if (lower.x <= upper.x)

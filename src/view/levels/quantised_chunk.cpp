@@ -1,5 +1,7 @@
 #include "view/levels/quantised_chunk.h"
 
+#include "math/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -101,8 +103,8 @@ PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep
     ViewChunk& chunk = result.chunk;
     for (std::size_t k = 0; k < 3; ++k) {
         chunk.lower.at(k) =
-            static_cast<float>(std::ldexp(static_cast<double>(grid.lower.at(k)), grid.exponent));
-        chunk.step.at(k) = static_cast<float>(grid.step());
+            to_float(std::ldexp(static_cast<double>(grid.lower.at(k)), grid.exponent));
+        chunk.step.at(k) = to_float(grid.step());
     }
     std::unordered_map<ChunkVertex, std::uint16_t, VertexHash> number_of;
     number_of.reserve(surface.vertices.size());
