@@ -42,8 +42,8 @@ void show_chosen(Session& session, Tools& tools) {
         session.ghost_all_but({});
     ImGui::SameLine();
     PartState state = session.renderer.state(chosen);
-    const bool in_hand = tools.carrying.carry && tools.carrying.part == chosen;
-    if (!in_hand && ImGui::Button(state.hidden ? "Show" : "Hide")) {
+    const bool was_moved = tools.carrying.drawn_as.contains(chosen);
+    if (!was_moved && ImGui::Button(state.hidden ? "Show" : "Hide")) {
         state.hidden = !state.hidden;
         session.set_state(chosen, state);
     }
