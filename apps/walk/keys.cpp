@@ -24,9 +24,8 @@ Keys::Keys(GLFWwindow* window, Session& session, Tools& tools)
         Keys& keys = of(w);
         if (button == GLFW_MOUSE_BUTTON_RIGHT)
             keys.looks_ = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
-        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS &&
-            !ImGui::GetIO().WantCaptureMouse)
-            keys.tools_.attempt([&] { keys.click(); });
+        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
+            keys.click_in_ = 2;
     });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).drag(x, y); });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double, double by) {
@@ -140,6 +139,8 @@ void Keys::press(int key) {
 }
 
 void Keys::update(double seconds) {
+    if (click_in_ > 0 && --click_in_ == 0 && !ImGui::GetIO().WantCaptureMouse)
+        tools_.attempt([&] { click(); });
     Wish wish;
     if (!ImGui::GetIO().WantTextInput) {
         const auto held = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };

@@ -118,6 +118,7 @@ void Carrying::take(Session& session, std::uint32_t chosen) {
     if (const auto found = drawn_as.find(chosen); found != drawn_as.end()) {
         drawn = found->second;
     } else {
+        state.highlighted = false;
         drawn = session.renderer.add_part(session.walk.model(number).mesh(),
                                           session.walk.world_from_part(number), state);
         drawn_as.emplace(chosen, drawn);
