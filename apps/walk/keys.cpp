@@ -1,7 +1,5 @@
 #include "keys.h"
 
-#include <abut/error.h>
-
 #include "vec.h"
 
 #include <fmt/format.h>
@@ -20,15 +18,14 @@ Keys::Keys(GLFWwindow* window, Session& session, Tools& tools)
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
         if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput)
-            of(w).press(key);
+            of(w).tools_.attempt([&] { of(w).press(key); });
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
         Keys& keys = of(w);
         if (button == GLFW_MOUSE_BUTTON_RIGHT)
             keys.looks_ = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
-        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS &&
-            !ImGui::GetIO().WantCaptureMouse)
-            keys.click();
+        if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
+            keys.click_in_ = 2;
     });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).drag(x, y); });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double, double by) {
@@ -68,8 +65,8 @@ void Keys::press_part_key(int key) {
     if (key == GLFW_KEY_U) {
         for (std::uint32_t i = 0; i < session_.view.parts().size(); ++i) {
             PartState state = session_.renderer.state(i);
-            const bool in_hand = tools_.carrying.carry && tools_.carrying.part == i;
-            if ((state.hidden || state.ghosted) && !in_hand) {
+            const bool was_moved = tools_.carrying.drawn_as.contains(i);
+            if ((state.hidden || state.ghosted) && !was_moved) {
                 state.hidden = state.ghosted = false;
                 session_.set_state(i, state);
             }
@@ -89,7 +86,7 @@ void Keys::press_part_key(int key) {
         session_.ghost_all_but({chosen});
     if (key == GLFW_KEY_C)
         tools_.carrying.take(session_, chosen);
-    if (key == GLFW_KEY_H && !(tools_.carrying.carry && tools_.carrying.part == chosen)) {
+    if (key == GLFW_KEY_H && !tools_.carrying.drawn_as.contains(chosen)) {
         PartState state = session_.renderer.state(chosen);
         state.hidden = true;
         session_.set_state(chosen, state);
@@ -118,14 +115,10 @@ void Keys::press(int key) {
     case GLFW_KEY_P: {
         const ViewFrame& frame = session_.view.frame(session_.camera());
         const std::string name = fmt::format("abut-walk-{}.png", ++pictures_);
-        try {
-            write_png(session_.renderer.picture(frame, session_.camera(), session_.style(true),
-                                                session_.marks),
-                      name);
-            tools_.viewpoints.message = name + " written";
-        } catch (const Error& error) {
-            tools_.viewpoints.message = error.what();
-        }
+        write_png(session_.renderer.picture(frame, session_.camera(), session_.style(true),
+                                            session_.marks),
+                  name);
+        tools_.message = name + " written";
         break;
     }
     case GLFW_KEY_TAB:
@@ -146,6 +139,8 @@ void Keys::press(int key) {
 }
 
 void Keys::update(double seconds) {
+    if (click_in_ > 0 && --click_in_ == 0 && !ImGui::GetIO().WantCaptureMouse)
+        tools_.attempt([&] { click(); });
     Wish wish;
     if (!ImGui::GetIO().WantTextInput) {
         const auto held = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };

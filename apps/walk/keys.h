@@ -29,6 +29,8 @@ private:
     bool looks_ = false;   ///< the right button is down
     double x_ = 0, y_ = 0; ///< of the mouse
     int pictures_ = 0;     ///< written
+    /// Frames until a click counts: only the next frame knows whether it was on a panel.
+    int click_in_ = 0;
 };
 
 } // namespace abut::viewer

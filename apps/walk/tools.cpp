@@ -115,10 +115,16 @@ void Carrying::take(Session& session, std::uint32_t chosen) {
     const Vec3 held = camera.eye + ahead * forward;
     aside = carry->carried().pose.translation - held;
     PartState state = session.renderer.state(chosen);
-    drawn = session.renderer.add_part(session.walk.model(number).mesh(),
-                                      session.walk.world_from_part(number), state);
-    state.hidden = true;
-    session.set_state(chosen, state);
+    if (const auto found = drawn_as.find(chosen); found != drawn_as.end()) {
+        drawn = found->second;
+    } else {
+        state.highlighted = false;
+        drawn = session.renderer.add_part(session.walk.model(number).mesh(),
+                                          session.walk.world_from_part(number), state);
+        drawn_as.emplace(chosen, drawn);
+        state.hidden = true;
+        session.set_state(chosen, state);
+    }
     session.walker->set_except(number);
     way_begin(session);
 }

@@ -3,6 +3,8 @@
 #include "session.h"
 
 #include <array>
+#include <exception>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -40,10 +42,11 @@ struct Carrying {
     CarryMode mode = CarryMode::stop;
     std::unique_ptr<Carry> carry;
     std::uint32_t part = 0, drawn = 0; ///< in the view; and as the renderer draws it now
-    double ahead = 0;                  ///< its distance from the eye
-    Vec3 aside;                        ///< of its place, from the point straight ahead
-    std::vector<Pose> way;             ///< since it was taken
-    std::optional<PathReport> report;  ///< of that way, once asked for
+    std::map<std::uint32_t, std::uint32_t> drawn_as; ///< of all parts that were ever taken
+    double ahead = 0;                                ///< its distance from the eye
+    Vec3 aside;                       ///< of its place, from the point straight ahead
+    std::vector<Pose> way;            ///< since it was taken
+    std::optional<PathReport> report; ///< of that way, once asked for
 
     void take(Session& session, std::uint32_t chosen);
     void put_down(Session& session);
@@ -59,7 +62,7 @@ struct Viewpoints {
     Tour saved, path;
     bool recording = false, replaying = false;
     double clock = 0;
-    std::string file = "tour.json", message;
+    std::string file = "tour.json";
 
     void update(Session& session, double seconds);
 };
@@ -87,6 +90,17 @@ struct Tools {
     ClashList clashes;
     bool with_help = false, with_panels = true;
     double frame_milliseconds = 0;
+    std::string message; ///< the last error, or what was done; shown in the status line
+
+    /// Does work, and keeps its error as the message.
+    template <typename Work>
+    void attempt(const Work& work) {
+        try {
+            work();
+        } catch (const std::exception& error) {
+            message = error.what();
+        }
+    }
 
     /// Adds what the tools show to the marks of the frame.
     void add_marks(Session& session) const;

@@ -107,8 +107,8 @@ private:
             session_.lens.height != static_cast<std::uint32_t>(height))
             session_.resize(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
         keys_.update(seconds);
-        tools_.viewpoints.update(session_, seconds);
-        tools_.carrying.update(session_);
+        tools_.attempt([&] { tools_.viewpoints.update(session_, seconds); });
+        tools_.attempt([&] { tools_.carrying.update(session_); });
         draw_scene(now, seconds);
         draw_panels();
         glfwSwapBuffers(window_);
@@ -121,7 +121,7 @@ private:
         const bool moves = !(camera.eye == eye_ && camera.forward == forward_) || session_.changed;
         if (moves) {
             last_change_ = now;
-            tools_.proximity.update(session_);
+            tools_.attempt([&] { tools_.proximity.update(session_); });
         }
         eye_ = camera.eye, forward_ = camera.forward;
         session_.changed = false;
@@ -135,7 +135,7 @@ private:
         scene_.bind(camera.width, camera.height);
         session_.renderer.draw(frame, camera, session_.style(is_final), session_.marks);
         if (is_final)
-            tools_.proximity.update(session_); // with what has been read meanwhile
+            tools_.attempt([&] { tools_.proximity.update(session_); }); // all has been read now
         is_complete_ = is_final;
     }
 

@@ -2,6 +2,7 @@
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 
+#include <array>
 #include <gtest/gtest.h>
 
 namespace abut::test {
@@ -25,7 +26,7 @@ class PictureCommand : public ::testing::Test {
 protected:
     void SetUp() override {
         write_glb(one_of_each_kind(), model_);
-        const Outcome outcome = draw({});
+        const Outcome outcome = draw({"--size", "64x40"});
         if (outcome.err.find("no picture can be drawn here") != std::string::npos)
             GTEST_SKIP() << outcome.err;
         ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -40,6 +41,7 @@ protected:
 };
 
 TEST_F(PictureCommand, HasTheSizeThatIsAskedFor) {
+    EXPECT_EQ(draw({}).status, 0);
     EXPECT_EQ(png_size(out_), (std::array<unsigned, 2>{1600, 1000}));
     const Outcome outcome = draw({"--size", "321x123", "--view", "top"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;

@@ -1,5 +1,3 @@
-#include <abut/error.h>
-
 #include "panels/panels.h"
 
 #include <imgui.h>
@@ -8,7 +6,8 @@ namespace abut::viewer {
 
 namespace {
 
-void show_carried(Session& session, Carrying& carrying) {
+void show_carried(Session& session, Tools& tools) {
+    Carrying& carrying = tools.carrying;
     const CarryStep& step = carrying.carry->state();
     if (step.blocked)
         ImGui::TextColored(ImVec4(0.9F, 0.2F, 0.15F, 1), "blocked");
@@ -22,7 +21,7 @@ void show_carried(Session& session, Carrying& carrying) {
         carrying.put_down(session);
     ImGui::SameLine();
     if (ImGui::Button("Check its way"))
-        carrying.check_way(session);
+        tools.attempt([&] { carrying.check_way(session); });
 }
 
 } // namespace
@@ -41,9 +40,9 @@ void show_carry_panel(Session& session, Tools& tools) {
     ImGui::SameLine();
     choice("through", CarryMode::through);
     if (carrying.carry)
-        show_carried(session, carrying);
+        show_carried(session, tools);
     else if (session.chosen && ImGui::Button("Take the chosen part"))
-        carrying.take(session, *session.chosen);
+        tools.attempt([&] { carrying.take(session, *session.chosen); });
     if (!carrying.report)
         return;
     const PathReport& report = *carrying.report;

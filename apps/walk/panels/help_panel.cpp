@@ -50,13 +50,13 @@ void show_status_line(Session& session, Tools& tools) {
     const ViewStatistics& view = session.view.statistics();
     const WalkerState& person = session.walker->state();
     const std::string text = fmt::format(
-        "{}{}  {:.1f} m/s   {:.0f} ms   {} triangles, {} draws   {} missing   query {:.2f} ms",
+        "{}{}  {:.1f} m/s   {:.0f} ms   {} triangles, {} draws   {} missing   query {:.2f} ms   {}",
         kMoves[static_cast<int>(session.move)], // NOLINT
         person.waits     ? " (waits)"
         : person.blocked ? " (blocked)"
                          : "",
         session.speed, tools.frame_milliseconds, view.triangles, view.draw_calls, view.missing,
-        tools.proximity.milliseconds);
+        tools.proximity.milliseconds, tools.message);
     const ImGuiIO& io = ImGui::GetIO();
     ImGui::GetForegroundDrawList()->AddText(ImVec2(10, io.DisplaySize.y - 22),
                                             IM_COL32(30, 34, 40, 255), text.c_str());

@@ -40,10 +40,11 @@ void show_chosen(Session& session, Tools& tools) {
     ImGui::SameLine();
     if (ImGui::Button("All"))
         session.ghost_all_but({});
+    if (tools.carrying.drawn_as.contains(chosen))
+        return;
     ImGui::SameLine();
     PartState state = session.renderer.state(chosen);
-    const bool in_hand = tools.carrying.carry && tools.carrying.part == chosen;
-    if (!in_hand && ImGui::Button(state.hidden ? "Show" : "Hide")) {
+    if (ImGui::Button(state.hidden ? "Show" : "Hide")) {
         state.hidden = !state.hidden;
         session.set_state(chosen, state);
     }

@@ -1,26 +1,9 @@
-#include <abut/error.h>
-
 #include "panels/panels.h"
 
 #include <fmt/format.h>
-#include <functional>
 #include <imgui.h>
 
 namespace abut::viewer {
-
-namespace {
-
-/// Runs work, and shows its error or what was done.
-void attempt(Viewpoints& viewpoints, const std::string& done, const std::function<void()>& work) {
-    try {
-        work();
-        viewpoints.message = done;
-    } catch (const Error& error) {
-        viewpoints.message = error.what();
-    }
-}
-
-} // namespace
 
 void show_viewpoint_panel(Session& session, Tools& tools) {
     Viewpoints& viewpoints = tools.viewpoints;
@@ -45,12 +28,13 @@ void show_viewpoint_panel(Session& session, Tools& tools) {
     }
     ImGui::Text("%s, %.1f s", viewpoints.file.c_str(), duration(viewpoints.path));
     if (ImGui::Button("Write"))
-        attempt(viewpoints, "written", [&] { write_tour(viewpoints.path, viewpoints.file); });
+        tools.attempt([&] {
+            write_tour(viewpoints.path, viewpoints.file);
+            tools.message = viewpoints.file + " written";
+        });
     ImGui::SameLine();
     if (ImGui::Button("Read"))
-        attempt(viewpoints, "read", [&] { viewpoints.path = read_tour(viewpoints.file); });
-    if (!viewpoints.message.empty())
-        ImGui::TextWrapped("%s", viewpoints.message.c_str());
+        tools.attempt([&] { viewpoints.path = read_tour(viewpoints.file); });
 }
 
 } // namespace abut::viewer

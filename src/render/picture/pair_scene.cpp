@@ -129,9 +129,9 @@ PictureScene PictureJob::aimed(const PairAim& aim) {
     const double small = std::min(diagonal_of(box_a), diagonal_of(box_b));
     const double shared = overlap(box_a, box_b) ? diagonal_of(common) : 0;
     const double gap = length(sides.points[1] - sides.points[0]);
-    sides.reach = std::min(
-        std::max({0.6 * std::min(shared, small), 0.3 * small, 0.02 * whole, gap, 1e-9}),
-        0.6 * (whole + gap) + 1e-9);
+    sides.reach =
+        std::min(std::max({0.6 * std::min(shared, small), 0.3 * small, 0.02 * whole, gap, 1e-9}),
+                 0.6 * (whole + gap) + 1e-9);
     sides.frame = grown({sides.middle, sides.middle}, sides.reach);
 
     ghost_all_but(sides.part);
