@@ -4,6 +4,7 @@
 /// alone.
 #include <abut/batch.h>
 #include <abut/broad_phase.h>
+#include <abut/carry.h>
 #include <abut/clash.h>
 #include <abut/clash_review.h>
 #include <abut/convex.h>
@@ -14,6 +15,7 @@
 #include <abut/error.h>
 #include <abut/frame.h>
 #include <abut/helper_programs.h>
+#include <abut/maintenance_path.h>
 #include <abut/make_mesh.h>
 #include <abut/mesh.h>
 #include <abut/model.h>
@@ -29,4 +31,5 @@
 #include <abut/types.h>
 #include <abut/volume.h>
 #include <abut/walk.h>
+#include <abut/walker.h>
 #include <abut/world.h>

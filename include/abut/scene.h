@@ -12,6 +12,14 @@
 
 namespace abut {
 
+/// A colour as displays take it: sRGB, alpha not multiplied in. 0 is transparent.
+struct Colour {
+    std::uint8_t red = 0, green = 0, blue = 0, alpha = 255;
+    friend bool operator==(const Colour&, const Colour&) = default;
+};
+/// "#rrggbb"; "#rrggbbaa" if it is not opaque.
+std::string to_string(const Colour& colour);
+
 /// One node of a model file that has geometry.
 struct Part {
     std::string id; ///< the node's name (glTF of a building: the GlobalId); unique within its scene
@@ -19,6 +27,9 @@ struct Part {
     std::string type;       ///< `extras.type`; if missing, empty
     std::uint32_t mesh = 0; ///< index in Scene::meshes
     Transform world_from_mesh;
+    /// The colour of the material that covers the most of its triangles. None if the file states
+    /// none there, or if the material has a texture, because textures are not read.
+    std::optional<Colour> colour{};
 };
 
 /// The axis of a right-handed frame that points up. Frames with different up axes differ by quarter
@@ -97,7 +108,7 @@ struct ReadOptions {
     /// Bytes of memory that a reader may use. 0: no limit.
     std::uint64_t memory_limit = 0;
     /// Whether a model may refer to files outside its own folder: buffers of glTF, and material
-    /// libraries of OBJ. Such a library is refused by default, although it is never opened.
+    /// libraries of OBJ.
     bool allow_outside_files = false;
     /// Reports the fraction of the bytes that have been read; stops the readers on request.
     Progress progress{};
@@ -109,6 +120,9 @@ struct ReadOptions {
 /// Vertices of a mesh at equal positions (-0 equals 0) are joined, in the order of their first
 /// occurrence. A vertex that no triangle uses is kept. All triangles are kept, in the file's order.
 /// Polygons are triangulated.
+///
+/// A part's colour comes from the materials of its triangles. Textures and colours of vertices are
+/// not read. What a material states wrongly is no error; values outside of [0, 1] are clamped.
 ///
 /// The world has the file's own axes, in metres. glTF is in metres with y up. COLLADA, FBX, 3MF and
 /// IFC state their unit and axes; 3MF and IFC are z up. For all others, `options` apply. A unit or
@@ -139,8 +153,9 @@ Mesh to_mesh(const Scene& scene);
 Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// Writes a scene as binary glTF, atomically. Positions become floats, `id` the node name, `name`
-/// and `type` extras; instances stay shared. A world with another up axis is turned y up, as glTF
-/// requires. If it is read again and turned back, it has the transforms that were written.
+/// and `type` extras, each distinct colour a material; instances stay shared. A world with another
+/// up axis is turned y up, as glTF requires. If it is read again and turned back, it has the
+/// transforms and colours that were written.
 ///
 /// Errors      Error{cannot_write}, naming the file.
 void write_glb(const Scene& scene, const std::string& path);

@@ -2,14 +2,19 @@
 
 #include <abut/convex.h>
 #include <abut/model.h>
+#include <abut/motion.h>
+#include <abut/progress.h>
 #include <abut/rigid.h>
+#include <abut/shape_queries.h>
 #include <abut/shapes.h>
 #include <abut/store.h>
 #include <abut/types.h>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +75,10 @@ struct WalkQuery {
     WalkPart except{};
     /// For `collide`: all touched parts, or any one of them.
     ContactMode mode = ContactMode::all;
+    /// For `sweep` and the times of impact: see ImpactOptions.
+    std::optional<double> absolute_error{};
+    /// Its stop flag ends a query. Queries report nothing.
+    Progress progress{};
 };
 
 /// The distance of a part and the probe, world frame.
@@ -106,6 +115,48 @@ struct TouchedParts : WalkAnswer {
     std::vector<WalkPart> parts; ///< sorted
 };
 
+/// The first part that a ray meets. The members beside `part` and `at_least` are those of RayHit.
+struct HitPart : WalkAnswer {
+    bool meet = false; ///< if false, only `at_least` is set
+    WalkPart part;
+    double t = std::numeric_limits<double>::infinity();
+    Vec3 point;
+    std::uint32_t triangle = 0;
+    std::array<double, 3> barycentric{};
+    HitSide side = HitSide::front;
+    /// No part is met at a smaller parameter, whether it is in memory or not; equal to `t` if the
+    /// answer is complete, and infinite if nothing is met.
+    double at_least = std::numeric_limits<double>::infinity();
+};
+
+/// The first contact of a moving probe with one part. The members are those of Impact, with the
+/// part as `a` and the probe as `b`.
+struct PartImpact {
+    WalkPart part;
+    double time = 1; ///< never later than the contact with this part
+    double contact_time = std::numeric_limits<double>::infinity();
+    double gap = std::numeric_limits<double>::infinity();
+    Vec3 point_part, point_probe; ///< at `time`
+    Vec3
+        normal; ///< from the part to the probe; zero where they meet at the start and none is known
+    std::uint32_t triangle_part = 0, triangle_probe = 0;
+    Status status = Status::exact;
+};
+
+/// The first contact of a moving probe.
+struct FirstContact : WalkAnswer {
+    bool meet = false; ///< if false, `impact` is not set
+    PartImpact impact;
+    /// In [0, 1]. The motion is proven to be free of contacts up to this time, also with parts that
+    /// are not in memory. 1 if nothing is met.
+    double time_free = 1;
+};
+/// All parts that a moving probe meets.
+struct PartsInWay : WalkAnswer {
+    std::vector<PartImpact> parts; ///< sorted by time, then by part
+    double time_free = 1;          ///< see FirstContact
+};
+
 /// The names of a part.
 struct WalkPartName {
     std::string file; ///< empty for a part that was added
@@ -136,7 +187,7 @@ class WalkData;
 ///
 /// Errors      of all queries: Error{bad_argument} if a transform is not finite, or is not a
 ///             rotation and translation for a probe other than a model, or if a bound is negative
-///             or NaN; those of the store.
+///             or NaN; Error{interrupted} if the stop flag is set; those of the store.
 class Walk {
 public:
     /// Errors      as open_store; Error{bad_argument} if an import into the store has not finished,
@@ -180,6 +231,35 @@ public:
     ///             convex bodies.
     NearParts penetration(const Probe& probe, const Transform& world_from_probe,
                           const WalkQuery& query = {});
+
+    /// The same of a part at its place, with all other parts.
+    ///
+    /// Cost        in addition, that of the part's mesh: for repeated queries make a Probe of
+    ///             `model` once.
+    NearestPart distance(WalkPart part, WalkQuery query = {});
+    NearParts within(WalkPart part, double tolerance, WalkQuery query = {});
+    TouchedParts collide(WalkPart part, WalkQuery query = {});
+    NearParts penetration(WalkPart part, WalkQuery query = {});
+
+    /// Finds the first part that a ray meets; of several at the same t, the one of lowest number.
+    ///
+    /// Accuracy, Errors as `abut::first_hit` with a single model of all parts.
+    HitPart first_hit(const Ray& ray, const WalkQuery& query = {});
+    /// Finds the first contact of a probe that moves in a straight line, by `translation` while the
+    /// time goes from 0 to 1. No contact is missed, however far the probe moves.
+    ///
+    /// Degenerate  a probe that touches a part at the start has time 0.
+    /// Accuracy    the time is never later than the first contact. Otherwise as
+    ///             `abut::time_of_impact`; for a sphere or capsule contacts are found to rounding.
+    /// Errors      Error{bad_argument} also if the translation is not finite, or if coordinates
+    ///             exceed 1e18.
+    FirstContact sweep(const Probe& probe, const Transform& world_from_probe,
+                       const Vec3& translation, const WalkQuery& query = {});
+    /// The same for a motion that may rotate. A probe's motion starts at `motion.start`.
+    FirstContact time_of_impact(const Probe& probe, const Motion& motion,
+                                const WalkQuery& query = {});
+    /// Finds all parts that a moving probe meets, each with the time of its own first contact.
+    PartsInWay parts_in_way(const Probe& probe, const Motion& motion, const WalkQuery& query = {});
 
     /// Adds a part that is not in the store. The model belongs to the caller: its memory does not
     /// count.

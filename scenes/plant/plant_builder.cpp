@@ -1,5 +1,7 @@
 #include "scenes/plant/plant_builder.h"
 
+#include "scenes/plant/plant_colours.h"
+
 #include <algorithm>
 
 namespace abut::scenes {
@@ -48,7 +50,8 @@ std::uint32_t PlantBuilder::plant(ShapeId id, const Transform& pose, std::string
         space_.reserve(moved(pose, cover), index);
     }
     triangles_ += shapes_[id].mesh.triangles.size();
-    parts_.push_back({"", std::move(name), std::string(type), id, pose});
+    const std::optional<Colour> colour = colour_of_plant_part(type, name);
+    parts_.push_back({"", std::move(name), std::string(type), id, pose, colour});
     return index;
 }
 

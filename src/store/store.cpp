@@ -4,6 +4,7 @@
 #include "core/progress.h"
 #include "math/vector.h"
 #include "store/codec/hierarchy_codec.h"
+#include "store/database/level_table.h"
 #include "store/database/store_file.h"
 #include "store/import/mesh_draft.h"
 #include "store/import/note_text.h"
@@ -168,7 +169,7 @@ void verify(const Store& store, const Progress& progress) {
     StoreFile& file = store.file();
     std::vector<MeshRow> meshes;
     file.for_each_mesh([&](const MeshRow& mesh) { meshes.push_back(mesh); });
-    ProgressMeter meter(progress, "verify", meshes.size() + 4);
+    ProgressMeter meter(progress, "verify", meshes.size() + 5);
     check_pages(file);
     meter.advance();
     std::unordered_map<std::int64_t, bool> known;
@@ -186,6 +187,8 @@ void verify(const Store& store, const Progress& progress) {
     check_boxes(file);
     meter.advance();
     check_hierarchies(file);
+    meter.advance();
+    file.with_connection(check_level_chunks);
     meter.advance();
 }
 

@@ -2,6 +2,7 @@
 
 #include "math/transform.h"
 #include "rigid/shapes/shape_arguments.h"
+#include "world/narrow_phase/offset_surface.h"
 
 namespace abut {
 
@@ -18,7 +19,33 @@ bool is_rigid(const Transform& t) {
            is(dot(y, z), 0) && is(dot(z, x), 0);
 }
 
+/// The box, axis or centre of a rounded box.
+Model core_surface(const RoundedBox& box) {
+    const auto corner = [&](double x, double y, double z) {
+        return box.centre + x * box.half[0] * box.axis[0] + y * box.half[1] * box.axis[1] +
+               z * box.half[2] * box.axis[2];
+    };
+    if (box.half[0] == 0 && box.half[1] == 0)
+        return Model(Mesh{{corner(0, 0, -1), corner(0, 0, 1)}, {{0, 1, 1}}});
+    Mesh mesh = unit_cube().mesh();
+    for (Vec3& p : mesh.positions)
+        p = corner(p.x, p.y, p.z);
+    return Model(std::move(mesh));
+}
+
+Model surface_of_probe(const BodyShape& shape) {
+    if (const auto* box = std::get_if<RoundedBox>(&shape))
+        return core_surface(*box);
+    if (const auto* convex = std::get_if<ConvexShape>(&shape))
+        return convex->surface;
+    return std::get<Model>(shape);
+}
+
 } // namespace
+
+ProbeData::ProbeData(BodyShape shape)
+    : shape_(std::move(shape)), own_bounds_(bounds_of(shape_)), surface_(surface_of_probe(shape_)),
+      has_inside_(!std::holds_alternative<Model>(shape_) && radius() == 0) {}
 
 Probe::Probe(const Model& model) : data_(std::make_shared<const ProbeData>(model)) {}
 Probe::Probe(const Convex& convex) : data_(std::make_shared<const ProbeData>(shape_of(convex))) {}

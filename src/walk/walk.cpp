@@ -1,6 +1,7 @@
 #include <abut/walk.h>
 
 #include "rigid/shapes/shape_arguments.h"
+#include "walk/near_entry.h"
 #include "walk/probe.h"
 #include "walk/walk_data.h"
 
@@ -13,24 +14,13 @@ namespace abut {
 
 namespace {
 
-/// A part in memory, or a mesh block of one.
-struct NearEntry {
-    WalkPart part;
-    const BodyShape& shape;
-    const Transform& world;
-    const LoadedChunk* chunk = nullptr; ///< null for a part that was added
-
-    [[nodiscard]] PlacedBody body() const { return {shape, world}; }
-};
-
-/// The traversal of one query. It visits the entries in reach, nearest boxes first. Entries that
-/// are not in memory are read or skipped, as the query asks.
+/// The traversal of one query. It visits the entries in reach, nearest boxes first.
 class Reach {
 public:
     Reach(WalkData& walk, const PlacedProbe& probe, const WalkQuery& query, Depths depths,
           WalkAnswer& answer)
-        : walk_(walk), probe_(probe), query_(query),
-          asks_for_solids_(depths == Depths::yes || probe.asks_for_solids()), answer_(answer) {}
+        : walk_(walk), probe_(probe), answer_(answer),
+          visit_entry_(walk, query, depths == Depths::yes || probe.asks_for_solids(), answer) {}
 
     /// Calls visit(entry) for each entry in reach. visit returns the reach from then on.
     template <typename Visit>
@@ -38,26 +28,7 @@ public:
         if (is_empty(probe_.box()))
             return;
         walk_.for_each_near(probe_.box(), reach, [&](std::uint32_t entry, float key) {
-            const WalkPart part = walk_.part_of(entry);
-            if (part == query_.except)
-                return reach;
-            ++answer_.candidates;
-            if (walk_.is_added(entry)) {
-                const AddedPart& added = walk_.added(entry);
-                reach = visit(NearEntry{part, added.shape, added.world_from_part});
-                return reach;
-            }
-            const std::uint64_t misses = walk_.misses();
-            const PartCache::Pin pin = walk_.lookup(entry, query_.missing);
-            answer_.misses += walk_.misses() - misses;
-            if (!pin) {
-                skip(key);
-                return reach;
-            }
-            if (asks_for_solids_ && !pin->chunk->is_block)
-                walk_.cache().count_solid(pin);
-            reach =
-                visit(NearEntry{part, pin->chunk->shape, pin->world_from_mesh, pin->chunk.get()});
+            reach = visit_entry_(entry, reach, visit, [&] { skip(key); });
             return reach;
         });
     }
@@ -74,9 +45,8 @@ private:
 
     WalkData& walk_;
     const PlacedProbe& probe_;
-    const WalkQuery& query_;
-    bool asks_for_solids_;
     WalkAnswer& answer_;
+    EntryVisit visit_entry_;
     double least_skipped_ = HUGE_VAL;
 };
 
@@ -93,11 +63,9 @@ WalkGap gap_to(const NearEntry& entry, const PlacedProbe& probe, Depths depths) 
     result.distance = gap.distance;
     result.point_part = gap.point_a, result.point_probe = gap.point_b;
     result.normal = gap.normal;
-    result.triangle_part = gap.triangle_a, result.triangle_probe = gap.triangle_b;
+    result.triangle_part = entry.triangle(gap.triangle_a);
+    result.triangle_probe = gap.triangle_b;
     result.status = gap.status;
-    if (entry.chunk != nullptr && !entry.chunk->triangle_ids.empty() &&
-        gap.triangle_a < entry.chunk->triangle_ids.size())
-        result.triangle_part = entry.chunk->triangle_ids[gap.triangle_a];
     return result;
 }
 
@@ -152,6 +120,7 @@ void Walk::wait() {
 NearestPart Walk::distance(const Probe& probe, const Transform& world_from_probe,
                            const WalkQuery& query) {
     require_bound(query.upper_bound);
+    const StopScope stopping(query.progress);
     const PlacedProbe placed(probe, world_from_probe);
     NearestPart answer;
     double reach = query.upper_bound;
@@ -177,6 +146,7 @@ NearestPart Walk::distance(const Probe& probe, const Transform& world_from_probe
 NearParts Walk::within(const Probe& probe, const Transform& world_from_probe, double tolerance,
                        const WalkQuery& query) {
     require(tolerance >= 0 && tolerance < HUGE_VAL, "tolerance must be a length, not negative");
+    const StopScope stopping(query.progress);
     const PlacedProbe placed(probe, world_from_probe);
     NearParts answer;
     Reach(*data_, placed, query, Depths::no, answer).visit(tolerance, [&](const NearEntry& entry) {
@@ -191,6 +161,7 @@ NearParts Walk::within(const Probe& probe, const Transform& world_from_probe, do
 
 TouchedParts Walk::collide(const Probe& probe, const Transform& world_from_probe,
                            const WalkQuery& query) {
+    const StopScope stopping(query.progress);
     const PlacedProbe placed(probe, world_from_probe);
     TouchedParts answer;
     Reach(*data_, placed, query, Depths::no, answer).visit(0, [&](const NearEntry& entry) {
@@ -206,6 +177,7 @@ TouchedParts Walk::collide(const Probe& probe, const Transform& world_from_probe
 
 NearParts Walk::penetration(const Probe& probe, const Transform& world_from_probe,
                             const WalkQuery& query) {
+    const StopScope stopping(query.progress);
     const PlacedProbe placed(probe, world_from_probe);
     NearParts answer;
     Reach(*data_, placed, query, Depths::yes, answer).visit(0, [&](const NearEntry& entry) {
@@ -219,6 +191,23 @@ NearParts Walk::penetration(const Probe& probe, const Transform& world_from_prob
     });
     keep_one_a_part(answer.parts);
     return answer;
+}
+
+NearestPart Walk::distance(WalkPart part, WalkQuery query) {
+    query.except = part;
+    return distance(data_->probe(part), data_->world_from_part(part), query);
+}
+NearParts Walk::within(WalkPart part, double tolerance, WalkQuery query) {
+    query.except = part;
+    return within(data_->probe(part), data_->world_from_part(part), tolerance, query);
+}
+TouchedParts Walk::collide(WalkPart part, WalkQuery query) {
+    query.except = part;
+    return collide(data_->probe(part), data_->world_from_part(part), query);
+}
+NearParts Walk::penetration(WalkPart part, WalkQuery query) {
+    query.except = part;
+    return penetration(data_->probe(part), data_->world_from_part(part), query);
 }
 
 WalkPart Walk::add(const Model& model, const Transform& world_from_part) {

@@ -230,6 +230,18 @@ Model WalkData::model(WalkPart part) {
     return Model(store_.file().read_mesh(store_.file().part(part.number).mesh));
 }
 
+Probe WalkData::probe(WalkPart part) {
+    if (part.number < 0)
+        return Probe(model(part));
+    const std::span<const std::uint32_t> entries = stored_entries(part);
+    const bool is_whole =
+        entries.size() == 1 && !table_.chunk(table_.chunk_of(entries[0])).is_block;
+    if (!is_whole)
+        return Probe(model(part));
+    const PartCache::Pin pin = lookup(entries[0], MissingParts::wait);
+    return Probe(std::get<Model>(pin->chunk->shape));
+}
+
 PartCache::Pin WalkData::lookup(std::uint32_t entry, MissingParts missing) {
     ++lookups_;
     if (PartCache::Pin pin = cache_.find(entry))

@@ -4,6 +4,7 @@
 
 #include "core/stop_watch.h"
 #include "store/database/store_file.h"
+#include "walk/box_motion.h"
 #include "walk/loose_boxes.h"
 #include "walk/part_cache.h"
 #include "walk/part_table.h"
@@ -48,6 +49,8 @@ public:
     WalkPartName name(WalkPart part);
     Transform world_from_part(WalkPart part);
     Model model(WalkPart part);
+    /// The part's model, in memory if it is there.
+    Probe probe(WalkPart part);
     [[nodiscard]] WalkStatistics statistics() const;
 
     /// Calls visit(entry, key) for the entries whose boxes may be at most `reach` from a box in the
@@ -55,6 +58,12 @@ public:
     /// the reach from then on.
     template <typename Visit>
     void for_each_near(const Box3& box, double reach, const Visit& visit);
+    /// Calls visit(entry, key) for the entries whose boxes some moving boxes may meet up to the time
+    /// `until`, first met first. The boxes are relative to the table (PartTable::narrow). The key is
+    /// a lower bound of the time. visit returns the new `until`.
+    template <typename Visit>
+    void for_each_met(std::span<const BoxMotion> moving, double until, const Visit& visit);
+    [[nodiscard]] const PartTable& table() const { return table_; }
     /// The reach that ends the traversal.
     static constexpr double kEnough = -HUGE_VAL;
 
@@ -71,6 +80,10 @@ public:
     [[nodiscard]] PartCache& cache() { return cache_; }
 
 private:
+    /// Visits the entries of both trees by ascending key. visit returns the largest key that
+    /// matters from then on.
+    template <typename Metric, typename Visit>
+    void for_each_lane(const Metric& metric, float limit, const Visit& visit);
     /// Errors      of this and the next function: Error{bad_argument} if there is no such part.
     [[nodiscard]] std::uint32_t added_entry(WalkPart part) const;
     [[nodiscard]] std::span<const std::uint32_t> stored_entries(WalkPart part) const;
@@ -104,31 +117,42 @@ private:
     std::unique_ptr<Prefetcher> prefetcher_; ///< null without prefetching
 };
 
-template <typename Visit>
-void WalkData::for_each_near(const Box3& box, double reach, const Visit& visit) {
-    const GapToBox metric{table_.narrow(box)};
+template <typename Metric, typename Visit>
+void WalkData::for_each_lane(const Metric& metric, float limit, const Visit& visit) {
     NearestLanes stored(table_.tree(), metric), loose(loose_.tree(), metric);
-    float limit = 0;
-    const auto set_reach = [&](double to) {
-        constexpr double kLargest = 1e18; // of a coordinate
-        limit = to < kLargest ? round_up(std::max(to, 0.0) * std::max(to, 0.0)) : HUGE_VALF;
-        stored.set_limit(limit), loose.set_limit(limit);
+    const auto set_limit = [&](float to) {
+        limit = to;
+        stored.set_limit(to), loose.set_limit(to);
     };
-    set_reach(reach);
+    set_limit(limit);
     auto next_stored = stored.next(), next_loose = loose.next();
     while (next_stored || next_loose) {
         const bool from_table = next_stored && (!next_loose || next_stored->key <= next_loose->key);
         const auto lane = from_table ? *next_stored : *next_loose;
         if (lane.key > limit)
             return;
-        if (!from_table || !away_[lane.lane]) {
-            reach = visit(from_table ? lane.lane : loose_.entry(lane.lane), lane.key);
-            if (reach == kEnough)
-                return;
-            set_reach(reach);
-        }
+        if (!from_table || !away_[lane.lane])
+            set_limit(visit(from_table ? lane.lane : loose_.entry(lane.lane), lane.key));
         (from_table ? next_stored : next_loose) = (from_table ? stored : loose).next();
     }
+}
+
+template <typename Visit>
+void WalkData::for_each_near(const Box3& box, double reach, const Visit& visit) {
+    const auto limit_of = [](double to) {
+        constexpr double kLargest = 1e18; // of a coordinate
+        if (to == kEnough)
+            return -HUGE_VALF;
+        return to < kLargest ? round_up(std::max(to, 0.0) * std::max(to, 0.0)) : HUGE_VALF;
+    };
+    for_each_lane(GapToBox{table_.narrow(box)}, limit_of(reach),
+                  [&](std::uint32_t entry, float key) { return limit_of(visit(entry, key)); });
+}
+
+template <typename Visit>
+void WalkData::for_each_met(std::span<const BoxMotion> moving, double until, const Visit& visit) {
+    for_each_lane(EntryTimes{moving}, round_up(until),
+                  [&](std::uint32_t entry, float key) { return round_up(visit(entry, key)); });
 }
 
 } // namespace abut

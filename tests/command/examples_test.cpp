@@ -63,8 +63,20 @@ TEST_F(ExamplePrograms, StoresAndCrews) {
     EXPECT_EQ(crew.out, "5 clashes, found by 2 processes\n") << crew.err;
 }
 
+TEST_F(ExamplePrograms, Trajectory) {
+    EXPECT_EQ(run_example("trajectory", {box_, box_}).out,
+              "2.000 m\n2.236 m\n2.236 m\n2.000 m\n"
+              "motion 0: free for 100.0 %\nmotion 1: free for 100.0 %\n"
+              "motion 2: free for 100.0 %\nthe direct way: free for 33.3 %\n");
+}
+
+TEST_F(ExamplePrograms, FallingBall) {
+    EXPECT_EQ(run_example("falling-ball", {}).out, "the ball rests at z = 0.50 m\n");
+}
+
 TEST_F(ExamplePrograms, SayWhatIsWrong) {
-    for (const char* name : {"two-models", "shape-queries", "clashes", "store-clashes"}) {
+    for (const char* name :
+         {"two-models", "shape-queries", "clashes", "store-clashes", "trajectory"}) {
         EXPECT_EQ(run_example(name, {}).status, 2) << name;
         EXPECT_NE(run_example(name, {}).err.find("usage: "), std::string::npos) << name;
     }

@@ -138,11 +138,14 @@ TEST(Import, SaysWhatIsWrongWithAStore) {
         newer.run("PRAGMA user_version = 7");
     }
     expect_both_refused(folder / "newer.abut", {"newer.abut", "version 7", "newer"});
-    {
-        Database older(folder / "newer.abut", OpenMode::read_write);
-        older.run("PRAGMA user_version = 1");
+    for (const std::string version : {"1", "2"}) {
+        {
+            Database older(folder / "newer.abut", OpenMode::read_write);
+            older.run(("PRAGMA user_version = " + version).c_str());
+        }
+        expect_both_refused(folder / "newer.abut",
+                            {"newer.abut", "version " + version, "import the models"});
     }
-    expect_both_refused(folder / "newer.abut", {"newer.abut", "version 1", "import the models"});
     {
         const StoreWriter writer(store, std::uint64_t{2} << 20, ExclusiveStore::IfMissing::fail);
         expect_both_refused(store, {"s.abut", "in use by another process"});

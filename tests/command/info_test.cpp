@@ -68,6 +68,8 @@ TEST(Info, CountsInstancesAndStoredTriangles) {
     scene.meshes = {unit_box()};
     for (int i = 0; i < 3; ++i)
         scene.parts.push_back(part("box" + std::to_string(i), "Box", 0, placed(2 * i, 0, 0)));
+    scene.parts[1].colour = Colour{1, 2, 255};
+    scene.parts[2].colour = Colour{1, 2, 255, 128};
     write_glb(scene, folder / "boxes.glb");
     const Outcome outcome = run_abut({"info", folder / "boxes.glb", "--json", "--parts"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -81,6 +83,9 @@ TEST(Info, CountsInstancesAndStoredTriangles) {
     ASSERT_EQ(file["part_list"].size(), 3U);
     EXPECT_EQ(file["part_list"][2]["name"], "box2");
     EXPECT_EQ(file["part_list"][2]["type"], "Box");
+    EXPECT_EQ(file["part_list"][0]["colour"], nullptr);
+    EXPECT_EQ(file["part_list"][1]["colour"], "#0102ff");
+    EXPECT_EQ(file["part_list"][2]["colour"], "#0102ff80");
     EXPECT_EQ(file["part_list"][2]["bounds"]["lower"], nlohmann::json({4.0, 0.0, 0.0}));
 }
 

@@ -169,13 +169,19 @@ private:
         distort(row.mesh);
         distort(row.generation);
         distort(row.box);
+        if (choices_.chance(0.5)) {
+            row.colour.emplace();
+            for (std::uint8_t* const byte : {&row.colour->red, &row.colour->alpha})
+                distort(*byte);
+        }
         for (double& value : row.world_from_mesh.m)
             distort(value);
         const Box3& b = row.box;
-        Statement(database_, "INSERT INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
+        Statement(database_, "INSERT INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)")
             .bind(row.part, row.model, row.number, row.mesh, row.id, row.name, row.type, b.lower.x,
                   b.lower.y, b.lower.z, b.upper.x, b.upper.y, b.upper.z,
-                  std::as_bytes(std::span(row.world_from_mesh.m)), row.generation, row.checksum())
+                  std::as_bytes(std::span(row.world_from_mesh.m)), row.generation,
+                  colour_text(row.colour), row.checksum())
             .run();
         return row.checksum();
     }

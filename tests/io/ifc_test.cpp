@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 
 namespace abut::test {
@@ -127,6 +128,40 @@ TEST_F(Ifc, House4InMillimetresWithPartsOfTwoSolids) {
     EXPECT_EQ(scene.meshes[one.mesh].triangles.size(), 24U);
     expect_box(bounds_of(scene, one), {0.5, 1.7, 0}, {1.5, 2.3, 0.75});
     expect_box(bounds_of(scene, two), {2.7, 1.5, 1}, {3.3, 2.5, 1.75});
+}
+
+TEST_F(Ifc, PartsHaveTheColourOfTheirStyle) {
+    // Items 34: the wall; 43 and 47: leg and top of the tables, of equal numbers of triangles.
+    const auto colours = [&](const std::vector<std::array<std::string, 3>>& styles) {
+        std::string lines;
+        int line = 80;
+        for (const auto& [item, rgb, transparency] : styles) {
+            lines += fmt::format("#{}=IFCCOLOURRGB($,{});\n"
+                                 "#{}=IFCSURFACESTYLERENDERING(#{},{},$,$,$,$,$,$,.FLAT.);\n"
+                                 "#{}=IFCSURFACESTYLE($,.BOTH.,(#{}));\n",
+                                 line, rgb, line + 1, line, transparency, line + 2, line + 1);
+            if (!item.empty())
+                lines += fmt::format("#{}=IFCSTYLEDITEM(#{},(#{}),$);\n", line + 3, item, line + 2);
+            line += 4;
+        }
+        std::string text = read_bytes(kFolder + "house_4.ifc");
+        text.insert(text.rfind("ENDSEC;"), lines);
+        const auto parts = by_id(read_scene(folder_.file("styled.ifc", text)));
+        std::vector<std::string> result;
+        for (const char* const id : {"4WallOfTheTests0000001", "4TableOfTheTests000001"}) {
+            const auto& colour = parts.at(id).colour;
+            result.push_back(colour ? to_string(*colour) : "none");
+        }
+        return result;
+    };
+    using Texts = std::vector<std::string>;
+    EXPECT_EQ(colours({}), (Texts{"none", "none"}));
+    EXPECT_EQ(colours({{"34", "0.2,0.4,0.6", "0.5"}}), (Texts{"#33669980", "none"}));
+    EXPECT_EQ(
+        colours({{"34", "0.2,0.4,0.6", "$"}, {"43", "1.,0.,0.", "0."}, {"47", "0.,1.,0.", "0."}}),
+        (Texts{"#336699", "#ff0000"}));
+    EXPECT_EQ(colours({{"34", "1.,1.,1.", "0."}, {"43", "0.,0.,0.", "0."}})[0], "#ffffff");
+    EXPECT_EQ(colours({{"34", "-1.,2.,0.6", "7."}})[0], "#00ff9900");
 }
 
 TEST_F(Ifc, OnlyAPathOverridesUnitAndAxes) {

@@ -145,7 +145,8 @@ TEST_F(Isolation, CountsAndIndicesOfAStreamAreNotTrusted) {
     fail_with_stream(changed(matrix, std::numeric_limits<double>::quiet_NaN()),
                      ErrorCode::bad_mesh);
     fail_with_stream(changed(matrix + 96, std::uint32_t{1}), ErrorCode::reader_failed);
-    for (const std::size_t size : {std::size_t{100}, std::size_t{104}, std::size_t{108}})
+    for (const std::size_t size :
+         {std::size_t{100}, std::size_t{104}, std::size_t{108}, std::size_t{112}})
         fail_with_stream(changed(matrix + size, ~std::uint32_t{0}), ErrorCode::reader_failed);
 }
 

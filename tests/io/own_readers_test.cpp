@@ -104,8 +104,12 @@ TEST_F(OwnReaders, AGlbFileThatAsksForMoreMemoryThanThereIs) {
     document["bufferViews"][0]["byteLength"] = 12 * kVertices;
     document["bufferViews"][1]["byteOffset"] = 12 * kVertices;
     document["buffers"][0]["byteLength"] = 12 * kVertices + 48;
-    const nlohmann::json mesh = document["meshes"][0];
+    nlohmann::json mesh = document["meshes"][0];
+    const nlohmann::json indices = document["accessors"][1];
     for (std::size_t i = 0; i < kMeshes; ++i) {
+        // With the same accessors they would be one mesh.
+        document["accessors"][1 + i] = indices;
+        mesh["primitives"][0]["indices"] = 1 + i;
         document["meshes"][i] = mesh;
         document["nodes"][i] = {{"mesh", i}};
         document["scenes"][0]["nodes"][i] = i;

@@ -128,6 +128,24 @@ TEST_F(Zip, A3mfFileHasAUnitComponentsAndBuildItems) {
     }
 }
 
+TEST_F(Zip, A3mfFileHasColours) {
+    const auto colour_of = [&](const std::string& base, const std::string& object) {
+        std::string model = model_3mf("");
+        model.insert(model.find("<resources>") + 11,
+                     "<basematerials id=\"5\"><base name=\"paint\" " + base + "/></basematerials>");
+        model.insert(model.find("<object ") + 8, object + " ");
+        const Scene scene = read_scene(folder_.file("model.3mf", file_3mf(model)));
+        for (const Part& part : scene.parts)
+            EXPECT_EQ(part.colour, scene.parts[0].colour);
+        return scene.parts[0].colour;
+    };
+    const std::string uses = "pid=\"5\" pindex=\"0\"";
+    EXPECT_EQ(colour_of("displaycolor=\"#336699\"", uses), (Colour{0x33, 0x66, 0x99}));
+    EXPECT_EQ(colour_of("displaycolor=\"#33669980\"", uses), (Colour{0x33, 0x66, 0x99, 0x80}));
+    EXPECT_FALSE(colour_of("displaycolor=\"#336699\"", "")); // the object does not use it
+    EXPECT_FALSE(read_scene(folder_.file("model.3mf", file_3mf(model_3mf("")))).parts[0].colour);
+}
+
 TEST_F(Zip, A3mfFileThatIsDamaged) {
     const std::string whole = file_3mf(model_3mf(""));
     const auto refuse = [&](const std::string& bytes) {

@@ -95,7 +95,7 @@ private:
         for (Part& part : draft.parts) {
             if (!random_.chance(share))
                 continue;
-            switch (random_.integer(0, 4)) {
+            switch (random_.integer(0, 5)) {
             case 0:
                 part.world_from_mesh.m[10] += random_.uniform(-0.5, 0.5);
                 break;
@@ -108,6 +108,9 @@ private:
                 break;
             case 3:
                 part.type = "type" + std::to_string(random_.integer(0, 3));
+                break;
+            case 4:
+                part.colour = Colour{static_cast<std::uint8_t>(random_.integer(0, 3)), 0, 9};
                 break;
             default:
                 part.id = "part" + std::to_string(random_.integer(1000, 1'000'000));
@@ -162,7 +165,8 @@ private:
     }
 
     static bool is_same(const Part& a, const Scene& in_a, const Part& b, const Scene& in_b) {
-        return a.name == b.name && a.type == b.type && a.world_from_mesh == b.world_from_mesh &&
+        return a.name == b.name && a.type == b.type && a.colour == b.colour &&
+               a.world_from_mesh == b.world_from_mesh &&
                same_bits(in_a.meshes.at(a.mesh), in_b.meshes.at(b.mesh));
     }
 

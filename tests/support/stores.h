@@ -39,7 +39,7 @@ inline StoredScene stored_scene(StoreFile& file, const ModelRow& model) {
         if (is_new)
             result.scene.meshes.push_back(file.read_mesh(row.mesh));
         result.scene.parts.push_back(
-            {row.id, row.name, row.type, found->second, row.world_from_mesh});
+            {row.id, row.name, row.type, found->second, row.world_from_mesh, row.colour});
         result.boxes.push_back(row.box);
         result.generations.push_back(row.generation);
     });
@@ -55,6 +55,7 @@ inline void expect_same_scene(const Scene& a, const Scene& b) {
         ASSERT_EQ(p.id, q.id);
         ASSERT_EQ(p.name, q.name);
         ASSERT_EQ(p.type, q.type);
+        ASSERT_EQ(p.colour, q.colour) << p.id;
         ASSERT_EQ(std::memcmp(p.world_from_mesh.m.data(), q.world_from_mesh.m.data(),
                               sizeof p.world_from_mesh.m),
                   0)

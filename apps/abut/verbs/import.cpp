@@ -1,4 +1,5 @@
 #include <abut/error.h>
+#include <abut/levels.h>
 #include <abut/progress.h>
 #include <abut/store.h>
 
@@ -8,17 +9,42 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace abut::command {
 
 namespace {
+
+/// Levels of detail take at least this memory.
+constexpr std::uint64_t kLeastLevelMemory = std::uint64_t{64} << 20;
 
 struct ImportArguments {
     std::vector<std::string> files; ///< model files, then the store
     std::string memory = "512M";
     ReadOptions read;
     bool remove = false;
+    bool levels = false; ///< also builds levels of detail
 };
+
+nlohmann::ordered_json describe(const LevelReport& report) {
+    return {{"built", report.built},
+            {"chunks", report.chunks},
+            {"new_chunks", report.new_chunks},
+            {"triangles", report.triangles},
+            {"stored_bytes", report.stored_bytes},
+            {"geometry_bytes", report.geometry_bytes},
+            {"seconds", report.seconds}};
+}
+
+std::string table(const LevelReport& report) {
+    const double mib = 1024.0 * 1024.0;
+    return fmt::format(
+        "levels      {} chunks, {} new, {} triangles, {:.1f} MiB, meshes {:.1f} MiB, "
+        "{:.2f} s\n",
+        grouped(report.chunks), grouped(report.new_chunks), grouped(report.triangles),
+        static_cast<double>(report.stored_bytes) / mib,
+        static_cast<double>(report.geometry_bytes) / mib, report.seconds);
+}
 
 nlohmann::ordered_json describe(const ImportReport& report, const std::string& store) {
     nlohmann::ordered_json models = nlohmann::ordered_json::array();
@@ -92,23 +118,32 @@ int run(const ImportArguments& arguments, const CommonOptions& common) {
         return remove(models, store, common);
     ProgressBar bar(common.progress_style());
     ImportReport report;
+    std::optional<LevelReport> levels;
     {
         const InterruptScope scope(OnInterrupt::ask);
+        const std::uint64_t memory = parse_bytes("--memory", arguments.memory);
         report = import_models(parse_model_paths(models), store,
-                               {.memory = parse_bytes("--memory", arguments.memory),
+                               {.memory = memory,
                                 .unit = arguments.read.unit,
                                 .up = arguments.read.up,
                                 .spaces = arguments.read.spaces,
                                 .map = arguments.read.map,
                                 .allow_outside_files = arguments.read.allow_outside_files,
                                 .progress = bar.progress()});
+        if (arguments.levels)
+            levels = build_levels(
+                store, {.memory = std::max(memory, kLeastLevelMemory), .progress = bar.progress()});
     }
     bar.finish();
     throw_if_interrupted();
-    if (common.json)
-        print_json(dump(describe(report, store)));
-    else if (!common.quiet)
-        print_text(table(report, store));
+    if (common.json) {
+        nlohmann::ordered_json described = describe(report, store);
+        if (levels)
+            described["levels"] = describe(*levels);
+        print_json(dump(described));
+    } else if (!common.quiet) {
+        print_text(table(report, store) + (levels ? table(*levels) : ""));
+    }
     return kExitDone;
 }
 
@@ -133,8 +168,12 @@ Subcommand add_import(CLI::App& root, CommonOptions& common) {
                     "Limit of memory in bytes, with K, M or G (default 512M)")
         ->check(not_empty("BYTES"));
     add_read_options(*app, arguments->read);
-    app->add_flag("--remove", arguments->remove,
-                  "Remove the models from the store; their files need not exist");
+    CLI::Option* remove =
+        app->add_flag("--remove", arguments->remove,
+                      "Remove the models from the store; their files need not exist");
+    app->add_flag("--levels", arguments->levels,
+                  "Also build levels of detail, which the viewer needs")
+        ->excludes(remove);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

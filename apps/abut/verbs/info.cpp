@@ -105,6 +105,7 @@ nlohmann::ordered_json describe_parts(const Scene& scene, const std::vector<Mesh
                                    {"closed", report.closed},
                                    {"components", report.components}};
         add_counts(row, report);
+        row["colour"] = part.colour ? nlohmann::ordered_json(to_string(*part.colour)) : nullptr;
         row["bounds"] = describe(world_bounds(scene.meshes[part.mesh], part.world_from_mesh));
         parts.push_back(std::move(row));
     }

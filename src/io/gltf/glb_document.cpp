@@ -2,6 +2,7 @@
 
 #include "io/file/fault.h"
 #include "io/gltf/gltf_json.h"
+#include "io/gltf/gltf_material.h"
 #include "io/gltf/gltf_uri.h"
 
 #include <algorithm>
@@ -153,6 +154,10 @@ public:
         for (const json& root : member_or_empty(scenes[shown], "nodes"))
             document_.roots.push_back(reference(root));
         document_.nodes.finish();
+        // Elements that are not objects were not counted, so the others' indices are not known.
+        const json& materials = member_or_empty(rest, "materials");
+        if (!materials.is_array() || !materials.empty())
+            document_.materials.clear();
     }
 
 private:
@@ -167,8 +172,10 @@ private:
             take_view(element);
         else if (section_ == "buffers")
             take_buffer(element);
+        else if (section_ == "materials")
+            document_.materials.push_back(colour_of_material(element));
         else
-            // Materials and the like are not needed.
+            // Cameras and the like are not needed.
             return section_ != "scenes" && section_ != "asset";
         return true;
     }
@@ -217,6 +224,7 @@ private:
             result.mode = mode >= 4 && mode <= 6 ? static_cast<Mode>(mode) : Mode::other;
             result.position = index_or_none(primitive.at("attributes"), "POSITION");
             result.indices = index_or_none(primitive, "indices");
+            result.material = material_of(primitive);
             if (result.mode != Mode::other && result.position == GlbDocument::kNone)
                 malformed("a primitive has no positions");
             if (const json* const draco = extension_of(primitive, kDracoExtension)) {
@@ -227,6 +235,15 @@ private:
             document_.primitives.push_back(result);
         }
         document_.first_primitive.push_back(document_.primitives.size());
+    }
+
+    /// A wrong index is no fault, because a model is useful without its colours.
+    static std::uint32_t material_of(const json& primitive) {
+        const auto found = primitive.find("material");
+        return found != primitive.end() && found->is_number_unsigned()
+                   ? static_cast<std::uint32_t>(
+                         std::min<std::uint64_t>(found->get<std::uint64_t>(), GlbDocument::kNone))
+                   : GlbDocument::kNone;
     }
 
     void take_accessor(const json& accessor) {

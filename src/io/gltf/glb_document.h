@@ -5,6 +5,7 @@
 #include "io/scene/part_spool.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,8 +60,9 @@ struct GlbDocument {
     struct Primitive {
         enum class Mode : std::uint8_t { other, triangles = 4, strip = 5, fan = 6 };
         std::uint32_t position = kNone, indices = kNone;
-        std::uint32_t draco = kNone; ///< index in `draco`
-        Mode mode = Mode::triangles; ///< other: points or lines
+        std::uint32_t draco = kNone;    ///< index in `draco`
+        std::uint32_t material = kNone; ///< index in `materials`
+        Mode mode = Mode::triangles;    ///< other: points or lines
     };
     /// A primitive compressed by Draco.
     struct Draco {
@@ -87,6 +89,7 @@ struct GlbDocument {
     std::vector<Primitive> primitives;
     std::vector<std::uint64_t> first_primitive{0}; ///< by mesh, with one entry past the last
     std::vector<Draco> draco;
+    std::vector<std::optional<Colour>> materials; ///< only their colours
     /// Each node as a part, with the node's name, extras and mesh (kNone: none). The part's
     /// transform is parent_from_node.
     PartSpool nodes;

@@ -3,6 +3,7 @@
 #include "io/gltf/glb_document.h"
 #include "io/gltf/gltf_geometry.h"
 #include "io/gltf/gltf_json.h"
+#include "io/scene/colour.h"
 #include "io/scene/scene_source.h"
 #include "io/scene/unique_ids.h"
 #include "math/transform.h"
@@ -11,6 +12,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
 
 namespace abut {
@@ -126,7 +128,8 @@ public:
           document_(options.folder) {
         read_glb_document(file_, lower_extension(path.path) != ".glb", document_);
         geometry_.emplace(path.path, file_, document_, options);
-        std::vector<std::uint32_t> number_of(document_.meshes(), kUnknown);
+        std::vector<TakenMesh> taken(document_.meshes());
+        mesh_of_accessor_.assign(document_.accessors.size(), kUnknown);
         UniqueIds ids;
         const auto id_of = [](std::uint32_t node, const Part& part) {
             return part.id.empty() ? "node " + std::to_string(node) : part.id;
@@ -136,13 +139,14 @@ public:
         });
         ids.finish();
         walk(document_, [&](std::uint32_t node, const Part& found, const Transform& world) {
-            std::uint32_t& number = number_of[found.mesh];
-            if (number == kUnknown)
-                number = take_mesh(found.mesh);
-            if (number == kNoSurface)
+            TakenMesh& mesh = taken[found.mesh];
+            if (mesh.number == kUnknown)
+                mesh = take_mesh(found.mesh);
+            if (mesh.number == kNoSurface)
                 return;
             Part part = found;
-            part.mesh = number;
+            part.mesh = mesh.number;
+            part.colour = mesh.colour;
             const std::string id = id_of(node, found);
             for_each_placement(node, world, [&](const Transform& world_from_mesh) {
                 part.id = ids.unique(id);
@@ -151,6 +155,7 @@ public:
                 append(part);
             });
         });
+        mesh_of_accessor_ = {};
         if (parts().size() == 0)
             throw Fault(ErrorCode::bad_mesh, "holds no triangles");
         finish();
@@ -178,13 +183,19 @@ private:
     static constexpr std::uint32_t kUnknown = 0xffffffff, kNoSurface = 0xfffffffe;
     using Mode = GlbDocument::Primitive::Mode;
 
+    [[nodiscard]] std::span<const GlbDocument::Primitive>
+    primitives(std::uint32_t gltf_mesh) const {
+        const std::uint64_t first = document_.first_primitive[gltf_mesh];
+        return std::span(document_.primitives)
+            .subspan(first, document_.first_primitive[gltf_mesh + 1] - first);
+    }
+
     /// Visits the primitives with triangles; points and lines are left out.
     template <typename Take>
     void for_each_surface(std::uint32_t gltf_mesh, const Take& take) const {
-        for (std::uint64_t i = document_.first_primitive[gltf_mesh];
-             i < document_.first_primitive[gltf_mesh + 1]; ++i)
-            if (document_.primitives[i].mode != Mode::other)
-                take(document_.primitives[i]);
+        for (const GlbDocument::Primitive& primitive : primitives(gltf_mesh))
+            if (primitive.mode != Mode::other)
+                take(primitive);
     }
 
     template <typename Take>
@@ -209,22 +220,54 @@ private:
         return corners / 3;
     }
 
-    /// Returns the number of a mesh in this source, or kNoSurface.
-    std::uint32_t take_mesh(std::uint32_t gltf_mesh) {
+    struct TakenMesh {
+        std::uint32_t number = kUnknown; ///< in this source, or kNoSurface
+        std::optional<Colour> colour;
+    };
+
+    TakenMesh take_mesh(std::uint32_t gltf_mesh) {
         Size size;
+        ColourTally colours;
         for_each_surface(gltf_mesh, [&](const GlbDocument::Primitive& primitive) {
             const std::uint64_t vertices = geometry_->positions(primitive).count;
             const auto corners = geometry_->indices(primitive);
+            const std::uint64_t count =
+                triangles(primitive.mode, corners ? corners->count : vertices);
             size.vertices += vertices;
-            size.triangles += triangles(primitive.mode, corners ? corners->count : vertices);
+            size.triangles += count;
+            colours.add(colour_of(primitive), count);
         });
         if (size.triangles == 0)
-            return kNoSurface;
+            return {kNoSurface, std::nullopt};
         if (std::max(size.vertices, size.triangles) > kLargestMesh)
             throw Fault(ErrorCode::unsupported, "has a part with more than 4 billion vertices");
+        return {number_of(gltf_mesh, size), colours.largest()};
+    }
+
+    [[nodiscard]] std::optional<Colour> colour_of(const GlbDocument::Primitive& primitive) const {
+        return primitive.material < document_.materials.size()
+                   ? document_.materials[primitive.material]
+                   : std::nullopt;
+    }
+
+    /// Returns the number of a mesh in this source. glTF repeats a mesh that has several materials,
+    /// with the same accessors; here it is one mesh.
+    std::uint32_t number_of(std::uint32_t gltf_mesh, const Size& size) {
+        using Primitive = GlbDocument::Primitive;
+        const std::span<const Primitive> own = primitives(gltf_mesh);
+        const Primitive& first = *std::ranges::find_if(
+            own, [](const Primitive& primitive) { return primitive.mode != Mode::other; });
+        std::uint32_t& number =
+            mesh_of_accessor_[first.indices != GlbDocument::kNone ? first.indices : first.position];
+        const auto same = [](const Primitive& a, const Primitive& b) {
+            return a.mode == b.mode && a.position == b.position && a.indices == b.indices &&
+                   a.draco == b.draco;
+        };
+        if (number != kUnknown && std::ranges::equal(own, primitives(meshes_[number]), same))
+            return number;
         meshes_.push_back(gltf_mesh);
         sizes_.push_back(size);
-        return static_cast<std::uint32_t>(sizes_.size() - 1);
+        return number = static_cast<std::uint32_t>(sizes_.size() - 1);
     }
 
     static void read_positions(const GltfElements& elements, MeshSink& sink) {
@@ -299,6 +342,8 @@ private:
     std::optional<GltfGeometry> geometry_; ///< always set
     std::vector<std::uint32_t> meshes_;    ///< glTF mesh for each mesh of this source
     std::vector<Size> sizes_;
+    /// The last mesh whose first primitive uses an accessor for its indices, or else its positions.
+    std::vector<std::uint32_t> mesh_of_accessor_;
 };
 
 } // namespace

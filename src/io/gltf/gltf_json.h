@@ -52,6 +52,10 @@ inline constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression"
 inline constexpr std::array<std::string_view, 2> kMeshoptExtensions{"EXT_meshopt_compression",
                                                                     "KHR_meshopt_compression"};
 
+/// An earlier model of materials, whose colours are read.
+inline constexpr std::string_view kSpecularGlossinessExtension =
+    "KHR_materials_pbrSpecularGlossiness";
+
 /// Returns whether a file may require an extension: one whose geometry is read, or one that does
 /// not change geometry, such as materials, lights, textures and metadata.
 bool is_known_gltf_extension(std::string_view name);

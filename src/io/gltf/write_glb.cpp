@@ -3,6 +3,7 @@
 
 #include "core/atomic_file.h"
 #include "io/gltf/gltf_json.h"
+#include "io/gltf/gltf_material.h"
 #include "io/scene/model_frame.h"
 #include "math/rounding.h"
 
@@ -11,7 +12,12 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace abut {
 
@@ -75,8 +81,67 @@ json mesh_accessors(const Scene& scene, std::string& binary) {
     return accessors;
 }
 
-json node_of(const Part& part, UpAxis up) {
-    json node{{"name", part.id}, {"mesh", part.mesh}};
+/// The meshes of the document. In glTF the mesh names the material, so a mesh that is shown in
+/// several colours is repeated for each, with the same accessors.
+class ColouredMeshes {
+public:
+    explicit ColouredMeshes(const Scene& scene)
+        : colours_(scene.meshes.size()), is_used_(scene.meshes.size()) {
+        for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+            meshes_.push_back(mesh_of(i));
+    }
+
+    std::size_t number_of(const Part& part) {
+        if (part.mesh >= colours_.size())
+            return part.mesh; // not a valid scene
+        if (!is_used_[part.mesh])
+            colour(part.mesh, part.colour);
+        is_used_[part.mesh] = true;
+        if (colours_[part.mesh] == part.colour)
+            return part.mesh;
+        const auto [found, is_new] =
+            others_.try_emplace({part.mesh, key(part.colour)}, meshes_.size());
+        if (is_new) {
+            meshes_.push_back(mesh_of(part.mesh));
+            colour(found->second, part.colour);
+        }
+        return found->second;
+    }
+
+    void finish(json& document) {
+        document["meshes"] = std::move(meshes_);
+        if (!materials_.empty())
+            document["materials"] = std::move(materials_);
+    }
+
+private:
+    static json mesh_of(std::size_t i) {
+        const json attributes{{"POSITION", 2 * i}};
+        return {{"primitives", {{{"attributes", attributes}, {"indices", 2 * i + 1}}}}};
+    }
+    static std::string key(const std::optional<Colour>& colour) {
+        return colour ? to_string(*colour) : "";
+    }
+    void colour(std::size_t mesh, const std::optional<Colour>& colour) {
+        if (mesh < colours_.size())
+            colours_[mesh] = colour;
+        if (!colour)
+            return;
+        const auto [found, is_new] = material_of_.try_emplace(key(colour), materials_.size());
+        if (is_new)
+            materials_.push_back(material_of_colour(*colour));
+        meshes_[mesh]["primitives"][0]["material"] = found->second;
+    }
+
+    std::vector<std::optional<Colour>> colours_; ///< of each mesh of the scene: of its first part
+    std::vector<bool> is_used_;
+    std::map<std::pair<std::uint32_t, std::string>, std::size_t> others_; ///< by mesh and colour
+    std::map<std::string, std::size_t> material_of_;
+    json meshes_ = json::array(), materials_ = json::array();
+};
+
+json node_of(const Part& part, std::size_t mesh, UpAxis up) {
+    json node{{"name", part.id}, {"mesh", mesh}};
     if (part.name != part.id)
         node["extras"]["name"] = part.name;
     if (!part.type.empty())
@@ -97,19 +162,16 @@ void write_glb(const Scene& scene, const std::string& path) {
     json document{{"asset", {{"version", "2.0"}, {"generator", "Abut"}}}, {"scene", 0}};
     document["accessors"] = mesh_accessors(scene, binary);
     std::size_t vertices = 0;
-    json meshes = json::array();
-    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-        vertices += scene.meshes[i].positions.size();
-        const json attributes{{"POSITION", 2 * i}};
-        meshes.push_back({{"primitives", {{{"attributes", attributes}, {"indices", 2 * i + 1}}}}});
-    }
+    for (const Mesh& mesh : scene.meshes)
+        vertices += mesh.positions.size();
+    ColouredMeshes meshes(scene);
     json nodes = json::array();
     json roots = json::array();
     for (const Part& part : scene.parts) {
         roots.push_back(nodes.size());
-        nodes.push_back(node_of(part, scene.up));
+        nodes.push_back(node_of(part, meshes.number_of(part), scene.up));
     }
-    document["meshes"] = std::move(meshes);
+    meshes.finish(document);
     document["nodes"] = std::move(nodes);
     document["scenes"] = {{{"nodes", std::move(roots)}}};
     document["buffers"] = {{{"byteLength", binary.size()}}};

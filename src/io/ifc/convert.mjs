@@ -11,6 +11,7 @@
 import crypto from 'node:crypto';
 import fs from 'node:fs';
 
+import {Colours} from './colours.mjs';
 import {Fault, MALFORMED, UNSUPPORTED} from './fault.mjs';
 import {mapFromProject} from './map.mjs';
 import {Products} from './products.mjs';
@@ -19,7 +20,7 @@ import {metresPerUnit} from './units.mjs';
 import {plainFile, zippedFile} from './zip.mjs';
 
 const RESULT = 3;
-const MAGIC = Buffer.from('abutscn2');
+const MAGIC = Buffer.from('abutscn3');
 const END = Buffer.from('abut-end');
 const HEADER_BYTES = 56;
 const Z_UP = 3; // 1 + UpAxis::z
@@ -101,12 +102,12 @@ class Output {
         return this.#meshes++;
     }
 
-    /** world: the twelve numbers of Transform. */
-    part(world, mesh, id, name, type) {
+    /** world: the twelve numbers of Transform; colour: four bytes, or null. */
+    part(world, mesh, id, name, type, colour) {
         const texts = [id, name, type].map(text => Buffer.from(text));
-        const numbers = Uint32Array.of(mesh, ...texts.map(text => text.length));
+        const numbers = Uint32Array.of(mesh, ...texts.map(text => text.length), colour === null ? 0 : 1);
         this.#parts.push(Buffer.from(Float64Array.from(world).buffer), Buffer.from(numbers.buffer),
-                         ...texts);
+                         Buffer.from(colour ?? [0, 0, 0, 0]), ...texts);
         ++this.#partCount;
     }
 
@@ -233,6 +234,7 @@ class Converter {
 
     /** map: the result of mapFromProject, or null. */
     constructor(api, model, output, products, map) {
+        this.colours = new Colours(api, model);
         this.map = map;
         this.api = api;
         this.model = model;
@@ -247,16 +249,17 @@ class Converter {
             return this.#note(about, SPACE, 'is a space or a zone, which is not built');
         const placed = [];
         for (let i = 0; i < product.geometries.size(); ++i) {
-            const {geometryExpressID, flatTransformation} = product.geometries.get(i);
+            const {color, geometryExpressID, flatTransformation} = product.geometries.get(i);
             const world = zUp([...flatTransformation]);
             const geometry = geometryOf(this.api, this.model, geometryExpressID, scaleOf(world));
             if (geometry.triangles.length > 0)
-                placed.push({world, geometry});
+                placed.push({world, geometry, color});
         }
         if (placed.length === 0)
             return this.#missing(about);
         const [mesh, world] = placed.length === 1 ? this.#single(placed[0]) : this.#several(placed);
-        this.output.part(transformOf(this.map === null ? world : multiply(this.map, world)), mesh, about.id, about.name, about.type);
+        this.output.part(transformOf(this.map === null ? world : multiply(this.map, world)), mesh, about.id, about.name,
+                         about.type, this.colours.largest(placed));
         const shapes = this.products.shapes(product.expressID);
         if (placed.length < shapes)
             this.#note(about, NOT_BUILT,

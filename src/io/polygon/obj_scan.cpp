@@ -1,6 +1,5 @@
 #include "io/polygon/obj_scan.h"
 
-#include "io/file/companion_file.h"
 #include "io/file/fault.h"
 
 #include <string>
@@ -100,7 +99,7 @@ void scan_obj(ByteStream& content, const std::function<void(const Vec3&)>& verte
             ++vertices;
         } else if (word == "f") {
             face(corners.read(rest, vertices, lines));
-        } else if (name && (word == "o" || word == "g" || word == "mtllib")) {
+        } else if (name && (word == "o" || word == "g" || word == "mtllib" || word == "usemtl")) {
             name(word, trimmed(rest));
         }
     }
@@ -126,11 +125,6 @@ std::size_t ObjParts::of_face() {
         current_ = entry->second;
     }
     return *current_;
-}
-
-void check_libraries(const std::string& model, std::string_view libraries, bool allow_outside) {
-    for (std::string_view name = take_word(libraries); !name.empty(); name = take_word(libraries))
-        (void)companion_path(model, std::string(name), allow_outside);
 }
 
 } // namespace abut

@@ -19,7 +19,8 @@ namespace abut {
 ///
 /// In          face: receives at least three corners, as indices from 0 of `v` lines. They are
 ///             checked only when the scan returns, because a face may precede its vertices.
-///             name: receives `o`, `g` or `mtllib` and the rest of the line; may be empty.
+///             name: receives `o`, `g`, `mtllib` or `usemtl` and the rest of the line; may be
+///             empty.
 /// Errors      Fault malformed for a face of fewer than three corners or a word that is not a
 ///             number, bad_mesh for a corner without a vertex; any exception that the functions
 ///             throw.
@@ -49,11 +50,5 @@ private:
     std::optional<std::size_t> current_;
     std::vector<std::string> ids_;
 };
-
-/// Refuses material libraries (`mtllib`) outside the model's folder, although none is ever opened.
-///
-/// In          libraries: names, separated by blanks. A name with blanks is checked word by word.
-/// Errors      Fault unsupported, as companion_path.
-void check_libraries(const std::string& model, std::string_view libraries, bool allow_outside);
 
 } // namespace abut

@@ -1,5 +1,6 @@
 #include "core/paged_array.h"
 #include "io/file/fault.h"
+#include "io/polygon/obj_colours.h"
 #include "io/polygon/obj_scan.h"
 #include "io/polygon/one_part_source.h"
 #include "io/polygon/triangulate.h"
@@ -66,6 +67,7 @@ private:
     void scan(bool allow_outside) {
         ByteStream content = ByteStream::open(path_, watch_);
         ObjParts parts;
+        ObjColours colours(path_, allow_outside, watch_);
         Size size;
         scan_obj(
             content, [&](const Vec3&) { ++vertices_; },
@@ -75,18 +77,18 @@ private:
                     throw NotStreamable();
                 size.vertices += corners.size();
                 size.triangles += corners.size() - 2;
+                colours.add(0, corners.size() - 2);
                 only_triangles_ = only_triangles_ && corners.size() == 3;
             },
             [&](std::string_view statement, std::string_view name) {
-                if (statement == "mtllib")
-                    check_libraries(path_, name, allow_outside);
+                colours.statement(statement, name);
                 parts.name(statement, name);
             });
         if (size.triangles == 0)
             throw Fault(ErrorCode::bad_mesh, "holds no triangles");
         if (std::max({size.vertices, size.triangles, vertices_}) > kLargestMesh)
             throw NotStreamable();
-        set_part(parts.ids().front(), size);
+        set_part(parts.ids().front(), size, colours.of_part(0));
     }
 
     /// Calls take(positions of the corners) for each face.

@@ -3,6 +3,7 @@
 #include "io/scene/scene_source.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,12 @@ protected:
     OnePartSource(const ModelPath& path, const SourceOptions& options)
         : SceneSource(FormatFrame{}, path, options), path_(path.path), watch_(options.watch) {}
 
-    void set_part(const std::string& id, const Size& size) {
+    void set_part(const std::string& id, const Size& size,
+                  const std::optional<Colour>& colour = std::nullopt) {
         size_ = size;
         Part part;
         part.id = part.name = id;
+        part.colour = colour;
         append(std::move(part));
         finish();
     }

@@ -2,6 +2,7 @@
 
 #include "io/file/fault.h"
 #include "io/file/input_file.h"
+#include "io/polygon/obj_colours.h"
 #include "io/polygon/obj_scan.h"
 #include "io/polygon/off_scan.h"
 #include "io/polygon/ply_body.h"
@@ -21,8 +22,7 @@ std::string node(std::uint64_t number) {
     return "node " + std::to_string(number);
 }
 
-Scene read_obj(ByteStream& content, PolygonScene& scene, const std::string& path,
-               bool allow_outside) {
+Scene read_obj(ByteStream& content, PolygonScene& scene, ObjColours colours) {
     ObjParts parts;
     std::size_t added = 0;
     scan_obj(
@@ -32,13 +32,16 @@ Scene read_obj(ByteStream& content, PolygonScene& scene, const std::string& path
             for (; added <= part; ++added)
                 (void)scene.add_part(parts.ids()[added]);
             scene.face(part, corners);
+            colours.add(part, corners.size() - 2);
         },
         [&](std::string_view statement, std::string_view name) {
-            if (statement == "mtllib")
-                check_libraries(path, name, allow_outside);
+            colours.statement(statement, name);
             parts.name(statement, name);
         });
-    return scene.finish(PolygonScene::Vertices::used);
+    Scene result = scene.finish(PolygonScene::Vertices::used);
+    for (std::size_t i = 0; i < result.parts.size(); ++i)
+        result.parts[i].colour = colours.of_part(i); // every part has a face
+    return result;
 }
 
 Scene read_off(ByteStream& content, PolygonScene& scene) {
@@ -90,7 +93,8 @@ std::optional<Scene> read_polygon_file(const std::string& path, bool allow_outsi
         return std::nullopt;
     ByteStream content = ByteStream::open(path, watch);
     PolygonScene scene(*watch);
-    return is_obj ? read_obj(content, scene, path, allow_outside) : read(content, scene);
+    return is_obj ? read_obj(content, scene, ObjColours(path, allow_outside, watch))
+                  : read(content, scene);
 }
 
 } // namespace abut

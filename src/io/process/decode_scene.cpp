@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::uint32_t kTriangleBytes = 12;
 constexpr std::uint32_t kMeshHeaderBytes = 12;
-constexpr std::uint32_t kPartHeaderBytes = 112;
+constexpr std::uint32_t kPartHeaderBytes = 120;
 constexpr std::uint32_t kNoteHeaderBytes = 20;
+static_assert(sizeof(Colour) == 4);
 
 [[noreturn]] void not_sound(const std::string& file) {
     throw Error(ErrorCode::reader_failed, file, "its reader returned a damaged result");
@@ -101,6 +102,12 @@ Part decode_part(Cursor& cursor, std::size_t meshes, const std::string& file) {
     const auto id_size = cursor.value<std::uint32_t>();
     const auto name_size = cursor.value<std::uint32_t>();
     const auto type_size = cursor.value<std::uint32_t>();
+    const auto has_colour = cursor.value<std::uint32_t>();
+    const auto colour = cursor.value<Colour>();
+    if (has_colour > 1)
+        not_sound(file);
+    if (has_colour == 1)
+        part.colour = colour;
     part.id = cursor.text(id_size);
     part.name = cursor.text(name_size);
     part.type = cursor.text(type_size);

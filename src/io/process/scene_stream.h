@@ -6,7 +6,7 @@
 /// it; decode_scene checks and decodes it. Byte order is the machine's; nothing is aligned or
 /// padded.
 ///
-///     header   char[8] magic "abutscn2"
+///     header   char[8] magic "abutscn3"
 ///              u32     status: 0 a scene follows; 1 + ErrorCode: an error follows
 ///              u32     bytes of the error's text (0 for a scene)
 ///              u64     meshes
@@ -19,7 +19,8 @@
 ///     mesh     u32 vertices | u32 triangles | u32 bytes of a coordinate, 4 or 8
 ///              f32 or f64 [3 vertices] x y z … | u32[3 triangles] a b c …
 ///     part     f64[12] world_from_mesh (see Transform) | u32 mesh | u32 id, u32 name, u32 type:
-///              bytes | the three texts
+///              bytes | u32 1 if it has a colour, else 0 | u8[4] red, green, blue, alpha (see
+///              Colour) | the three texts
 ///     note     u32 NoteKind | u32 id, u32 name, u32 type, u32 text: bytes | the four texts
 ///     end      char[8] "abut-end", and nothing after it
 ///
@@ -27,7 +28,7 @@
 /// readers deliver them, or doubles where the IFC converter joins several geometries.
 namespace abut::scene_stream {
 
-inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '2'};
+inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '3'};
 inline constexpr char kEnd[8] = {'a', 'b', 'u', 't', '-', 'e', 'n', 'd'};
 
 struct Header {

@@ -15,6 +15,7 @@ struct NodePart {
     std::string type;
     Transform world_from_node;
     std::vector<unsigned> meshes; ///< indices in aiScene, only of meshes with triangles, in order
+    bool has_material = true;     ///< false: the material that Assimp gives it is not the file's
 };
 
 /// Returns whether a mesh has triangles or polygons, not only points and lines.

@@ -7,8 +7,10 @@
 #include "io/reader/collada_asset.h"
 #include "io/reader/fbx_frame.h"
 #include "io/reader/joined_vertices.h"
+#include "io/reader/material_colour.h"
 #include "io/reader/node_parts.h"
 #include "io/reader/threemf.h"
+#include "io/scene/colour.h"
 
 #include <algorithm>
 #include <assimp/DefaultIOSystem.h>
@@ -18,6 +20,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <optional>
 #include <span>
 
 namespace abut {
@@ -26,8 +29,8 @@ namespace {
 
 constexpr std::uint64_t kLargestMesh = std::numeric_limits<std::uint32_t>::max() - 1;
 
-/// Lets Assimp open the model and no other file. Otherwise it would follow any path to materials,
-/// which are not needed.
+/// Lets Assimp open the model and no other file. Otherwise it would follow any path to textures and
+/// other files, which are not needed.
 class OnlyTheModel : public Assimp::DefaultIOSystem {
 public:
     explicit OnlyTheModel(std::string model) : model_(std::move(model)) {}
@@ -91,6 +94,19 @@ Sizes sizes_of(const aiScene& scene, const MeshList& list) {
     return sizes;
 }
 
+/// The colour that covers the most triangles of a mesh.
+std::optional<Colour> colour_of(const aiScene& scene, const MeshList& list) {
+    ColourTally colours;
+    for (const unsigned number : list) {
+        const aiMesh& mesh = *scene.mMeshes[number];
+        colours.add(mesh.mMaterialIndex < scene.mNumMaterials
+                        ? colour_of_material(*scene.mMaterials[mesh.mMaterialIndex])
+                        : std::nullopt,
+                    triangle_count(mesh));
+    }
+    return colours.largest();
+}
+
 /// In          number_of: the index under which each of the mesh's vertices is written.
 void write_faces(const aiMesh& mesh, std::span<const std::uint32_t> number_of,
                  StreamWriter& writer) {
@@ -133,12 +149,15 @@ void write_mesh(const aiScene& scene, const MeshList& list, const Sizes& sizes,
     }
 }
 
-/// Assimp names a node "Object_" followed by the object's id.
-std::string name_in_3mf(const ThreemfModel& model, const std::string& node) {
+/// Adds what Assimp does not tell: the name, and whether the object has a material. Assimp names a
+/// node "Object_" followed by the object's id.
+void complete_3mf_part(const ThreemfModel& model, NodePart& part) {
     constexpr std::string_view kPrefix = "Object_";
-    const auto name = node.starts_with(kPrefix) ? model.names.find(node.substr(kPrefix.size()))
-                                                : model.names.end();
-    return name == model.names.end() ? std::string() : name->second;
+    const std::string object =
+        part.id.starts_with(kPrefix) ? part.id.substr(kPrefix.size()) : std::string();
+    const auto name = model.names.find(object);
+    part.name = name == model.names.end() ? std::string() : name->second;
+    part.has_material = model.with_material.contains(object);
 }
 
 } // namespace
@@ -167,24 +186,29 @@ void read_model(const std::string& file, StreamWriter& writer) {
         frame = model_of_3mf.frame;
         applied = frame.unit;
         for (NodePart& part : parts)
-            part.name = name_in_3mf(model_of_3mf, part.id);
+            complete_3mf_part(model_of_3mf, part);
     }
     std::map<MeshList, std::uint32_t> number_of;
     std::vector<const MeshList*> lists;
     std::vector<Sizes> sizes;
+    std::vector<std::optional<Colour>> colours;
     for (const NodePart& part : parts) {
         const auto [entry, is_new] =
             number_of.emplace(part.meshes, static_cast<std::uint32_t>(lists.size()));
         if (is_new) {
             lists.push_back(&entry->first);
             sizes.push_back(sizes_of(scene, entry->first));
+            colours.push_back(colour_of(scene, entry->first));
         }
     }
     writer.begin(frame, applied, lists.size(), parts.size());
     for (std::size_t i = 0; i < lists.size(); ++i)
         write_mesh(scene, *lists[i], sizes[i], writer);
-    for (const NodePart& part : parts)
-        writer.part(part.world_from_node, number_of.at(part.meshes), part.id, part.name, part.type);
+    for (const NodePart& part : parts) {
+        const std::uint32_t mesh = number_of.at(part.meshes);
+        writer.part(part.world_from_node, mesh, part.id, part.name, part.type,
+                    part.has_material ? colours[mesh] : std::nullopt);
+    }
     writer.end();
 }
 

@@ -51,12 +51,15 @@ void StreamWriter::triangle(const std::array<std::uint32_t, 3>& abc) {
 }
 
 void StreamWriter::part(const Transform& world_from_mesh, std::uint32_t mesh, std::string_view id,
-                        std::string_view name, std::string_view type) {
+                        std::string_view name, std::string_view type,
+                        const std::optional<Colour>& colour) {
     put(world_from_mesh.m.data(), sizeof world_from_mesh.m);
-    const std::array<std::uint32_t, 4> numbers{mesh, static_cast<std::uint32_t>(id.size()),
-                                               static_cast<std::uint32_t>(name.size()),
-                                               static_cast<std::uint32_t>(type.size())};
+    const std::array<std::uint32_t, 5> numbers{
+        mesh, static_cast<std::uint32_t>(id.size()), static_cast<std::uint32_t>(name.size()),
+        static_cast<std::uint32_t>(type.size()), colour ? std::uint32_t{1} : 0};
     put(numbers.data(), sizeof numbers);
+    const Colour bytes = colour.value_or(Colour());
+    put(&bytes, sizeof bytes);
     for (const std::string_view text : {id, name, type})
         put(text.data(), text.size());
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/error.h>
+#include <abut/scene.h>
 #include <abut/types.h>
 
 #include "io/scene/model_frame.h"
@@ -8,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +29,7 @@ public:
     void positions(const float* xyz, std::size_t vertices);
     void triangle(const std::array<std::uint32_t, 3>& abc);
     void part(const Transform& world_from_mesh, std::uint32_t mesh, std::string_view id,
-              std::string_view name, std::string_view type);
+              std::string_view name, std::string_view type, const std::optional<Colour>& colour);
     void end();
     /// Writes an error in place of everything else; nothing may have been written before.
     void error(ErrorCode code, std::string_view text);

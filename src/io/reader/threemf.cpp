@@ -189,8 +189,14 @@ ThreemfModel read_3mf_model(const std::string& file) {
         result.frame.unit = unit->second;
     }
     PartCount count;
+    std::string_view object;
     while (tags.next(tag)) {
         count.take(tag);
+        if (tag.name == "object")
+            object = attribute(tag.attributes, "id");
+        if ((tag.name == "object" || tag.name == "triangle") &&
+            !attribute(tag.attributes, "pid").empty())
+            result.with_material.emplace(object);
         if (tag.name == "object")
             if (const std::string_view name = attribute(tag.attributes, "name"); !name.empty())
                 result.names.emplace(attribute(tag.attributes, "id"), without_entities(name));

@@ -28,6 +28,8 @@ void PartSpool::append(const Part& part) {
     record.id_size = checked_size(part.id);
     record.name_size = checked_size(part.name);
     record.type_size = checked_size(part.type);
+    record.has_colour = part.colour ? 1 : 0;
+    record.colour = part.colour.value_or(Colour());
     record_writer_.append(&record, sizeof record);
     for (const std::string* text : {&part.id, &part.name, &part.type})
         text_writer_.append(text->data(), text->size());
@@ -50,6 +52,8 @@ Part PartSpool::placement_of(const Record& record) {
     Part part;
     part.mesh = record.mesh;
     part.world_from_mesh = record.world_from_mesh;
+    if (record.has_colour != 0)
+        part.colour = record.colour;
     return part;
 }
 

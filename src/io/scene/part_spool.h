@@ -46,6 +46,8 @@ private:
         std::uint64_t text = 0; ///< offset in texts_
         std::uint32_t mesh = 0;
         std::uint32_t id_size = 0, name_size = 0, type_size = 0;
+        std::uint32_t has_colour = 0;
+        Colour colour;
     };
     template <typename Reader>
     static Record read_record(Reader& records, std::uint64_t number);

@@ -25,13 +25,13 @@ MovingBall ball_of_child(const Tree& tree, std::uint32_t name, const Transform& 
 // c'), with r its arm, and the acceleration u' = w x (w x r) - w' x (v - v' + w x r).
 BallGap gap_of_ball(const MovingBall& ball, const Trajectory& of_ball,
                     std::span<const Triangle> triangles, const Trajectory& of_triangles,
-                    double time, double margin) {
+                    double time, double margin, double radius) {
     double distance_sq = std::numeric_limits<double>::infinity();
     for (const Triangle& triangle : triangles)
         distance_sq =
             std::min(distance_sq, point_triangle_distance(ball.centre, triangle).distance_sq);
     BallGap gap;
-    gap.distance = std::sqrt(distance_sq) - ball.radius - 2 * margin;
+    gap.distance = std::sqrt(distance_sq) - ball.radius - radius - 2 * margin;
     const double rate = of_ball.speed_of_rotation(),
                  turning = rate * of_ball.axis_distance(ball.centre, time);
     constexpr double kMore = 1 + 0x1p-40;

@@ -28,11 +28,11 @@ struct BallGap {
 };
 
 /// In          both at their places at `time`, in [0, 1]. margin: bounds what rounding can change
-///             in any distance or path length.
+///             in any distance or path length. radius: sets that are at most so far apart meet.
 /// Accuracy    in double precision, however large the triangles are. In the frame of their body
 ///             they stand still, so that only the ball's relative speed matters.
 BallGap gap_of_ball(const MovingBall& ball, const Trajectory& of_ball,
                     std::span<const Triangle> triangles, const Trajectory& of_triangles,
-                    double time, double margin);
+                    double time, double margin, double radius = 0);
 
 } // namespace abut

@@ -139,8 +139,8 @@ void find_meeting_children(const TimeSpan& span, const NodeChildren& a, const No
     const double duration = span.end - now.time;
     const NodeMotion in_p = motion_of(now.in_a, duration, a.node, b.node, nodes.p_from_q, kChild),
                      in_q = motion_of(now.in_b, duration, b.node, a.node, nodes.q_from_p, kChild);
-    nodes.p_from_q.margin += to_float(now.in_a.margin);
-    nodes.q_from_p.margin += to_float(now.in_b.margin);
+    nodes.p_from_q.margin += to_float(now.in_a.margin + now.in_a.radius);
+    nodes.q_from_p.margin += to_float(now.in_b.margin + now.in_b.radius);
     const MovingSiblings p(a.node, nodes.p_from_q, nodes.q_from_p, in_p, in_q),
         q(b.node, nodes.q_from_p, nodes.p_from_q, in_q, in_p);
     const float begin = first_share(span);
@@ -211,7 +211,8 @@ void find_meeting_triangles(const TimeSpan& span, const Node& node_a, const Tria
     const float begin = first_share(span);
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F);
     // The vertices are off by two margins in sum, and the heights are rounded.
-    const auto margin = hn::Set(d, 3 * (a_from_b.margin + to_float(frame.margin)));
+    const auto margin =
+        hn::Set(d, 3 * (a_from_b.margin + to_float(frame.margin)) + to_float(frame.radius));
     result.pairs = 0;
     for (std::size_t lane = 0; lane < kPairs; lane += hn::Lanes(d)) {
         MovingTriangles<D> t;

@@ -98,9 +98,9 @@ public:
             for (const VertexMotion& q : of_b) {
                 const double gap = q.height - p.height;
                 result.gap = std::min(result.gap, gap);
-                result.time =
-                    std::min(result.time,
-                             free_time({gap - pair_.margin, p.speed - q.speed, bend, pair_.speed}));
+                result.time = std::min(
+                    result.time,
+                    free_time({gap - pair_.reach(), p.speed - q.speed, bend, pair_.speed}));
             }
         return result;
     }
@@ -122,7 +122,8 @@ public:
         const double spin = length(spin_), moving = length(velocity_) + length(closing_in_a_);
         const double bend = std::min(spin * turning_of_b_ + a_.rate() * moving,
                                      spin * turning_of_a + b_.rate() * moving);
-        return free_time({length(between_), -dot(n, closing_in_a_), bend, kUnbounded});
+        return free_time(
+            {length(between_) - pair_.radius, -dot(n, closing_in_a_), bend, kUnbounded});
     }
 
     /// Separates the triangles by a plane that turns with one of the bodies, for at most `horizon`.
@@ -140,7 +141,7 @@ public:
             const Vec3 u = other.velocities[j] -
                            own.trajectory.velocity_at(closest_.a + other.vertices[j], time_);
             const double turning = other.rate() * other.arms[j];
-            const double gap = dot(up, other.vertices[j]) - highest - pair_.margin;
+            const double gap = dot(up, other.vertices[j]) - highest - pair_.reach();
             proven = std::min(proven, in_rounds(horizon, [&](double end) {
                                   const double fastest = most_speed(u, own, turning, end);
                                   const double bend =
@@ -158,7 +159,7 @@ public:
         const double sign = dot(between_, cross(e_any, f)) < 0 ? -1 : 1;
         const Vec3 e = sign * e_any, n = cross(e, f);
         const double sine = length(n);
-        if (!(dot(between_, n) > pair_.margin * sine))
+        if (!(dot(between_, n) > pair_.reach() * sine))
             return 0;
         return in_rounds(horizon, [&](double end) { return along_edges(e, f, n, sine, end); });
     }
@@ -210,8 +211,8 @@ private:
             std::min(fastest, length(cross(e, closing_in_a_)) + end * most_bend);
         const double distance = length(between_) + end * fastest;
         const double turned = dot(between_, cross(e, turned_f));
-        const double lost = kSumRounding * (fastest + spin * distance) + pair_.margin * across_f;
-        const HeightBound middle{dot(between_, n) - pair_.margin * sine - kSumRounding * distance,
+        const double lost = kSumRounding * (fastest + spin * distance) + pair_.reach() * across_f;
+        const HeightBound middle{dot(between_, n) - pair_.reach() * sine - kSumRounding * distance,
                                  -(dot(closing_in_a_, n) + turned) + lost,
                                  most_bend * most_sine + 2 * sideways * across_f +
                                      distance * (spin * spin_of_f + a_.rate() * across_f)};
@@ -267,13 +268,13 @@ double free_time(const MovingPair& pair, double time, const Triangle& a, const T
     const Vec3 between = closest.b - closest.a;
     const double gap = length(between);
     // A bound for any direction.
-    const double least = free_time({gap - pair.margin, pair.speed, 0, pair.speed});
+    const double least = free_time({gap - pair.reach(), pair.speed, 0, pair.speed});
     if (least == 0)
         return 0;
     const Vec3 n = (1 / gap) * between;
     TrianglesInMotion triangles(pair, time, a, b, closest);
     const TrianglesInMotion::Result result = triangles.along(n);
-    const bool is_exact = result.gap >= 0.5 * gap;
+    const bool is_exact = result.gap - pair.radius >= 0.5 * (gap - pair.radius);
     double best = std::max(least, result.time);
     const bool turns = triangles.a().rate() > 0 || triangles.b().rate() > 0;
     if (best >= horizon || (is_exact && !turns))

@@ -49,8 +49,13 @@ void require_finite_vector(const Vec3& v, const char* what) {
 } // namespace
 
 Trajectory::Trajectory(const Motion& motion)
-    : start_(motion.start), centre_(motion.centre), velocity_(motion.velocity),
-      angular_velocity_(motion.angular_velocity) {
+    : Trajectory(Transform(motion.start), motion.centre, motion.velocity, motion.angular_velocity) {
+}
+
+Trajectory::Trajectory(const Transform& start, const Vec3& centre, const Vec3& velocity,
+                       const Vec3& angular_velocity)
+    : start_(start), centre_(centre), velocity_(velocity), angular_velocity_(angular_velocity) {
+    require_finite(start_, "motion: start");
     require_finite_vector(centre_, "centre");
     require_finite_vector(velocity_, "velocity");
     require_finite_vector(angular_velocity_, "angular velocity");

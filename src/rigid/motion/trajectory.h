@@ -11,6 +11,11 @@ class Trajectory {
 public:
     /// Errors      Error{bad_argument} if a value is not finite or the quaternion has zero length.
     explicit Trajectory(const Motion& motion);
+    /// A motion whose start may be any transform.
+    Trajectory(const Transform& start, const Vec3& centre, const Vec3& velocity,
+               const Vec3& angular_velocity);
+    /// A body at rest.
+    explicit Trajectory(const Transform& place) : Trajectory(place, {}, {}, {}) {}
 
     [[nodiscard]] Transform at(double t) const;
     /// Position of the centre at time t.

@@ -1,8 +1,7 @@
 #include <abut/shape_queries.h>
 
 #include "core/parallel.h"
-#include "geometry/ray_triangle_intersect.h"
-#include "rigid/model/placed_model.h"
+#include "rigid/shapes/ray_candidate.h"
 #include "rigid/shapes/shape_arguments.h"
 
 #include <algorithm>
@@ -64,19 +63,46 @@ private:
     std::optional<ClippedSegment> clipped_;
 };
 
-struct Candidate {
-    std::uint32_t triangle = 0;
-    Triangle corners{};
-    RayTriangleHit hit;
-};
-
 /// Orders hits by t, then by triangle index.
-bool before(const Ray& ray, const Candidate& a, const Candidate& b) {
+bool before(const Ray& ray, const RayCandidate& a, const RayCandidate& b) {
     const int order = compare_hits(ray, a.corners, a.hit, b.corners, b.hit);
     return order != 0 ? order < 0 : a.triangle < b.triangle;
 }
 
-RayHit describe(const Ray& ray, const Candidate& c) {
+bool may_meet(const Ray& ray) {
+    return ray.t_min <= ray.t_max && ray.t_min < kInfinity && ray.t_max > -kInfinity;
+}
+
+RayHit find_first(const PlacedModel& model, const Ray& ray) {
+    const auto first = first_candidate(model, ray);
+    return first ? describe(ray, *first) : RayHit();
+}
+
+} // namespace
+
+std::optional<RayCandidate> first_candidate(const PlacedModel& model, const Ray& ray) {
+    if (!may_meet(ray))
+        return std::nullopt;
+    const RaySpan span(ray, model);
+    if (!span.clipped())
+        return std::nullopt;
+    std::optional<RayCandidate> first;
+    float bound = 1;
+    for_each_along_segment(model.data().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
+        const Triangle corners = model.world_slot(slot);
+        if (const auto hit = ray_triangle_intersect(ray, corners)) {
+            const RayCandidate candidate{model.data().triangle_at(slot), corners, *hit};
+            if (!first || before(ray, candidate, *first)) {
+                first = candidate;
+                bound = span.segment_parameter(hit->t);
+            }
+        }
+        return bound;
+    });
+    return first;
+}
+
+RayHit describe(const Ray& ray, const RayCandidate& c) {
     const auto w = hit_weights(ray, c.corners, c.hit);
     RayHit result;
     result.meet = true;
@@ -87,34 +113,6 @@ RayHit describe(const Ray& ray, const Candidate& c) {
     result.side = c.hit.side > 0 ? HitSide::front : c.hit.side < 0 ? HitSide::back : HitSide::along;
     return result;
 }
-
-bool may_meet(const Ray& ray) {
-    return ray.t_min <= ray.t_max && ray.t_min < kInfinity && ray.t_max > -kInfinity;
-}
-
-RayHit find_first(const PlacedModel& model, const Ray& ray) {
-    if (!may_meet(ray))
-        return {};
-    const RaySpan span(ray, model);
-    if (!span.clipped())
-        return {};
-    std::optional<Candidate> first;
-    float bound = 1;
-    for_each_along_segment(model.data().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
-        const Triangle corners = model.world_slot(slot);
-        if (const auto hit = ray_triangle_intersect(ray, corners)) {
-            const Candidate candidate{model.data().triangle_at(slot), corners, *hit};
-            if (!first || before(ray, candidate, *first)) {
-                first = candidate;
-                bound = span.segment_parameter(hit->t);
-            }
-        }
-        return bound;
-    });
-    return first ? describe(ray, *first) : RayHit();
-}
-
-} // namespace
 
 RayHit first_hit(const Model& model, const Transform& world_from_model, const Ray& ray,
                  const Progress& progress) {
@@ -145,17 +143,17 @@ std::vector<RayHit> all_hits(const Model& model, const Transform& world_from_mod
     const RaySpan span(ray, placed);
     if (!span.clipped())
         return {};
-    std::vector<Candidate> candidates;
+    std::vector<RayCandidate> candidates;
     for_each_on_segment(placed.data().tree(), span.clipped()->segment, [&](std::uint32_t slot) {
         const Triangle corners = placed.world_slot(slot);
         if (const auto hit = ray_triangle_intersect(ray, corners))
             candidates.push_back({placed.data().triangle_at(slot), corners, *hit});
     });
     std::sort(candidates.begin(), candidates.end(),
-              [&](const Candidate& a, const Candidate& b) { return before(ray, a, b); });
+              [&](const RayCandidate& a, const RayCandidate& b) { return before(ray, a, b); });
     std::vector<RayHit> results;
     results.reserve(candidates.size());
-    for (const Candidate& c : candidates) {
+    for (const RayCandidate& c : candidates) {
         results.push_back(describe(ray, c));
         // Keeps the order where rounding, within its bound, would break it.
         if (results.size() > 1)

@@ -5,6 +5,7 @@
 #include "store/database/row_hash.h"
 
 #include <array>
+#include <charconv>
 #include <cstring>
 
 namespace abut {
@@ -38,6 +39,16 @@ std::uint64_t unsigned_of(const Statement& row, int column) {
 /// An unknown word gives z. The row is refused then, because its checksum does not match.
 UpAxis up_of(const std::string& word) {
     return word == "x" ? UpAxis::x : word == "y" ? UpAxis::y : UpAxis::z;
+}
+
+/// Reads what colour_text has written. Of any other text, colour_text makes a different one.
+std::optional<Colour> colour_of(const std::string& text) {
+    if (text.empty())
+        return std::nullopt;
+    std::array<std::uint8_t, 4> bytes{0, 0, 0, 255};
+    for (std::size_t i = 0; i < 4 && 2 * i + 3 <= text.size(); ++i)
+        std::from_chars(text.data() + 2 * i + 1, text.data() + 2 * i + 3, bytes[i], 16);
+    return Colour{bytes[0], bytes[1], bytes[2], bytes[3]};
 }
 
 constexpr const char* kTables = R"(
@@ -95,6 +106,7 @@ CREATE TABLE part(
   x1 REAL NOT NULL, y1 REAL NOT NULL, z1 REAL NOT NULL,
   world_from_mesh BLOB NOT NULL,
   generation INTEGER NOT NULL,
+  colour TEXT NOT NULL,
   checksum INTEGER NOT NULL);
 CREATE UNIQUE INDEX part_by_id ON part(model, id);
 CREATE INDEX part_by_number ON part(model, number);
@@ -166,7 +178,12 @@ std::uint64_t PartRow::checksum() const {
         .add(box)
         .add(world_from_mesh.m)
         .add(generation)
+        .add(colour_text(colour))
         .value();
+}
+
+std::string colour_text(const std::optional<Colour>& colour) {
+    return colour ? to_string(*colour) : "";
 }
 
 ModelRow read_model_row(const Statement& row, const std::string& store) {
@@ -226,14 +243,23 @@ std::span<const std::byte> read_block_data(const Statement& row, const BlockRow&
 }
 
 PartRow read_part_row(const Statement& row, const std::string& store) {
-    PartRow result{row.integer(0),   row.integer(1),      unsigned_of(row, 2), row.integer(3),
-                   row.text(4),      row.text(5),         row.text(6),         {},
-                   read_box(row, 7), unsigned_of(row, 14)};
+    PartRow result{row.integer(0),
+                   row.integer(1),
+                   unsigned_of(row, 2),
+                   row.integer(3),
+                   row.text(4),
+                   row.text(5),
+                   row.text(6),
+                   {},
+                   read_box(row, 7),
+                   unsigned_of(row, 14),
+                   colour_of(row.text(15))};
     const std::span<const std::byte> pose = row.bytes(13);
-    const bool whole = pose.size() == sizeof result.world_from_mesh.m;
+    bool whole = pose.size() == sizeof result.world_from_mesh.m;
     if (whole)
         std::memcpy(result.world_from_mesh.m.data(), pose.data(), pose.size());
-    require(whole && result.checksum() == unsigned_of(row, 15), store, "part", result.part);
+    whole = whole && colour_text(result.colour) == row.text(15);
+    require(whole && result.checksum() == unsigned_of(row, 16), store, "part", result.part);
     return result;
 }
 
@@ -256,11 +282,11 @@ void check_schema(Database& database) {
                     "is a store of version " + std::to_string(version) +
                         ", written by a newer Abut; this one reads version " +
                         std::to_string(kStoreVersion));
-    if (version == 1)
-        throw Error(
-            ErrorCode::unsupported, database.path(),
-            "is a store of version 1, which does not record its axes: import the models into a "
-            "new one");
+    if (version == 1 || version == 2)
+        throw Error(ErrorCode::unsupported, database.path(),
+                    "is a store of version " + std::to_string(version) +
+                        ", which does not record " + (version == 1 ? "its axes" : "colours") +
+                        ": import the models into a new one");
     if (version != kStoreVersion)
         throw Error(ErrorCode::malformed, database.path(),
                     "is damaged: it gives its version as " + std::to_string(version));

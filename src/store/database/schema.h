@@ -11,7 +11,7 @@
 
 namespace abut {
 
-inline constexpr int kStoreVersion = 2;
+inline constexpr int kStoreVersion = 3;
 /// Stored in the file's header, so that `file` and similar tools recognise a store: "Abut".
 inline constexpr std::int64_t kApplicationId = 0x41627574;
 
@@ -65,9 +65,13 @@ struct PartRow {
     Transform world_from_mesh;
     Box3 box;
     std::uint64_t generation = 0;
+    std::optional<Colour> colour;
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
+
+/// The column of a colour: as to_string writes it, or empty.
+std::string colour_text(const std::optional<Colour>& colour);
 
 /// Columns in the order that the read_… functions and the writer's statements use.
 inline constexpr const char* kModelColumns =
@@ -84,7 +88,7 @@ inline constexpr const char* kBlockRowColumns =
     "block, mesh, vertices, triangles, raw_bytes, x0, y0, z0, x1, y1, z1, data_checksum, checksum";
 inline constexpr const char* kPartColumns =
     "part, model, number, mesh, id, name, type, x0, y0, z0, x1, y1, z1, world_from_mesh, "
-    "generation, checksum";
+    "generation, colour, checksum";
 
 /// Reads the row that a statement stands on. Its columns are those above.
 ///

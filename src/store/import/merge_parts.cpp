@@ -30,7 +30,7 @@ public:
           find_(database,
                 std::string("SELECT ") + kPartColumns + " FROM part WHERE model = ? AND id = ?"),
           // OR REPLACE is not used: SQLite keeps a statement journal for each one.
-          add_(database, "INSERT INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
+          add_(database, "INSERT INTO part VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
           add_box_(database, "INSERT OR FAIL INTO part_box VALUES (?,?,?,?,?,?,?)"),
           remove_(database, "DELETE FROM part WHERE part = ?"),
           remove_box_(database, "DELETE FROM part_box WHERE part = ?"),
@@ -86,6 +86,7 @@ private:
         row.name = std::move(part.name);
         row.type = std::move(part.type);
         row.world_from_mesh = part.world_from_mesh;
+        row.colour = part.colour;
         row.box = without_negative_zero(boxes_.box(number));
         return row;
     }
@@ -104,7 +105,7 @@ private:
         part.generation = before.generation;
         const bool same_box = before.box == part.box;
         const bool same = same_box && before.mesh == part.mesh && before.name == part.name &&
-                          before.type == part.type &&
+                          before.type == part.type && before.colour == part.colour &&
                           same_bits(before.world_from_mesh, part.world_from_mesh);
         if (same && before.number == part.number)
             return;
@@ -125,7 +126,7 @@ private:
         add_.bind(part.part, part.model, part.number, part.mesh, part.id, part.name, part.type,
                   box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z,
                   std::as_bytes(std::span(part.world_from_mesh.m)), part.generation,
-                  part.checksum())
+                  colour_text(part.colour), part.checksum())
             .run();
     }
 

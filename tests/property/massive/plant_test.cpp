@@ -144,6 +144,25 @@ TEST(Plant, CoordinatesAreFloatsAndPosesRigid) {
     EXPECT_GE(slanting, 4U);
 }
 
+TEST(Plant, EveryPartHasAColourAndPipesHaveThatOfTheirSystem) {
+    const Plant plant = make_plant({.triangles = 30'000, .clashes = 20, .seed = 3});
+    std::map<std::string, std::set<std::string>> of_line; // colours of segments and elbows
+    std::set<std::string> of_pipes;
+    for (const Part& part : plant.scene.parts) {
+        ASSERT_TRUE(part.colour) << part.type;
+        const std::size_t run = part.name.find(" run ");
+        if (!part.type.starts_with("IfcPipe") || run == std::string::npos)
+            continue;
+        const std::string line = part.name.substr(0, part.name.find(' ', run + 5));
+        of_line[line].insert(to_string(*part.colour));
+        of_pipes.insert(to_string(*part.colour));
+    }
+    EXPECT_GT(of_line.size(), 5U);
+    for (const auto& [line, colours] : of_line)
+        EXPECT_EQ(colours.size(), 1U) << line;
+    EXPECT_GT(of_pipes.size(), 3U);
+}
+
 TEST(Plant, IdsAreUnique) {
     const Plant plant = plant_of(1'000'000, 50, 3);
     std::set<std::string> ids;

@@ -70,6 +70,13 @@ std::string some_text(Random& random) {
         static_cast<std::size_t>(random.integer(0, static_cast<int>(kTexts.size()) - 1)));
 }
 
+std::optional<Colour> some_colour(Random& random) {
+    const auto byte = [&] { return static_cast<std::uint8_t>(random.integer(0, 255)); };
+    if (random.chance(0.3))
+        return std::nullopt;
+    return Colour{byte(), byte(), byte(), random.chance(0.7) ? std::uint8_t{255} : byte()};
+}
+
 Scene some_scene(Random& random, int most_parts) {
     Scene scene;
     for (int i = random.integer(1, 6); i > 0; --i)
@@ -84,6 +91,7 @@ Scene some_scene(Random& random, int most_parts) {
             random.integer(0, static_cast<int>(scene.meshes.size()) - 1));
         if (random.chance(0.7))
             part.world_from_mesh = random.pose(100);
+        part.colour = some_colour(random);
         scene.parts.push_back(part);
     }
     return scene;
@@ -214,6 +222,8 @@ TEST(Store, ReimportTouchesOnlyChanges) {
                     part.world_from_mesh = random.pose(100);
             if (random.chance(0.5))
                 after.parts.front().type = "Changed " + std::to_string(again);
+            if (random.chance(0.5))
+                after.parts.back().colour = some_colour(random);
             if (random.chance(0.4))
                 after.meshes.front() = some_mesh(random, 40);
             if (random.chance(0.4))
@@ -236,6 +246,7 @@ TEST(Store, ReimportTouchesOnlyChanges) {
                 const bool other =
                     !fresh &&
                     !(found->second->name == part.name && found->second->type == part.type &&
+                      found->second->colour == part.colour &&
                       found->second->world_from_mesh == part.world_from_mesh &&
                       same_bits(old.meshes[found->second->mesh], now.meshes[part.mesh]));
                 added += fresh ? 1 : 0;
@@ -371,6 +382,33 @@ TEST(Store, DamageIsNeverAWrongAnswer) {
               << " found by verify and " << silent << " in unused bytes\n";
     EXPECT_GT(found, harmless / 4);
     EXPECT_GT(harmless, 0U);
+}
+
+TEST(Store, AnotherTextInTheColumnOfColoursIsDamage) {
+    Random random(12);
+    const Folder folder;
+    const std::string file = folder / "a.glb", store = folder / "s.abut";
+    Scene scene = some_scene(random, 1);
+    for (const std::optional<Colour>& colour :
+         {std::optional<Colour>(), std::optional(Colour{255, 0, 0})}) {
+        scene.parts[0].colour = colour;
+        write_glb(scene, file);
+        import_models({file}, store, {.memory = kLittle});
+        verify(open_store(store));
+        const auto set = [&](const std::string& text) {
+            Database(store, OpenMode::read_write)
+                .run(("UPDATE part SET colour = '" + text + "'").c_str());
+        };
+        for (const std::string text : {"#fe0000", "#ff0000ff", "#FF0000", "ff0000", "#ff000", "#",
+                                       "#ff00001", "#ff000080", "#ff0000000", "red", " "}) {
+            set(text);
+            EXPECT_THROW(verify(open_store(store)), Error) << text;
+        }
+        set(colour ? "" : "#000000");
+        EXPECT_THROW(verify(open_store(store)), Error);
+        set(colour ? "#ff0000" : "");
+        verify(open_store(store));
+    }
 }
 
 TEST(MeshCodec, IsLossless) {

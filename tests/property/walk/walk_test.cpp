@@ -6,15 +6,13 @@
 #include <abut/walk.h>
 
 #include "rigid/model/solid.h"
-#include "store/database/store_file.h"
 #include "tests/support/folder.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 #include "tests/support/shapes.h"
+#include "tests/support/walk_scenes.h"
 #include "walk/loose_boxes.h"
-#include "walk/probe.h"
 #include "walker.h"
-#include "world/narrow_phase/narrow_phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,91 +23,10 @@
 namespace abut::test {
 namespace {
 
-constexpr double kReach = 5; // half the size of the scene
-
-Mesh some_body(Random& random) {
-    const double size = random.uniform(0.1, 0.5);
-    switch (random.integer(0, 3)) {
-    case 0:
-        return box_mesh({-size, -0.2, -0.3}, {size, 0.3, 0.2});
-    case 1:
-        return sphere_mesh(size, random.integer(5, 30), random.integer(4, 15));
-    case 2:
-        return torus_mesh(size, 0.3 * size, random.integer(5, 40), random.integer(4, 15));
-    default:
-        return soup_mesh(random, random.integer(1, 30), size, 0.2);
-    }
-}
-
-Transform some_place(Random& random) {
-    Transform world = random.chance(0.8) ? random.linear_map(false) : random.linear_map(true);
-    const Vec3 at{random.uniform(-kReach, kReach), random.uniform(-1, 1),
-                  random.uniform(-kReach, kReach)};
-    world.m[9] = at.x, world.m[10] = at.y, world.m[11] = at.z;
-    return world;
-}
-
-/// A store of random parts, some of which share a mesh. With `with_large`, one mesh is so large
-/// that it is cut into blocks.
-std::string some_store(Random& random, const Folder& folder, bool with_large) {
-    Scene scene;
-    const int parts = random.integer(50, 250);
-    if (with_large)
-        scene.meshes.push_back(torus_mesh(3, 1, 300, 150));
-    for (int i = 0; i < parts; ++i) {
-        if (scene.meshes.size() < (with_large ? 2 : 1) || random.chance(0.6))
-            scene.meshes.push_back(some_body(random));
-        const auto last = static_cast<int>(scene.meshes.size()) - 1;
-        const int mesh = with_large && i < 2 ? 0 : random.integer(with_large ? 1 : 0, last);
-        scene.parts.push_back({"part" + std::to_string(i), "name" + std::to_string(i), "type",
-                               static_cast<std::uint32_t>(mesh), some_place(random)});
-    }
-    write_glb(scene, folder / "parts.glb");
-    (void)import_models({folder / "parts.glb"}, folder / "parts.abut");
-    return folder / "parts.abut";
-}
-
-struct KnownPart {
-    BodyShape shape;
-    Transform world;
-    bool is_cut = false;
-};
-
-/// A random probe of any kind, small compared with the scene.
-struct SomeProbe {
-    Probe probe;
-    Transform world;
-};
-SomeProbe some_probe(Random& random, const Vec3& near) {
-    const auto make = [&]() -> Probe {
-        switch (random.integer(0, 4)) {
-        case 0:
-            return Sphere{random.in_cube(0.1), random.uniform(0, 0.3)};
-        case 1:
-            return Capsule{{{0, -0.4, 0}, {0, 0.4, 0}}, random.uniform(0, 0.3)};
-        case 2:
-            return Box3{{-0.2, -0.1, -0.3}, {0.1, 0.2, 0.2}};
-        case 3:
-            return Convex(std::vector<Vec3>{{0, 0, 0}, {0.3, 0, 0}, {0, 0.4, 0}, {0, 0, 0.3}});
-        default:
-            return Model(some_body(random));
-        }
-    };
-    Pose pose = random.pose(0.5);
-    pose.translation = pose.translation + near;
-    return {make(), pose};
-}
-
 class WalkScript {
 public:
-    WalkScript(Random& random, const std::string& path, Walk& walk) : random_(random), walk_(walk) {
-        StoreFile file(path, true);
-        file.for_each_part([&](const PartRow& part) {
-            const MeshRow mesh = file.mesh(part.mesh);
-            known_.emplace(WalkPart{part.part}, KnownPart{Model(file.read_mesh(part.mesh)),
-                                                          part.world_from_mesh, mesh.blocks > 1});
-        });
-    }
+    WalkScript(Random& random, const std::string& path, Walk& walk)
+        : random_(random), walk_(walk), known_(parts_of(path)) {}
 
     void run(int steps) {
         for (int step = 0; step < steps; ++step) {
@@ -126,8 +43,8 @@ public:
 private:
     void advance() {
         if (random_.chance(0.1)) {
-            position_ = {random_.uniform(-kReach, kReach), random_.uniform(-1, 1),
-                         random_.uniform(-kReach, kReach)};
+            position_ = {random_.uniform(-kSceneReach, kSceneReach), random_.uniform(-1, 1),
+                         random_.uniform(-kSceneReach, kSceneReach)};
             velocity_ = {};
         } else {
             velocity_ = 0.9 * velocity_ + random_.in_cube(0.02);
@@ -174,7 +91,7 @@ private:
 
     void ask() {
         const SomeProbe probe =
-            some_probe(random_, random_.chance(0.9) ? position_ : random_.in_cube(kReach));
+            some_probe(random_, random_.chance(0.9) ? position_ : random_.in_cube(kSceneReach));
         WalkQuery query;
         if (random_.chance(0.2))
             query.missing = MissingParts::skip;
@@ -288,14 +205,10 @@ private:
     }
 
     static BodyGap gap_of(const KnownPart& part, const SomeProbe& probe, Depths depths) {
-        PairWarmStart warm_start;
-        return gap_between({part.shape, part.world}, {probe.probe.data().shape(), probe.world},
-                           HUGE_VAL, depths, warm_start);
+        return test::gap_of(part, probe.probe, probe.world, depths);
     }
     static bool touches(const KnownPart& part, const SomeProbe& probe) {
-        PairWarmStart warm_start;
-        return touch({part.shape, part.world}, {probe.probe.data().shape(), probe.world},
-                     warm_start);
+        return test::touches(part, probe.probe, probe.world);
     }
 
     Random& random_;

@@ -8,6 +8,7 @@
 #include "tests/support/folder.h"
 #include "tests/support/shapes.h"
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -124,6 +125,114 @@ TEST_F(WalkByHand, PartsThatComeMoveAndGo) {
         EXPECT_EQ(code_of([&] { walk.remove(part); }), ErrorCode::bad_argument);
         EXPECT_EQ(code_of([&] { (void)walk.name(part); }), ErrorCode::bad_argument);
     }
+}
+
+TEST_F(WalkByHand, ARayMeetsTheFirstPart) {
+    Walk walk(two_cubes(), {.prefetch = false});
+    const HitPart hit = walk.first_hit({{5, 0.25, 0.5}, {2, 0, 0}});
+    ASSERT_TRUE(hit.meet);
+    EXPECT_EQ(walk.name(hit.part).id, "right");
+    EXPECT_EQ(hit.t, 2);
+    EXPECT_EQ(hit.at_least, 2);
+    EXPECT_EQ(hit.point, (Vec3{9, 0.25, 0.5}));
+    EXPECT_EQ(hit.side, HitSide::front);
+    EXPECT_EQ(walk.statistics().lookups, 1U);
+    EXPECT_FALSE(walk.first_hit({{5, 2, 0}, {1, 0, 0}}).meet);
+    EXPECT_FALSE(walk.first_hit({{5, 0, 0}, {1, 0, 0}, 0, 3.5}).meet);
+    EXPECT_EQ(walk.first_hit({{5, 0, 0}, {1, 0, 0}}, {.except = hit.part}).meet, false);
+    const HitPart back = walk.first_hit({{5, 0, 0}, {1, 0, 0}, -kInfinity, 0});
+    EXPECT_EQ(walk.name(back.part).id, "left");
+    EXPECT_EQ(back.t, -6);
+}
+
+TEST_F(WalkByHand, AMovingProbeMeetsTheFirstPartInItsWay) {
+    Walk walk(two_cubes(), {.prefetch = false});
+    // From x = 5 by 8: the ball touches the right cube at x = 8.5.
+    const WalkQuery query{.absolute_error = 1e-9};
+    const FirstContact right = walk.sweep(ball_, Pose{{5, 0, 0}}, {8, 0, 0}, query);
+    ASSERT_TRUE(right.meet);
+    EXPECT_EQ(walk.name(right.impact.part).id, "right");
+    EXPECT_LE(right.impact.time, 3.5 / 8);
+    EXPECT_NEAR(right.impact.time, 3.5 / 8, 1e-9);
+    EXPECT_EQ(right.time_free, right.impact.time);
+    EXPECT_NEAR(right.impact.point_part.x, 9, 1e-9);
+    EXPECT_NEAR(right.impact.point_probe.x, 9, 1e-8);
+    EXPECT_NEAR(right.impact.normal.x, -1, 1e-9);
+    EXPECT_FALSE(walk.sweep(ball_, Pose{{5, 0, 0}}, {3.4, 0, 0}).meet);
+    EXPECT_EQ(walk.sweep(ball_, Pose{{5, 0, 0}}, {3.4, 0, 0}).time_free, 1);
+    EXPECT_FALSE(walk.sweep(ball_, Pose{{5, 1.6, 0}}, {8, 0, 0}).meet); // passes by
+    EXPECT_FALSE(walk.sweep(ball_, Pose{{5, 0, 0}}, {8, 0, 0}, {.except = right.impact.part}).meet);
+    EXPECT_EQ(walk.sweep(ball_, Pose{{1.2, 0, 0}}, {8, 0, 0}).time_free, 0);
+    // Inside the cube nothing is touched; then the ball's side is.
+    EXPECT_NEAR(walk.sweep(ball_, Pose{}, {0, 1, 0}).impact.time, 0.5, 1e-6);
+    // A small cube deep in a solid box.
+    const Probe hollow(Box3{{-3, -3, -3}, {3, 3, 3}});
+    EXPECT_EQ(walk.sweep(hollow, Pose{}, {1, 0, 0}).time_free, 0);
+
+    const Motion both{Pose{{5, 0, 0}}, {5, 0, 0}, {-8, 0, 0}, {0, 0, 3}};
+    const FirstContact left = walk.time_of_impact(ball_, both, query);
+    ASSERT_TRUE(left.meet);
+    EXPECT_EQ(walk.name(left.impact.part).id, "left");
+    EXPECT_NEAR(left.impact.time, 3.5 / 8, 1e-9);
+    const Motion far{Pose{{5, 0, 0}}, {0, 0, 0}, {}, {0, 0, 6}}; // a circle about the left cube
+    EXPECT_FALSE(walk.time_of_impact(ball_, far).meet);
+    const PartsInWay all =
+        walk.parts_in_way(ball_, {Pose{{-5, 0, 0}}, {-5, 0, 0}, {20, 0, 0}, {}}, query);
+    ASSERT_EQ(all.parts.size(), 2U);
+    EXPECT_EQ(walk.name(all.parts[0].part).id, "left");
+    EXPECT_NEAR(all.parts[0].time, 3.5 / 20, 1e-9);
+    EXPECT_NEAR(all.parts[1].time, 13.5 / 20, 1e-9);
+}
+
+TEST_F(WalkByHand, MotionsIntoWhatIsNotInMemoryAreFreeUpToItsBox) {
+    Walk walk(two_cubes(), {.prefetch = false});
+    const WalkQuery skip{.missing = MissingParts::skip};
+    const FirstContact answer = walk.sweep(ball_, Pose{{5, 0, 0}}, {8, 0, 0}, skip);
+    EXPECT_FALSE(answer.meet);
+    EXPECT_FALSE(answer.complete);
+    EXPECT_LE(answer.time_free, 3.5 / 8);
+    EXPECT_GT(answer.time_free, 3.49 / 8);
+    const HitPart hit = walk.first_hit({{5, 0, 0}, {2, 0, 0}}, skip);
+    EXPECT_FALSE(hit.meet);
+    EXPECT_FALSE(hit.complete);
+    EXPECT_LE(hit.at_least, 2);
+    EXPECT_GT(hit.at_least, 1.99);
+}
+
+TEST_F(WalkByHand, QueriesStopAndRefuseBadArguments) {
+    Walk walk(two_cubes(), {.prefetch = false});
+    const std::atomic<bool> stop{true};
+    WalkQuery stopped;
+    stopped.progress.stop = &stop;
+    const Motion motion = Motion::fixed(Pose{});
+    const auto expect_all = [&](ErrorCode code, const WalkQuery& query, const Pose& pose,
+                                const Motion& way) {
+        EXPECT_EQ(code_of([&] { walk.distance(ball_, pose, query); }), code);
+        EXPECT_EQ(code_of([&] { walk.within(ball_, pose, 1, query); }), code);
+        EXPECT_EQ(code_of([&] { walk.collide(ball_, pose, query); }), code);
+        EXPECT_EQ(code_of([&] { walk.penetration(ball_, pose, query); }), code);
+        EXPECT_EQ(code_of([&] { walk.first_hit({pose.translation, {1, 0, 0}}, query); }), code);
+        EXPECT_EQ(code_of([&] { walk.sweep(ball_, pose, {1, 0, 0}, query); }), code);
+        EXPECT_EQ(code_of([&] { walk.time_of_impact(ball_, way, query); }), code);
+        EXPECT_EQ(code_of([&] { walk.parts_in_way(ball_, way, query); }), code);
+    };
+    expect_all(ErrorCode::interrupted, stopped, {}, motion);
+    for (const double bad : {std::nan(""), kInfinity}) {
+        expect_all(ErrorCode::bad_argument, {}, Pose{{bad, 0, 0}}, {Pose{}, {}, {0, bad, 0}, {}});
+        for (const Motion& way :
+             {Motion{Pose{}, {bad, 0, 0}, {}, {}}, Motion{Pose{}, {}, {}, {bad, 0, 0}},
+              Motion{Pose{{0, 0, bad}}, {}, {}, {}}})
+            EXPECT_EQ(code_of([&] { walk.time_of_impact(ball_, way); }), ErrorCode::bad_argument);
+        EXPECT_EQ(code_of([&] {
+                      walk.sweep(ball_, Pose{}, {0, 0, bad});
+                  }),
+                  ErrorCode::bad_argument);
+        EXPECT_EQ(code_of([&] { walk.first_hit({{}, {bad, 0, 0}}); }), ErrorCode::bad_argument);
+    }
+    EXPECT_EQ(code_of([&] { walk.first_hit({{}, {}}); }), ErrorCode::bad_argument);
+    EXPECT_EQ(code_of([&] { walk.sweep(ball_, Pose{}, {}, {.absolute_error = -1}); }),
+              ErrorCode::bad_argument);
+    EXPECT_EQ(code_of([&] { walk.collide(WalkPart{77}); }), ErrorCode::bad_argument);
 }
 
 TEST_F(WalkByHand, PartsNotInMemoryMayBeSkipped) {

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <abut/camera.h>
+#include <abut/store.h>
+#include <abut/types.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What a renderer draws of a store that does not fit into memory: in each frame a set of chunks of
+/// geometry, each at the coarsest level of detail whose error does not show. No graphics library is
+/// used here; abut/renderer.h draws with OpenGL.
+namespace abut {
+
+/// A vertex of a chunk: 12 bytes, for a vertex buffer.
+struct ChunkVertex {
+    /// Position: ViewChunk::lower + ViewChunk::step * position, per axis.
+    std::array<std::uint16_t, 3> position{};
+    /// Unit normal as an octahedral map, each coordinate in [-127, 127].
+    std::array<std::int8_t, 2> normal{};
+    /// The part, as an index in View::parts(). In a chunk of an instanced mesh it is 0: each
+    /// instance states its part.
+    std::uint32_t part = 0;
+    friend bool operator==(const ChunkVertex&, const ChunkVertex&) = default;
+};
+static_assert(sizeof(ChunkVertex) == 12);
+
+/// A piece of geometry that is loaded and drawn at once.
+struct ViewChunk {
+    /// Frame of an instanced mesh, or world minus View::origin().
+    std::array<float, 3> lower{}, step{};
+    std::vector<ChunkVertex> vertices;  ///< at most 65,536
+    std::vector<std::uint16_t> indices; ///< three for each triangle
+};
+
+/// One instance of a mesh that many parts share. `rows` are the three rows of the matrix from the
+/// mesh to world minus View::origin().
+struct ChunkInstance {
+    std::array<float, 12> rows{};
+    std::uint32_t part = 0;
+};
+
+/// A draw call. Without instances, the chunk is drawn once, in world minus origin.
+struct ChunkDraw {
+    std::uint32_t chunk = 0;
+    std::uint32_t first_instance = 0, instances = 0; ///< in ViewFrame::instances
+};
+
+/// A chunk that the renderer must have from this frame on.
+struct ChunkUpload {
+    std::uint32_t chunk = 0;
+    std::shared_ptr<const ViewChunk> data;
+};
+
+struct ViewStatistics {
+    std::uint64_t triangles = 0, draw_calls = 0; ///< of the last frame
+    std::uint64_t wanted = 0, missing = 0;       ///< chunks of the last cut; those not in memory
+    std::uint64_t lookups = 0, misses = 0;       ///< the same, of all frames
+    std::uint64_t culled_by_frustum = 0, culled_by_occlusion = 0; ///< nodes, of the last frame
+    std::uint64_t bytes_loaded = 0;                               ///< of all frames
+    std::uint64_t bytes = 0, peak_bytes = 0;         ///< in CPU memory; at most ViewOptions::memory
+    std::uint64_t gpu_bytes = 0, peak_gpu_bytes = 0; ///< at most ViewOptions::gpu_memory
+    double seconds_selecting = 0;                    ///< of the last frame
+};
+
+/// What to draw. Valid until the next call of View::frame.
+struct ViewFrame {
+    std::span<const ChunkUpload> uploads; ///< before drawing
+    std::span<const std::uint32_t> drops; ///< chunks that are no longer needed
+    std::span<const ChunkDraw> draws;     ///< nearest first
+    std::span<const ChunkInstance> instances;
+    /// Whether every chunk is at the level that the pixel error asks for.
+    bool complete = false;
+    double pixel_error = 0; ///< the largest error of what is drawn, in pixels
+};
+
+struct ViewOptions {
+    /// Bytes of CPU memory for the tree of levels and for chunks on their way to the renderer.
+    std::uint64_t memory = std::uint64_t{256} << 20;
+    /// Bytes of the renderer's vertex and index buffers.
+    std::uint64_t gpu_memory = std::uint64_t{512} << 20;
+    double pixel_error = 1; ///< largest error in pixels; more if the budgets demand it
+    std::uint64_t triangle_budget = 500'000;
+    std::uint32_t draw_budget = 1'500;
+    double look_ahead = 1;  ///< seconds of the predicted path for which chunks are read ahead
+    bool background = true; ///< whether a second thread reads; otherwise `frame` reads all it needs
+};
+
+/// A part of a view: its row in the store's table `part`.
+struct ViewPart {
+    std::int64_t number = 0;
+    std::string file, id, name, type;
+    Box3 box;                     ///< world
+    std::optional<Colour> colour; ///< as Part::colour
+};
+
+class ViewData;
+
+/// Chooses and loads what a renderer draws.
+///
+/// Only one thread at a time may use a view.
+class View {
+public:
+    /// Errors      as open_store; Error{bad_argument} if the store has no current levels (see
+    ///             build_levels), or if the memory does not hold the tree of levels.
+    explicit View(const Store& store, const ViewOptions& options = {});
+    ~View();
+    View(View&&) noexcept;
+    View& operator=(View&&) noexcept;
+
+    /// Chooses what to draw. It never waits for the disk: what is missing is loaded in the
+    /// background, and a coarser level stands for it until then.
+    ///
+    /// In          velocity: of the eye, in units a second, for loading ahead.
+    /// Errors      Error{bad_argument} if the camera is not valid; Error{malformed} if a chunk that
+    ///             was read is damaged.
+    const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {});
+    /// Waits until all that the last frame wanted is loaded, or memory is full.
+    void wait();
+
+    /// A point in the middle of the model; chunks are relative to it.
+    [[nodiscard]] Vec3 origin() const;
+    [[nodiscard]] Box3 bounds() const; ///< world
+    [[nodiscard]] UpAxis up() const;
+    /// Rows of the store's table `part`, ascending. ChunkVertex::part is an index in it.
+    [[nodiscard]] std::span<const std::int64_t> parts() const;
+    /// Leaves parts out of the picture (carried away, or hidden), or brings them back. Those of a
+    /// merged chunk are still in it: the renderer hides them by their index.
+    void set_hidden(std::uint32_t part, bool hidden);
+    [[nodiscard]] const ViewStatistics& statistics() const;
+
+private:
+    std::unique_ptr<ViewData> data_;
+};
+
+} // namespace abut

@@ -1,0 +1,323 @@
+#include "view/levels/simplify_surface.h"
+
+#include "core/disjoint_sets.h"
+#include "core/stop.h"
+#include "math/rounding.h"
+#include "view/levels/deviation.h"
+#include "view/levels/packed_normal.h"
+
+#include <algorithm>
+#include <meshoptimizer.h>
+#include <numeric>
+#include <tuple>
+
+namespace abut {
+
+namespace {
+
+/// A surface whose vertices are joined where part and position are equal.
+struct JoinedSurface {
+    std::vector<std::uint32_t> first;   ///< by joined vertex: its first in `members`; one more
+    std::vector<std::uint32_t> members; ///< vertices of the surface, sorted by joined vertex
+    std::vector<unsigned int> indices;  ///< three joined vertices for each triangle
+};
+
+JoinedSurface join(const LevelSurface& surface) {
+    JoinedSurface joined;
+    const auto key = [&](std::uint32_t i) {
+        const SurfaceVertex& v = surface.vertices[i];
+        return std::tuple(v.part, v.position.x, v.position.y, v.position.z, i);
+    };
+    joined.members.resize(surface.vertices.size());
+    std::iota(joined.members.begin(), joined.members.end(), 0U);
+    std::sort(joined.members.begin(), joined.members.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::vector<unsigned int> number_of(surface.vertices.size());
+    for (std::uint32_t i = 0; i < joined.members.size(); ++i) {
+        const SurfaceVertex& v = surface.vertices[joined.members[i]];
+        const SurfaceVertex* last = i > 0 ? &surface.vertices[joined.members[i - 1]] : nullptr;
+        if (last == nullptr || last->part != v.part || !(last->position == v.position))
+            joined.first.push_back(i);
+        number_of[joined.members[i]] = static_cast<unsigned int>(joined.first.size() - 1);
+    }
+    joined.first.push_back(static_cast<std::uint32_t>(joined.members.size()));
+    for (const auto& t : surface.triangles) {
+        for (const std::uint32_t v : t)
+            joined.indices.push_back(number_of[v]);
+    }
+    return joined;
+}
+
+/// Writes the simplified triangles with, at each vertex, the normal that is nearest to the face.
+LevelSurface with_normals(const LevelSurface& from, const JoinedSurface& joined,
+                          const std::vector<unsigned int>& indices) {
+    LevelSurface to;
+    to.parts = from.parts;
+    std::vector<std::uint32_t> number_of(from.vertices.size(), 0xffffffff);
+    const auto position = [&](unsigned int v) -> const Vec3& {
+        return from.vertices[joined.members[joined.first[v]]].position;
+    };
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const Vec3 &a = position(indices[i]), &b = position(indices[i + 1]),
+                   &c = position(indices[i + 2]);
+        const Vec3 face = normalized_or_zero(cross(b - a, c - a));
+        auto& triangle = to.triangles.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const unsigned int v = indices[i + k];
+            std::uint32_t best = joined.members[joined.first[v]];
+            double most = -2;
+            for (std::uint32_t m = joined.first[v]; m < joined.first[v + 1]; ++m) {
+                const std::uint32_t member = joined.members[m];
+                const double agrees = dot(face, unpack_normal(from.vertices[member].normal));
+                if (agrees > most)
+                    most = agrees, best = member;
+            }
+            if (number_of[best] == 0xffffffff) {
+                number_of[best] = static_cast<std::uint32_t>(to.vertices.size());
+                to.vertices.push_back(from.vertices[best]);
+            }
+            triangle.at(k) = number_of[best];
+        }
+    }
+    return to;
+}
+
+/// A set of triangles of one part that are connected through vertices.
+struct Piece {
+    std::uint32_t part = 0;
+    double error = 0; ///< that it has already
+    double size = 0;  ///< diagonal of its box
+    std::vector<Triangle> triangles;
+};
+
+struct Pieces {
+    std::vector<Piece> all;
+    std::vector<std::uint32_t> of_vertex; ///< by joined vertex
+};
+
+/// A piece in fewer triangles.
+struct Option {
+    std::uint32_t triangles = 0;
+    int pass = 0; ///< that made it; 0: as it was; kLeftOut
+    double error = 0;
+};
+constexpr int kLeftOut = -1;
+constexpr int kPasses = 3; ///< each halves the triangles
+/// An added error is not looked for below this share of the error that is there already.
+constexpr double kLeastShare = 0.125;
+
+class SurfaceSimplifier {
+public:
+    explicit SurfaceSimplifier(const LevelSurface& surface)
+        : surface_(surface), joined_(join(surface)) {
+        for (std::size_t v = 0; v + 1 < joined_.first.size(); ++v)
+            positions_.push_back(surface.vertices[joined_.members[joined_.first[v]]].position);
+        find_pieces();
+        scale_positions();
+    }
+
+    SimplifiedSurface run(std::uint32_t target) {
+        passes_.push_back(joined_.indices);
+        options_.resize(pieces_.all.size());
+        std::vector<std::uint32_t> count(pieces_.all.size(), 0);
+        for (std::size_t i = 0; i < joined_.indices.size(); i += 3)
+            ++count[piece_of(joined_.indices[i])];
+        for (std::size_t p = 0; p < options_.size(); ++p) {
+            const Piece& piece = pieces_.all[p];
+            options_[p].push_back({0, kLeftOut, piece.size + 2 * piece.error});
+            if (count[p] > 0)
+                options_[p].push_back({count[p], 0, piece.error});
+        }
+        if (joined_.indices.size() / 3 > target)
+            for (int pass = 1; pass <= kPasses && simplify_again(); ++pass)
+                add_options(pass);
+        const double error = least_error(target);
+        return {chosen(error), error};
+    }
+
+private:
+    [[nodiscard]] std::uint32_t piece_of(unsigned int vertex) const {
+        return pieces_.of_vertex[vertex];
+    }
+    [[nodiscard]] Triangle triangle(const std::vector<unsigned int>& indices, std::size_t i) const {
+        return {positions_[indices[i]], positions_[indices[i + 1]], positions_[indices[i + 2]]};
+    }
+    /// For each vertex, the least one that triangles connect it with.
+    [[nodiscard]] std::vector<std::uint32_t>
+    connected(const std::vector<unsigned int>& indices) const {
+        DisjointSets sets(positions_.size());
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            sets.unite(indices[i], indices[i + 1]);
+            sets.unite(indices[i], indices[i + 2]);
+        }
+        return std::move(sets).roots();
+    }
+
+    void find_pieces() {
+        const std::vector<std::uint32_t> roots = connected(joined_.indices);
+        std::vector<Box3> boxes;
+        pieces_.of_vertex.resize(roots.size());
+        for (std::uint32_t v = 0; v < roots.size(); ++v) {
+            if (roots[v] == v) {
+                pieces_.of_vertex[v] = static_cast<std::uint32_t>(boxes.size());
+                boxes.emplace_back();
+            }
+            pieces_.of_vertex[v] = pieces_.of_vertex[roots[v]];
+            extend(boxes[pieces_.of_vertex[v]], positions_[v]);
+        }
+        pieces_.all.resize(boxes.size());
+        for (std::size_t p = 0; p < boxes.size(); ++p)
+            pieces_.all[p].size = length(boxes[p].upper - boxes[p].lower);
+        for (std::size_t i = 0; i < joined_.indices.size(); i += 3) {
+            const unsigned int vertex = joined_.indices[i];
+            Piece& piece = pieces_.all[piece_of(vertex)];
+            piece.part = surface_.vertices[joined_.members[joined_.first[vertex]]].part;
+            piece.error = surface_.errors[piece.part];
+            piece.triangles.push_back(triangle(joined_.indices, i));
+        }
+    }
+
+    /// Single precision is enough for the choice of vertices, which keep their places.
+    void scale_positions() {
+        Box3 box;
+        for (const Vec3& p : positions_)
+            extend(box, p);
+        const Vec3 middle = 0.5 * (box.lower + box.upper);
+        const double extent = std::max(max_abs(box.upper - box.lower), 1e-30);
+        for (const Vec3& p : positions_) {
+            const Vec3 q = (1 / extent) * (p - middle);
+            for (int k = 0; k < 3; ++k)
+                scaled_.push_back(to_float(component(q, k)));
+        }
+    }
+
+    static std::vector<unsigned int> without_flat(const std::vector<unsigned int>& indices) {
+        std::vector<unsigned int> rest;
+        rest.reserve(indices.size());
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const unsigned int a = indices[i], b = indices[i + 1], c = indices[i + 2];
+            if (a != b && b != c && c != a)
+                rest.insert(rest.end(), {a, b, c});
+        }
+        return rest;
+    }
+
+    /// Returns false if few triangles can be removed.
+    bool simplify_again() {
+        poll_stop();
+        const std::vector<unsigned int> last = without_flat(passes_.back());
+        std::vector<unsigned int> fewer(last.size());
+        const std::size_t target = last.size() / 6 * 3;
+        fewer.resize(meshopt_simplify(fewer.data(), last.data(), last.size(), scaled_.data(),
+                                      positions_.size(), 3 * sizeof(float), target, 1, 0, nullptr));
+        const bool is_fewer = fewer.size() < last.size() / 20 * 19;
+        passes_.push_back(std::move(fewer));
+        return is_fewer;
+    }
+
+    void add_options(int pass) {
+        const std::vector<unsigned int>& indices = passes_[static_cast<std::size_t>(pass)];
+        const std::vector<std::uint32_t> roots = connected(indices);
+        constexpr std::uint32_t kNone = 0xffffffff;
+        std::vector<std::vector<Triangle>> triangles(pieces_.all.size());
+        std::vector<std::uint32_t> root_of(pieces_.all.size(), kNone);
+        std::vector<bool> is_split(pieces_.all.size());
+        for (std::size_t i = 0; i < indices.size(); i += 3) {
+            const std::uint32_t piece = piece_of(indices[i]);
+            triangles[piece].push_back(triangle(indices, i));
+            if (root_of[piece] == kNone)
+                root_of[piece] = roots[indices[i]];
+            if (root_of[piece] != roots[indices[i]])
+                is_split[piece] = true;
+        }
+        for (std::size_t p = 0; p < triangles.size(); ++p) {
+            const auto count = static_cast<std::uint32_t>(triangles[p].size());
+            std::vector<Option>& options = options_[p];
+            // A piece stays connected, so that it is left out as a whole.
+            if (count == 0 || is_split[p] || options.back().triangles <= count)
+                continue;
+            const TriangleSearch fine(pieces_.all[p].triangles), coarse(triangles[p]);
+            const Piece& piece = pieces_.all[p];
+            // Beyond this, leaving out is better.
+            const double most = options.front().error - piece.error;
+            double added =
+                deviation_bound(piece.triangles, coarse, kLeastShare * piece.error, most);
+            added = deviation_bound(triangles[p], fine, added, most);
+            if (added <= most)
+                options.push_back({count, pass, piece.error + added});
+        }
+    }
+
+    [[nodiscard]] static const Option& best(const std::vector<Option>& options, double error) {
+        const Option* best = &options.front();
+        for (const Option& option : options)
+            if (option.error <= error &&
+                (best->error > error || option.triangles < best->triangles))
+                best = &option;
+        return *best;
+    }
+
+    /// The least error at which the target can be met.
+    [[nodiscard]] double least_error(std::uint32_t target) const {
+        std::vector<double> errors{0};
+        for (const auto& options : options_)
+            for (const Option& option : options)
+                errors.push_back(option.error);
+        std::sort(errors.begin(), errors.end());
+        const auto is_over = [&](double error) {
+            std::uint64_t sum = 0;
+            for (const auto& options : options_) {
+                const Option& option = best(options, error);
+                // Nothing else is possible for a piece whose triangles are all flat.
+                if (option.error > error)
+                    return true;
+                sum += option.triangles;
+            }
+            return sum > target;
+        };
+        return *std::partition_point(errors.begin(), errors.end() - 1, is_over);
+    }
+
+    /// The best versions of all pieces, in the order of the pieces.
+    [[nodiscard]] LevelSurface chosen(double error) const {
+        std::vector<int> pass(options_.size());
+        std::vector<double> errors(surface_.parts.size(), 0);
+        for (std::size_t p = 0; p < options_.size(); ++p) {
+            const Option& option = best(options_[p], error);
+            pass[p] = option.pass;
+            if (option.pass != kLeftOut)
+                errors[pieces_.all[p].part] = std::max(errors[pieces_.all[p].part], option.error);
+        }
+        std::vector<std::array<unsigned int, 4>> sorted; // piece and corners
+        for (std::size_t k = 0; k < passes_.size(); ++k)
+            for (std::size_t i = 0; i < passes_[k].size(); i += 3) {
+                const std::uint32_t piece = piece_of(passes_[k][i]);
+                if (pass[piece] == static_cast<int>(k))
+                    sorted.push_back({piece, passes_[k][i], passes_[k][i + 1], passes_[k][i + 2]});
+            }
+        std::stable_sort(sorted.begin(), sorted.end(),
+                         [](const auto& a, const auto& b) { return a[0] < b[0]; });
+        std::vector<unsigned int> indices;
+        for (const auto& [piece, a, b, c] : sorted)
+            indices.insert(indices.end(), {a, b, c});
+        LevelSurface result = with_normals(surface_, joined_, indices);
+        result.errors = std::move(errors);
+        return result;
+    }
+
+    const LevelSurface& surface_;
+    JoinedSurface joined_;
+    std::vector<Vec3> positions_; ///< by joined vertex
+    std::vector<float> scaled_;   ///< the same in [-1, 1]
+    Pieces pieces_;
+    std::vector<std::vector<unsigned int>> passes_;
+    std::vector<std::vector<Option>> options_; ///< by piece
+};
+
+} // namespace
+
+SimplifiedSurface simplify(const LevelSurface& surface, std::uint32_t target) {
+    return SurfaceSimplifier(surface).run(target);
+}
+
+} // namespace abut
