@@ -69,13 +69,22 @@ PARAMETERS = {
     "motion_b": "Motion | Sequence[Motion] | _Poses", "motions": "dict[int, Motion] | Iterable[tuple[int, Motion]]",
     "parts": "Sequence[Part]", "paths": "Iterable[_ModelPath] | _ModelPath", "name": "str | None", "note": "str", "unit": "float",
     "models": "Iterable[Scene | _ModelPath] | Scene | _ModelPath", "report": "ClashReport", "file_name": "str",
-    "warm_start": "WarmStart | None", "meshes": "Sequence[_Mesh]", "id": "str", "type": "str",
+    "warm_start": "WarmStart | None", "walk": "Walk", "poses": "_Poses", "feet": "ArrayLike", "wish": "ArrayLike",
+    "meshes": "Sequence[_Mesh]", "id": "str", "type": "str",
 }
 # The same for one function or class.
 OWN_PARAMETERS = {
     "Convex": {"vertices": "ArrayLike | _Mesh"}, "ConvexPieces": {"model": "ArrayLike | _Mesh"}, "OrientedBox": {"pose": "_OnePose | ArrayLike"},
-    "Probe": {"shape": "Model | Convex | Sphere | Capsule | Box3"}, "World.move": {"body": "_Bodies"},
+    "check_path": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3", "absolute_error": "float | None"},
+    "Walk.sweep": {"absolute_error": "float | None"}, "Walk.time_of_impact": {"absolute_error": "float | None"},
+    "Walk.parts_in_way": {"absolute_error": "float | None"}, "Carry.move_to": {"mode": "CarryMode | str"},
+    "Walker.set_mode": {"mode": "WalkerMode | str"}, "Walk.first_hit": {"origin": "Ray | ArrayLike"},
+    "build_levels": {"store": "_Path"}, "Probe": {"shape": "Model | Convex | Sphere | Capsule | Box3"}, "World.move": {"body": "_Bodies"},
     "World.add": {"shape": "Model | Convex | Sphere | Capsule | Box3 | Deformable"},
+    "Walk.distance": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
+    "Walk.within": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
+    "Walk.collide": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
+    "Walk.penetration": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3"},
     "World": {"filter": "Callable[[int, int], bool] | None"}, "BroadPhase": {"filter": "Callable[[int, int], bool] | None"},
     "overlapping_boxes": {"filter": "Callable[[int, int], bool] | None"},
     "Deformable.set_motion": {"start": "ArrayLike", "end": "ArrayLike"}, "Deformable.advance": {"end": "ArrayLike"},
@@ -190,7 +199,7 @@ def parameters_of(text):
         word = word.strip()
         if not word:
             continue
-        match = re.match(r"(\*?\w*)\s*(?::\s*([^=]*?))?\s*(=.*)?$", word, re.S)
+        match = re.match(r"(\*{0,2}\w*)\s*(?::\s*([^=]*?))?\s*(=.*)?$", word, re.S)
         yield match[1], match[2], bool(match[3])
 
 
@@ -199,6 +208,9 @@ def arguments(owner, text, typed):
     own = OWN_PARAMETERS.get(owner, {})
     result = []
     for name, kind, optional in parameters_of(text):
+        if name == "**kwargs":
+            result.append("**options: Any")
+            continue
         if name == "*" or name.startswith("*") and name != "*args":
             result.append("*")
             continue

@@ -34,6 +34,10 @@ PYBIND11_MODULE(_abut, module) {
     bind_store_clash(module);
     bind_clash_review(module);
     bind_walk(module);
+    bind_maintenance_path(module);
+    bind_carry(module);
+    bind_walker(module);
+    bind_levels(module);
     bind_helper_programs(module);
 }
 

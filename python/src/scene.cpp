@@ -25,9 +25,13 @@ ReadOptions read_options(double unit, UpAxis up, bool spaces, bool map, double t
 }
 
 Part make_part(const std::string& id, std::uint32_t mesh, const py::object& pose,
-               const py::object& name, const std::string& type) {
-    return {id, name.is_none() ? id : name.cast<std::string>(), type, mesh,
-            to_transform(pose, "pose")};
+               const py::object& name, const std::string& type, std::optional<Colour> colour) {
+    return {id,
+            name.is_none() ? id : name.cast<std::string>(),
+            type,
+            mesh,
+            to_transform(pose, "pose"),
+            colour};
 }
 
 Scene make_scene(const py::object& meshes, const std::vector<Part>& parts, const std::string& file,
@@ -105,18 +109,34 @@ void bind_parts(py::module_& module) {
         .field("type", &SceneNote::type, "may be empty")
         .field("text", &SceneNote::text, "one line")
         .done();
-    PlainBinder<Part>(
-        module, "Part",
-        "Part(id, mesh=0, pose=None, *, name=None, type='')\n\nA placed mesh of a Scene.")
+    PlainBinder<Colour>(
+        module, "Colour",
+        "Colour(red, green, blue, alpha=255)\n\nAs displays take it: sRGB, each 0 to 255.")
+        .field("red", &Colour::red, "")
+        .field("green", &Colour::green, "")
+        .field("blue", &Colour::blue, "")
+        .field("alpha", &Colour::alpha, "0: transparent")
+        .done()
+        .def(py::init(
+                 [](std::uint8_t red, std::uint8_t green, std::uint8_t blue, std::uint8_t alpha) {
+                     return Colour{red, green, blue, alpha};
+                 }),
+             py::arg("red"), py::arg("green"), py::arg("blue"), py::arg("alpha") = 255)
+        .def("__eq__", [](const Colour& a, const Colour& b) { return a == b; })
+        .def("__str__", [](const Colour& self) { return to_string(self); });
+    PlainBinder<Part>(module, "Part",
+                      "Part(id, mesh=0, pose=None, *, name=None, type='', colour=None)\n\nA placed "
+                      "mesh of a Scene.")
         .field("id", &Part::id, "unique within its scene")
         .field("name", &Part::name, "")
         .field("type", &Part::type, "may be empty")
         .field("mesh", &Part::mesh, "index in Scene.meshes")
         .field("world_from_mesh", &Part::world_from_mesh, "matrix of shape (4, 4)")
+        .field("colour", &Part::colour, "Colour of most of its triangles; else None")
         .done()
         .def(py::init(&make_part), py::arg("id"), py::arg("mesh") = 0U,
              py::arg("pose") = py::none(), py::kw_only(), py::arg("name") = py::none(),
-             py::arg("type") = "");
+             py::arg("type") = "", py::arg("colour") = py::none());
     PlainBinder<ModelPath>(
         module, "ModelPath",
         "ModelPath(path, unit=0, up=None)\n\nA path with the unit and the axis of its file.")
