@@ -162,6 +162,79 @@ class Capsule:
     def radius(self) -> float:
         """length, at least 0"""
 
+class CarriedPart:
+    """A part as it is carried: its model has the world's axes."""
+    @property
+    def model(self) -> Model:
+        """Model"""
+    @property
+    def pose(self) -> Pose:
+        """Pose: where the part is now"""
+    @property
+    def linear(self) -> NDArray[Any]:
+        """matrix of shape (4, 4): rotation and scale"""
+    def world_from_part(self, pose: _Poses) -> NDArray[Any]:
+        """Where a pose puts the part, as Walk.move takes it."""
+
+class Carry:
+    """A part of a Walk in the hand, by its number. Parts that touch it when it is taken do not
+    hold it until it has left them. It keeps the walk alive. Errors as Walk.model.
+    """
+    def __init__(self, walk: Walk, part: int) -> None: ...
+    def move_to(self, pose: _Poses, *, mode: CarryMode | str = ..., clearance: float = ..., depths: bool = ..., skin: float = ..., missing: MissingParts | str = ...) -> CarryStep:
+        """Moves the part towards a rigid pose; no contact on the way is missed.
+
+        mode       a CarryMode
+        clearance  length; parts within it are reported
+        depths     whether depths are computed where parts overlap
+        skin       length of the gap that is kept to parts
+        missing    MissingParts
+
+        Returns a CarryStep. Raises Error (bad_argument); KeyboardInterrupt at Ctrl-C.
+        """
+    @property
+    def part(self) -> int:
+        """its number"""
+    @property
+    def carried(self) -> CarriedPart:
+        """CarriedPart"""
+    @property
+    def probe(self) -> Probe:
+        """Probe, in the frame that the pose places"""
+    @property
+    def state(self) -> CarryStep:
+        """CarryStep, the last one"""
+
+class CarryMode(IntEnum):
+    """What a carried part does where it meets another one."""
+    through = 0
+    stop = 1
+    slide = 2
+
+class CarryStep:
+    """Where a carried part has got to."""
+    @property
+    def pose(self) -> Pose:
+        """Pose"""
+    @property
+    def blocked(self) -> bool:
+        """a part kept it from the pose that was asked for"""
+    @property
+    def waits(self) -> bool:
+        """parts that are not in memory did"""
+    @property
+    def complete(self) -> bool:
+        """False: parts that are not in memory are missing in the lists"""
+    @property
+    def contacts(self) -> np.recarray[Any, Any]:
+        """record array of PartImpact: what blocked it, in order"""
+    @property
+    def touched(self) -> np.recarray[Any, Any]:
+        """record array of WalkGap: the parts that it overlaps or touches"""
+    @property
+    def near(self) -> np.recarray[Any, Any]:
+        """record array of WalkGap: the others within the clearance"""
+
 class Clash:
     """Two parts that clash. Lengths in metres, world frame of the report."""
     @property
@@ -318,6 +391,19 @@ class ClashStatus(IntEnum):
     reviewed = 2
     approved = 3
     resolved = 4
+
+class Colour:
+    """As displays take it: sRGB, each 0 to 255."""
+    def __init__(self, red: int, green: int, blue: int, alpha: int = ...) -> None: ...
+    @property
+    def red(self) -> int: ...
+    @property
+    def green(self) -> int: ...
+    @property
+    def blue(self) -> int: ...
+    @property
+    def alpha(self) -> int:
+        """0: transparent"""
 
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
@@ -770,6 +856,28 @@ class FeaturePair:
     def barycentric(self) -> NDArray[np.float64]:
         """of the closest points"""
 
+class FirstContact:
+    """Returned by Walk.sweep and Walk.time_of_impact. True if the probe meets a part."""
+    @property
+    def meet(self) -> bool:
+        """if False, impact is not set"""
+    @property
+    def impact(self) -> PartImpact:
+        """PartImpact"""
+    @property
+    def time_free(self) -> float:
+        """in [0, 1]: until then no part is met, whether it is in memory or not"""
+    @property
+    def complete(self) -> bool:
+        """False if parts that may matter were not in memory and skipped"""
+    @property
+    def candidates(self) -> int:
+        """parts whose boxes were in reach"""
+    @property
+    def misses(self) -> int:
+        """of these, those that were not in memory"""
+    def __bool__(self) -> bool: ...
+
 class Gap:
     """Returned by distance."""
     dtype: np.dtype[Any]
@@ -853,6 +961,43 @@ class GraphReport:
         """array of shape (n, 2, 3): ends of some of the edges"""
     @property
     def seconds(self) -> float: ...
+
+class HitPart:
+    """Returned by Walk.first_hit. True if the ray meets a part."""
+    @property
+    def meet(self) -> bool:
+        """if False, only at_least is set"""
+    @property
+    def part(self) -> int:
+        """number of the part"""
+    @property
+    def t(self) -> float:
+        """the ray's parameter"""
+    @property
+    def point(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def triangle(self) -> int:
+        """of the part's mesh"""
+    @property
+    def barycentric(self) -> NDArray[Any]:
+        """weights of the triangle's vertices"""
+    @property
+    def side(self) -> HitSide:
+        """HitSide"""
+    @property
+    def at_least(self) -> float:
+        """no part is met at a smaller parameter"""
+    @property
+    def complete(self) -> bool:
+        """False if parts that may matter were not in memory and skipped"""
+    @property
+    def candidates(self) -> int:
+        """parts whose boxes were in reach"""
+    @property
+    def misses(self) -> int:
+        """of these, those that were not in memory"""
+    def __bool__(self) -> bool: ...
 
 class HitSide(IntEnum):
     """Which side of a triangle a ray comes from."""
@@ -990,6 +1135,27 @@ class Intersection:
     @property
     def count(self) -> int:
         """corners: 1 a point, 2 a segment, 3 to 6 a polygon"""
+
+class LevelReport:
+    """Returned by build_levels."""
+    @property
+    def built(self) -> bool:
+        """False: the levels were there and are current"""
+    @property
+    def chunks(self) -> int: ...
+    @property
+    def new_chunks(self) -> int:
+        """made now; others were kept"""
+    @property
+    def triangles(self) -> int:
+        """of all chunks"""
+    @property
+    def stored_bytes(self) -> int: ...
+    @property
+    def geometry_bytes(self) -> int:
+        """stored bytes of the meshes"""
+    @property
+    def seconds(self) -> float: ...
 
 class ListedClash:
     """A clash as a store lists it: in words, since its parts may be gone."""
@@ -1280,7 +1446,7 @@ class OutOfCoreCounters:
 
 class Part:
     """A placed mesh of a Scene."""
-    def __init__(self, id: str, mesh: int = ..., pose: _Poses = ..., *, name: str | None = ..., type: str = ...) -> None: ...
+    def __init__(self, id: str, mesh: int = ..., pose: _Poses = ..., *, name: str | None = ..., type: str = ..., colour: Colour | None = ...) -> None: ...
     @property
     def id(self) -> str:
         """unique within its scene"""
@@ -1295,6 +1461,43 @@ class Part:
     @property
     def world_from_mesh(self) -> NDArray[Any]:
         """matrix of shape (4, 4)"""
+    @property
+    def colour(self) -> Colour | None:
+        """Colour of most of its triangles; else None"""
+
+class PartImpact:
+    """When a moving probe first meets a part."""
+    dtype: np.dtype[Any]
+    @property
+    def part(self) -> int:
+        """number of the part"""
+    @property
+    def time(self) -> float:
+        """in [0, 1], never later than the contact"""
+    @property
+    def contact_time(self) -> float:
+        """a time at which they are in contact"""
+    @property
+    def gap(self) -> float:
+        """length: how far apart they are at `time`, at most"""
+    @property
+    def point_part(self) -> NDArray[np.float64]:
+        """on the part at `time`"""
+    @property
+    def point_probe(self) -> NDArray[np.float64]:
+        """on the probe at `time`"""
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """unit vector from the part to the probe, or zero"""
+    @property
+    def triangle_part(self) -> int:
+        """of a mesh; else 0"""
+    @property
+    def triangle_probe(self) -> int:
+        """of a mesh; else 0"""
+    @property
+    def status(self) -> Status:
+        """Status"""
 
 class PartSelector:
     """Which parts a rule means: all globs that are given must match (* and ?), one of each list."""
@@ -1305,6 +1508,79 @@ class PartSelector:
     def name(self) -> list[str]: ...
     @property
     def type(self) -> list[str]: ...
+
+class PartsInWay:
+    """Returned by Walk.parts_in_way."""
+    @property
+    def parts(self) -> np.recarray[Any, Any]:
+        """record array of PartImpact, sorted by time, then by part"""
+    @property
+    def time_free(self) -> float:
+        """as FirstContact.time_free"""
+    @property
+    def complete(self) -> bool:
+        """False if parts that may matter were not in memory and skipped"""
+    @property
+    def candidates(self) -> int:
+        """parts whose boxes were in reach"""
+    @property
+    def misses(self) -> int:
+        """of these, those that were not in memory"""
+
+class PathClearance:
+    """The least distance along a path."""
+    @property
+    def found(self) -> bool:
+        """else no part is nearer than the largest clearance"""
+    @property
+    def distance(self) -> float:
+        """length, attained at `time`"""
+    @property
+    def at_least(self) -> float:
+        """length: a proven lower bound"""
+    @property
+    def time(self) -> float:
+        """in poses"""
+    @property
+    def part(self) -> int:
+        """number of the part"""
+    @property
+    def point_part(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def point_probe(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+
+class PathContact:
+    """A part that is met on a path."""
+    @property
+    def time(self) -> float:
+        """in poses: 3.25 is a quarter of the way from 3 to 4"""
+    @property
+    def impact(self) -> PartImpact:
+        """PartImpact between the two poses"""
+
+class PathReport:
+    """Returned by check_path. True if the path is free."""
+    @property
+    def is_free(self) -> bool:
+        """no part is met"""
+    @property
+    def poses(self) -> int:
+        """number of poses"""
+    @property
+    def length(self) -> float:
+        """of the way"""
+    @property
+    def touched_at_start(self) -> NDArray[np.int64]:
+        """int64 array of shape (n,): parts that the probe touches at the first pose"""
+    @property
+    def contacts(self) -> list[PathContact]:
+        """list of PathContact, sorted by time"""
+    @property
+    def clearance(self) -> PathClearance:
+        """PathClearance"""
+    def __bool__(self) -> bool: ...
 
 class PiecesContacts:
     """Returned by collide of two ConvexPieces."""
@@ -1746,14 +2022,41 @@ class Walk:
         """Says where the region of interest is, and its velocity in units a second. Never waits for the disk."""
     def wait(self) -> None:
         """Waits until what is near and ahead is in memory, or memory is full."""
-    def distance(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, *, upper_bound: float = ..., missing: MissingParts | str = ..., except_part: int = ...) -> NearestPart:
-        """The part nearest to the probe: a NearestPart."""
-    def within(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, tolerance: float, *, missing: MissingParts | str = ..., except_part: int = ...) -> NearParts:
-        """All parts at most `tolerance` away, and how far: NearParts."""
-    def collide(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, *, mode: ContactMode | str = ..., missing: MissingParts | str = ..., except_part: int = ...) -> TouchedParts:
-        """The parts that share a point with the probe: TouchedParts."""
-    def penetration(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, *, missing: MissingParts | str = ..., except_part: int = ...) -> NearParts:
-        """The parts that share a point with the probe, and how deep they go into each other: NearParts."""
+    def distance(self, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses = ..., *, upper_bound: float = ..., missing: MissingParts | str = ..., except_part: int = ...) -> NearestPart:
+        """The part nearest to the probe: a NearestPart.
+
+        probe        a Probe, or what one is made of; or the number of a part, at its place
+        pose         of the probe; None for a part
+        upper_bound  length; parts farther away are ignored
+        missing      MissingParts
+        except_part  number of a part to leave out; 0: none
+
+        Ctrl-C ends this query and those below.
+        """
+    def within(self, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, tolerance: float, *, missing: MissingParts | str = ..., except_part: int = ...) -> NearParts:
+        """All parts at most `tolerance` away, and how far: NearParts. Otherwise as distance."""
+    def collide(self, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses = ..., *, mode: ContactMode | str = ..., missing: MissingParts | str = ..., except_part: int = ...) -> TouchedParts:
+        """The parts that share a point with the probe: TouchedParts. Otherwise as distance."""
+    def penetration(self, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses = ..., *, missing: MissingParts | str = ..., except_part: int = ...) -> NearParts:
+        """The parts that share a point with the probe, and how deep they go into each other:
+        NearParts. Otherwise as distance.
+        """
+    def first_hit(self, origin: Ray | ArrayLike, direction: ArrayLike | None = ..., t_min: float = ..., t_max: float = ..., *, missing: MissingParts | str = ..., except_part: int = ...) -> HitPart:
+        """The first part that a ray meets: a HitPart.
+
+        origin     a Ray, or its origin, shape (3,)
+        direction  array of shape (3,), if the origin is no Ray
+        """
+    def sweep(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses, translation: ArrayLike, *, missing: MissingParts | str = ..., except_part: int = ..., absolute_error: float | None = ...) -> FirstContact:
+        """The first contact of a probe that moves in a straight line by `translation` while the
+        time goes from 0 to 1: a FirstContact. None is missed, however far it moves.
+
+        absolute_error  length, as for time_of_impact
+        """
+    def time_of_impact(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, motion: Motion, *, missing: MissingParts | str = ..., except_part: int = ..., absolute_error: float | None = ...) -> FirstContact:
+        """The first contact of a probe that moves and turns: a FirstContact."""
+    def parts_in_way(self, probe: Probe | Model | Convex | Sphere | Capsule | Box3, motion: Motion, *, missing: MissingParts | str = ..., except_part: int = ..., absolute_error: float | None = ...) -> PartsInWay:
+        """All parts that a moving probe meets, each with its own time: PartsInWay."""
     def add(self, model: Model, pose: _Poses) -> int:
         """Brings in a part that is not in the store; returns its number."""
     def move(self, part: int, pose: _Poses) -> None:
@@ -1831,6 +2134,71 @@ class WalkStatistics:
     def bytes(self) -> int: ...
     @property
     def peak_bytes(self) -> int: ...
+
+class Walker:
+    """A person, as a capsule, who walks or flies through a Walk and never passes through a part.
+    Lengths in metres, angles in radians. It keeps the walk alive.
+
+    feet      the lowest point of the person, shape (3,), world frame
+    steepest  slope of the steepest floor that can be stood on
+    skin      length of the gap that is kept to parts
+    missing   'skip': waits at parts that are not in memory; 'wait': reads them in step
+
+    Raises Error (bad_argument) if a value is not finite or a length not as its name says.
+    """
+    def __init__(self, walk: Walk, feet: ArrayLike, **options: Any) -> None: ...
+    def step(self, wish: ArrayLike, seconds: float, *, duck: bool = ..., jump: bool = ...) -> WalkerState:
+        """Moves the person for some time; returns the WalkerState.
+
+        wish  velocity that is asked for, shape (3,), world frame
+        """
+    @property
+    def state(self) -> WalkerState: ...
+    @property
+    def capsule(self) -> Capsule:
+        """a Capsule around the person now, world frame"""
+    @property
+    def mode(self) -> WalkerMode:
+        """WalkerMode"""
+    def set_mode(self, mode: WalkerMode | str) -> None:
+        """Walks or flies from now on."""
+    def set_except(self, part: int) -> None:
+        """A part to pass through, for example one that is carried. 0: none."""
+    def move_to(self, feet: ArrayLike) -> None:
+        """Puts the person elsewhere."""
+
+class WalkerMode(IntEnum):
+    """How a person moves."""
+    walk = 0
+    fly = 1
+
+class WalkerState:
+    """Where a person is after a step."""
+    @property
+    def feet(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def eye(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def velocity(self) -> NDArray[Any]:
+        """array of shape (3,): mean of the last step"""
+    @property
+    def way(self) -> NDArray[np.float64]:
+        """float64 array of shape (n, 3): the corners of the feet's way in the last step"""
+    @property
+    def on_ground(self) -> bool: ...
+    @property
+    def ducked(self) -> bool: ...
+    @property
+    def blocked(self) -> bool:
+        """a part kept the person from its way"""
+    @property
+    def waits(self) -> bool:
+        """stopped at parts that are not in memory"""
+    @property
+    def squeezed(self) -> overlaps:
+        """overlaps a part and cannot be pushed out"""
 
 class WarmStart:
     """Remembers where two models met or were closest, for the next pose.
@@ -2004,6 +2372,32 @@ def all_hits(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress:
 def all_hits(model: Model, pose: _OnePose | ArrayLike, origin: ArrayLike, direction: ArrayLike, t_min: ArrayLike = ..., t_max: ArrayLike = ..., *, progress: _Progress = ...) -> Any: ...
 def at(motion: Motion, t: float) -> NDArray[Any]:
     """The matrix of shape (4, 4) to which the motion has taken the body at time t."""
+def build_levels(store: _Path, *, memory: int = ..., progress: _Progress = ...) -> LevelReport:
+    """Builds the levels of detail of a store, a path, if they are missing or outdated. Work that
+    was interrupted is continued.
+
+    memory  bytes that the work may use, at least 64 MiB
+
+    Returns a LevelReport. Raises Error: bad_argument, cannot_write, those of open_store;
+    KeyboardInterrupt at Ctrl-C.
+    """
+def carried_part(walk: Walk, part: int) -> CarriedPart:
+    """The CarriedPart of a part. Errors as Walk.model."""
+def check_path(walk: Walk, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, poses: _Poses, *, except_part: int = ..., largest_clearance: float = ..., clearance_error: float = ..., max_queries: int = ..., absolute_error: float | None = ..., progress: _Progress = ...) -> PathReport:
+    """Whether a part can be carried along poses: which parts are met, and how near others are.
+
+    walk               a Walk
+    probe              a Probe or what one is made of; or the number of a part of the walk
+    poses              array of shape (n, 4, 4), or a list of poses, all rigid
+    except_part        number of a part that is not in the way; 0: none
+    largest_clearance  length; clearances above it are not measured
+    clearance_error    length by which the clearance may exceed the least one
+    max_queries        limit of the search for the clearance
+    absolute_error     length, of contacts, as for time_of_impact
+    progress           function of (stage, fraction)
+
+    Returns a PathReport. Raises Error (bad_argument); KeyboardInterrupt at Ctrl-C.
+    """
 @overload
 def collide(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, mode: ContactMode | str = ..., segments: bool = ..., warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Contacts:
     """The pairs of triangles that share a point. Touching counts; a model inside another does not collide.
@@ -2128,6 +2522,8 @@ def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress
 def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: ArrayLike, direction: ArrayLike, t_min: ArrayLike = ..., t_max: ArrayLike = ..., *, progress: _Progress = ...) -> Any: ...
 def forget_resolved_clashes(store: Store) -> int:
     """Removes resolved clashes and their marks. Returns how many."""
+def has_levels(store: Store) -> bool:
+    """Whether a Store has levels for all its parts as they are now."""
 def help_find_clashes(store: _Path, crew: Crew, *, progress: _Progress = ...) -> None:
     """Takes part in the job of the leader, which calls find_clashes(store, crew=crew). Returns when the leader has
     left the crew.
@@ -2396,6 +2792,8 @@ def to_json(report: ClashReport) -> str:
 def to_json(review: ClashReview) -> str: ...
 @overload
 def to_json(reviews: list[ClashReview], store: str) -> str: ...
+@overload
+def to_json(report: PathReport, walk: Walk) -> str: ...
 def to_mesh(scene: Scene) -> Mesh:
     """All parts of a scene as one Mesh in the world. Raises Error (bad_mesh) if there are too many vertices."""
 def turn_up(scene: Scene, up: UpAxis | str) -> None:
