@@ -291,7 +291,7 @@ void expect_bounds(const std::string& path, std::uint64_t seed) {
             std::map<std::uint32_t, Mesh> drawn = levels.drawn(level.chunk);
             const Surface coarse(placed_mesh(drawn[0], place, {}));
             // Full detail is rounded to its grid, and instances are placed in single precision.
-            const double rounding = 1e-4 * length(full.mesh().positions.at(0)) * 1e-2 + 1e-3;
+            const double rounding = 2e-4;
             expect_within(random, full, coarse,
                           double{instance.scale} * double{level.error} + rounding, "instance",
                           tally, largest);
