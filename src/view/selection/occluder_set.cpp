@@ -10,7 +10,7 @@ namespace {
 
 /// Smaller occluders hide nothing.
 constexpr double kLeastCells = 16;
-constexpr std::size_t kMostDrawn = 384, kMostCellsDrawn = 200'000;
+constexpr std::size_t kMostDrawn = 256, kMostCellsDrawn = 150'000;
 
 std::uint64_t bytes_of(const std::vector<Occluder>& occluders) {
     std::uint64_t bytes = 128; // of the node of a map

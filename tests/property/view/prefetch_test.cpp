@@ -43,10 +43,10 @@ struct PathFigures {
     std::uint64_t first = 0, first_misses = 0; ///< chunks that the frame before did not want
 };
 
-/// Replays a tour at 60 frames a second. One chunk is read in every third frame; without a plan,
-/// only if one is missing.
+/// Replays a tour at 20 frames a second. One chunk is read in every frame; without a plan, only if
+/// one is missing.
 PathFigures replay(StoreFile& store, const Tour& tour, bool plans) {
-    constexpr double kFrame = 1.0 / 60;
+    constexpr double kFrame = 1.0 / 20;
     const LevelTree tree = read_level_tree(store);
     ViewOptions options;
     options.triangle_budget = 200'000;
@@ -71,9 +71,8 @@ PathFigures replay(StoreFile& store, const Tour& tour, bool plans) {
         continue; // the loading screen
     const ViewStatistics begin = view.statistics();
     std::set<std::uint32_t> wanted_before;
-    int frame = 0;
     for (double seconds = 0; seconds < duration(tour); seconds += kFrame) {
-        const bool reads = ++frame % 3 == 0 && (plans || view.statistics().missing > 0);
+        const bool reads = plans || view.statistics().missing > 0;
         (void)show(camera_at(tour, seconds), reads ? 1 : 0);
         std::set<std::uint32_t> wanted, drawn;
         for (const CutEntry& entry : view.cut().entries())
@@ -96,7 +95,7 @@ PathFigures replay(StoreFile& store, const Tour& tour, bool plans) {
 TEST(Prefetch, HitsOnASmoothPath) {
     const Folder folder;
     const std::string path = folder / "plant.abut";
-    write_glb(make_plant({.triangles = 1'000'000, .clashes = 0, .distinct = true}).scene,
+    write_glb(make_plant({.triangles = 600'000, .clashes = 0, .distinct = true}).scene,
               folder / "plant.glb");
     (void)import_models({folder / "plant.glb"}, path);
     (void)build_levels(path);
@@ -112,7 +111,7 @@ TEST(Prefetch, HitsOnASmoothPath) {
               << percent(ahead.first_misses, ahead.first) << " %\n";
     std::cout << "without a plan: hits " << percent(behind.misses, behind.lookups) << " %; anew "
               << percent(behind.first_misses, behind.first) << " %\n";
-    EXPECT_GT(ahead.lookups, 10'000U);
+    EXPECT_GT(ahead.lookups, 5'000U);
     EXPECT_GT(ahead.first, 50U);
     EXPECT_LT(ahead.misses * 100, ahead.lookups);
     EXPECT_LE(ahead.first_misses * 10, ahead.first);
