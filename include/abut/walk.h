@@ -42,7 +42,10 @@ struct WalkOptions {
 /// What a query does if it needs a part that is not in memory.
 enum class MissingParts : std::uint8_t {
     wait, ///< reads the part: the answer is exact
-    skip, ///< leaves the part out and reports it; it is read in the background with priority
+    /// Leaves the part out and reports it; it is read in the background with priority. `distance`,
+    /// `within`, `collide` and `penetration` end after the nearest 1,024 parts (or mesh blocks) that
+    /// are not in memory, and then ignore all that are farther.
+    skip,
 };
 
 class ProbeData;

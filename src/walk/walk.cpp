@@ -29,7 +29,7 @@ public:
             return;
         walk_.for_each_near(probe_.box(), reach, [&](std::uint32_t entry, float key) {
             reach = visit_entry_(entry, reach, visit, [&] { skip(key); });
-            return reach;
+            return skipped_ < kMostSkipped ? reach : WalkData::kEnough;
         });
     }
 
@@ -37,7 +37,12 @@ public:
     [[nodiscard]] double least_skipped() const { return least_skipped_; }
 
 private:
+    /// A query that has skipped this many entries ends: in a region that is not in memory it would
+    /// otherwise visit every part of the store, and ask for each.
+    static constexpr std::uint32_t kMostSkipped = 1024;
+
     void skip(float key) {
+        ++skipped_;
         answer_.complete = false;
         const double gap = std::sqrt(double{key});
         least_skipped_ = std::min(least_skipped_, gap > 0 ? gap : -probe_.radius());
@@ -48,6 +53,7 @@ private:
     WalkAnswer& answer_;
     EntryVisit visit_entry_;
     double least_skipped_ = HUGE_VAL;
+    std::uint32_t skipped_ = 0;
 };
 
 BodyGap measure(const NearEntry& entry, const PlacedProbe& probe, double upper_bound,

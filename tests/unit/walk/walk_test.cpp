@@ -367,5 +367,23 @@ TEST_F(WalkByHand, WithoutPartsNothingIsNear) {
     EXPECT_EQ(nearest.at_least, kInfinity);
 }
 
+// In a region that is not in memory a query would otherwise visit every part, and ask for each.
+TEST_F(WalkByHand, AQueryThatSkipsEndsAfterSomeMissingParts) {
+    Scene scene;
+    scene.meshes = {box_mesh({-1, -1, -1}, {1, 1, 1})};
+    for (int i = 0; i < 3000; ++i)
+        scene.parts.push_back({std::to_string(i), "", "Cube", 0, translation(4 * i, 0, 0)});
+    Walk walk(import(scene), {.prefetch = false});
+    const WalkQuery skip{.missing = MissingParts::skip};
+    const NearestPart nearest = walk.distance(ball_, Pose{{-10, 0, 0}}, skip);
+    EXPECT_FALSE(nearest.complete);
+    EXPECT_FALSE(nearest.found);
+    EXPECT_EQ(nearest.misses, 1024U);
+    EXPECT_LE(nearest.at_least, 8.5); // from x = -9.5 to x = -1
+    EXPECT_GE(nearest.at_least, 8.4);
+    EXPECT_EQ(walk.within(ball_, Pose{{-10, 0, 0}}, 1e6, skip).misses, 1024U);
+    EXPECT_EQ(walk.distance(ball_, Pose{{-10, 0, 0}}).gap.distance, 8.5);
+}
+
 } // namespace
 } // namespace abut::test
