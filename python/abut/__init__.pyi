@@ -1932,6 +1932,14 @@ class StoreSummary:
     @property
     def hierarchy_bytes(self) -> int: ...
     @property
+    def levels(self) -> bool:
+        """whether there are levels of detail"""
+    @property
+    def level_chunks(self) -> int: ...
+    @property
+    def level_bytes(self) -> int:
+        """stored"""
+    @property
     def file_bytes(self) -> int: ...
     @property
     def unused_bytes(self) -> int:
