@@ -27,11 +27,12 @@ void ChunkBuffers::upload(std::uint32_t number, const ViewChunk& data) {
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chunk.indices.name());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(index_bytes), data.indices.data(),
                  GL_STATIC_DRAW);
-    constexpr GLsizei stride = sizeof(ChunkVertex);
-    glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_FALSE, stride,
+    constexpr GLsizei kStride = sizeof(ChunkVertex);
+    glVertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_FALSE, kStride,
                           offset_of(offsetof(ChunkVertex, position)));
-    glVertexAttribPointer(1, 2, GL_BYTE, GL_TRUE, stride, offset_of(offsetof(ChunkVertex, normal)));
-    glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, offset_of(offsetof(ChunkVertex, part)));
+    glVertexAttribPointer(1, 2, GL_BYTE, GL_TRUE, kStride,
+                          offset_of(offsetof(ChunkVertex, normal)));
+    glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, kStride, offset_of(offsetof(ChunkVertex, part)));
     for (GLuint attribute = 0; attribute < 3; ++attribute)
         glEnableVertexAttribArray(attribute);
     chunk.index_count = static_cast<GLsizei>(data.indices.size());
@@ -59,13 +60,13 @@ void ChunkBuffers::update(const ViewFrame& frame) {
 }
 
 void ChunkBuffers::bind_instances(std::uint32_t first) const {
-    constexpr GLsizei stride = sizeof(ChunkInstance);
+    constexpr GLsizei kStride = sizeof(ChunkInstance);
     const std::size_t at = std::size_t{first} * sizeof(ChunkInstance);
     glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
     for (GLuint row = 0; row < 3; ++row)
-        glVertexAttribPointer(3 + row, 4, GL_FLOAT, GL_FALSE, stride,
-                              offset_of(at + row * 4 * sizeof(float)));
-    glVertexAttribIPointer(6, 1, GL_UNSIGNED_INT, stride,
+        glVertexAttribPointer(3 + row, 4, GL_FLOAT, GL_FALSE, kStride,
+                              offset_of(at + std::size_t{row} * 4 * sizeof(float)));
+    glVertexAttribIPointer(6, 1, GL_UNSIGNED_INT, kStride,
                            offset_of(at + offsetof(ChunkInstance, part)));
     for (GLuint attribute = 3; attribute < 7; ++attribute) {
         glEnableVertexAttribArray(attribute);
