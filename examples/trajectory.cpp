@@ -28,6 +28,7 @@ int run(int argc, char** argv) {
 
     // How near is each pose? All of them in parallel.
     std::vector<abut::Placement> placements;
+    placements.reserve(path.size());
     for (const abut::Pose& pose : path)
         placements.push_back({.world_from_a = pose, .world_from_b = {}});
     for (const abut::Gap& gap : abut::distance(tool, obstacle, placements))

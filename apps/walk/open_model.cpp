@@ -34,7 +34,7 @@ fs::path cache_folder() {
     if (cache.empty() && home.empty())
         throw Error(ErrorCode::cannot_write, "the cache folder",
                     "is not known: neither XDG_CACHE_HOME nor HOME is set");
-    const fs::path folder = (cache.empty() ? fs::path(home) / ".cache" : fs::path(cache)) / "abut";
+    fs::path folder = (cache.empty() ? fs::path(home) / ".cache" : fs::path(cache)) / "abut";
     std::error_code fault;
     fs::create_directories(folder, fault);
     if (fault)
@@ -64,6 +64,7 @@ std::string ready_store(const std::vector<std::string>& files, bool quiet) {
                 throw Error(ErrorCode::bad_argument, file,
                             "is a store, and can be walked through only on its own");
         std::vector<ModelPath> models;
+        models.reserve(files.size());
         for (const std::string& file : files)
             models.push_back(parse_model_path(file));
         path = (cache_folder() / fmt::format("{:016x}.abut", name_hash(files))).string();

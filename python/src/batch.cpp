@@ -47,7 +47,7 @@ py::object contacts_of(std::vector<Contacts> contacts) {
     return py::cast(ContactsList{std::move(contacts)});
 }
 
-py::object intersections(std::vector<Intersection> list) {
+py::object intersections(const std::vector<Intersection>& list) {
     py::list polygons;
     for (const Intersection& one : list)
         polygons.append(from_points({one.corners.begin(), one.corners.begin() + one.count}));

@@ -45,6 +45,6 @@ bool both(PyObject* first, PyObject* third) {
     return is_a<T>(first) && is_a<T>(third);
 }
 
-py::object intersections(std::vector<Intersection> list);
+py::object intersections(const std::vector<Intersection>& list);
 
 } // namespace abut::python

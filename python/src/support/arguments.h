@@ -68,9 +68,9 @@ private:
 /// One meaning of a verb, for arguments of some types.
 struct Overload {
     /// Whether it is meant. In: the first and the third argument; null if they are not given.
-    bool (*accepts)(PyObject* first, PyObject* third);
+    bool (*accepts)(PyObject* first, PyObject* third) = nullptr;
     Parameters parameters;
-    py::object (*run)(const Arguments& arguments);
+    py::object (*run)(const Arguments& arguments) = nullptr;
 };
 
 /// Adds a function to the module; overloads follow, and are asked in their order.

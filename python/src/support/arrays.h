@@ -70,7 +70,7 @@ py::array own(std::vector<T> values, const py::dtype& type, std::vector<py::ssiz
     auto kept = std::make_unique<std::vector<T>>(std::move(values));
     const void* data = kept->data();
     py::capsule owner(kept.get(), [](void* p) { delete static_cast<std::vector<T>*>(p); });
-    kept.release();
+    (void)kept.release();
     return {type, std::move(shape), data, owner};
 }
 
@@ -84,10 +84,10 @@ py::array numbers(std::vector<T> values) {
 /// An array of shape (n, columns) of structs that hold so many numbers and nothing else.
 template <class Number, class Row>
 py::array rows(std::vector<Row> values) {
-    constexpr std::size_t columns = sizeof(Row) / sizeof(Number);
-    static_assert(sizeof(Row) == columns * sizeof(Number));
+    constexpr std::size_t kColumns = sizeof(Row) / sizeof(Number);
+    static_assert(sizeof(Row) == kColumns * sizeof(Number));
     const auto size = static_cast<py::ssize_t>(values.size());
-    return own(std::move(values), py::dtype::of<Number>(), {size, columns});
+    return own(std::move(values), py::dtype::of<Number>(), {size, kColumns});
 }
 
 inline py::array from_points(std::vector<Vec3> points) {
@@ -97,8 +97,8 @@ inline py::array from_points(std::vector<Vec3> points) {
 /// A view, that cannot be written to, of rows that `owner` keeps.
 template <class Number, class Row>
 py::array view_rows(const Row* data, std::size_t size, py::handle owner) {
-    constexpr std::size_t columns = sizeof(Row) / sizeof(Number);
-    static_assert(sizeof(Row) == columns * sizeof(Number));
+    constexpr std::size_t kColumns = sizeof(Row) / sizeof(Number);
+    static_assert(sizeof(Row) == kColumns * sizeof(Number));
     py::array array(
         py::dtype::of<Number>(),
         {static_cast<py::ssize_t>(size), static_cast<py::ssize_t>(columns)},

@@ -50,7 +50,7 @@ public:
 
     /// Calls the function with the interpreter's lock; false if it raised.
     template <class Use>
-    bool call(Use&& use) noexcept {
+    bool call(Use&& use) {
         const py::gil_scoped_acquire lock;
         if (error_)
             return false;

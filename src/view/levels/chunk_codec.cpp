@@ -118,7 +118,8 @@ void take_parts(std::span<const std::byte>& in, const ChunkHeader& header, PartC
     for (const std::uint64_t step : take_list<std::uint64_t>(in, header.parts))
         to.parts.push_back(static_cast<std::int64_t>(row += step));
     to.errors = take_list<std::uint8_t>(in, header.parts);
-    const std::vector<std::uint32_t> runs = take_list<std::uint32_t>(in, 2 * header.runs);
+    const std::vector<std::uint32_t> runs =
+        take_list<std::uint32_t>(in, std::size_t{2} * header.runs);
     std::size_t at = 0;
     std::uint32_t part = 0;
     for (std::size_t i = 0; i < runs.size(); i += 2) {

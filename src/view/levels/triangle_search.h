@@ -24,8 +24,8 @@ public:
 
 private:
     Triangle corners_;
-    std::array<Vec3, 3> edges_;               ///< from corner k to the next
-    std::array<double, 3> inverse_length_sq_; ///< of the edges; 0 for an edge without length
+    std::array<Vec3, 3> edges_;                 ///< from corner k to the next
+    std::array<double, 3> inverse_length_sq_{}; ///< of the edges; 0 for an edge without length
     double weight_xx_ = 0, weight_xy_ = 0, weight_yy_ = 0; ///< inverse of the edges' Gram matrix
 };
 

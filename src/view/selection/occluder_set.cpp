@@ -21,7 +21,7 @@ std::uint64_t bytes_of(const std::vector<Occluder>& occluders) {
 
 } // namespace
 
-void OccluderSet::add(std::uint32_t chunk, std::vector<Occluder> occluders) {
+void OccluderSet::add(std::uint32_t chunk, std::vector<Occluder>&& occluders) {
     const std::uint64_t bytes = bytes_of(occluders);
     if (occluders.empty() || bytes_ + bytes > memory_)
         return;

@@ -16,7 +16,7 @@ public:
     /// In          memory: bytes; chunks for which it has no room have no occluders.
     explicit OccluderSet(std::uint64_t memory) : memory_(memory) {}
 
-    void add(std::uint32_t chunk, std::vector<Occluder> occluders);
+    void add(std::uint32_t chunk, std::vector<Occluder>&& occluders);
     void remove(std::uint32_t chunk);
     [[nodiscard]] bool empty() const { return chunks_.empty(); }
     /// Draws those that cover most of the picture, the largest first, until a limit of work is
