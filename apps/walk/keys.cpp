@@ -64,12 +64,13 @@ void Keys::click() {
 void Keys::press_part_key(int key) {
     if (key == GLFW_KEY_U) {
         for (std::uint32_t i = 0; i < session_.view.parts().size(); ++i) {
-            PartState state = session_.renderer.state(i);
-            const bool was_moved = tools_.carrying.drawn_as.contains(i);
-            if ((state.hidden || state.ghosted) && !was_moved) {
-                state.hidden = state.ghosted = false;
-                session_.set_state(i, state);
-            }
+            PartState state = session_.state(i);
+            const bool is_plain = !state.hidden && !state.ghosted;
+            if (is_plain && state.colour == session_.colour_of(i))
+                continue;
+            state.hidden = state.ghosted = false;
+            state.colour = session_.colour_of(i);
+            session_.set_state(i, state);
         }
         return;
     }
@@ -81,13 +82,13 @@ void Keys::press_part_key(int key) {
         return;
     const std::uint32_t chosen = *session_.chosen;
     if (key == GLFW_KEY_F)
-        session_.look_at(session_.view.part(chosen).box);
+        session_.look_at(session_.box_of(chosen));
     if (key == GLFW_KEY_G)
         session_.ghost_all_but({chosen});
     if (key == GLFW_KEY_C)
         tools_.carrying.take(session_, chosen);
-    if (key == GLFW_KEY_H && !tools_.carrying.drawn_as.contains(chosen)) {
-        PartState state = session_.renderer.state(chosen);
+    if (key == GLFW_KEY_H) {
+        PartState state = session_.state(chosen);
         state.hidden = true;
         session_.set_state(chosen, state);
     }
@@ -108,12 +109,32 @@ void Keys::press(int key) {
         tools_.measure.on = !tools_.measure.on;
         break;
     case GLFW_KEY_R:
-        tools_.viewpoints.recording = !tools_.viewpoints.recording;
-        if (tools_.viewpoints.recording)
-            tools_.viewpoints.path = {}, tools_.viewpoints.clock = 0;
+        tools_.viewpoints.toggle_recording();
         break;
+    case GLFW_KEY_L:
+        tools_.viewpoints.replay();
+        break;
+    case GLFW_KEY_V:
+        tools_.viewpoints.save(session_);
+        break;
+    case GLFW_KEY_B:
+        tools_.viewpoints.visit_next(session_);
+        break;
+    case GLFW_KEY_N:
+        tools_.clashes.show_next(session_);
+        break;
+    case GLFW_KEY_K:
+        session_.add_plane();
+        break;
+    case GLFW_KEY_X: {
+        CarryMode& mode = tools_.carrying.mode;
+        mode = mode == CarryMode::stop    ? CarryMode::slide
+               : mode == CarryMode::slide ? CarryMode::through
+                                          : CarryMode::stop;
+        break;
+    }
     case GLFW_KEY_P: {
-        const ViewFrame& frame = session_.view.frame(session_.camera());
+        const ViewFrame& frame = session_.frame(session_.camera());
         const std::string name = fmt::format("abut-walk-{}.png", ++pictures_);
         write_png(session_.renderer.picture(frame, session_.camera(), session_.style(true),
                                             session_.marks),
