@@ -15,6 +15,8 @@ bool show_clash_row(Session& session, ClashList& list, const ListedClash& clash)
                   clash.name[1].c_str());
     if (ImGui::Selectable(text, list.shown == clash.id))
         list.wanted = clash;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s\n%s", clash.name[0].c_str(), clash.name[1].c_str());
     bool has_changed = false;
     if (ImGui::BeginPopupContextItem()) {
         MarkChanges changes;
