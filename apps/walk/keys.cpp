@@ -16,6 +16,7 @@ Keys& Keys::of(GLFWwindow* window) {
 Keys::Keys(GLFWwindow* window, Session& session, Tools& tools)
     : window_(window), session_(session), tools_(tools) {
     glfwSetWindowUserPointer(window, this);
+    glfwSetInputMode(window, GLFW_STICKY_KEYS, GLFW_TRUE); // a slow frame loses no short press
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
         if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput)
             of(w).tools_.attempt([&] { of(w).press(key); });
@@ -94,6 +95,14 @@ void Keys::press_part_key(int key) {
     }
 }
 
+void Keys::write_picture() {
+    const Camera camera = session_.camera();
+    const ViewFrame& frame = session_.frame(camera);
+    const std::string name = fmt::format("abut-walk-{}.png", ++pictures_);
+    write_png(session_.renderer.picture(frame, camera, session_.style(true), session_.marks), name);
+    tools_.message = name + " written";
+}
+
 void Keys::press(int key) {
     switch (key) {
     case GLFW_KEY_1:
@@ -133,15 +142,9 @@ void Keys::press(int key) {
                                           : CarryMode::stop;
         break;
     }
-    case GLFW_KEY_P: {
-        const ViewFrame& frame = session_.frame(session_.camera());
-        const std::string name = fmt::format("abut-walk-{}.png", ++pictures_);
-        write_png(session_.renderer.picture(frame, session_.camera(), session_.style(true),
-                                            session_.marks),
-                  name);
-        tools_.message = name + " written";
+    case GLFW_KEY_P:
+        write_picture();
         break;
-    }
     case GLFW_KEY_TAB:
         tools_.with_panels = !tools_.with_panels;
         break;
@@ -162,19 +165,24 @@ void Keys::press(int key) {
 void Keys::update(double seconds) {
     if (click_in_ > 0 && --click_in_ == 0 && !ImGui::GetIO().WantCaptureMouse)
         tools_.attempt([&] { click(); });
+    // All keys are asked for, even if a text field gets them: asking forgets a short press.
+    const auto held = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
+    const auto axis = [&](int more, int less) {
+        return (held(more) ? 1.0 : 0.0) - (held(less) ? 1.0 : 0.0);
+    };
+    const auto either = [&](int a, int b) {
+        const bool is_a = held(a), is_b = held(b);
+        return is_a || is_b;
+    };
     Wish wish;
-    if (!ImGui::GetIO().WantTextInput) {
-        const auto held = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
-        const auto axis = [&](int more, int less) {
-            return (held(more) ? 1.0 : 0.0) - (held(less) ? 1.0 : 0.0);
-        };
-        wish.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
-        wish.right = axis(GLFW_KEY_D, GLFW_KEY_A);
-        wish.up = axis(GLFW_KEY_E, GLFW_KEY_Q);
-        wish.fast = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
-        wish.duck = held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL);
-        wish.jump = held(GLFW_KEY_SPACE);
-    }
+    wish.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
+    wish.right = axis(GLFW_KEY_D, GLFW_KEY_A);
+    wish.up = axis(GLFW_KEY_E, GLFW_KEY_Q);
+    wish.fast = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    wish.duck = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    wish.jump = held(GLFW_KEY_SPACE);
+    if (ImGui::GetIO().WantTextInput)
+        wish = {};
     session_.step(wish, seconds);
 }
 
