@@ -44,9 +44,13 @@ bool parse(int argc, char** argv, Arguments& arguments) {
                                          "Folder for the pictures and figures of --path");
     app.add_option("--rate", arguments.rate, "Pictures a second of the path (default 15)")
         ->check(CLI::Range(0.01, 1000.0));
+    CLI::Option* log =
+        app.add_option("--log", arguments.log,
+                       "Write each state of the window to this file, one JSON object a line");
     app.add_flag("--quiet", arguments.quiet, "Print only errors");
     path->needs(frames);
     frames->needs(path);
+    log->excludes(path);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

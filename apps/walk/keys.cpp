@@ -16,6 +16,7 @@ Keys& Keys::of(GLFWwindow* window) {
 Keys::Keys(GLFWwindow* window, Session& session, Tools& tools)
     : window_(window), session_(session), tools_(tools) {
     glfwSetWindowUserPointer(window, this);
+    glfwSetInputMode(window, GLFW_STICKY_KEYS, GLFW_TRUE); // a slow frame loses no short press
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
         if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput)
             of(w).tools_.attempt([&] { of(w).press(key); });
@@ -64,12 +65,13 @@ void Keys::click() {
 void Keys::press_part_key(int key) {
     if (key == GLFW_KEY_U) {
         for (std::uint32_t i = 0; i < session_.view.parts().size(); ++i) {
-            PartState state = session_.renderer.state(i);
-            const bool was_moved = tools_.carrying.drawn_as.contains(i);
-            if ((state.hidden || state.ghosted) && !was_moved) {
-                state.hidden = state.ghosted = false;
-                session_.set_state(i, state);
-            }
+            PartState state = session_.state(i);
+            const bool is_plain = !state.hidden && !state.ghosted;
+            if (is_plain && state.colour == session_.colour_of(i))
+                continue;
+            state.hidden = state.ghosted = false;
+            state.colour = session_.colour_of(i);
+            session_.set_state(i, state);
         }
         return;
     }
@@ -81,16 +83,24 @@ void Keys::press_part_key(int key) {
         return;
     const std::uint32_t chosen = *session_.chosen;
     if (key == GLFW_KEY_F)
-        session_.look_at(session_.view.part(chosen).box);
+        session_.look_at(session_.box_of(chosen));
     if (key == GLFW_KEY_G)
         session_.ghost_all_but({chosen});
     if (key == GLFW_KEY_C)
         tools_.carrying.take(session_, chosen);
-    if (key == GLFW_KEY_H && !tools_.carrying.drawn_as.contains(chosen)) {
-        PartState state = session_.renderer.state(chosen);
+    if (key == GLFW_KEY_H) {
+        PartState state = session_.state(chosen);
         state.hidden = true;
         session_.set_state(chosen, state);
     }
+}
+
+void Keys::write_picture() {
+    const Camera camera = session_.camera();
+    const ViewFrame& frame = session_.frame(camera);
+    const std::string name = fmt::format("abut-walk-{}.png", ++pictures_);
+    write_png(session_.renderer.picture(frame, camera, session_.style(true), session_.marks), name);
+    tools_.message = name + " written";
 }
 
 void Keys::press(int key) {
@@ -108,19 +118,33 @@ void Keys::press(int key) {
         tools_.measure.on = !tools_.measure.on;
         break;
     case GLFW_KEY_R:
-        tools_.viewpoints.recording = !tools_.viewpoints.recording;
-        if (tools_.viewpoints.recording)
-            tools_.viewpoints.path = {}, tools_.viewpoints.clock = 0;
+        tools_.viewpoints.toggle_recording();
         break;
-    case GLFW_KEY_P: {
-        const ViewFrame& frame = session_.view.frame(session_.camera());
-        const std::string name = fmt::format("abut-walk-{}.png", ++pictures_);
-        write_png(session_.renderer.picture(frame, session_.camera(), session_.style(true),
-                                            session_.marks),
-                  name);
-        tools_.message = name + " written";
+    case GLFW_KEY_L:
+        tools_.viewpoints.replay();
+        break;
+    case GLFW_KEY_V:
+        tools_.viewpoints.save(session_);
+        break;
+    case GLFW_KEY_B:
+        tools_.viewpoints.visit_next(session_);
+        break;
+    case GLFW_KEY_N:
+        tools_.clashes.show_next(session_);
+        break;
+    case GLFW_KEY_K:
+        session_.add_plane();
+        break;
+    case GLFW_KEY_X: {
+        CarryMode& mode = tools_.carrying.mode;
+        mode = mode == CarryMode::stop    ? CarryMode::slide
+               : mode == CarryMode::slide ? CarryMode::through
+                                          : CarryMode::stop;
         break;
     }
+    case GLFW_KEY_P:
+        write_picture();
+        break;
     case GLFW_KEY_TAB:
         tools_.with_panels = !tools_.with_panels;
         break;
@@ -141,19 +165,24 @@ void Keys::press(int key) {
 void Keys::update(double seconds) {
     if (click_in_ > 0 && --click_in_ == 0 && !ImGui::GetIO().WantCaptureMouse)
         tools_.attempt([&] { click(); });
+    // All keys are asked for, even if a text field gets them: asking forgets a short press.
+    const auto held = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
+    const auto axis = [&](int more, int less) {
+        return (held(more) ? 1.0 : 0.0) - (held(less) ? 1.0 : 0.0);
+    };
+    const auto either = [&](int a, int b) {
+        const bool is_a = held(a), is_b = held(b);
+        return is_a || is_b;
+    };
     Wish wish;
-    if (!ImGui::GetIO().WantTextInput) {
-        const auto held = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
-        const auto axis = [&](int more, int less) {
-            return (held(more) ? 1.0 : 0.0) - (held(less) ? 1.0 : 0.0);
-        };
-        wish.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
-        wish.right = axis(GLFW_KEY_D, GLFW_KEY_A);
-        wish.up = axis(GLFW_KEY_E, GLFW_KEY_Q);
-        wish.fast = held(GLFW_KEY_LEFT_SHIFT) || held(GLFW_KEY_RIGHT_SHIFT);
-        wish.duck = held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL);
-        wish.jump = held(GLFW_KEY_SPACE);
-    }
+    wish.forward = axis(GLFW_KEY_W, GLFW_KEY_S);
+    wish.right = axis(GLFW_KEY_D, GLFW_KEY_A);
+    wish.up = axis(GLFW_KEY_E, GLFW_KEY_Q);
+    wish.fast = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    wish.duck = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    wish.jump = held(GLFW_KEY_SPACE);
+    if (ImGui::GetIO().WantTextInput)
+        wish = {};
     session_.step(wish, seconds);
 }
 

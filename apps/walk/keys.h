@@ -19,6 +19,7 @@ private:
 
     void press(int key);
     void press_part_key(int key);
+    void write_picture();
     void click();
     void scroll(double by);
     void drag(double x, double y);

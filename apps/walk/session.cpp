@@ -10,6 +10,13 @@ namespace abut::viewer {
 namespace {
 
 constexpr double kMostPitch = 1.5;
+/// Where a person is put down: before and above the point that it looked at.
+constexpr double kAway = 0.5, kAbove = 0.02;
+constexpr double kFlyingRadius = 0.2; ///< of the ball around an eye that flies
+
+Vec3 translation(const Transform& t) {
+    return {t.m[9], t.m[10], t.m[11]};
+}
 
 ViewOptions view_options(const Session::Limits& limits) {
     ViewOptions options;
@@ -30,10 +37,7 @@ Session::Session(const std::string& store_path, const Limits& limits, std::uint3
     resize(width, height);
     lens.far = std::max(100.0, 4 * diagonal(bounds));
     colour(ColourBy::material);
-    WalkerOptions options;
-    options.up = view.up();
-    options.mode = WalkerMode::fly;
-    walker = std::make_unique<Walker>(walk, middle(bounds), options);
+    make_walker(middle(bounds));
     look_at(bounds);
 }
 
@@ -68,6 +72,8 @@ Camera Session::camera() const {
 }
 
 void Session::look(const Vec3& at, const Vec3& towards) {
+    if (move == Move::walk)
+        set_move(Move::fly); // there may be no room for a whole person
     const Vec3 way = unit(towards), north = view.up() == UpAxis::z ? Vec3{0, 1, 0} : Vec3{0, 0, -1};
     pitch = std::clamp(std::asin(std::clamp(dot(way, up()), -1.0, 1.0)), -kMostPitch, kMostPitch);
     const Vec3 flat = way - dot(way, up()) * up();
@@ -96,14 +102,54 @@ void Session::set_move(Move to) {
     if (to == move)
         return;
     if (to == Move::orbit) {
-        const HitPart ahead = walk.first_hit({eye(), forward()}, {.missing = MissingParts::skip});
+        const HitPart ahead = walk.first_hit({eye(), forward()});
         orbit_distance = ahead.meet ? std::max(0.5, length(ahead.point - eye())) : 10;
         target = eye() + orbit_distance * forward();
     } else if (move == Move::orbit) {
         look(eye(), forward());
     }
+    const Vec3 at = eye();
     move = to;
-    walker->set_mode(to == Move::walk ? WalkerMode::walk : WalkerMode::fly);
+    if (to != Move::orbit)
+        make_walker(at);
+    if (to == Move::walk)
+        stand(at);
+}
+
+void Session::make_walker(const Vec3& at) {
+    WalkerOptions options;
+    options.up = view.up();
+    options.except = carried_;
+    if (move != Move::walk) {
+        options.mode = WalkerMode::fly;
+        options.radius = kFlyingRadius;
+        options.height = options.ducked_height = 2 * kFlyingRadius;
+        options.eye_height = options.ducked_eye_height = kFlyingRadius;
+    }
+    walker = std::make_unique<Walker>(walk, at - options.eye_height * up(), options);
+}
+
+void Session::set_carried(WalkPart part) {
+    carried_ = part;
+    walker->set_except(part);
+}
+
+void Session::stand(const Vec3& at) {
+    if (const HitPart below = walk.first_hit({at, -1.0 * up()}); below.meet) {
+        // The feet of an eye that flew low are not in the floor.
+        if (dot(below.point - walker->state().feet, up()) > 0)
+            walker->move_to(below.point + kAbove * up());
+        return;
+    }
+    if (const HitPart ahead = walk.first_hit({at, forward()}); ahead.meet) {
+        const Vec3 flat = unit(forward() - dot(forward(), up()) * up());
+        walker->move_to(ahead.point - kAway * flat + kAbove * up());
+        return;
+    }
+    const Box3 bounds = view.bounds();
+    const Vec3 top = middle(bounds) + diagonal(bounds) * up();
+    if (const HitPart below = walk.first_hit({top, -1.0 * up()}); below.meet)
+        walker->move_to(below.point + kAbove * up());
 }
 
 void Session::step(const Wish& wish, double seconds) {
@@ -120,54 +166,109 @@ void Session::step(const Wish& wish, double seconds) {
                  wish.duck, wish.jump);
 }
 
+bool Session::is_cut(const Vec3& p) const {
+    for (const SectionPlane& plane : sections)
+        if (dot(plane.normal, p) > plane.offset)
+            return true;
+    if (!section_box)
+        return false;
+    const Vec3 &low = section_box->lower, &high = section_box->upper;
+    return p.x < low.x || p.y < low.y || p.z < low.z || p.x > high.x || p.y > high.y ||
+           p.z > high.z;
+}
+
 std::optional<Pick> Session::pick(double x, double y) {
-    const HitPart hit =
-        walk.first_hit(ray_through(camera(), x, y), {.missing = MissingParts::skip});
-    const auto index = hit.meet ? view.index_of(hit.part.number) : std::nullopt;
-    if (!index)
-        return std::nullopt;
-    return Pick{*index, hit.point};
+    constexpr int kMostHits = 200;
+    constexpr double kBehind = 1e-4;
+    Ray ray = ray_through(camera(), x, y);
+    for (int i = 0; i < kMostHits; ++i) {
+        const HitPart hit = walk.first_hit(ray);
+        const auto index = hit.meet ? view.index_of(hit.part.number) : std::nullopt;
+        if (!index)
+            break;
+        const PartState seen = state(*index);
+        if (!seen.hidden && !seen.ghosted && !is_cut(hit.point))
+            return Pick{*index, hit.point};
+        ray.origin = hit.point + kBehind * unit(ray.direction);
+    }
+    return std::nullopt;
 }
 
 void Session::choose(std::optional<std::uint32_t> part) {
-    changed = true;
     const auto mark = [&](bool on) {
         if (!chosen)
             return;
-        PartState state = renderer.state(*chosen);
-        state.highlighted = on;
-        renderer.set_state(*chosen, state);
+        PartState marked = state(*chosen);
+        marked.highlighted = on;
+        set_state(*chosen, marked);
     };
     mark(false);
     chosen = part;
     mark(true);
+    changed = true;
 }
 
 void Session::colour(ColourBy by) {
-    changed = true;
     colour_by = by;
     colours_ = part_colours(store, by);
     for (std::uint32_t i = 0; i < colours_.size(); ++i) {
-        PartState state = renderer.state(i);
-        state.colour = colours_[i];
-        renderer.set_state(i, state);
+        PartState coloured = state(i);
+        coloured.colour = colours_[i];
+        set_state(i, coloured);
     }
+    changed = true;
 }
 
 void Session::ghost_all_but(const std::vector<std::uint32_t>& parts) {
-    changed = true;
     for (std::uint32_t i = 0; i < colours_.size(); ++i) {
-        PartState state = renderer.state(i);
-        state.colour = colours_[i];
-        state.ghosted = !parts.empty() && std::find(parts.begin(), parts.end(), i) == parts.end();
-        renderer.set_state(i, state);
+        PartState ghost = state(i);
+        ghost.colour = colours_[i];
+        ghost.ghosted = !parts.empty() && std::find(parts.begin(), parts.end(), i) == parts.end();
+        set_state(i, ghost);
     }
+    changed = true;
+}
+
+PartState Session::state(std::uint32_t part) const {
+    const auto found = moved.find(part);
+    return renderer.state(found == moved.end() ? part : found->second.drawn);
 }
 
 void Session::set_state(std::uint32_t part, const PartState& state) {
     changed = true;
+    if (const auto found = moved.find(part); found != moved.end()) {
+        renderer.set_state(found->second.drawn, state);
+        return;
+    }
+    const bool was_hidden = renderer.state(part).hidden;
     renderer.set_state(part, state);
-    view.set_hidden(part, state.hidden);
+    if (state.hidden != was_hidden)
+        view.set_hidden(part, state.hidden);
+}
+
+Box3 Session::box_of(std::uint32_t part) {
+    const Box3 box = view.part(part).box;
+    const auto found = moved.find(part);
+    if (found == moved.end())
+        return box;
+    const Vec3 by = translation(walk.world_from_part(WalkPart{view.parts()[part]})) -
+                    found->second.start; // the window only shifts parts
+    return {box.lower + by, box.upper + by};
+}
+
+void Session::draw_moved(std::uint32_t part) {
+    const WalkPart number{view.parts()[part]};
+    const Transform place = walk.world_from_part(number);
+    changed = true;
+    if (const auto found = moved.find(part); found != moved.end()) {
+        renderer.move_part(found->second.drawn, place);
+        return;
+    }
+    PartState shown = renderer.state(part);
+    const std::uint32_t drawn = renderer.add_part(walk.model(number).mesh(), place, shown);
+    shown.hidden = true;
+    set_state(part, shown);
+    moved.emplace(part, MovedPart{drawn, translation(place)});
 }
 
 bool Session::learn_ids(double seconds) {
@@ -195,21 +296,39 @@ std::optional<std::uint32_t> Session::part_of(const std::string& file,
     return at->second;
 }
 
-void Session::show_clash(const ListedClash& clash) {
+bool Session::show_clash(const ListedClash& clash) {
     const auto a = part_of(clash.file[0], clash.part[0]);
     const auto b = part_of(clash.file[1], clash.part[1]);
     if (!a || !b)
-        return;
+        return false;
     ghost_all_but({*a, *b});
-    PartState state;
-    state.colour = {222, 62, 48};
-    renderer.set_state(*a, state);
-    state.colour = {52, 110, 214};
-    renderer.set_state(*b, state);
-    const Box3 box_a = view.part(*a).box, box_b = view.part(*b).box;
+    const auto paint = [&](std::uint32_t part, const Colour& colour) {
+        PartState painted = state(part);
+        painted.colour = colour;
+        painted.hidden = false;
+        set_state(part, painted);
+    };
+    paint(*a, {222, 62, 48});
+    paint(*b, {52, 110, 214});
+    const Box3 box_a = box_of(*a), box_b = box_of(*b);
     const Box3& small = diagonal(box_a) < diagonal(box_b) ? box_a : box_b;
     set_move(Move::orbit);
     look_at(small);
+    return true;
+}
+
+void Session::add_plane() {
+    if (sections.size() == kMostPlanes)
+        return;
+    const Vec3 way = unit(forward());
+    sections.push_back({-1.0 * way, -dot(way, eye()) - 2});
+    changed = true;
+}
+
+const ViewFrame& Session::frame(const Camera& camera, const Vec3& velocity) {
+    // Ghosts, and what is cut away, hide nothing.
+    view.set_occlusion(sections.empty() && !section_box && !renderer.has_ghosts());
+    return view.frame(camera, velocity);
 }
 
 RenderStyle Session::style(bool still) const {

@@ -9,12 +9,15 @@
 #include <abut/walk.h>
 #include <abut/walker.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace abut::viewer {
+
+constexpr std::size_t kMostPlanes = 6; ///< section planes
 
 enum class Move : std::uint8_t { walk, fly, orbit };
 
@@ -28,6 +31,12 @@ struct Wish {
 struct Pick {
     std::uint32_t part = 0; ///< index in View::parts()
     Vec3 point;
+};
+
+/// A part that was carried: the renderer draws it apart from the chunks of the view.
+struct MovedPart {
+    std::uint32_t drawn = 0; ///< its number in the renderer
+    Vec3 start;              ///< translation of its place in the store
 };
 
 /// The walk through a store: where the person is, what is seen and what is chosen. It knows no
@@ -44,28 +53,41 @@ public:
 
     void resize(std::uint32_t width, std::uint32_t height);
     [[nodiscard]] Camera camera() const;
-    /// Puts the eye somewhere and turns it. The person stands below it.
+    /// Puts the eye somewhere and turns it. A person who walks flies from there on.
     void look(const Vec3& eye, const Vec3& forward);
     void look_at(const Box3& box);
     void turn(double right, double up); ///< radians
     void set_move(Move to);
     void step(const Wish& wish, double seconds);
+    /// The person passes through this part; {}: through none.
+    void set_carried(WalkPart part);
 
+    /// The first visible part at a pixel: neither hidden nor a ghost, nor cut away.
     std::optional<Pick> pick(double x, double y);
     void choose(std::optional<std::uint32_t> part);
 
     void colour(ColourBy by);
     /// Makes all other parts ghosts. With no parts, none is.
     void ghost_all_but(const std::vector<std::uint32_t>& parts);
+    [[nodiscard]] PartState state(std::uint32_t part) const;
     void set_state(std::uint32_t part, const PartState& state);
-    void show_clash(const ListedClash& clash);
+    [[nodiscard]] Colour colour_of(std::uint32_t part) const { return colours_[part]; }
+    [[nodiscard]] Box3 box_of(std::uint32_t part); ///< where it is now
+    /// Draws a part where the walk has it.
+    void draw_moved(std::uint32_t part);
+    /// Returns false, and shows nothing, if a part of the clash is not in the store. `learn_ids`
+    /// must have read all ids.
+    bool show_clash(const ListedClash& clash);
 
     /// Reads the ids of some more parts. Returns whether all are known.
     bool learn_ids(double seconds);
     [[nodiscard]] std::optional<std::uint32_t> part_of(const std::string& file,
                                                        const std::string& id) const;
 
+    void add_plane(); ///< cuts away what is nearer than 2 m
     [[nodiscard]] RenderStyle style(bool still) const;
+    /// What to draw now.
+    const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {});
 
     std::string path;
     Store store;
@@ -82,6 +104,7 @@ public:
     double orbit_distance = 10;
 
     std::optional<std::uint32_t> chosen;
+    std::map<std::uint32_t, MovedPart> moved; ///< by the index in View::parts()
     ColourBy colour_by = ColourBy::material;
     std::vector<SectionPlane> sections;
     std::optional<Box3> section_box;
@@ -93,7 +116,13 @@ private:
     [[nodiscard]] Vec3 up() const;
     [[nodiscard]] Vec3 forward() const;
     [[nodiscard]] Vec3 eye() const;
+    /// Puts a person on the floor that its eye was near, or, if there is none below, to where it
+    /// looks, or into the middle.
+    void stand(const Vec3& at);
+    void make_walker(const Vec3& at);
+    [[nodiscard]] bool is_cut(const Vec3& point) const;
 
+    WalkPart carried_{};
     std::vector<Colour> colours_;
     std::vector<std::pair<std::string, std::uint32_t>>
         ids_; ///< file, line end, id; sorted at the end

@@ -105,60 +105,77 @@ void Measure::take(Session& session, const Pick& pick) {
 }
 
 void Carrying::take(Session& session, std::uint32_t chosen) {
+    put_down(session);
     const WalkPart number{session.view.parts()[chosen]};
     carry = std::make_unique<Carry>(session.walk, number);
     part = chosen;
-    const Camera camera = session.camera();
-    const Vec3 place = middle(session.view.part(chosen).box);
-    const Vec3 forward = unit(camera.forward);
-    ahead = dot(place - camera.eye, forward);
-    const Vec3 held = camera.eye + ahead * forward;
-    aside = carry->carried().pose.translation - held;
-    PartState state = session.renderer.state(chosen);
-    if (const auto found = drawn_as.find(chosen); found != drawn_as.end()) {
-        drawn = found->second;
-    } else {
-        state.highlighted = false;
-        drawn = session.renderer.add_part(session.walk.model(number).mesh(),
-                                          session.walk.world_from_part(number), state);
-        drawn_as.emplace(chosen, drawn);
-        state.hidden = true;
-        session.set_state(chosen, state);
+    try {
+        session.draw_moved(chosen);
+    } catch (...) {
+        carry.reset();
+        throw;
     }
-    session.walker->set_except(number);
+    const Camera camera = session.camera();
+    const Vec3 forward = unit(camera.forward);
+    ahead = dot(middle(session.box_of(chosen)) - camera.eye, forward);
+    aside = carry->carried().pose.translation - (camera.eye + ahead * forward);
+    session.set_carried(number);
     way_begin(session);
 }
 
 void Carrying::put_down(Session& session) {
+    if (!carry)
+        return;
     carry.reset();
-    session.walker->set_except({});
-    session.changed = true;
+    PartState state = session.state(part);
+    state.colour = session.colour_of(part);
+    session.set_state(part, state);
+    session.set_carried({});
+}
+
+Vec3 Carrying::wanted(const Session& session) const {
+    const Camera camera = session.camera();
+    return camera.eye + ahead * unit(camera.forward) + aside;
 }
 
 void Carrying::update(Session& session) {
     if (!carry)
         return;
-    const Camera camera = session.camera();
-    Pose wanted = carry->state().pose;
-    wanted.translation = camera.eye + ahead * unit(camera.forward) + aside;
-    if (length(wanted.translation - carry->state().pose.translation) < 1e-9)
+    const Vec3 to = wanted(session);
+    const bool moves = !(to == wanted_) || mode != last_mode_;
+    const CarryStep& last = carry->state();
+    if (!moves && at_rest && !last.waits && last.complete)
         return;
     CarryOptions options;
     options.mode = mode;
     options.missing = MissingParts::skip;
-    const CarryStep& step = carry->move_to(wanted, options);
-    session.renderer.move_part(drawn, session.walk.world_from_part(carry->part()));
-    PartState state = session.renderer.state(drawn);
+    options.depths = !moves; // they take longest, so they are asked for once it rests
+    const Vec3 from = last.pose.translation;
+    Pose pose = last.pose;
+    pose.translation = to;
+    wanted_ = to, last_mode_ = mode;
+    at_rest = !moves;
+    carry->move_to(pose, options);
+    if (!(carry->state().pose.translation == from))
+        way.push_back(carry->state().pose);
+    if (moves || !(carry->state().pose.translation == from) || at_rest)
+        show(session);
+}
+
+void Carrying::show(Session& session) {
+    const CarryStep& step = carry->state();
+    session.draw_moved(part);
+    PartState state = session.state(part);
     state.colour = !step.touched.empty() || step.blocked ? kTouchColour
                    : !step.near.empty()                  ? kNearColour
                                                          : Colour{90, 170, 100};
-    session.renderer.set_state(drawn, state);
-    way.push_back(step.pose);
-    session.changed = true;
+    session.set_state(part, state);
 }
 
 void Carrying::way_begin(Session& session) {
     way.assign(1, carry->carried().pose);
+    wanted_ = wanted(session);
+    at_rest = false;
     report.reset();
     session.changed = true;
 }
@@ -169,6 +186,36 @@ void Carrying::check_way(Session& session) {
     PathOptions options;
     options.except = carry->part();
     report = check_path(session.walk, carry->probe(), way, options);
+}
+
+void Viewpoints::save(Session& session) {
+    const std::size_t count = saved.points.size();
+    record(saved, static_cast<double>(count), session.camera(), fmt::format("view {}", count + 1));
+}
+
+void Viewpoints::visit(Session& session, std::size_t which) {
+    replaying = false;
+    session.look(saved.points[which].eye, saved.points[which].forward);
+    next = (which + 1) % saved.points.size();
+}
+
+void Viewpoints::visit_next(Session& session) {
+    if (!saved.points.empty())
+        visit(session, next);
+}
+
+void Viewpoints::toggle_recording() {
+    recording = !recording;
+    replaying = false;
+    if (recording)
+        path = {}, clock = 0;
+}
+
+void Viewpoints::replay() {
+    if (recording || path.points.empty())
+        return;
+    replaying = true;
+    clock = 0;
 }
 
 void Viewpoints::update(Session& session, double seconds) {
@@ -182,6 +229,51 @@ void Viewpoints::update(Session& session, double seconds) {
     const Camera camera = camera_at(path, clock, session.lens);
     session.look(camera.eye, camera.forward);
     replaying = clock < duration(path);
+}
+
+void ClashList::read(Session& session) {
+    try {
+        reviews = review_clashes(session.store);
+        message = reviews.empty() ? "no clash job has finished" : "";
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    is_read = true;
+}
+
+void ClashList::mark(Session& session, const MarkChanges& changes) {
+    try {
+        mark_clashes(open_store(session.path, {.read_only = false}), changes);
+        read(session);
+    } catch (const Error& error) {
+        message = error.what();
+    }
+}
+
+void ClashList::show_next(Session& session) {
+    if (!is_read)
+        read(session);
+    const ListedClash* first = nullptr;
+    bool was_shown = false;
+    for (const ClashReview& review : reviews)
+        for (const ListedClash& clash : review.clashes) {
+            if (was_shown) {
+                wanted = clash;
+                return;
+            }
+            first = first == nullptr ? &clash : first;
+            was_shown = shown == clash.id;
+        }
+    if (first != nullptr)
+        wanted = *first;
+}
+
+void ClashList::update(Session& session) {
+    if (!wanted || !session.learn_ids(0.005))
+        return;
+    shown = wanted->id;
+    message = session.show_clash(*wanted) ? "" : "a part of this clash is not in the store";
+    wanted.reset();
 }
 
 void Tools::add_marks(Session& session) const {

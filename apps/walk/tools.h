@@ -4,7 +4,6 @@
 
 #include <array>
 #include <exception>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -41,12 +40,12 @@ struct Measure {
 struct Carrying {
     CarryMode mode = CarryMode::stop;
     std::unique_ptr<Carry> carry;
-    std::uint32_t part = 0, drawn = 0; ///< in the view; and as the renderer draws it now
-    std::map<std::uint32_t, std::uint32_t> drawn_as; ///< of all parts that were ever taken
-    double ahead = 0;                                ///< its distance from the eye
+    std::uint32_t part = 0;           ///< in the view
+    double ahead = 0;                 ///< its distance from the eye
     Vec3 aside;                       ///< of its place, from the point straight ahead
     std::vector<Pose> way;            ///< since it was taken
     std::optional<PathReport> report; ///< of that way, once asked for
+    bool at_rest = false;             ///< nothing moved since the last step, which has depths
 
     void take(Session& session, std::uint32_t chosen);
     void put_down(Session& session);
@@ -55,6 +54,11 @@ struct Carrying {
 
 private:
     void way_begin(Session& session);
+    [[nodiscard]] Vec3 wanted(const Session& session) const; ///< where the hand is
+    void show(Session& session);
+
+    Vec3 wanted_; ///< by the last step
+    CarryMode last_mode_ = CarryMode::stop;
 };
 
 /// Saved viewpoints, and a path that is recorded or replayed.
@@ -63,7 +67,13 @@ struct Viewpoints {
     bool recording = false, replaying = false;
     double clock = 0;
     std::string file = "tour.json";
+    std::size_t next = 0; ///< the saved viewpoint that `visit_next` goes to
 
+    void save(Session& session);
+    void visit(Session& session, std::size_t which);
+    void visit_next(Session& session);
+    void toggle_recording();
+    void replay();
     void update(Session& session, double seconds);
 };
 
@@ -78,6 +88,13 @@ struct ClashList {
     bool is_read = false;
     std::vector<ClashReview> reviews;
     std::string message;
+    std::optional<ListedClash> wanted;  ///< is shown as soon as the names of parts are known
+    std::optional<std::uint64_t> shown; ///< the id of the last one that was shown
+
+    void read(Session& session);
+    void mark(Session& session, const MarkChanges& changes);
+    void show_next(Session& session);
+    void update(Session& session);
 };
 
 /// What the panels keep.

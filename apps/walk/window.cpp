@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include "event_log.h"
 #include "keys.h"
 #include "open_model.h"
 #include "panels/panels.h"
@@ -80,8 +81,8 @@ public:
 /// The frames of the window.
 class Loop {
 public:
-    Loop(GLFWwindow* window, Session& session)
-        : window_(window), session_(session), keys_(window, session, tools_) {}
+    Loop(GLFWwindow* window, Session& session, const std::string& log)
+        : window_(window), session_(session), keys_(window, session, tools_), log_(log) {}
 
     void run() {
         double last = glfwGetTime();
@@ -109,9 +110,11 @@ private:
         keys_.update(seconds);
         tools_.attempt([&] { tools_.viewpoints.update(session_, seconds); });
         tools_.attempt([&] { tools_.carrying.update(session_); });
+        tools_.attempt([&] { tools_.clashes.update(session_); });
         draw_scene(now, seconds);
         draw_panels();
         glfwSwapBuffers(window_);
+        log_.write(session_, tools_, is_complete_, now);
         tools_.frame_milliseconds = 0.9 * tools_.frame_milliseconds + 100 * seconds;
     }
 
@@ -128,7 +131,7 @@ private:
         const bool rests = now - last_change_ > kRest;
         if (is_complete_ && !moves)
             return;
-        const ViewFrame& frame = session_.view.frame(camera, velocity);
+        const ViewFrame& frame = session_.frame(camera, velocity);
         const bool is_final = rests && frame.loaded;
         session_.marks.clear();
         tools_.add_marks(session_);
@@ -170,6 +173,7 @@ private:
     Session& session_;
     Tools tools_;
     Keys keys_;
+    EventLog log_;
     SceneBuffer scene_;
     Vec3 eye_, forward_;
     double last_change_ = 0;
@@ -184,7 +188,7 @@ void show_window(const Arguments& arguments) {
     const std::string store = ready_store(arguments.files, arguments.quiet);
     Session session(store, {arguments.memory, arguments.gpu_memory, arguments.pixel_error},
                     arguments.width, arguments.height);
-    Loop loop(screen.window, session);
+    Loop loop(screen.window, session, arguments.log);
     Screen::attach(screen.window);
     loop.run();
 }

@@ -1,5 +1,3 @@
-#include <abut/error.h>
-
 #include "panels/panels.h"
 
 #include <imgui.h>
@@ -8,25 +6,6 @@ namespace abut::viewer {
 
 namespace {
 
-void read_clashes(Session& session, ClashList& list) {
-    try {
-        list.reviews = review_clashes(session.store);
-        list.message = list.reviews.empty() ? "no clash job has finished" : "";
-    } catch (const Error& error) {
-        list.message = error.what();
-    }
-    list.is_read = true;
-}
-
-void mark(Session& session, ClashList& list, const MarkChanges& changes) {
-    try {
-        mark_clashes(open_store(session.path, {.read_only = false}), changes);
-        read_clashes(session, list);
-    } catch (const Error& error) {
-        list.message = error.what();
-    }
-}
-
 /// Returns whether the list has changed.
 bool show_clash_row(Session& session, ClashList& list, const ListedClash& clash) {
     ImGui::PushID(clash_id_text(clash.id).c_str());
@@ -34,8 +13,10 @@ bool show_clash_row(Session& session, ClashList& list, const ListedClash& clash)
     std::snprintf(text, sizeof text, "%-9s %-8s %8.4f m  %s | %s", to_string(clash.kind), // NOLINT
                   to_string(clash.status), clash.distance, clash.name[0].c_str(),
                   clash.name[1].c_str());
-    if (ImGui::Selectable(text))
-        session.show_clash(clash);
+    if (ImGui::Selectable(text, list.shown == clash.id))
+        list.wanted = clash;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s\n%s", clash.name[0].c_str(), clash.name[1].c_str());
     bool has_changed = false;
     if (ImGui::BeginPopupContextItem()) {
         MarkChanges changes;
@@ -46,7 +27,7 @@ bool show_clash_row(Session& session, ClashList& list, const ListedClash& clash)
         if (ImGui::MenuItem("clear the mark"))
             changes.cleared = {clash.id};
         if (!changes.reviewed.empty() || !changes.approved.empty() || !changes.cleared.empty()) {
-            mark(session, list, changes);
+            list.mark(session, changes);
             has_changed = true;
         }
         ImGui::EndPopup();
@@ -62,13 +43,13 @@ void show_clash_panel(Session& session, Tools& tools) {
     if (!ImGui::CollapsingHeader("Clashes"))
         return;
     if (!list.is_read)
-        read_clashes(session, list);
-    if (!session.learn_ids(0.005))
+        list.read(session);
+    if (list.wanted)
         ImGui::TextDisabled("reading the names of parts ...");
     if (!list.message.empty())
         ImGui::TextWrapped("%s", list.message.c_str());
     if (ImGui::Button("Read again"))
-        read_clashes(session, list);
+        list.read(session);
     ImGui::SameLine();
     if (ImGui::Button("No ghosts"))
         session.ghost_all_but({});

@@ -24,7 +24,11 @@ constexpr Key kKeys[]{{"W A S D", "go"},
                       {"G", "ghosts: all but the chosen part"},
                       {"M", "clicks measure"},
                       {"C", "take the chosen part, put it down"},
-                      {"R", "record a path"},
+                      {"X", "carry: stop, slide, through"},
+                      {"N", "go to the next clash"},
+                      {"K", "a section plane before the eye"},
+                      {"V, B", "save a viewpoint; go to the next saved one"},
+                      {"R, L", "record a path; replay it"},
                       {"P", "write the picture"},
                       {"Tab", "panels"},
                       {"F1", "these keys"},
@@ -58,8 +62,10 @@ void show_status_line(Session& session, Tools& tools) {
         session.speed, tools.frame_milliseconds, view.triangles, view.draw_calls, view.missing,
         tools.proximity.milliseconds, tools.message);
     const ImGuiIO& io = ImGui::GetIO();
-    ImGui::GetForegroundDrawList()->AddText(ImVec2(10, io.DisplaySize.y - 22),
-                                            IM_COL32(30, 34, 40, 255), text.c_str());
+    ImDrawList* const drawing = ImGui::GetForegroundDrawList();
+    drawing->AddRectFilled(ImVec2(0, io.DisplaySize.y - 28), io.DisplaySize,
+                           IM_COL32(240, 240, 240, 200));
+    drawing->AddText(ImVec2(10, io.DisplaySize.y - 22), IM_COL32(30, 34, 40, 255), text.c_str());
 }
 
 } // namespace abut::viewer

@@ -19,7 +19,7 @@ void continue_search(Session& session, Search& search) {
     search.is_over = found.next >= session.view.parts().size() || search.found.size() >= kMostFound;
 }
 
-void show_chosen(Session& session, Tools& tools) {
+void show_chosen(Session& session) {
     if (!session.chosen) {
         ImGui::TextDisabled("Click a part to choose it.");
         return;
@@ -33,17 +33,15 @@ void show_chosen(Session& session, Tools& tools) {
     const Vec3 size = part.box.upper - part.box.lower;
     ImGui::Text("size  %.3f x %.3f x %.3f m", size.x, size.y, size.z);
     if (ImGui::Button("Go to"))
-        session.look_at(part.box);
+        session.look_at(session.box_of(chosen));
     ImGui::SameLine();
     if (ImGui::Button("Only this"))
         session.ghost_all_but({chosen});
     ImGui::SameLine();
     if (ImGui::Button("All"))
         session.ghost_all_but({});
-    if (tools.carrying.drawn_as.contains(chosen))
-        return;
     ImGui::SameLine();
-    PartState state = session.renderer.state(chosen);
+    PartState state = session.state(chosen);
     if (ImGui::Button(state.hidden ? "Show" : "Hide")) {
         state.hidden = !state.hidden;
         session.set_state(chosen, state);
@@ -70,7 +68,7 @@ void show_parts_panel(Session& session, Tools& tools) {
             const std::string& name = part.name.empty() ? part.id : part.name;
             if (ImGui::Selectable(name.c_str(), session.chosen == index)) {
                 session.choose(index);
-                session.look_at(part.box);
+                session.look_at(session.box_of(index));
             }
             ImGui::PopID();
         }
@@ -78,7 +76,7 @@ void show_parts_panel(Session& session, Tools& tools) {
     }
     if (!search.is_over)
         ImGui::TextDisabled("searching ...");
-    show_chosen(session, tools);
+    show_chosen(session);
 }
 
 } // namespace abut::viewer

@@ -9,12 +9,8 @@ namespace {
 
 void show_planes(Session& session) {
     const Box3 bounds = session.view.bounds();
-    const Camera camera = session.camera();
-    if (session.sections.size() < 6 && ImGui::Button("Plane before the eye")) {
-        const Vec3 way = unit(camera.forward);
-        session.sections.push_back({-1.0 * way, -dot(way, camera.eye) - 2});
-        session.changed = true;
-    }
+    if (session.sections.size() < kMostPlanes && ImGui::Button("Plane before the eye"))
+        session.add_plane();
     for (std::size_t i = 0; i < session.sections.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         SectionPlane& plane = session.sections[i];
@@ -41,7 +37,7 @@ void show_box(Session& session) {
     if (ImGui::Checkbox("Section box", &on)) {
         Box3 box = session.view.bounds();
         if (session.chosen)
-            box = session.view.part(*session.chosen).box;
+            box = session.box_of(*session.chosen);
         const double margin = session.chosen ? 1 : 0;
         const Vec3 by{margin, margin, margin};
         session.section_box =

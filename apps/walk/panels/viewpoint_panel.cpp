@@ -1,6 +1,5 @@
 #include "panels/panels.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 namespace abut::viewer {
@@ -10,22 +9,15 @@ void show_viewpoint_panel(Session& session, Tools& tools) {
     if (!ImGui::CollapsingHeader("Viewpoints and paths"))
         return;
     if (ImGui::Button("Save viewpoint"))
-        record(viewpoints.saved, static_cast<double>(viewpoints.saved.points.size()),
-               session.camera(), fmt::format("view {}", viewpoints.saved.points.size() + 1));
-    for (const TourPoint& point : viewpoints.saved.points)
-        if (ImGui::Selectable(point.name.c_str()))
-            session.look(point.eye, point.forward);
-    if (ImGui::Button(viewpoints.recording ? "Stop recording" : "Record a path")) {
-        viewpoints.recording = !viewpoints.recording;
-        viewpoints.replaying = false;
-        if (viewpoints.recording)
-            viewpoints.path = {}, viewpoints.clock = 0;
-    }
+        viewpoints.save(session);
+    for (std::size_t i = 0; i < viewpoints.saved.points.size(); ++i)
+        if (ImGui::Selectable(viewpoints.saved.points[i].name.c_str()))
+            viewpoints.visit(session, i);
+    if (ImGui::Button(viewpoints.recording ? "Stop recording" : "Record a path"))
+        viewpoints.toggle_recording();
     ImGui::SameLine();
-    if (!viewpoints.path.points.empty() && !viewpoints.recording && ImGui::Button("Replay")) {
-        viewpoints.replaying = true;
-        viewpoints.clock = 0;
-    }
+    if (!viewpoints.path.points.empty() && !viewpoints.recording && ImGui::Button("Replay"))
+        viewpoints.replay();
     ImGui::Text("%s, %.1f s", viewpoints.file.c_str(), duration(viewpoints.path));
     if (ImGui::Button("Write"))
         tools.attempt([&] {
