@@ -265,6 +265,7 @@ std::vector<NamedClash> named_clashes(const Report& report) {
 
 void bind_clash(py::module_& module) {
     std::vector<std::string> kinds;
+    kinds.reserve(kClashKinds.size());
     for (const ClashKind kind : kClashKinds)
         kinds.emplace_back(to_string(kind));
     bind_enum<ClashKind>(module, "ClashKind", kinds, "docs/clash.md defines each kind.");

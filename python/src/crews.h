@@ -14,7 +14,8 @@ public:
     explicit OpenCrew(std::unique_ptr<Crew> crew) : crew_(std::move(crew)) {}
     OpenCrew(OpenCrew&&) = default;
     OpenCrew& operator=(OpenCrew&&) = delete;
-    ~OpenCrew() { leave(); }
+    // Releasing the interpreter's lock and leaving a crew throw nothing.
+    ~OpenCrew() { leave(); } // NOLINT(bugprone-exception-escape)
 
     [[nodiscard]] Crew* get() const {
         if (!crew_)
