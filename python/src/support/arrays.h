@@ -101,7 +101,7 @@ py::array view_rows(const Row* data, std::size_t size, py::handle owner) {
     static_assert(sizeof(Row) == kColumns * sizeof(Number));
     py::array array(
         py::dtype::of<Number>(),
-        {static_cast<py::ssize_t>(size), static_cast<py::ssize_t>(columns)},
+        {static_cast<py::ssize_t>(size), static_cast<py::ssize_t>(kColumns)},
         {static_cast<py::ssize_t>(sizeof(Row)), static_cast<py::ssize_t>(sizeof(Number))}, data,
         owner);
     array.attr("flags").attr("writeable") = false;
