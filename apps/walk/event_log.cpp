@@ -52,6 +52,7 @@ LogLine log_state(Session& session, const Tools& tools, bool is_complete) {
             {"squeezed", person.squeezed},
             {"chosen", session.chosen ? log_part(session, *session.chosen) : LogLine()},
             {"nearest", nearest ? LogLine(nearest->distance) : LogLine()},
+            {"picks", tools.measure.picks.size()},
             {"measured", tools.measure.result},
             {"carried", log_carried(session, tools.carrying)},
             {"clash", tools.clashes.shown ? clash_id_text(*tools.clashes.shown) : ""},

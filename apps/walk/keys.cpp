@@ -26,7 +26,7 @@ Keys::Keys(GLFWwindow* window, Session& session, Tools& tools)
         if (button == GLFW_MOUSE_BUTTON_RIGHT)
             keys.looks_ = action == GLFW_PRESS && !ImGui::GetIO().WantCaptureMouse;
         if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS)
-            keys.click_in_ = 2;
+            keys.click_in_ = 2, keys.click_x_ = keys.x_, keys.click_y_ = keys.y_;
     });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).drag(x, y); });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double, double by) {
@@ -53,8 +53,9 @@ void Keys::click() {
     int width = 1, height = 1;
     glfwGetWindowSize(window_, &width, &height);
     // Screens of high resolution have more pixels than mouse positions.
-    const std::optional<Pick> pick = session_.pick(x_ * session_.lens.width / std::max(1, width),
-                                                   y_ * session_.lens.height / std::max(1, height));
+    const std::optional<Pick> pick =
+        session_.pick(click_x_ * session_.lens.width / std::max(1, width),
+                      click_y_ * session_.lens.height / std::max(1, height));
     if (tools_.measure.on && pick)
         tools_.measure.take(session_, *pick);
     else if (!tools_.measure.on)

@@ -32,6 +32,7 @@ private:
     int pictures_ = 0;     ///< written
     /// Frames until a click counts: only the next frame knows whether it was on a panel.
     int click_in_ = 0;
+    double click_x_ = 0, click_y_ = 0; ///< where it was
 };
 
 } // namespace abut::viewer
