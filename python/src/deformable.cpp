@@ -263,32 +263,32 @@ void bind_surface_queries(py::module_& module) {
     const auto text = [](const char* first, const char* last) {
         return std::string(first) + "\n\n" + options + last;
     };
-    constexpr const char* one = "surface, *, absolute_error=0, thickness=0, progress=None";
-    constexpr const char* two = "a, b, *, absolute_error=0, thickness=0, progress=None";
-    add("self_impacts", one, 1, "surface * absolute_error thickness progress",
+    constexpr const char* kOne = "surface, *, absolute_error=0, thickness=0, progress=None";
+    constexpr const char* kTwo = "a, b, *, absolute_error=0, thickness=0, progress=None";
+    add("self_impacts", kOne, 1, "surface * absolute_error thickness progress",
         text("Every vertex and face, and every two edges, of a Deformable that meet during its "
              "step.",
              "Returns Impacts. Complete and exact. Raises Error (bad_argument) for a negative "
              "length.")
             .c_str(),
         run_self_impacts);
-    add("impacts", two, 2, "a b * absolute_error thickness progress",
+    add("impacts", kTwo, 2, "a b * absolute_error thickness progress",
         text("Every vertex and face, and every two edges, of two Deformable that meet during their "
              "step.",
              "Returns Impacts. Complete and exact. Raises Error (bad_argument) also if their "
              "schemes differ.")
             .c_str(),
         run_impacts);
-    add("self_time_of_impact", one, 1, "surface * absolute_error thickness progress",
+    add("self_time_of_impact", kOne, 1, "surface * absolute_error thickness progress",
         text("The earliest of self_impacts.", "Returns FeatureImpact, or None.").c_str(),
         run_self_time);
-    add("is_free_of_self_impacts", one, 1, "surface * absolute_error thickness progress",
+    add("is_free_of_self_impacts", kOne, 1, "surface * absolute_error thickness progress",
         text(
             "Whether no features of a Deformable meet during its step. Stops at the first that do.",
             "Returns a bool.")
             .c_str(),
         run_self_free);
-    add("is_free_of_impacts", two, 2, "a b * absolute_error thickness progress",
+    add("is_free_of_impacts", kTwo, 2, "a b * absolute_error thickness progress",
         text("Whether no features of two Deformable meet during their step. Stops at the first "
              "that do.",
              "Returns a bool.")

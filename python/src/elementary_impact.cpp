@@ -16,7 +16,7 @@ std::array<Vec3, 4> four(const double* values) {
 }
 
 py::array_t<double> vertices_of(const py::object& object, const char* name, bool many) {
-    const auto array = double_array(object, name);
+    auto array = double_array(object, name);
     const bool right = many ? array.ndim() == 3 && array.shape(1) == 4 && array.shape(2) == 3
                             : array.ndim() == 2 && array.shape(0) == 4 && array.shape(1) == 3;
     if (!right)

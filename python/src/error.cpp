@@ -38,7 +38,8 @@ void bind_error(py::module_& module) {
     error_type() = py::reinterpret_borrow<py::object>(reinterpret_cast<PyObject*>(&PyType_Type))(
         "Error", py::make_tuple(py::reinterpret_borrow<py::object>(PyExc_RuntimeError)), members);
     module.attr("Error") = error_type();
-    py::register_exception_translator([](std::exception_ptr pointer) {
+    // The signature is pybind11's.
+    py::register_exception_translator([](std::exception_ptr pointer) { // NOLINT
         try {
             if (pointer)
                 std::rethrow_exception(pointer);

@@ -56,8 +56,8 @@ Scene rough_scene(Random& random, bool far) {
                 {id, id, "", static_cast<std::uint32_t>(scene.meshes.size() - 1), place});
         }
     };
-    add(torus_mesh(5, 2, 300, 150), 2);
-    add(sphere_mesh(1.5, 60, 40), 12);
+    add(torus_mesh(5, 2, 300, 125), 1);
+    add(sphere_mesh(1.5, 40, 30), 8);
     add(torus_mesh(0.5, 0.1, 30, 12), 20);
     for (int i = 0; i < 60; ++i)
         add(with_degenerates(random, sphere_mesh(random.uniform(0.001, 2), 12, 9), 5), 1);
