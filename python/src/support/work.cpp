@@ -134,7 +134,8 @@ InterruptWatch::~InterruptWatch() {
         put_back();
 }
 
-Callback::~Callback() {
+// To take the interpreter's lock throws nothing.
+Callback::~Callback() { // NOLINT(bugprone-exception-escape)
     const py::gil_scoped_acquire lock;
     function_ = {};
     error_ = nullptr;

@@ -44,7 +44,7 @@ private:
 class Callback {
 public:
     explicit Callback(py::object function) : function_(std::move(function)) {}
-    ~Callback();
+    ~Callback(); // NOLINT(bugprone-exception-escape)
     Callback(const Callback&) = delete;
     Callback& operator=(const Callback&) = delete;
 
