@@ -30,7 +30,7 @@ WalkerOptions walker_options(const py::kwargs& names) {
     WalkerOptions options;
     for (const auto& [key, value] : names) {
         const auto name = key.cast<std::string>();
-        const auto number = [&](const char* which, double& member) {
+        const auto number = [&, &value = value](const char* which, double& member) {
             if (name == which)
                 member = to_double(value, which);
             return name == which;

@@ -70,8 +70,7 @@ PyObject* call_verb(PyObject* self, PyObject* const* values, Py_ssize_t count, P
 void Arguments::take(std::size_t i, const char* name, std::optional<std::uint64_t>& value) const {
     if (!has(i))
         return;
-    const auto number = PyLong_Check(values_[i]) ? PyLong_AsUnsignedLongLong(values_[i])
-                                                 : static_cast<unsigned long long>(-1);
+    const auto number = PyLong_Check(values_[i]) ? PyLong_AsUnsignedLongLong(values_[i]) : ~0ULL;
     if (!PyLong_Check(values_[i]) || PyErr_Occurred()) {
         PyErr_Clear();
         throw py::type_error(std::string(name) + ": an integer of at least 0 is wanted");
@@ -133,15 +132,16 @@ void add_verb(py::module_& module, const char* name, const char* doc) {
                         METH_FASTCALL | METH_KEYWORDS, verb->doc.c_str()};
     verbs()[name] = verb;
     // A module, not a capsule, is what a function that can be pickled is called with.
-    static PyModuleDef definition{PyModuleDef_HEAD_INIT,
-                                  "abut",
-                                  nullptr,
-                                  sizeof(Verb*),
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr};
+    static PyModuleDef definition{
+        PyModuleDef_HEAD_INIT,
+        "abut",
+        nullptr,
+        sizeof(Verb*), // NOLINT(bugprone-sizeof-expression): a pointer is kept
+        nullptr,
+        nullptr,
+        nullptr,
+        nullptr,
+        nullptr};
     const auto self = py::reinterpret_steal<py::object>(PyModule_Create(&definition));
     if (!self)
         throw py::error_already_set();

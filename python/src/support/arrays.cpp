@@ -25,8 +25,8 @@ const char* aligned_doubles(py::handle object) {
         return nullptr;
     const auto* array = py::detail::array_proxy(object.ptr());
     const auto* type = py::detail::array_descriptor_proxy(array->descr);
-    constexpr int aligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
-    if (type->type_num != kNumpyDouble || type->byteorder == '>' || !(array->flags & aligned))
+    constexpr int kAligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    if (type->type_num != kNumpyDouble || type->byteorder == '>' || !(array->flags & kAligned))
         return nullptr;
     return array->data;
 }
@@ -40,8 +40,8 @@ double load(const char* address) {
 /// One matrix of an array; `row` and `column` are its strides.
 Transform read_matrix(const char* data, py::ssize_t row, py::ssize_t column, const char* name) {
     Transform transform;
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 3; ++i)
+    for (py::ssize_t j = 0; j < 4; ++j)
+        for (py::ssize_t i = 0; i < 3; ++i)
             transform.m[static_cast<std::size_t>(3 * j + i)] = load(data + i * row + j * column);
     const char* last = data + 3 * row;
     if (load(last) != 0 || load(last + column) != 0 || load(last + 2 * column) != 0 ||
@@ -91,11 +91,11 @@ Pose rigid(const Transform& transform, const char* name) {
     const auto dot = [](const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
     const Vec3 x = column(0), y = column(1), z = column(2);
     const Vec3 cross{x.y * y.z - x.z * y.y, x.z * y.x - x.x * y.z, x.x * y.y - x.y * y.x};
-    constexpr double tolerance = 1e-6;
+    constexpr double kTolerance = 1e-6;
     const bool rotation =
-        std::abs(dot(x, x) - 1) < tolerance && std::abs(dot(y, y) - 1) < tolerance &&
-        std::abs(dot(x, y)) < tolerance && std::abs(cross.x - z.x) < tolerance &&
-        std::abs(cross.y - z.y) < tolerance && std::abs(cross.z - z.z) < tolerance;
+        std::abs(dot(x, x) - 1) < kTolerance && std::abs(dot(y, y) - 1) < kTolerance &&
+        std::abs(dot(x, y)) < kTolerance && std::abs(cross.x - z.x) < kTolerance &&
+        std::abs(cross.y - z.y) < kTolerance && std::abs(cross.z - z.z) < kTolerance;
     if (!rotation)
         throw py::value_error(std::string(name) +
                               ": the matrix must be a rotation and a translation");

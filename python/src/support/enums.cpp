@@ -31,7 +31,7 @@ std::size_t enum_value(const EnumClass& data, py::handle object) {
             names += (names.empty() ? "" : ", ") + member.attr("name").cast<std::string>();
         throw py::value_error("'" + text + "' is no " + data.name + ": " + names);
     }
-    const long value = PyLong_Check(object.ptr()) ? PyLong_AsLong(object.ptr()) : -1;
+    const std::int64_t value = PyLong_Check(object.ptr()) ? PyLong_AsLong(object.ptr()) : -1;
     if (value < 0 || static_cast<std::size_t>(value) >= data.members.size()) {
         PyErr_Clear();
         throw py::type_error(std::string("a member of ") + data.name + " or its name is wanted");
