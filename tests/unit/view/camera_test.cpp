@@ -106,23 +106,23 @@ TEST(Camera, SeesTheWholeBox) {
 }
 
 TEST(Camera, RefusesWhatIsNoCamera) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::array<std::function<void(Camera&)>, 16> faults{
-        [](Camera& c) { c.eye.x = nan; },
+        [](Camera& c) { c.eye.x = kNan; },
         [](Camera& c) { c.eye.x = 1e19; },
         [](Camera& c) { c.forward = {}; },
-        [](Camera& c) { c.forward.y = nan; },
+        [](Camera& c) { c.forward.y = kNan; },
         [](Camera& c) { c.up = {}; },
         [](Camera& c) { c.up = -2 * c.forward; },
         [](Camera& c) { c.field_of_view = 0; },
         [](Camera& c) { c.field_of_view = std::numbers::pi; },
-        [](Camera& c) { c.field_of_view = nan; },
+        [](Camera& c) { c.field_of_view = kNan; },
         [](Camera& c) { c.width = 0; },
         [](Camera& c) { c.height = 0; },
         [](Camera& c) { c.near = 0; },
         [](Camera& c) { c.near = c.far; },
-        [](Camera& c) { c.far = nan; },
-        [](Camera& c) { c.near = nan; },
+        [](Camera& c) { c.far = kNan; },
+        [](Camera& c) { c.near = kNan; },
         [](Camera& c) { c.far = HUGE_VAL; },
     };
     for (const auto& fault : faults) {
@@ -133,7 +133,7 @@ TEST(Camera, RefusesWhatIsNoCamera) {
     }
     Camera camera;
     EXPECT_NO_THROW(clip_from_world(camera));
-    EXPECT_THROW(ray_through(camera, nan, 0), Error);
+    EXPECT_THROW(ray_through(camera, kNan, 0), Error);
     EXPECT_THROW(look_at_box({}, {1, 0, 0}, {0, 0, 1}), Error);
     camera.forward = {0, 1e200, 0}, camera.up = {0, 0, 1e-200};
     EXPECT_NO_THROW(clip_from_world(camera));
