@@ -20,7 +20,7 @@ namespace abut {
 
 /// A vertex of a chunk: 12 bytes, for a vertex buffer.
 struct ChunkVertex {
-    /// Position: ViewChunk::lower + ViewChunk::step * position, per axis.
+    /// Along each axis the position is `lower + step * position`, of the ViewChunk.
     std::array<std::uint16_t, 3> position{};
     /// Unit normal as an octahedral map, each coordinate in [-127, 127].
     std::array<std::int8_t, 2> normal{};
