@@ -33,7 +33,7 @@ struct type_caster<abut::BodyId> {
     PYBIND11_TYPE_CASTER(abut::BodyId, const_name("int"));
     bool load(handle source, bool /*convert*/) {
         const auto index = reinterpret_steal<object>(PyNumber_Index(source.ptr()));
-        const long long number = index ? PyLong_AsLongLong(index.ptr()) : -1;
+        const std::int64_t number = index ? PyLong_AsLongLong(index.ptr()) : -1;
         if (PyErr_Occurred()) {
             PyErr_Clear();
             return false;
