@@ -6,7 +6,7 @@
 
 namespace abut::viewer {
 
-/// What the command line asks for.
+/// The arguments of the command line.
 struct Arguments {
     std::vector<std::string> files; ///< models, or one store
     std::uint64_t memory = std::uint64_t{1} << 30;

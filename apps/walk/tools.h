@@ -97,7 +97,7 @@ struct ClashList {
     void update(Session& session);
 };
 
-/// What the panels keep.
+/// The state of all panels.
 struct Tools {
     Proximity proximity;
     Measure measure;

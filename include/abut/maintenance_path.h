@@ -81,7 +81,7 @@ struct PathReport {
 ///             queries for each length of way that equals it.
 PathReport check_path(Walk& walk, const Probe& probe, std::span<const Pose> poses,
                       const PathOptions& options = {});
-/// The same for a part of the walk, as `carried_part` describes it.
+/// Checks the path of a part of the walk, as `carried_part` describes it.
 PathReport check_path(Walk& walk, WalkPart part, std::span<const Pose> poses,
                       PathOptions options = {});
 

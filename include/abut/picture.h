@@ -55,13 +55,14 @@ const char* to_string(ColourBy by);
 /// Returns the colours of parts. Equal words get equal colours, in every model.
 std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by);
 
-/// The same of a store's parts, in the order of View::parts().
+/// Returns the colours of a store's parts, in the order of View::parts().
 ///
 /// Errors      those of the store.
 std::vector<Colour> part_colours(const Store& store, ColourBy by);
 
 struct PictureOptions {
-    /// What is seen: the whole model, by a camera (whose size is ignored), one part, or a pair.
+    /// The picture shows the whole model from a side, or what a camera sees (its size is ignored),
+    /// or one part, or a pair of parts.
     std::variant<NamedView, Camera, PartAim, PairAim> aim = NamedView::iso;
     std::uint32_t width = 1600, height = 1000; ///< pixels; at most 8192
     ColourBy colour_by = ColourBy::material;

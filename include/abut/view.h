@@ -39,7 +39,7 @@ struct ViewChunk {
     std::vector<std::uint16_t> indices; ///< three for each triangle
 };
 
-/// One instance of a mesh that many parts share. `rows` are the three rows of the matrix from the
+/// A part that shows a shared mesh. `rows` are the three rows of the matrix from the
 /// mesh to world minus View::origin().
 struct ChunkInstance {
     std::array<float, 12> rows{};
@@ -164,7 +164,7 @@ public:
     /// Leaves parts out of the picture (carried away, or hidden), or brings them back. Those of a
     /// merged chunk are still in it: the renderer hides them by their index.
     void set_hidden(std::uint32_t part, bool hidden);
-    /// Whether parts hide what is behind them, as at the beginning. Turn it off while the renderer
+    /// Sets whether parts that others hide are left out; at first they are. Turn it off while the renderer
     /// cuts parts away or makes them transparent, other than by set_hidden.
     void set_occlusion(bool on);
     [[nodiscard]] const ViewStatistics& statistics() const;

@@ -235,7 +235,7 @@ public:
     NearParts penetration(const Probe& probe, const Transform& world_from_probe,
                           const WalkQuery& query = {});
 
-    /// The same of a part at its place, with all other parts.
+    /// The queries above for a part at its place, against all other parts.
     ///
     /// Cost        in addition, that of the part's mesh: for repeated queries make a Probe of
     ///             `model` once.
@@ -258,7 +258,7 @@ public:
     ///             exceed 1e18.
     FirstContact sweep(const Probe& probe, const Transform& world_from_probe,
                        const Vec3& translation, const WalkQuery& query = {});
-    /// The same for a motion that may rotate. A probe's motion starts at `motion.start`.
+    /// As `sweep`, for a motion that may rotate. A probe's motion starts at `motion.start`.
     FirstContact time_of_impact(const Probe& probe, const Motion& motion,
                                 const WalkQuery& query = {});
     /// Finds all parts that a moving probe meets, each with the time of its own first contact.

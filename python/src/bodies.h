@@ -96,7 +96,7 @@ public:
             return result;
         }
     }
-    /// The same for a query that can be long.
+    /// Runs a query that can be long: with progress, and stopped by Ctrl-C.
     template <class Query>
     auto query(const py::object& report, Query query) {
         const InUse::Change change(use_, kName);

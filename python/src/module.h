@@ -2,7 +2,7 @@
 
 #include "support/python.h"
 
-/// One function for each public header: it adds to the module what the header declares.
+/// Each function adds to the module what one public header declares.
 namespace abut::python {
 
 void bind_error(py::module_& module);

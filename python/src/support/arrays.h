@@ -13,7 +13,7 @@
 /// TypeError.
 namespace abut::python {
 
-/// Whether the object is a numpy array.
+/// Returns whether the object is a numpy array.
 bool is_array(py::handle object);
 /// The object as an array of doubles; `name` stands in the message of an error.
 py::array_t<double> double_array(py::handle object, const char* name);

@@ -13,11 +13,11 @@ namespace abut {
 /// beyond are clamped. None if one is NaN.
 std::optional<Colour> display_colour(const std::array<double, 4>& components);
 
-/// The same for red, green and blue that are proportional to light [IEC 61966-2-1]. Alpha is the
+/// Makes a colour of red, green and blue that are proportional to light [IEC 61966-2-1]. Alpha is the
 /// same in both.
 std::optional<Colour> display_colour_of_linear(const std::array<double, 4>& components);
 
-/// The reverse: display_colour_of_linear returns the colour again.
+/// Inverts display_colour_of_linear: it returns the colour again.
 std::array<double, 4> linear_components(const Colour& colour);
 
 /// Finds the colour that covers the most triangles. Triangles without a colour count like those of

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMeshesOfBatch = 2048;
 
-/// Whether a box is not wholly beyond one of the planes of the picture.
+/// Returns false if a box lies wholly beyond one of the planes of the picture.
 bool may_be_seen(const DrawnCamera& camera, const Box3& box) {
     std::array<int, 5> beyond{};
     for (int i = 0; i < 8; ++i) {

@@ -10,7 +10,7 @@
 
 namespace abut {
 
-/// What a camera sees, in the frame of a tree of levels (world minus its origin).
+/// The pyramid that a camera sees, in the frame of a tree of levels (world minus its origin).
 class Frustum {
 public:
     /// A bit for each plane that may still cut the box: sides, near, far.

@@ -59,7 +59,7 @@ private:
     double near_ = 0;
     std::vector<std::vector<float>>
         levels_; ///< 1 / depth; each next one has a quarter of the cells
-    // Of the occluder being drawn:
+    // The occluder that is being drawn:
     std::vector<float> farthest_;        ///< 1 / largest depth of its triangles in the cell
     std::vector<std::uint32_t> covered_; ///< 1: the middle is covered; 2: an edge passes
     Cells dirty_;

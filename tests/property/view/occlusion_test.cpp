@@ -1,4 +1,4 @@
-// What the occlusion buffer hides, against rays.
+// Rays prove that boxes which the occlusion buffer hides cannot be seen.
 #include "math/transform.h"
 #include "math/vector.h"
 #include "tests/support/level_trees.h"

@@ -49,7 +49,7 @@ Camera camera_to(const Vec3& eye, const Vec3& target) {
     return camera;
 }
 
-/// Whether a ray meets a box, by its slabs.
+/// Returns whether a ray meets a box: it is inside all three slabs at once.
 bool meets(const Ray& ray, const Box3& box) {
     double enter = 0, leave = 1e300;
     const auto slab = [&](double at, double way, double lower, double upper) {
