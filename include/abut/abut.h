@@ -24,6 +24,7 @@
 #include <abut/motion.h>
 #include <abut/penetration.h>
 #include <abut/progress.h>
+#include <abut/properties.h>
 #include <abut/rigid.h>
 #include <abut/scene.h>
 #include <abut/shape_queries.h>

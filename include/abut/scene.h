@@ -3,6 +3,7 @@
 #include <abut/helper_programs.h>
 #include <abut/mesh.h>
 #include <abut/progress.h>
+#include <abut/properties.h>
 #include <abut/types.h>
 
 #include <cstdint>
@@ -65,6 +66,13 @@ struct Scene {
     double unit = 1;       ///< metres per unit of the file; already applied
     UpAxis up = UpAxis::y; ///< up axis of the world
     std::vector<SceneNote> notes{};
+    Properties properties{};               ///< of the parts (docs/properties.md)
+    std::vector<PartRelation> relations{}; ///< of the parts; ascending, each one once
+    std::string project{};                 ///< the GlobalId of an IFC file's project; else empty
+    /// From the coordinates of an IFC project to those of the map that its file names, both in
+    /// metres with z up, whatever the axes of this scene; the identity if it names none.
+    /// ReadOptions::map says whether the parts lie on the map already.
+    Transform map_from_project{};
 };
 
 /// Turns the world of a scene by quarter turns, so that this axis points up. Exact: only the order
