@@ -1,7 +1,7 @@
 #include <abut/helper_programs.h>
 
+#include "models/scenes.h"
 #include "module.h"
-#include "scenes.h"
 
 namespace abut::python {
 

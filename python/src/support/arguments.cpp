@@ -1,6 +1,6 @@
-#include "arguments.h"
+#include "support/arguments.h"
 
-#include "work.h"
+#include "support/work.h"
 
 #include <memory>
 #include <sstream>

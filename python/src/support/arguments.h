@@ -1,8 +1,8 @@
 #pragma once
 
-#include "arrays.h"
-#include "enums.h"
-#include "python.h"
+#include "support/arrays.h"
+#include "support/enums.h"
+#include "support/python.h"
 
 #include <array>
 #include <optional>

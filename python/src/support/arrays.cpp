@@ -1,4 +1,4 @@
-#include "arrays.h"
+#include "support/arrays.h"
 
 #include <abut/error.h>
 

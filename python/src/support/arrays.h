@@ -3,7 +3,7 @@
 #include <abut/motion.h>
 #include <abut/types.h>
 
-#include "python.h"
+#include "support/python.h"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "enums.h"
+#include "support/enums.h"
 
 namespace abut::python {
 

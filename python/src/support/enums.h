@@ -15,7 +15,7 @@
 #include <abut/volume.h>
 #include <abut/walk.h>
 
-#include "python.h"
+#include "support/python.h"
 
 #include <string>
 #include <type_traits>

@@ -1,10 +1,10 @@
-#include "meshes.h"
+#include "support/meshes.h"
 
 #include <abut/model.h>
 #include <abut/scene.h>
 
-#include "arrays.h"
-#include "work.h"
+#include "support/arrays.h"
+#include "support/work.h"
 
 namespace abut::python {
 

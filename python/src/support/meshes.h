@@ -2,7 +2,7 @@
 
 #include <abut/mesh.h>
 
-#include "python.h"
+#include "support/python.h"
 
 namespace abut::python {
 

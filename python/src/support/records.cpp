@@ -1,4 +1,4 @@
-#include "records.h"
+#include "support/records.h"
 
 namespace abut::python {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "arrays.h"
-#include "enums.h"
+#include "support/arrays.h"
+#include "support/enums.h"
 
 #include <functional>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "arguments.h"
-#include "work.h"
+#include "support/arguments.h"
+#include "support/work.h"
 
 #include <optional>
 

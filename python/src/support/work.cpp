@@ -1,4 +1,4 @@
-#include "work.h"
+#include "support/work.h"
 
 #include <chrono>
 #include <condition_variable>

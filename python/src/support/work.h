@@ -3,7 +3,7 @@
 #include <abut/error.h>
 #include <abut/progress.h>
 
-#include "python.h"
+#include "support/python.h"
 
 #include <atomic>
 #include <exception>

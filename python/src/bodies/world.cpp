@@ -1,6 +1,6 @@
 #include <abut/world.h>
 
-#include "bodies.h"
+#include "bodies/bodies.h"
 #include "module.h"
 
 namespace abut::python {

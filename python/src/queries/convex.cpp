@@ -1,7 +1,7 @@
 #include <abut/convex.h>
 
 #include "module.h"
-#include "queries.h"
+#include "queries/queries.h"
 #include "support/meshes.h"
 #include "support/warm.h"
 

@@ -1,7 +1,7 @@
 #include <abut/batch.h>
 
 #include "module.h"
-#include "queries.h"
+#include "queries/queries.h"
 
 namespace abut::python {
 

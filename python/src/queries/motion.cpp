@@ -2,7 +2,7 @@
 #include <abut/motion.h>
 
 #include "module.h"
-#include "queries.h"
+#include "queries/queries.h"
 
 namespace abut::python {
 

@@ -1,10 +1,10 @@
 #include <abut/store_clash.h>
 
-#include "clashes.h"
-#include "crews.h"
 #include "module.h"
-#include "open_store.h"
-#include "queries.h"
+#include "queries/queries.h"
+#include "stores/clashes.h"
+#include "stores/crews.h"
+#include "stores/open_store.h"
 
 namespace abut::python {
 

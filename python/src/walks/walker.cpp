@@ -1,7 +1,7 @@
 #include <abut/walker.h>
 
 #include "module.h"
-#include "open_walk.h"
+#include "walks/open_walk.h"
 
 namespace abut::python {
 

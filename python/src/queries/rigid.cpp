@@ -3,7 +3,7 @@
 #include <abut/rigid.h>
 
 #include "module.h"
-#include "queries.h"
+#include "queries/queries.h"
 #include "support/warm.h"
 
 namespace abut::python {

@@ -1,4 +1,4 @@
-#include "open_walk.h"
+#include "walks/open_walk.h"
 
 namespace abut::python {
 

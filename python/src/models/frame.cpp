@@ -1,7 +1,7 @@
 #include <abut/frame.h>
 
+#include "models/scenes.h"
 #include "module.h"
-#include "scenes.h"
 #include "support/arrays.h"
 #include "support/meshes.h"
 

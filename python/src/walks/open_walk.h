@@ -2,8 +2,8 @@
 
 #include <abut/walk.h>
 
-#include "open_store.h"
-#include "queries.h"
+#include "queries/queries.h"
+#include "stores/open_store.h"
 
 namespace abut::python {
 

@@ -1,8 +1,8 @@
 #include <abut/levels.h>
 
+#include "models/scenes.h"
 #include "module.h"
-#include "open_store.h"
-#include "scenes.h"
+#include "stores/open_store.h"
 #include "support/records.h"
 #include "support/work.h"
 

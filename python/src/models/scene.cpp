@@ -1,7 +1,7 @@
 #include <abut/scene.h>
 
+#include "models/scenes.h"
 #include "module.h"
-#include "scenes.h"
 #include "support/enums.h"
 #include "support/meshes.h"
 #include "support/records.h"

@@ -2,7 +2,7 @@
 #include <abut/convex_pieces.h>
 
 #include "module.h"
-#include "queries.h"
+#include "queries/queries.h"
 #include "support/meshes.h"
 #include "support/warm.h"
 

@@ -1,9 +1,9 @@
 #include <abut/deformable.h>
 
+#include "bodies/surface.h"
 #include "module.h"
-#include "queries.h"
+#include "queries/queries.h"
 #include "support/meshes.h"
-#include "surface.h"
 
 namespace abut::python {
 

@@ -2,8 +2,8 @@
 
 #include <abut/world.h>
 
-#include "queries.h"
-#include "surface.h"
+#include "bodies/surface.h"
+#include "queries/queries.h"
 
 #include <map>
 

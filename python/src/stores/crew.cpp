@@ -1,9 +1,9 @@
 #include <abut/crew.h>
 #include <abut/store_clash.h>
 
-#include "crews.h"
+#include "models/scenes.h"
 #include "module.h"
-#include "scenes.h"
+#include "stores/crews.h"
 #include "support/work.h"
 
 namespace abut::python {

@@ -1,9 +1,9 @@
 #include <abut/clash.h>
 
-#include "clashes.h"
+#include "models/scenes.h"
 #include "module.h"
-#include "queries.h"
-#include "scenes.h"
+#include "queries/queries.h"
+#include "stores/clashes.h"
 
 namespace abut::python {
 

@@ -1,7 +1,7 @@
 #include <abut/clash_review.h>
 
 #include "module.h"
-#include "open_store.h"
+#include "stores/open_store.h"
 #include "support/records.h"
 
 namespace abut::python {
