@@ -4,6 +4,7 @@
 #include "core/stop.h"
 #include "math/transform.h"
 #include "render/extra_parts.h"
+#include "view/camera/fit_camera.h"
 #include "view/levels/level_tree.h"
 
 #include <algorithm>

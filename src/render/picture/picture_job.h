@@ -25,8 +25,6 @@ public:
     Picture run();
 
 private:
-    struct Sides; ///< of a pair: what is known of it while its view is chosen
-
     [[nodiscard]] PictureScene aimed();
     PictureScene aimed(NamedView view);
     PictureScene aimed(const Camera& camera);
@@ -39,9 +37,6 @@ private:
 
     /// Draws the parts that are not ghosts, and then the ghosts.
     void draw(const PictureScene& scene);
-    /// Tries directions, and returns the scene that shows most of both sides.
-    PictureScene best_scene(const Sides& sides, const std::vector<SectionPlane>& sections,
-                            double& shown);
 
     const PictureModel& model_;
     const PictureOptions& options_;

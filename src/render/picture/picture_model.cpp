@@ -110,13 +110,4 @@ std::uint32_t find_part(const PictureModel& model, const std::string& file,
                                     "': give an id that only one of them has");
 }
 
-Vec3 corner_of(const Box3& box, int i) {
-    return {(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
-            (i & 4) != 0 ? box.upper.z : box.lower.z};
-}
-
-Vec3 up_vector(UpAxis up) {
-    return {up == UpAxis::x ? 1.0 : 0, up == UpAxis::y ? 1.0 : 0, up == UpAxis::z ? 1.0 : 0};
-}
-
 } // namespace abut

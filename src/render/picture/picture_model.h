@@ -37,9 +37,4 @@ std::unique_ptr<PictureModel> picture_model(const Store& store);
 std::uint32_t find_part(const PictureModel& model, const std::string& file,
                         const std::string& part);
 
-Vec3 up_vector(UpAxis up);
-
-/// The corner of a box that is upper along x, y and z where the bits 1, 2 and 4 of `i` are set.
-Vec3 corner_of(const Box3& box, int i);
-
 } // namespace abut
