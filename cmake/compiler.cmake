@@ -7,7 +7,7 @@ find_package(Threads REQUIRED)
 
 add_library(abut_compile INTERFACE)
 target_compile_features(abut_compile INTERFACE cxx_std_20)
-# Exactness: no fused operations except explicit ones (docs/architecture.md, numerics).
+# Exactness: no fused operations except explicit ones (docs/rules.md, numerics).
 target_compile_options(abut_compile INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wno-psabi)
 if(ABUT_WERROR)
     target_compile_options(abut_compile INTERFACE -Werror)
