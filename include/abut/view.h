@@ -37,6 +37,9 @@ struct ViewChunk {
     std::array<float, 3> lower{}, step{};
     std::vector<ChunkVertex> vertices;  ///< at most 65,536
     std::vector<std::uint16_t> indices; ///< three for each triangle
+    /// The first triangles belong to closed surfaces whose fronts are outside: an eye outside of
+    /// their box sees a front at every pixel where it could see a back.
+    std::uint32_t closed_triangles = 0;
 };
 
 /// A part that shows a shared mesh. `rows` are the three rows of the matrix from the
@@ -88,7 +91,9 @@ struct ViewOptions {
     std::uint64_t memory = std::uint64_t{256} << 20;
     /// Bytes of the renderer's vertex and index buffers.
     std::uint64_t gpu_memory = std::uint64_t{512} << 20;
-    double pixel_error = 1; ///< largest error in pixels; more if the budgets demand it
+    /// Largest error in pixels; more if the budgets demand it. A point and its stand-in lie in a
+    /// ball whose image is at most as wide.
+    double pixel_error = 1;
     std::uint64_t triangle_budget = 500'000;
     std::uint32_t draw_budget = 1'500;
     /// Bytes of chunks that one frame hands to the renderer, or one chunk. A frame after `wait` has
@@ -167,6 +172,9 @@ public:
     /// Sets whether parts that others hide are left out; at first they are. Turn it off while the renderer
     /// cuts parts away or makes them transparent, other than by set_hidden.
     void set_occlusion(bool on);
+    /// Changes ViewOptions::triangle_budget and draw_budget from the next frame on: fewer while the
+    /// eye moves and a frame takes long, more when it rests.
+    void set_budgets(std::uint64_t triangles, std::uint32_t draws);
     [[nodiscard]] const ViewStatistics& statistics() const;
 
 private:

@@ -36,6 +36,9 @@ public:
     const ViewFrame& frame(const CameraMotion& motion);
     void wait();
     void set_occlusion(bool on) { has_occlusion_ = on; }
+    void set_budgets(std::uint64_t triangles, std::uint32_t draws) {
+        options_.triangle_budget = triangles, options_.draw_budget = draws;
+    }
     void set_hidden(std::uint32_t part, bool hidden);
 
     [[nodiscard]] const LevelTree& tree() const { return tree_; }

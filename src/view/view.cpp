@@ -87,6 +87,9 @@ void View::set_hidden(std::uint32_t part, bool hidden) {
     data_->view().set_hidden(part, hidden);
 }
 
+void View::set_budgets(std::uint64_t triangles, std::uint32_t draws) {
+    data_->view().set_budgets(triangles, draws);
+}
 void View::set_occlusion(bool on) {
     data_->view().set_occlusion(on);
 }

@@ -12,7 +12,6 @@ namespace abut {
 
 namespace {
 
-constexpr std::uint32_t kLevelFormat = 1;
 /// Bytes of the tree in one row.
 constexpr std::size_t kPieceBytes = std::size_t{16} << 20;
 
@@ -106,9 +105,9 @@ std::uint64_t LevelChunkRow::checksum() const {
         .value();
 }
 
-Hash128 level_content(const std::vector<ModelRow>& models) {
+Hash128 level_content(const std::vector<ModelRow>& models, std::uint32_t format) {
     RowHash hash;
-    hash.add(kLevelFormat);
+    hash.add(format);
     for (const ModelRow& model : models)
         hash.add(model.model).add(model.parts).add(model.parts_sum);
     return hash.value_128();

@@ -132,7 +132,7 @@ private:
         for (std::size_t i = nodes_.size(); i-- > 0;) {
             const PlannedNode& node = nodes_[i];
             RowHash hash;
-            hash.add(kChunkFormat).add(items_.origin.x).add(items_.origin.y).add(items_.origin.z);
+            hash.add(kLevelFormat).add(items_.origin.x).add(items_.origin.y).add(items_.origin.z);
             hash.add(node.slice).add(node.slices).add(node.children);
             for (std::uint32_t k = 0; k < node.children; ++k)
                 hash.add(keys_[node.first_child + k].low).add(keys_[node.first_child + k].high);
@@ -147,7 +147,7 @@ private:
 
     [[nodiscard]] Hash128 level_key(std::uint32_t mesh, std::uint32_t level) const {
         return RowHash()
-            .add(kChunkFormat)
+            .add(kLevelFormat)
             .add(mesh_keys_[mesh].low)
             .add(mesh_keys_[mesh].high)
             .add(level)

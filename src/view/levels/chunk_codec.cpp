@@ -15,6 +15,8 @@ namespace {
 
 struct ChunkHeader {
     std::uint32_t vertices = 0, triangles = 0, parts = 0, runs = 0, points = 0;
+    std::uint32_t closed_triangles = 0;
+    float resting = 0;
     std::array<float, 3> lower{}, step{};
 };
 
@@ -166,6 +168,8 @@ std::vector<std::byte> encode_chunk(const PartChunk& from) {
                              static_cast<std::uint32_t>(from.parts.size()),
                              static_cast<std::uint32_t>(runs.size() / 2),
                              static_cast<std::uint32_t>(points.steps[0].size()),
+                             chunk.closed_triangles,
+                             from.resting,
                              chunk.lower,
                              chunk.step};
     std::vector<std::byte> raw(sizeof header);
@@ -194,12 +198,15 @@ PartChunk decode_chunk(std::span<const std::byte> data) {
     std::memcpy(&header, raw.data(), sizeof header);
     if (header.vertices > kMostVertices || header.triangles > kMostCodedTriangles ||
         header.runs > header.vertices || header.points > header.vertices ||
-        header.parts > bytes / sizeof(std::uint64_t))
+        header.parts > bytes / sizeof(std::uint64_t) ||
+        header.closed_triangles > header.triangles || !(header.resting >= 0))
         malformed("its header is wrong");
     std::span<const std::byte> rest = std::span(raw).subspan(sizeof header);
     PartChunk result;
     ViewChunk& chunk = result.chunk;
     chunk.lower = header.lower, chunk.step = header.step;
+    chunk.closed_triangles = header.closed_triangles;
+    result.resting = header.resting;
     chunk.vertices.resize(header.vertices);
     take_parts(rest, header, result);
     take_points(rest, header, chunk.vertices);

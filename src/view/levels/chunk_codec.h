@@ -12,7 +12,8 @@ namespace abut {
 /// Packs a chunk without loss. Its vertices must be in the order in which the triangles first use
 /// them, as quantise() leaves them.
 ///
-///     u32 vertices | u32 triangles | u32 parts | 3 floats lower | 3 floats step
+///     u32 vertices | u32 triangles | u32 parts | u32 runs | u32 points | u32 closed triangles
+///     float resting | 3 floats lower | 3 floats step
 ///     part rows | error codes of parts | lengths of the runs of vertices of one part | new points | x | y | z
 ///     normals | corners
 ///

@@ -4,7 +4,7 @@
 #include "store/import/cut_mesh.h"
 #include "view/levels/chunk_codec.h"
 #include "view/levels/shaded_mesh.h"
-#include "view/levels/simplify_surface.h"
+#include "view/simplify/simplify_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace abut {
 namespace {
 
 constexpr std::uint32_t kLeastTriangles = 64; ///< of a level of a shared mesh
-constexpr std::uint32_t kReduction = 3;       ///< triangles of children to those of their parent
+constexpr std::uint32_t kReduction = 4;       ///< triangles of children to those of their parent
 /// Of a parent. With three vertices each, they stay below 65,536 vertices.
 constexpr std::uint32_t kMostTriangles = 16384;
 
@@ -129,6 +129,7 @@ ChildSurface chunk_surface(const LevelChunkRow& row, std::span<const std::byte> 
     ChildSurface child{surface_of(decode_chunk(data)), row.box};
     for (double& error : child.surface.errors)
         error = std::min(error, row.error); // a code has a limited range
+    child.surface.resting = std::min(child.surface.resting, row.error);
     return child;
 }
 
@@ -155,6 +156,7 @@ LevelSurface merge(const std::vector<ChildSurface>& children) {
     merged.parts.erase(std::unique(merged.parts.begin(), merged.parts.end()), merged.parts.end());
     merged.errors.assign(merged.parts.size(), 0);
     for (const ChildSurface& child : children) {
+        merged.resting = std::max(merged.resting, child.surface.resting);
         std::vector<std::uint32_t> number_of;
         for (std::size_t i = 0; i < child.surface.parts.size(); ++i) {
             const auto found =

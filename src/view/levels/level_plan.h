@@ -7,8 +7,8 @@
 
 namespace abut {
 
-/// Triangles of a leaf. With three vertices each, they stay below 65,536 vertices.
-inline constexpr std::uint32_t kLeafTriangles = 12288;
+/// Triangles of a leaf. Small leaves are hidden and left out more often, but cost more draw calls.
+inline constexpr std::uint32_t kLeafTriangles = 2048;
 inline constexpr std::uint32_t kNoSlice = 0xffffffff;
 
 /// A part, or a mesh block of a part whose mesh is large.

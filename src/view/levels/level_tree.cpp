@@ -38,7 +38,8 @@ LevelTree read_level_tree(StoreFile& store) {
         throw Error(ErrorCode::bad_argument, store.path(), "has no levels of detail");
     if (!(tree->content == content))
         throw Error(ErrorCode::bad_argument, store.path(),
-                    "has levels of detail of earlier parts: build them again");
+                    "has levels of detail of earlier parts, or of another version of Abut: "
+                    "build them again");
     try {
         return decode_tree(tree->data);
     } catch (const Fault& fault) {

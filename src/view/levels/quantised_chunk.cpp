@@ -1,6 +1,7 @@
 #include "view/levels/quantised_chunk.h"
 
 #include "math/rounding.h"
+#include "view/levels/closed_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,8 +107,8 @@ PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep
             to_float(std::ldexp(static_cast<double>(grid.lower.at(k)), grid.exponent));
         chunk.step.at(k) = to_float(grid.step());
     }
-    std::unordered_map<ChunkVertex, std::uint16_t, VertexHash> number_of;
-    number_of.reserve(surface.vertices.size());
+    if (surface.resting > 0)
+        result.resting = std::nextafter(to_float(surface.resting + grid.error()), HUGE_VALF);
     const auto rounded = [&](const SurfaceVertex& v) {
         ChunkVertex to{{}, v.normal, part[v.part]};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -118,6 +119,8 @@ PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep
         }
         return to;
     };
+    std::vector<std::array<ChunkVertex, 3>> triangles;
+    triangles.reserve(surface.triangles.size());
     for (const auto& t : surface.triangles) {
         const std::array<ChunkVertex, 3> corners{rounded(surface.vertices[t[0]]),
                                                  rounded(surface.vertices[t[1]]),
@@ -125,8 +128,13 @@ PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep
         const bool is_flat = corners[0].position == corners[1].position ||
                              corners[1].position == corners[2].position ||
                              corners[2].position == corners[0].position;
-        if (is_flat && !keep_flat)
-            continue;
+        if (!is_flat || keep_flat)
+            triangles.push_back(corners);
+    }
+    chunk.closed_triangles = put_closed_first(triangles);
+    std::unordered_map<ChunkVertex, std::uint16_t, VertexHash> number_of;
+    number_of.reserve(surface.vertices.size());
+    for (const auto& corners : triangles)
         for (const ChunkVertex& corner : corners) {
             const auto [found, is_new] =
                 number_of.try_emplace(corner, static_cast<std::uint16_t>(chunk.vertices.size()));
@@ -134,13 +142,13 @@ PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep
                 chunk.vertices.push_back(corner);
             chunk.indices.push_back(found->second);
         }
-    }
     return result;
 }
 
 LevelSurface surface_of(const PartChunk& from) {
     LevelSurface surface;
     surface.parts = from.parts;
+    surface.resting = double{from.resting};
     for (const std::uint8_t code : from.errors)
         surface.errors.push_back(error_of_code(code));
     const ViewChunk& chunk = from.chunk;

@@ -2,7 +2,7 @@
 
 #include <abut/view.h>
 
-#include "view/levels/level_surface.h"
+#include "view/simplify/level_surface.h"
 
 #include <cstdint>
 
@@ -13,6 +13,7 @@ struct PartChunk {
     ViewChunk chunk;                  ///< ChunkVertex::part is an index in `parts`
     std::vector<std::int64_t> parts;  ///< rows of the table `part`, ascending
     std::vector<std::uint8_t> errors; ///< by part: code of LevelSurface::errors
+    float resting = 0;                ///< at least LevelSurface::resting, with the rounding
 };
 
 /// The least code whose error is at least this; codes are an eighth of a power of two apart.
@@ -35,7 +36,8 @@ struct ChunkGrid {
 ChunkGrid grid_of(const Box3& box, int least_exponent);
 
 /// Rounds a surface to a grid that encloses it. Vertices that become equal are one, and parts
-/// without triangles are left out. The errors of parts include the rounding.
+/// without triangles are left out. The errors of parts include the rounding. Triangles of closed
+/// surfaces come first.
 ///
 /// In          keep_flat: whether triangles are kept that have become degenerate.
 PartChunk quantise(const LevelSurface& surface, const ChunkGrid& grid, bool keep_flat);

@@ -2,7 +2,7 @@
 
 #include "math/transform.h"
 #include "mesh/equal_positions.h"
-#include "view/levels/packed_normal.h"
+#include "view/simplify/packed_normal.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <abut/mesh.h>
 
-#include "view/levels/level_surface.h"
+#include "view/simplify/level_surface.h"
 
 #include <cstdint>
 #include <span>

@@ -10,9 +10,6 @@
 
 namespace abut {
 
-/// Changes whenever the same parts would give other chunks.
-inline constexpr std::uint32_t kChunkFormat = 1;
-
 /// The tree of a plan whose chunks are stored.
 ///
 /// In          rows: by node, unset for instances; mesh_rows: by shared mesh, finest level first.

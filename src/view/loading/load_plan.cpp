@@ -84,8 +84,8 @@ double LoadPlan::error_of(ViewItem item) const {
     const double error = items_.error(item);
     double most = 0;
     for (const ViewPoint& point : path_)
-        most = std::max(most,
-                        point.pixels(error, std::sqrt(distance_sq(items_.node(item), point.eye))));
+        most = std::max(most, point.pixels(error, items_.node(item),
+                                           std::sqrt(distance_sq(items_.node(item), point.eye))));
     return most;
 }
 

@@ -27,10 +27,31 @@ std::size_t count_items(const LevelTree& tree) {
 } // namespace
 
 ViewPoint::ViewPoint(const Camera& camera, const Vec3& origin)
-    : pixels_at_one(1 / length_of_pixel(camera)), near(camera.near),
-      frustum(CameraFrame(camera), camera.near, camera.far, origin) {
+    : pixels_at_one(1 / length_of_pixel(camera)), near(camera.near) {
+    const CameraFrame frame(camera);
+    frustum = Frustum(frame, camera.near, camera.far, origin);
+    right_ = frame.right, up_ = frame.up, forward_ = frame.forward;
+    slope_x_ = frame.slope_x, slope_y_ = frame.slope_y;
     const Vec3 from_origin = camera.eye - origin;
     eye = {from_origin.x, from_origin.y, from_origin.z};
+}
+
+double ViewPoint::stretch(const LevelNode& node) const {
+    double x = 0, y = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3 d{((corner & 1U) != 0 ? node.upper[0] : node.lower[0]) - eye[0],
+                     ((corner & 2U) != 0 ? node.upper[1] : node.lower[1]) - eye[1],
+                     ((corner & 4U) != 0 ? node.upper[2] : node.lower[2]) - eye[2]};
+        const double depth = dot(d, forward_);
+        if (!(depth > 0)) {
+            x = slope_x_, y = slope_y_;
+            break;
+        }
+        x = std::max(x, std::abs(dot(d, right_)) / depth);
+        y = std::max(y, std::abs(dot(d, up_)) / depth);
+    }
+    x = std::min(x, slope_x_), y = std::min(y, slope_y_);
+    return 1 + x * x + y * y;
 }
 
 LevelCut::LevelCut(const LevelTree& tree)
@@ -122,7 +143,7 @@ void LevelCut::visit(ViewItem item, std::uint32_t planes) {
     CutEntry entry;
     entry.item = item;
     entry.chunk = items_.chunk(item);
-    entry.error = bounded_float(view_->pixels(items_.error(item), distance));
+    entry.error = bounded_float(view_->pixels(items_.error(item), node, distance));
     entry.distance = bounded_float(distance);
     entry.planes = planes;
     if (entry.chunk == kNoChunk)

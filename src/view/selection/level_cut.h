@@ -22,15 +22,29 @@ struct ViewPoint {
     ViewPoint() = default;
     ViewPoint(const Camera& camera, const Vec3& origin);
 
-    /// Size in pixels of a length at a distance from the eye.
-    [[nodiscard]] double pixels(double length, double distance) const {
-        return length <= 0 ? 0 : length * pixels_at_one / std::max(distance, near);
+    /// An upper bound on the size in pixels of a ball of a small radius anywhere in the visible part
+    /// of a box. That of a box is at least that of a box inside of it.
+    ///
+    /// In          distance: from the eye to the box of the node.
+    /// Source      At the angle t from the middle of the picture, where tan(t)^2 = x^2 + y^2, a
+    ///             length at a distance d from the eye covers at most 1 + x^2 + y^2 times the pixels
+    ///             that it would cover in the middle.
+    [[nodiscard]] double pixels(double radius, const LevelNode& node, double distance) const {
+        return radius <= 0 ? 0
+                           : 2 * radius * stretch(node) * pixels_at_one / std::max(distance, near);
     }
 
     std::array<double, 3> eye{};
-    double pixels_at_one = 1; ///< pixels of a length of 1 at distance 1
+    double pixels_at_one = 1; ///< pixels of a length of 1 at distance 1 in the middle
     double near = 0;          ///< nothing nearer is visible
     Frustum frustum;
+
+private:
+    /// The largest value of 1 + x^2 + y^2 in the visible part of a box.
+    [[nodiscard]] double stretch(const LevelNode& node) const;
+
+    Vec3 right_, up_, forward_;
+    double slope_x_ = 0, slope_y_ = 0;
 };
 
 struct CutLimits {

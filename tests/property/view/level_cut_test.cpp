@@ -63,6 +63,22 @@ public:
         }
         return std::ranges::count(outside, 8) > 0;
     }
+    /// The largest 1 + x^2 + y^2 of the box's corners within the picture, or that of its corners.
+    double stretch(const LevelNode& node) const {
+        const CameraFrame frame(camera);
+        double x = 0, y = 0;
+        for (unsigned corner = 0; corner < 8; ++corner) {
+            const Vec3 p{(corner & 1U) != 0 ? node.upper[0] : node.lower[0],
+                         (corner & 2U) != 0 ? node.upper[1] : node.lower[1],
+                         (corner & 4U) != 0 ? node.upper[2] : node.lower[2]};
+            const Vec3 d = p - (camera.eye - tree.origin);
+            const double ahead = dot(d, frame.forward);
+            x = ahead > 0 ? std::max(x, std::abs(dot(d, frame.right)) / ahead) : HUGE_VAL;
+            y = ahead > 0 ? std::max(y, std::abs(dot(d, frame.up)) / ahead) : HUGE_VAL;
+        }
+        x = std::min(x, frame.slope_x), y = std::min(y, frame.slope_y);
+        return 1 + x * x + y * y;
+    }
     double pixels(Item item) const {
         const LevelNode& node = tree.nodes[item.first];
         double square = 0;
@@ -74,8 +90,8 @@ public:
             square += (at - nearest) * (at - nearest);
         }
         const double height = 2 * std::tan(camera.field_of_view / 2);
-        return double{items.error({item.first, item.second})} * camera.height / height /
-               std::max(std::sqrt(square), camera.near);
+        return 2 * double{items.error({item.first, item.second})} * stretch(node) * camera.height /
+               height / std::max(std::sqrt(square), camera.near);
     }
     std::vector<Item> finer(Item item) const {
         std::vector<Item> result;
@@ -124,6 +140,55 @@ private:
     const std::set<Item>& drawn_;
     Random& random_;
 };
+
+TEST(LevelCut, ErrorsInPixelsHoldInTheWholePicture) {
+    Random random(127);
+    int seen = 0, corner = 0;
+    double largest = 0;
+    for (int i = 0; i < many(20'000); ++i) {
+        Camera camera;
+        camera.eye = random.in_cube(5);
+        camera.forward = random.direction();
+        camera.up = perpendicular(camera.forward);
+        camera.field_of_view = random.uniform(0.3, 2);
+        camera.width = 1280, camera.height = 720;
+        const CameraFrame frame(camera);
+        const Vec3 low = random.in_cube(20), size = random.in_cube(3);
+        LevelNode node;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double from = component(low, int(a)), by = std::abs(component(size, int(a)));
+            node.lower.at(a) = float(from), node.upper.at(a) = float(from + by);
+        }
+        const ViewPoint view(camera, {});
+        const auto image = [&](const Vec3& p) {
+            const Vec3 d = p - camera.eye;
+            const double ahead = dot(d, frame.forward), scale = view.pixels_at_one / ahead;
+            return Vec3{scale * dot(d, frame.right), scale * dot(d, frame.up), ahead};
+        };
+        const Vec3 p{random.uniform(node.lower[0], node.upper[0]),
+                     random.uniform(node.lower[1], node.upper[1]),
+                     random.uniform(node.lower[2], node.upper[2])};
+        const Vec3 at = image(p);
+        if (!(at.z > camera.near) || std::abs(at.x) > 640 || std::abs(at.y) > 360)
+            continue;
+        ++seen;
+        corner += std::abs(at.x) > 500 && std::abs(at.y) > 250 ? 1 : 0;
+        const double distance = std::sqrt(distance_sq(node, view.eye));
+        const double error = 1e-4 * length(p - camera.eye);
+        const double bound = 0.5 * view.pixels(error, node, distance);
+        for (int k = 0; k < 8; ++k) {
+            const Vec3 moved = image(p + error * random.direction());
+            const double by = std::hypot(moved.x - at.x, moved.y - at.y);
+            largest = std::max(largest, by / bound);
+            ASSERT_LE(by, 1.001 * bound);
+        }
+    }
+    std::cout << seen << " points seen, " << corner << " in a corner, " << largest
+              << " of the bound at most\n";
+    EXPECT_GT(seen, many(20'000) / 100);
+    EXPECT_GT(corner, 0);
+    EXPECT_GT(largest, 0.9);
+}
 
 TEST(LevelCut, CoversWhatIsVisibleOnceWithinTheError) {
     Random random(121);

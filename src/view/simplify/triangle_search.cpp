@@ -1,4 +1,4 @@
-#include "view/levels/triangle_search.h"
+#include "view/simplify/triangle_search.h"
 
 #include <algorithm>
 #include <limits>

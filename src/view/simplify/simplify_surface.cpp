@@ -1,10 +1,11 @@
-#include "view/levels/simplify_surface.h"
+#include "view/simplify/simplify_surface.h"
 
 #include "core/disjoint_sets.h"
 #include "core/stop.h"
 #include "math/rounding.h"
-#include "view/levels/deviation.h"
-#include "view/levels/packed_normal.h"
+#include "view/simplify/deviation.h"
+#include "view/simplify/packed_normal.h"
+#include "view/simplify/piece_choice.h"
 
 #include <algorithm>
 #include <meshoptimizer.h>
@@ -85,8 +86,7 @@ LevelSurface with_normals(const LevelSurface& from, const JoinedSurface& joined,
 /// A set of triangles of one part that are connected through vertices.
 struct Piece {
     std::uint32_t part = 0;
-    double error = 0; ///< that it has already
-    double size = 0;  ///< diagonal of its box
+    std::vector<std::uint32_t> vertices; ///< joined vertices
     std::vector<Triangle> triangles;
 };
 
@@ -95,13 +95,6 @@ struct Pieces {
     std::vector<std::uint32_t> of_vertex; ///< by joined vertex
 };
 
-/// A piece in fewer triangles.
-struct Option {
-    std::uint32_t triangles = 0;
-    int pass = 0; ///< that made it; 0: as it was; kLeftOut
-    double error = 0;
-};
-constexpr int kLeftOut = -1;
 constexpr int kPasses = 3; ///< each halves the triangles
 /// An added error is not looked for below this share of the error that is there already.
 constexpr double kLeastShare = 0.125;
@@ -118,21 +111,22 @@ public:
 
     SimplifiedSurface run(std::uint32_t target) {
         passes_.push_back(joined_.indices);
-        options_.resize(pieces_.all.size());
         std::vector<std::uint32_t> count(pieces_.all.size(), 0);
         for (std::size_t i = 0; i < joined_.indices.size(); i += 3)
             ++count[piece_of(joined_.indices[i])];
-        for (std::size_t p = 0; p < options_.size(); ++p) {
-            const Piece& piece = pieces_.all[p];
-            options_[p].push_back({0, kLeftOut, piece.size + 2 * piece.error});
+        for (std::size_t p = 0; p < pieces_.all.size(); ++p)
             if (count[p] > 0)
-                options_[p].push_back({count[p], 0, piece.error});
+                add_form(p, 0, {count[p], 0});
+        if (joined_.indices.size() / 3 > target) {
+            int pass = 1;
+            for (; pass <= kPasses && simplify_again(); ++pass)
+                add_forms(pass);
+            if (add_stick_pass())
+                add_forms(static_cast<int>(passes_.size()) - 1);
         }
-        if (joined_.indices.size() / 3 > target)
-            for (int pass = 1; pass <= kPasses && simplify_again(); ++pass)
-                add_options(pass);
-        const double error = least_error(target);
-        return {chosen(error), error};
+        const PieceChooser chooser(forms_, surface_.resting);
+        const PieceChoice choice = chooser.least_error(target);
+        return {chosen(choice), choice.error};
     }
 
 private:
@@ -166,13 +160,22 @@ private:
             extend(boxes[pieces_.of_vertex[v]], positions_[v]);
         }
         pieces_.all.resize(boxes.size());
-        for (std::size_t p = 0; p < boxes.size(); ++p)
-            pieces_.all[p].size = length(boxes[p].upper - boxes[p].lower);
+        forms_.resize(boxes.size());
+        pass_of_.resize(boxes.size());
+        std::vector<std::vector<Vec3>> points(boxes.size());
+        for (std::uint32_t v = 0; v < roots.size(); ++v) {
+            points[pieces_.of_vertex[v]].push_back(positions_[v]);
+            pieces_.all[pieces_.of_vertex[v]].vertices.push_back(v);
+        }
+        for (std::size_t p = 0; p < boxes.size(); ++p) {
+            forms_[p].size = length(boxes[p].upper - boxes[p].lower);
+            forms_[p].stick = stick_of(points[p]);
+        }
         for (std::size_t i = 0; i < joined_.indices.size(); i += 3) {
             const unsigned int vertex = joined_.indices[i];
             Piece& piece = pieces_.all[piece_of(vertex)];
             piece.part = surface_.vertices[joined_.members[joined_.first[vertex]]].part;
-            piece.error = surface_.errors[piece.part];
+            forms_[piece_of(vertex)].error = surface_.errors[piece.part];
             piece.triangles.push_back(triangle(joined_.indices, i));
         }
     }
@@ -215,7 +218,38 @@ private:
         return is_fewer;
     }
 
-    void add_options(int pass) {
+    /// Adds a pass that makes a tetrahedron of every piece, with corners of the piece. Returns false
+    /// if no piece has more triangles.
+    bool add_stick_pass() {
+        std::vector<unsigned int> indices;
+        for (std::size_t p = 0; p < pieces_.all.size(); ++p) {
+            const Piece& piece = pieces_.all[p];
+            if (forms_[p].forms.empty() || forms_[p].forms.back().triangles <= 4)
+                continue;
+            std::vector<Vec3> points;
+            for (const std::uint32_t v : piece.vertices)
+                points.push_back(positions_[v]);
+            const auto at = stick_corners(points, forms_[p].stick);
+            const auto corner = [&](std::size_t k) { return piece.vertices[at.at(k)]; };
+            bool is_flat = false;
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t k = 0; k < i; ++k)
+                    is_flat = is_flat || at.at(i) == at.at(k);
+            if (is_flat)
+                continue;
+            for (const std::size_t k : {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2})
+                indices.push_back(corner(k));
+        }
+        passes_.push_back(std::move(indices));
+        return !passes_.back().empty();
+    }
+
+    void add_form(std::size_t piece, int pass, PieceForms::Form form) {
+        forms_[piece].forms.push_back(form);
+        pass_of_[piece].push_back(pass);
+    }
+
+    void add_forms(int pass) {
         const std::vector<unsigned int>& indices = passes_[static_cast<std::size_t>(pass)];
         const std::vector<std::uint32_t> roots = connected(indices);
         constexpr std::uint32_t kNone = 0xffffffff;
@@ -232,61 +266,34 @@ private:
         }
         for (std::size_t p = 0; p < triangles.size(); ++p) {
             const auto count = static_cast<std::uint32_t>(triangles[p].size());
-            std::vector<Option>& options = options_[p];
+            const PieceForms& forms = forms_[p];
             // A piece stays connected, so that it is left out as a whole.
-            if (count == 0 || is_split[p] || options.back().triangles <= count)
+            if (count == 0 || is_split[p] || forms.forms.back().triangles <= count)
                 continue;
             const TriangleSearch fine(pieces_.all[p].triangles), coarse(triangles[p]);
-            const Piece& piece = pieces_.all[p];
             // Beyond this, leaving out is better.
-            const double most = options.front().error - piece.error;
+            const double error = std::max(forms.error, surface_.resting);
+            const double most = forms.size + error;
             double added =
-                deviation_bound(piece.triangles, coarse, kLeastShare * piece.error, most);
+                deviation_bound(pieces_.all[p].triangles, coarse, kLeastShare * error, most);
             added = deviation_bound(triangles[p], fine, added, most);
             if (added <= most)
-                options.push_back({count, pass, piece.error + added});
+                add_form(p, pass, {count, added});
         }
     }
 
-    [[nodiscard]] static const Option& best(const std::vector<Option>& options, double error) {
-        const Option* best = &options.front();
-        for (const Option& option : options)
-            if (option.error <= error &&
-                (best->error > error || option.triangles < best->triangles))
-                best = &option;
-        return *best;
-    }
-
-    /// The least error at which the target can be met.
-    [[nodiscard]] double least_error(std::uint32_t target) const {
-        std::vector<double> errors{0};
-        for (const auto& options : options_)
-            for (const Option& option : options)
-                errors.push_back(option.error);
-        std::sort(errors.begin(), errors.end());
-        const auto is_over = [&](double error) {
-            std::uint64_t sum = 0;
-            for (const auto& options : options_) {
-                const Option& option = best(options, error);
-                // Nothing else is possible for a piece whose triangles are all flat.
-                if (option.error > error)
-                    return true;
-                sum += option.triangles;
-            }
-            return sum > target;
-        };
-        return *std::partition_point(errors.begin(), errors.end() - 1, is_over);
-    }
-
-    /// The best versions of all pieces, in the order of the pieces.
-    [[nodiscard]] LevelSurface chosen(double error) const {
-        std::vector<int> pass(options_.size());
+    /// The chosen forms of all pieces, in the order of the pieces.
+    [[nodiscard]] LevelSurface chosen(const PieceChoice& choice) const {
+        constexpr int kNoPass = -1;
+        std::vector<int> pass(choice.form.size(), kNoPass);
         std::vector<double> errors(surface_.parts.size(), 0);
-        for (std::size_t p = 0; p < options_.size(); ++p) {
-            const Option& option = best(options_[p], error);
-            pass[p] = option.pass;
-            if (option.pass != kLeftOut)
-                errors[pieces_.all[p].part] = std::max(errors[pieces_.all[p].part], option.error);
+        for (std::size_t p = 0; p < choice.form.size(); ++p) {
+            if (choice.form[p] < 0)
+                continue;
+            const auto form = static_cast<std::size_t>(choice.form[p]);
+            pass[p] = pass_of_[p][form];
+            double& error = errors[pieces_.all[p].part];
+            error = std::max(error, forms_[p].error + forms_[p].forms[form].added);
         }
         std::vector<std::array<unsigned int, 4>> sorted; // piece and corners
         for (std::size_t k = 0; k < passes_.size(); ++k)
@@ -302,6 +309,7 @@ private:
             indices.insert(indices.end(), {a, b, c});
         LevelSurface result = with_normals(surface_, joined_, indices);
         result.errors = std::move(errors);
+        result.resting = choice.resting;
         return result;
     }
 
@@ -311,7 +319,8 @@ private:
     std::vector<float> scaled_;   ///< the same in [-1, 1]
     Pieces pieces_;
     std::vector<std::vector<unsigned int>> passes_;
-    std::vector<std::vector<Option>> options_; ///< by piece
+    std::vector<PieceForms> forms_;         ///< by piece
+    std::vector<std::vector<int>> pass_of_; ///< by piece and form
 };
 
 } // namespace

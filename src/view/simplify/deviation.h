@@ -1,6 +1,6 @@
 #pragma once
 
-#include "view/levels/triangle_search.h"
+#include "view/simplify/triangle_search.h"
 
 #include <span>
 

@@ -1,4 +1,4 @@
-#include "view/levels/deviation.h"
+#include "view/simplify/deviation.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "math/vector.h"
-#include "view/levels/level_surface.h"
+#include "view/simplify/level_surface.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "view/levels/level_surface.h"
+#include "view/simplify/level_surface.h"
 
 #include <cstdint>
 
@@ -15,7 +15,8 @@ struct SimplifiedSurface {
 };
 
 /// Makes fewer triangles of a surface, with the least error that the pieces allow. Vertices keep
-/// their places and normals; most are removed.
+/// their places and normals; most are removed. A piece may become a tetrahedron (stick.h), or be left
+/// out where another one is near all of it (piece_choice.h).
 ///
 /// In          target: triangles that the result may have.
 /// Accuracy    the errors are proven, see deviation.h.

@@ -30,6 +30,9 @@ struct LevelSurface {
     /// By part: no point of its triangles is farther than this from its full geometry, and the
     /// other way round, except for pieces that were left out.
     std::vector<double> errors;
+    /// No point of a piece that was left out because another one is near all of it is farther than
+    /// this from the surface.
+    double resting = 0;
 
     [[nodiscard]] Triangle corners(const std::array<std::uint32_t, 3>& t) const {
         return {vertices[t[0]].position, vertices[t[1]].position, vertices[t[2]].position};
