@@ -4,15 +4,18 @@
 #include <abut/progress.h>
 
 #include "open_model.h"
+#include "scene_buffer.h"
 #include "session.h"
 #include "vec.h"
 
 #include <chrono>
 #include <cmath>
+#include <epoxy/gl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace abut::viewer {
 
@@ -34,6 +37,16 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Processor time of all threads of the process in seconds, OpenGL's threads included.
+double processor_seconds() {
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
 Json figures_of(const Session& session, const NearestPart& nearest) {
     const ViewStatistics& view = session.view.statistics();
     const WalkStatistics walk = session.walk.statistics();
@@ -49,6 +62,39 @@ Json figures_of(const Session& session, const NearestPart& nearest) {
             {"walk_bytes", walk.bytes},
             {"query_misses", nearest.misses},
             {"nearest", nearest.found ? Json(nearest.gap.distance) : Json()}};
+}
+
+/// A picture as while the eye moves, with seconds that it took.
+struct Drawn {
+    Picture picture;
+    double uploading = 0, drawing = 0, reading = 0;
+    double processor = 0; ///< of all threads while it was drawn
+};
+
+Drawn draw_moving(Session& session, SceneBuffer& scene, const Camera& camera,
+                  const ViewFrame& frame) {
+    Drawn drawn;
+    Lap lap;
+    scene.bind(camera.width, camera.height);
+    session.renderer.begin(camera, session.style(false));
+    ViewFrame uploads = frame;
+    uploads.draws = {};
+    session.renderer.add(uploads);
+    drawn.uploading = lap.seconds();
+    glFinish(); // what was drawn before
+    const double before = processor_seconds();
+    (void)lap.seconds();
+    ViewFrame draws = frame;
+    draws.uploads = {};
+    draws.drops = {};
+    session.renderer.add(draws);
+    session.renderer.end();
+    glFinish();
+    drawn.drawing = lap.seconds();
+    drawn.processor = processor_seconds() - before;
+    drawn.picture = scene.read();
+    drawn.reading = lap.seconds();
+    return drawn;
 }
 
 void write_figures(const std::string& path, const Json& figures) {
@@ -73,6 +119,7 @@ void replay(const Arguments& arguments) {
     const std::string store = ready_store(arguments.files, arguments.quiet);
     Session session(store, {arguments.memory, arguments.gpu_memory, arguments.pixel_error},
                     arguments.width, arguments.height);
+    SceneBuffer scene;
     const Probe head(Sphere{{0, 0, 0}, 0.1});
     const auto count = static_cast<std::size_t>(duration(tour) * arguments.rate) + 1;
     Json frames = Json::array();
@@ -91,25 +138,14 @@ void replay(const Arguments& arguments) {
         const double querying = lap.seconds();
         const ViewFrame& frame = session.view.frame(camera, velocity);
         const double selecting = lap.seconds();
-        session.renderer.begin(camera, session.style(false));
-        ViewFrame uploads = frame;
-        uploads.draws = {};
-        session.renderer.add(uploads);
-        const double uploading = lap.seconds();
-        ViewFrame draws = frame;
-        draws.uploads = {};
-        draws.drops = {};
-        session.renderer.add(draws);
-        const Picture picture = session.renderer.end_picture();
-        const double drawing = lap.seconds();
-        Json row{{"seconds", seconds},
-                 {"query", querying},
-                 {"selection", selecting},
-                 {"upload", uploading},
-                 {"draw", drawing}};
+        const Drawn drawn = draw_moving(session, scene, camera, frame);
+        Json row{{"seconds", seconds},     {"query", querying},
+                 {"selection", selecting}, {"upload", drawn.uploading},
+                 {"draw", drawn.drawing},  {"draw_processor", drawn.processor},
+                 {"read", drawn.reading},  {"pixel_error", frame.pixel_error}};
         row.update(figures_of(session, nearest));
         frames.push_back(std::move(row));
-        write_png(picture, fmt::format("{}/{:05}.png", arguments.frames, i));
+        write_png(drawn.picture, fmt::format("{}/{:05}.png", arguments.frames, i));
     }
     write_figures(arguments.frames + "/figures.json", {{"store", store},
                                                        {"width", arguments.width},

@@ -34,4 +34,19 @@ void SceneBuffer::show() const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+Picture SceneBuffer::read() const {
+    Picture picture{width_, height_, {}};
+    const std::size_t width = width_, height = height_;
+    std::vector<std::uint8_t> upward(4 * width * height);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+    glReadPixels(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), GL_RGBA,
+                 GL_UNSIGNED_BYTE, upward.data());
+    picture.pixels.reserve(3 * width * height);
+    for (std::size_t y = height; y-- > 0;)
+        for (std::size_t x = 0; x < width; ++x)
+            for (std::size_t k = 0; k < 3; ++k)
+                picture.pixels.push_back(upward[4 * (y * width + x) + k]);
+    return picture;
+}
+
 } // namespace abut::viewer

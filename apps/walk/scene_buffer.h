@@ -1,5 +1,7 @@
 #pragma once
 
+#include <abut/renderer.h>
+
 #include <cstdint>
 
 namespace abut::viewer {
@@ -16,6 +18,7 @@ public:
     void bind(std::uint32_t width, std::uint32_t height);
     /// Copies it to the window.
     void show() const;
+    [[nodiscard]] Picture read() const;
 
 private:
     std::uint32_t width_ = 0, height_ = 0;

@@ -325,7 +325,12 @@ void Session::add_plane() {
     changed = true;
 }
 
-const ViewFrame& Session::frame(const Camera& camera, const Vec3& velocity) {
+const ViewFrame& Session::frame(const Camera& camera, const Vec3& velocity, bool rests) {
+    const ViewOptions options;
+    if (rests)
+        view.set_budgets(6 * options.triangle_budget, 6 * options.draw_budget);
+    else
+        view.set_budgets(pace.triangles(), options.draw_budget);
     // Ghosts, and what is cut away, hide nothing.
     view.set_occlusion(sections.empty() && !section_box && !renderer.has_ghosts());
     return view.frame(camera, velocity);
@@ -337,6 +342,7 @@ RenderStyle Session::style(bool still) const {
     style.edges = with_edges;
     style.ambient_occlusion = with_occlusion && still;
     style.samples = still ? 2 : 1;
+    style.leave_out_backs = !still;
     style.sections = sections;
     style.section_box = section_box;
     style.detail = detail_;

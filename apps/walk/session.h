@@ -9,6 +9,8 @@
 #include <abut/walk.h>
 #include <abut/walker.h>
 
+#include "frame_pace.h"
+
 #include <map>
 #include <memory>
 #include <optional>
@@ -86,8 +88,8 @@ public:
 
     void add_plane(); ///< cuts away what is nearer than 2 m
     [[nodiscard]] RenderStyle style(bool still) const;
-    /// What to draw now.
-    const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {});
+    /// What to draw now. While the eye rests, budgets do not keep the picture coarse.
+    const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {}, bool rests = false);
 
     std::string path;
     Store store;
@@ -95,6 +97,7 @@ public:
     Walk walk;
     Renderer renderer;
     std::unique_ptr<Walker> walker;
+    FramePace pace;
 
     Camera lens; ///< field of view, size and range
     Move move = Move::fly;

@@ -131,7 +131,10 @@ private:
         const bool rests = now - last_change_ > kRest;
         if (is_complete_ && !moves)
             return;
-        const ViewFrame& frame = session_.frame(camera, velocity);
+        if (!rests && moves && was_moving_)
+            session_.pace.add_frame(seconds);
+        was_moving_ = moves && !rests;
+        const ViewFrame& frame = session_.frame(camera, velocity, rests);
         const bool is_final = rests && frame.loaded;
         session_.marks.clear();
         tools_.add_marks(session_);
@@ -177,7 +180,7 @@ private:
     SceneBuffer scene_;
     Vec3 eye_, forward_;
     double last_change_ = 0;
-    bool is_complete_ = false;
+    bool is_complete_ = false, was_moving_ = false;
 };
 
 } // namespace

@@ -81,6 +81,10 @@ struct RenderStyle {
     /// A length of the scene: edges fade where one pixel covers more than a tenth of it, and
     /// occlusion reaches as far. About the size of a common part.
     double detail = 0.5;
+    /// Whether backs of closed surfaces that the eye is outside of are left out: the inside of what
+    /// another part penetrates may then look different. Faster in software. No effect where a
+    /// section opens the inside.
+    bool leave_out_backs = false;
     std::vector<SectionPlane> sections; ///< at most 6
     std::optional<Box3> section_box;    ///< what lies outside is cut away
     Colour background_low{236, 239, 242}, background_high{171, 189, 208};

@@ -1,5 +1,8 @@
 #include "render/chunk_buffers.h"
 
+#include "math/vector.h"
+
+#include <algorithm>
 #include <cstddef>
 
 namespace abut {
@@ -36,8 +39,19 @@ void ChunkBuffers::upload(std::uint32_t number, const ViewChunk& data) {
     for (GLuint attribute = 0; attribute < 3; ++attribute)
         glEnableVertexAttribArray(attribute);
     chunk.index_count = static_cast<GLsizei>(data.indices.size());
+    chunk.closed_count = static_cast<GLsizei>(3 * data.closed_triangles);
     chunk.lower = data.lower;
     chunk.step = data.step;
+    std::array<std::uint16_t, 3> least{0xffff, 0xffff, 0xffff}, most{};
+    for (const ChunkVertex& v : data.vertices)
+        for (std::size_t k = 0; k < 3; ++k) {
+            least.at(k) = std::min(least.at(k), v.position.at(k));
+            most.at(k) = std::max(most.at(k), v.position.at(k));
+        }
+    for (std::size_t k = 0; k < 3; ++k) {
+        chunk.box_lower.at(k) = data.lower.at(k) + double{data.step.at(k)} * least.at(k);
+        chunk.box_upper.at(k) = data.lower.at(k) + double{data.step.at(k)} * most.at(k);
+    }
     chunk.bytes = vertex_bytes + index_bytes;
     bytes_ += chunk.bytes;
     uploaded_bytes_ += chunk.bytes;
@@ -74,27 +88,89 @@ void ChunkBuffers::bind_instances(std::uint32_t first) const {
     }
 }
 
-void ChunkBuffers::draw(const ViewFrame& frame, bool instanced, ShaderProgram& program) {
+std::uint64_t ChunkBuffers::triangles_of(std::uint32_t chunk) const {
+    const auto found = chunks_.find(chunk);
+    return found == chunks_.end() ? 0 : static_cast<std::uint64_t>(found->second.index_count) / 3;
+}
+
+bool ChunkBuffers::is_outside(const Chunk& chunk, std::span<const ChunkInstance> instances,
+                              const EyePoint& eye) {
+    const auto is_outside_box = [&](const Vec3& lower, const Vec3& upper) {
+        return eye.at[0] < lower.x - eye.near || eye.at[0] > upper.x + eye.near ||
+               eye.at[1] < lower.y - eye.near || eye.at[1] > upper.y + eye.near ||
+               eye.at[2] < lower.z - eye.near || eye.at[2] > upper.z + eye.near;
+    };
+    const auto &low = chunk.box_lower, &high = chunk.box_upper;
+    if (instances.empty())
+        return is_outside_box({low[0], low[1], low[2]}, {high[0], high[1], high[2]});
+    for (const ChunkInstance& instance : instances) {
+        const auto& r = instance.rows;
+        const Vec3 x{r[0], r[4], r[8]}, y{r[1], r[5], r[9]}, z{r[2], r[6], r[10]};
+        if (!(dot(cross(x, y), z) > 0)) // mirrored: its fronts have the other winding
+            return false;
+        Vec3 lower{r[3], r[7], r[11]}, upper = lower;
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double a = double{r.at(4 * k + axis)} * low.at(axis),
+                             b = double{r.at(4 * k + axis)} * high.at(axis);
+                double &from = k == 0   ? lower.x
+                               : k == 1 ? lower.y
+                                        : lower.z,
+                       &to = k == 0   ? upper.x
+                             : k == 1 ? upper.y
+                                      : upper.z;
+                from += std::min(a, b), to += std::max(a, b);
+            }
+        if (!is_outside_box(lower, upper))
+            return false;
+    }
+    return true;
+}
+
+void ChunkBuffers::draw(const ViewFrame& frame, bool instanced, ShaderProgram& program,
+                        const LeftOut& left_out) {
+    const EyePoint* const eye = left_out.backs_seen_from;
     for (const ChunkDraw& draw : frame.draws) {
         if ((draw.instances > 0) != instanced)
             continue;
         const auto found = chunks_.find(draw.chunk);
         if (found == chunks_.end() || found->second.index_count == 0)
             continue;
+        const auto &low = found->second.box_lower, &high = found->second.box_upper;
+        if (!instanced && left_out.behind != nullptr &&
+            left_out.behind->hides({low[0], low[1], low[2]}, {high[0], high[1], high[2]})) {
+            ++hidden_chunks_;
+            continue;
+        }
         const Chunk& chunk = found->second;
         glBindVertexArray(chunk.array.name());
         program.set("u_lower", chunk.lower);
         program.set("u_step", chunk.step);
         const std::uint64_t copies = instanced ? draw.instances : 1;
-        if (instanced) {
+        if (instanced)
             bind_instances(draw.first_instance);
-            glDrawElementsInstanced(GL_TRIANGLES, chunk.index_count, GL_UNSIGNED_SHORT, nullptr,
-                                    static_cast<GLsizei>(draw.instances));
-        } else {
-            glDrawElements(GL_TRIANGLES, chunk.index_count, GL_UNSIGNED_SHORT, nullptr);
+        const auto draw_range = [&](GLsizei from, GLsizei to) {
+            if (from == to)
+                return;
+            const void* const first = offset_of(static_cast<std::size_t>(from) * sizeof(GLushort));
+            if (instanced)
+                glDrawElementsInstanced(GL_TRIANGLES, to - from, GL_UNSIGNED_SHORT, first,
+                                        static_cast<GLsizei>(copies));
+            else
+                glDrawElements(GL_TRIANGLES, to - from, GL_UNSIGNED_SHORT, first);
+            ++draw_calls_;
+        };
+        const bool without_backs =
+            eye != nullptr && chunk.closed_count > 0 &&
+            is_outside(chunk, frame.instances.subspan(draw.first_instance, draw.instances), *eye);
+        const GLsizei closed = without_backs ? chunk.closed_count : 0;
+        if (closed > 0) {
+            glEnable(GL_CULL_FACE);
+            draw_range(0, closed);
+            glDisable(GL_CULL_FACE);
         }
+        draw_range(closed, chunk.index_count);
         triangles_ += copies * static_cast<std::uint64_t>(chunk.index_count) / 3;
-        ++draw_calls_;
     }
     glBindVertexArray(0);
 }

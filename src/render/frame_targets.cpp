@@ -18,6 +18,8 @@ PixelLayout layout_of(GLenum internal) {
         return {GL_RG_INTEGER, GL_UNSIGNED_INT};
     case GL_DEPTH_COMPONENT32F:
         return {GL_DEPTH_COMPONENT, GL_FLOAT};
+    case GL_R32F:
+        return {GL_RED, GL_FLOAT};
     case GL_RG16F:
         return {GL_RG, GL_FLOAT};
     case GL_R8:

@@ -30,6 +30,7 @@ PartStates::PartStates(std::size_t parts) : parts_(parts) {
 }
 
 void PartStates::count(Texel texel, int by) {
+    flagged_ += texel[3] != 0 ? by : 0;
     if ((texel[3] & kHidden) != 0)
         return;
     ghosts_ += (texel[3] & kGhosted) != 0 ? by : 0;

@@ -25,6 +25,8 @@ public:
 
     [[nodiscard]] bool has_ghosts() const { return ghosts_ > 0; }
     [[nodiscard]] bool has_highlights() const { return highlights_ > 0; }
+    /// Whether any part has a flag.
+    [[nodiscard]] bool has_flags() const { return flagged_ > 0; }
 
 private:
     static constexpr std::uint32_t kRow = 4096;
@@ -36,6 +38,7 @@ private:
     std::vector<Texel> texels_;
     std::vector<bool> changed_;                ///< by row
     std::int64_t ghosts_ = 0, highlights_ = 0; ///< of parts that are not hidden
+    std::int64_t flagged_ = 0;
     GlTexture texture_;
 };
 

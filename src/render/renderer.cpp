@@ -29,16 +29,19 @@ GLuint bound_framebuffer() {
 
 Picture read_picture(const RenderTarget& target) {
     Picture picture{target.width(), target.height(), {}};
-    const std::size_t row = std::size_t{picture.width} * 3;
-    std::vector<std::uint8_t> upward(row * picture.height);
+    const std::size_t width = picture.width, height = picture.height;
+    // In the format of the buffer, so that the driver only copies.
+    std::vector<std::array<std::uint8_t, 4>> upward(width * height);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target.framebuffer());
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, static_cast<GLsizei>(picture.width), static_cast<GLsizei>(picture.height),
-                 GL_RGB, GL_UNSIGNED_BYTE, upward.data());
-    picture.pixels.resize(upward.size());
-    for (std::size_t y = 0; y < picture.height; ++y)
-        std::copy_n(upward.data() + (picture.height - 1 - y) * row, row,
-                    picture.pixels.data() + y * row);
+    glReadPixels(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height), GL_RGBA,
+                 GL_UNSIGNED_BYTE, upward.data());
+    picture.pixels.resize(3 * width * height);
+    for (std::size_t y = 0; y < height; ++y) {
+        const auto* from = upward.data() + (height - 1 - y) * width;
+        std::uint8_t* to = picture.pixels.data() + 3 * y * width;
+        for (std::size_t x = 0; x < width; ++x, to += 3)
+            to[0] = from[x][0], to[1] = from[x][1], to[2] = from[x][2];
+    }
     return picture;
 }
 
@@ -73,7 +76,7 @@ void Renderer::move_part(std::uint32_t part, const Transform& world_from_mesh) {
 }
 void Renderer::remove_part(std::uint32_t part) {
     data_->extra.remove(part);
-    data_->states.set(part, {.hidden = true});
+    data_->states.set(part, {});
 }
 
 void Renderer::begin(const Camera& camera, const RenderStyle& style) {

@@ -8,10 +8,19 @@
 #include "render/shaders/screen_shaders.h"
 
 #include <cmath>
+#include <string_view>
 
 namespace abut {
 
 namespace {
+
+/// One in this number of triangles is drawn before the others are tested.
+constexpr std::uint64_t kNearShare = 3;
+/// One chunk in this number must be hidden.
+constexpr std::uint64_t kWorthwhile = 6;
+constexpr int kPicturesWithoutTest = 7;
+/// A picture with fewer draws is not worth the test.
+constexpr std::size_t kLeastDraws = 32;
 
 constexpr GLuint kPartsUnit = 0, kDepthUnit = 1, kStatesUnit = 2, kOcclusionUnit = 3,
                  kGhostsUnit = 4;
@@ -35,7 +44,16 @@ void reset_state() {
         glDisable(feature);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glFrontFace(GL_CCW);
+    glCullFace(GL_BACK);
     glDepthMask(GL_TRUE);
+}
+
+/// Whether OpenGL has no graphics card.
+bool draws_in_software() {
+    const auto* const text = reinterpret_cast<const char*>(glGetString(GL_RENDERER)); // NOLINT
+    const std::string_view name(text != nullptr ? text : "");
+    return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
 }
 
 std::array<float, 3> to_floats(const Colour& colour) {
@@ -47,7 +65,8 @@ std::array<float, 3> to_floats(const Colour& colour) {
 
 RendererData::RendererData(std::size_t parts, const Vec3& origin)
     : states(parts + ExtraParts::kMost), extra(static_cast<std::uint32_t>(parts), origin),
-      origin_(origin), reversed_(epoxy_has_gl_extension("GL_ARB_clip_control")) {}
+      origin_(origin), in_software_(draws_in_software()),
+      reversed_(epoxy_has_gl_extension("GL_ARB_clip_control")) {}
 
 ShaderProgram& RendererData::program(const std::string& name, const std::string& definitions,
                                      const char* vertex, const char* fragment) {
@@ -74,6 +93,8 @@ ShaderProgram& RendererData::geometry(Pass pass, bool instanced) {
         definitions += "#define GHOSTS\n";
     if (pass == Pass::ground)
         definitions += "#define GROUND\n";
+    else if (pass == Pass::ghosts || states.has_flags())
+        definitions += "#define FLAGS\n";
     ShaderProgram& used =
         program("geometry", definitions, kGeometryVertexShader, kGeometryFragmentShader);
     used.set_matrix("u_clip_from_world", camera->clip_from_world(origin_, reversed_));
@@ -124,10 +145,36 @@ void RendererData::begin(const Camera& seen_by, const RenderStyle& drawn_in) {
     is_open = true;
 }
 
-void RendererData::draw_both(const ViewFrame& frame, Pass pass) {
+void RendererData::draw_both(const ViewFrame& frame, Pass pass, const DepthTiles* behind) {
     states.bind(kStatesUnit);
+    const Vec3 at = camera->eye - origin_;
+    // The corners of the picture are the farthest points of the near plane.
+    const EyePoint eye{{at.x, at.y, at.z},
+                       camera->near * std::sqrt(1 + camera->slope_x * camera->slope_x +
+                                                camera->slope_y * camera->slope_y)};
+    const bool without_backs = style.leave_out_backs && pass == Pass::parts && !is_cut();
     for (const bool instanced : {false, true})
-        chunks.draw(frame, instanced, geometry(pass, instanced));
+        chunks.draw(frame, instanced, geometry(pass, instanced),
+                    {without_backs ? &eye : nullptr, behind});
+}
+
+void RendererData::draw_in_two_steps(const ViewFrame& frame) {
+    std::uint64_t triangles = 0, near = 0;
+    for (const ChunkDraw& draw : frame.draws)
+        triangles += chunks.triangles_of(draw.chunk);
+    std::size_t count = 0;
+    while (count < frame.draws.size() && kNearShare * near < triangles)
+        near += chunks.triangles_of(frame.draws[count++].chunk);
+    ViewFrame part = frame;
+    part.draws = frame.draws.first(count);
+    draw_both(part, Pass::parts);
+    tiles_.read(targets.parts(), *camera, depth_to_w(), origin_);
+    targets.parts().bind();
+    part.draws = frame.draws.subspan(count);
+    draw_both(part, Pass::parts, &tiles_);
+    // Where little is hidden, the test is left out for some pictures.
+    const bool pays = kWorthwhile * chunks.hidden_chunks() >= frame.draws.size();
+    tests_left_out_ = pays ? 0 : kPicturesWithoutTest;
 }
 
 void RendererData::draw_extra(Pass pass) {
@@ -141,7 +188,10 @@ void RendererData::draw_extra(Pass pass) {
 void RendererData::draw_chunks(const ViewFrame& frame) {
     chunks.update(frame);
     targets.parts().bind();
-    draw_both(frame, Pass::parts);
+    if (in_software_ && frame.draws.size() >= kLeastDraws && tests_left_out_-- <= 0)
+        draw_in_two_steps(frame);
+    else
+        draw_both(frame, Pass::parts);
     draw_extra(Pass::parts);
 }
 
@@ -215,6 +265,10 @@ void RendererData::shade() {
         definitions += "#define STILL\n";
     if (style.ambient_occlusion)
         definitions += "#define OCCLUSION\n";
+    if (has_ground_)
+        definitions += "#define GROUND\n";
+    if (is_cut())
+        definitions += "#define SECTION\n";
     if (has_ghosts_)
         definitions += "#define GHOSTS\n";
     if (states.has_highlights())

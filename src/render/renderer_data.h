@@ -45,7 +45,9 @@ private:
                            const char* vertex, const char* fragment);
     ShaderProgram& geometry(Pass pass, bool instanced);
     void set_sections(ShaderProgram& program) const;
-    void draw_both(const ViewFrame& frame, Pass pass);
+    void draw_both(const ViewFrame& frame, Pass pass, const DepthTiles* behind = nullptr);
+    /// Draws the nearest chunks, and then those that these do not hide.
+    void draw_in_two_steps(const ViewFrame& frame);
     void draw_extra(Pass pass);
     void draw_ground();
     void draw_occlusion();
@@ -56,11 +58,14 @@ private:
     [[nodiscard]] std::array<float, 3> depth_to_w() const;
 
     Vec3 origin_;
-    bool reversed_; ///< whether depth is reversed, which keeps its precision far away
+    bool in_software_; ///< whether there is no graphics card
+    bool reversed_;    ///< whether depth is reversed, which keeps its precision far away
     bool has_ground_ = false, has_ghosts_ = false; ///< in the buffers of this picture
     std::map<std::string, std::unique_ptr<ShaderProgram>> programs_;
     GlVertexArray no_attributes_;
     MarkLayer marks_;
+    DepthTiles tiles_;
+    int tests_left_out_ = 0; ///< pictures that are drawn in one step
 };
 
 } // namespace abut

@@ -5,7 +5,9 @@ namespace abut {
 const char* const kGeometryVertexShader = R"glsl(
 uniform mat4 u_clip_from_world;
 uniform vec3 u_lower, u_step;
+#ifdef FLAGS
 uniform sampler2D u_states;
+#endif
 
 #ifdef GROUND
 uniform vec3 u_ground_centre, u_ground_x, u_ground_y, u_ground_normal;
@@ -56,15 +58,18 @@ void main() {
     uint part = a_part;
 #endif
     v_normal = normal;
+    v_part = part + 1u;
+#ifdef FLAGS
     int flags = int(texelFetch(u_states, ivec2(int(part & 4095u), int(part >> 12)), 0).a * 255.0 +
                     0.5);
-    v_part = (part + 1u) | ((flags & 4) != 0 ? 0x80000000u : 0u);
+    v_part |= (flags & 4) != 0 ? 0x80000000u : 0u;
+#endif
 #endif
     gl_Position = u_clip_from_world * vec4(world, 1.0);
 #if defined(SECTION) || defined(GHOSTS)
     v_world = world;
 #endif
-#ifndef GROUND
+#ifdef FLAGS
     // A hidden part becomes one point outside of the clip space.
 #ifdef GHOSTS
     if ((flags & 3) != 2)

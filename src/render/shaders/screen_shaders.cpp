@@ -71,6 +71,7 @@ vec3 background(vec3 ray) {
     return mix(u_low, u_high, smoothstep(0.42, 0.85, height));
 }
 
+#ifdef GROUND
 // Colour of the ground, with a grid that fades.
 vec3 ground(vec3 ray, float w, vec3 behind) {
     vec3 at = ray * w + u_eye;
@@ -86,6 +87,7 @@ vec3 ground(vec3 ray, float w, vec3 behind) {
     float far = length(at - dot(at, u_sky) * u_sky) / u_ground_reach;
     return mix(colour, behind, smoothstep(0.25, 1.0, far));
 }
+#endif
 
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
@@ -106,8 +108,10 @@ void main() {
 #endif
     if (number == 0u) {
         colour = background(ray);
+#ifdef GROUND
     } else if (number == kGround) {
         colour = ground(ray, w, background(ray)) * mix(0.35, 1.0, open);
+#endif
     } else {
         uint state = number - 1u;
         vec3 own = texelFetch(u_states, ivec2(int(state & 4095u), int(state >> 12)), 0).rgb;
@@ -117,12 +121,14 @@ void main() {
         vec3 light = mix(vec3(0.33, 0.31, 0.30), vec3(0.60, 0.63, 0.68), sky) * open +
                      vec3(0.52, 0.50, 0.46) * lit * mix(1.0, open, 0.5);
         colour = own * sqrt(0.84 * light);
+#ifdef SECTION
         if ((part.x & 0x40000000u) != 0u) {
             // The inside of a solid that is cut: flat, and hatched as in a drawing.
             float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * u_samples)) - 0.5);
             colour = mix(own, vec3(1.0), 0.35) * (stripe < 0.07 ? 0.72 : 0.97) * mix(0.85, 1.0, open);
             n = normalize(ray);
         }
+#endif
     }
 #ifdef EDGES
     float line = max(edge(here, ivec2(1, 0), part, n, at, w, fade),
@@ -226,6 +232,28 @@ void main() {
             weights += weight;
         }
     o_seen = vec4(sum / weights);
+}
+)glsl";
+
+const char* const kFarthestFragmentShader = R"glsl(
+uniform sampler2D u_depth;
+uniform vec3 u_depth_to_w;
+out float o_farthest;
+
+float w_of(float depth) { return u_depth_to_w.x / (u_depth_to_w.y + u_depth_to_w.z * depth); }
+
+// The farthest w in a tile of 16 x 16 samples.
+void main() {
+    ivec2 first = ivec2(gl_FragCoord.xy) * 16;
+    ivec2 end = min(first + 16, textureSize(u_depth, 0));
+    float low = 1.0, high = 0.0;
+    for (int y = first.y; y < end.y; ++y)
+        for (int x = first.x; x < end.x; ++x) {
+            float depth = texelFetch(u_depth, ivec2(x, y), 0).r;
+            low = min(low, depth);
+            high = max(high, depth);
+        }
+    o_farthest = max(w_of(low), w_of(high));
 }
 )glsl";
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "math/vector.h"
+#include "render/drawn_camera.h"
+#include "render/frame_targets.h"
+#include "render/shader_program.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace abut {
+
+/// The farthest depth in each tile of a picture that is being drawn. What lies behind it is hidden.
+/// For software rasterisers, where reading depth back is cheap and hidden triangles are expensive.
+class DepthTiles {
+public:
+    static constexpr std::uint32_t kTile = 16; ///< samples along a side
+
+    /// Reads the depth of what has been drawn so far, which it waits for. Binds another framebuffer
+    /// and texture unit 1.
+    ///
+    /// In          depth_to_w: w = x / (y + z * depth); origin: boxes are relative to it.
+    void read(const RenderTarget& parts, const DrawnCamera& camera,
+              const std::array<float, 3>& depth_to_w, const Vec3& origin);
+
+    /// Whether nothing in the box can be seen: each tile that its image touches is nearer.
+    [[nodiscard]] bool hides(const Vec3& lower, const Vec3& upper) const;
+
+private:
+    std::uint32_t columns_ = 0, rows_ = 0;
+    double width_ = 0, height_ = 0;
+    Vec3 eye_, right_, up_, forward_; ///< right and up: scaled to the border of the picture
+    double near_ = 0;
+    std::unique_ptr<RenderTarget> target_;
+    std::unique_ptr<ShaderProgram> program_;
+    GlVertexArray no_attributes_;
+    std::vector<float> farthest_; ///< by tile: w
+};
+
+} // namespace abut
