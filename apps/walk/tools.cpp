@@ -138,6 +138,9 @@ Vec3 Carrying::wanted(const Session& session) const {
     return camera.eye + ahead * unit(camera.forward) + aside;
 }
 
+/// Steps of depths while a part moves: a few milliseconds.
+constexpr std::uint64_t kDepthSteps = 2000;
+
 void Carrying::update(Session& session) {
     if (!carry)
         return;
@@ -149,7 +152,8 @@ void Carrying::update(Session& session) {
     CarryOptions options;
     options.mode = mode;
     options.missing = MissingParts::skip;
-    options.depths = !moves; // they take longest, so they are asked for once it rests
+    if (moves) // depths take longest, so they are complete once it rests
+        options.depth_steps = kDepthSteps;
     const Vec3 from = last.pose.translation;
     Pose pose = last.pose;
     pose.translation = to;

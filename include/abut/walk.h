@@ -80,6 +80,10 @@ struct WalkQuery {
     ContactMode mode = ContactMode::all;
     /// For `sweep` and the times of impact: see ImpactOptions.
     std::optional<double> absolute_error{};
+    /// For `penetration` of a model: most steps of all depths together, as
+    /// DistanceOptions::max_steps counts them. A depth that needs more is bound_only: the part is at
+    /// least so deep, or touched where it is 0.
+    std::optional<std::uint64_t> max_steps{};
     /// Its stop flag ends a query. Queries report nothing.
     Progress progress{};
 };

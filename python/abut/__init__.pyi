@@ -181,7 +181,7 @@ class Carry:
     hold it until it has left them. It keeps the walk alive. Errors as Walk.model.
     """
     def __init__(self, walk: Walk, part: int) -> None: ...
-    def move_to(self, pose: _Poses, *, mode: CarryMode | str = ..., clearance: float = ..., depths: bool = ..., skin: float = ..., missing: MissingParts | str = ...) -> CarryStep:
+    def move_to(self, pose: _Poses, *, mode: CarryMode | str = ..., clearance: float = ..., depths: bool = ..., skin: float = ..., missing: MissingParts | str = ..., depth_steps: int | None = ...) -> CarryStep:
         """Moves the part towards a rigid pose; no contact on the way is missed.
 
         mode       a CarryMode
@@ -189,6 +189,7 @@ class Carry:
         depths     whether depths are computed where parts overlap
         skin       length of the gap that is kept to parts
         missing    MissingParts
+        depth_steps most steps of all depths together; None: no limit
 
         Returns a CarryStep. Raises Error (bad_argument); KeyboardInterrupt at Ctrl-C.
         """
@@ -391,6 +392,41 @@ class ClashStatus(IntEnum):
     reviewed = 2
     approved = 3
     resolved = 4
+
+class ClashViewpoint:
+    """A camera that shows one clash or several. Lengths in metres."""
+    @property
+    def eye(self) -> NDArray[Any]: ...
+    @property
+    def direction(self) -> NDArray[Any]:
+        """unit vector"""
+    @property
+    def up(self) -> NDArray[Any]:
+        """unit vector"""
+    @property
+    def fov(self) -> float:
+        """vertical angle in radians"""
+    @property
+    def aspect(self) -> float:
+        """width of the picture, divided by its height"""
+    @property
+    def section_box(self) -> Box3:
+        """Box3; what lies outside may be hidden"""
+    @property
+    def shown_a(self) -> float:
+        """fraction of the picture that side a covers"""
+    @property
+    def shown_b(self) -> float:
+        """fraction of the picture that side b covers"""
+    @property
+    def side_a(self) -> list[ReportPart]:
+        """list of ReportPart"""
+    @property
+    def side_b(self) -> list[ReportPart]:
+        """list of ReportPart"""
+    @property
+    def near(self) -> list[NamedPart]:
+        """list of NamedPart: others in the section box"""
 
 class Colour:
     """As displays take it: sRGB, each 0 to 255."""
@@ -1326,6 +1362,13 @@ class Motion:
     @property
     def angular_velocity(self) -> NDArray[Any]: ...
 
+class NamedPart:
+    """A part by its words."""
+    @property
+    def file(self) -> str: ...
+    @property
+    def id(self) -> str: ...
+
 class NearParts:
     """Returned by Walk.within and Walk.penetration."""
     @property
@@ -1779,6 +1822,13 @@ class RemovedModel:
     @property
     def parts(self) -> int: ...
 
+class ReportPart:
+    """A part by the indices that clashes use."""
+    @property
+    def model(self) -> int: ...
+    @property
+    def part(self) -> int: ...
+
 class Scene:
     """A file's parts, in metres. Parts may share a mesh. From Python: meshes are what Model takes, parts are
     Part. Raises IndexError if a part's mesh is not there.
@@ -2045,9 +2095,10 @@ class Walk:
         """All parts at most `tolerance` away, and how far: NearParts. Otherwise as distance."""
     def collide(self, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses = ..., *, mode: ContactMode | str = ..., missing: MissingParts | str = ..., except_part: int = ...) -> TouchedParts:
         """The parts that share a point with the probe: TouchedParts. Otherwise as distance."""
-    def penetration(self, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses = ..., *, missing: MissingParts | str = ..., except_part: int = ...) -> NearParts:
+    def penetration(self, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, pose: _Poses = ..., *, missing: MissingParts | str = ..., except_part: int = ..., max_steps: int | None = ...) -> NearParts:
         """The parts that share a point with the probe, and how deep they go into each other:
-        NearParts. Otherwise as distance.
+        NearParts. max_steps: most steps of all depths together; a depth that needs more is
+        bound_only. Otherwise as distance.
         """
     def first_hit(self, origin: Ray | ArrayLike, direction: ArrayLike | None = ..., t_min: float = ..., t_max: float = ..., *, missing: MissingParts | str = ..., except_part: int = ...) -> HitPart:
         """The first part that a ray meets: a HitPart.
@@ -2405,6 +2456,18 @@ def check_path(walk: Walk, probe: int | Probe | Model | Convex | Sphere | Capsul
     progress           function of (stage, fraction)
 
     Returns a PathReport. Raises Error (bad_argument); KeyboardInterrupt at Ctrl-C.
+    """
+def clash_viewpoint(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clash: int, *, fov: float = ..., aspect: float = ..., near: bool = ...) -> ClashViewpoint:
+    """As clash_viewpoints, for one clash."""
+def clash_viewpoints(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clashes: list[list[int]], *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> list[ClashViewpoint]:
+    """The best viewpoint of each list of clashes, by their indices in the report.
+
+    models   what the report is about: list of Scene or paths, or a Store
+    fov      vertical angle in radians
+    aspect   of the picture: width / height
+    near     whether the other parts in the section boxes are listed
+
+    Returns a list of ClashViewpoint. Raises Error: bad_argument, those of the store.
     """
 @overload
 def collide(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, mode: ContactMode | str = ..., segments: bool = ..., warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Contacts:

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <variant>
 
 namespace abut {
 
@@ -72,6 +73,35 @@ WalkGap gap_to(const NearEntry& entry, const PlacedProbe& probe, Depths depths) 
     result.triangle_part = entry.triangle(gap.triangle_a);
     result.triangle_probe = gap.triangle_b;
     result.status = gap.status;
+    return result;
+}
+
+/// The depth of two models in a limited number of steps, which are used up.
+WalkGap depth_within(const NearEntry& entry, const PlacedProbe& probe, std::uint64_t& steps) {
+    const PlacedBody part = entry.body(), held = probe.body();
+    const auto* a = std::get_if<Model>(&part.shape);
+    const auto* b = std::get_if<Model>(&held.shape);
+    if (a == nullptr || b == nullptr)
+        return gap_to(entry, probe, Depths::yes);
+    DistanceOptions options;
+    options.signed_distance = true;
+    options.max_steps = steps;
+    const Gap gap = distance(*a, part.world_from_body, *b, held.world_from_body, options);
+    steps -= std::min(gap.steps, steps);
+    WalkGap result;
+    result.part = entry.part;
+    result.status = gap.status;
+    // The models touch, so what the steps did not suffice for is a distance of 0.
+    if (gap.distance < 0) {
+        result.distance = gap.distance;
+        result.point_part = gap.point_a, result.point_probe = gap.point_b;
+        result.normal = normalized_or_zero(gap.point_a - gap.point_b);
+        result.triangle_part = entry.triangle(gap.triangle_a);
+        result.triangle_probe = gap.triangle_b;
+    } else {
+        result.distance = 0;
+        result.point_part = result.point_probe = gap.point_a;
+    }
     return result;
 }
 
@@ -186,11 +216,14 @@ NearParts Walk::penetration(const Probe& probe, const Transform& world_from_prob
     const StopScope stopping(query.progress);
     const PlacedProbe placed(probe, world_from_probe);
     NearParts answer;
+    std::uint64_t steps = query.max_steps.value_or(0);
     Reach(*data_, placed, query, Depths::yes, answer).visit(0, [&](const NearEntry& entry) {
         if (!touches(entry, placed))
             return 0.0;
         const bool is_open = entry.chunk != nullptr && entry.chunk->is_block;
-        answer.parts.push_back(gap_to(entry, placed, is_open ? Depths::no : Depths::yes));
+        answer.parts.push_back(query.max_steps && !is_open
+                                   ? depth_within(entry, placed, steps)
+                                   : gap_to(entry, placed, is_open ? Depths::no : Depths::yes));
         if (is_open)
             answer.parts.back().status = Status::bound_only;
         return 0.0;

@@ -66,18 +66,20 @@ void bind_carry(py::module_& module) {
         .def(
             "move_to",
             [](Hand& self, const py::object& pose, CarryMode mode, double clearance, bool depths,
-               double skin, MissingParts missing) {
+               double skin, MissingParts missing, std::optional<std::uint64_t> depth_steps) {
                 return self.move_to(to_pose(pose, "pose"),
-                                    {mode, clearance, depths, skin, missing, {}});
+                                    {mode, clearance, depths, depth_steps, skin, missing, {}});
             },
             py::arg("pose"), py::kw_only(), py::arg("mode") = "stop", py::arg("clearance") = 0.1,
             py::arg("depths") = true, py::arg("skin") = 1e-3, py::arg("missing") = "wait",
+            py::arg("depth_steps") = py::none(),
             "Moves the part towards a rigid pose; no contact on the way is missed.\n\n"
             "mode       a CarryMode\n"
             "clearance  length; parts within it are reported\n"
             "depths     whether depths are computed where parts overlap\n"
             "skin       length of the gap that is kept to parts\n"
-            "missing    MissingParts\n\n"
+            "missing    MissingParts\n"
+            "depth_steps most steps of all depths together; None: no limit\n\n"
             "Returns a CarryStep. Raises Error (bad_argument); KeyboardInterrupt at Ctrl-C.")
         .def_property_readonly(
             "part",

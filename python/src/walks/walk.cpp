@@ -127,16 +127,20 @@ void add_walk_ways(py::class_<OpenWalk>& type) {
     type.def(
             "penetration",
             [](OpenWalk& self, const py::object& probe, const py::object& pose,
-               MissingParts missing, std::int64_t except) {
-                return ask_walk(self, probe, pose, query_of(missing, except),
+               MissingParts missing, std::int64_t except, std::optional<std::uint64_t> max_steps) {
+                WalkQuery query = query_of(missing, except);
+                query.max_steps = max_steps;
+                return ask_walk(self, probe, pose, query,
                                 [](Walk& walk, const WalkQuery& q, const auto&... what) {
                                     return walk.penetration(what..., q);
                                 });
             },
             py::arg("probe"), py::arg("pose") = py::none(), py::kw_only(),
             py::arg("missing") = "wait", py::arg("except_part") = 0,
+            py::arg("max_steps") = py::none(),
             "The parts that share a point with the probe, and how deep they go into each other:\n"
-            "NearParts. Otherwise as distance.")
+            "NearParts. max_steps: most steps of all depths together; a depth that needs more is\n"
+            "bound_only. Otherwise as distance.")
         .def(
             "first_hit",
             [](OpenWalk& self, const py::object& origin, const py::object& direction, double t_min,

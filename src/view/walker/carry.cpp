@@ -153,8 +153,11 @@ private:
             for (const WalkGap& gap : step_.touched) // they do not hold it when the mode changes
                 if (!is_held_by(gap.part))
                     held_.insert(std::lower_bound(held_.begin(), held_.end(), gap.part), gap.part);
-        if (options_.depths && !step_.touched.empty())
-            step_.touched = walk_.penetration(probe_, step_.pose, query()).parts;
+        if (options_.depths && !step_.touched.empty()) {
+            WalkQuery deep = query();
+            deep.max_steps = options_.depth_steps;
+            step_.touched = walk_.penetration(probe_, step_.pose, deep).parts;
+        }
     }
 
     Walk& walk_;

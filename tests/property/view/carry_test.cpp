@@ -67,6 +67,45 @@ TEST(Carry, IsStoppedByAllPartsAndSeesThoseNear) {
     EXPECT_GT(slid, blocked / 10);
 }
 
+/// Depths in few steps are at most those without a limit, and say so.
+TEST(Carry, BoundsTheStepsOfDepths) {
+    Random random(6533);
+    int complete = 0, limited = 0;
+    for (int round = 0; round < many(4); ++round) {
+        const Folder folder;
+        const std::string path = some_store(random, folder, false);
+        Walk walk(open_store(path), {.prefetch = false});
+        const auto known = parts_of(path);
+        for (int i = 0; i < 25; ++i) {
+            const WalkPart part = std::next(known.begin(), random.integer(0, 40))->first;
+            const Transform place(random.pose(2));
+            WalkQuery query;
+            query.except = part;
+            const Probe probe(walk.model(part));
+            const NearParts all = walk.penetration(probe, place, query);
+            query.max_steps = static_cast<std::uint64_t>(std::pow(10, random.uniform(0, 4)));
+            const NearParts few = walk.penetration(probe, place, query);
+            ASSERT_EQ(few.parts.size(), all.parts.size());
+            for (std::size_t k = 0; k < all.parts.size(); ++k) {
+                const WalkGap &exact = all.parts[k], &found = few.parts[k];
+                ASSERT_EQ(found.part, exact.part);
+                ASSERT_LE(found.distance, 0);
+                if (found.distance == exact.distance) {
+                    ++complete;
+                    continue;
+                }
+                ASSERT_EQ(found.status, Status::bound_only);
+                // A depth is within a hundredth, so a search with less work may find a little more.
+                ASSERT_GE(found.distance, 1.02 * exact.distance);
+                ++limited;
+            }
+        }
+    }
+    std::cout << complete << " depths complete, " << limited << " limited\n";
+    EXPECT_GT(complete, 10);
+    EXPECT_GT(limited, 10);
+}
+
 class CarryByHand : public testing::Test {
 protected:
     Store import_room() {
