@@ -1,7 +1,9 @@
+#include "plot.h"
 #include "suite.h"
 
 #include <cstdio>
 #include <exception>
+#include <string>
 
 namespace {
 
@@ -11,12 +13,17 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     bool json = false;
     Report report;
-    for (const Suite* suite : Suite::all())
-        suite->add_to(app, report)
-            ->add_flag("--json", json, "One JSON object instead of the table");
+    std::string picture;
+    for (const Suite* suite : Suite::all()) {
+        CLI::App* const command = suite->add_to(app, report);
+        command->add_flag("--json", json, "One JSON object instead of the table");
+        command->add_option("--plot", picture, "Also draw the rows that have a peer: an SVG file");
+    }
     try {
         app.parse(argc, argv);
         json ? print_json(report) : print_table(report);
+        if (!picture.empty())
+            write_plot(report, picture);
         return 0;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
