@@ -4,7 +4,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME abut)
 set(CPACK_PACKAGE_VENDOR Abut)
 set(CPACK_PACKAGE_CONTACT "The Abut developers <abut@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
@@ -39,23 +39,23 @@ if(NOT ABUT_SHARED)
     set(needs_render)
 endif()
 abut_package(lib ${library} libs "" "Proximity queries on triangle models: shared library
- Collision, distance, penetration depth and times of impact of triangle models,
- and clash detection of whole buildings and plants.")
+Collision, distance, penetration depth and times of impact of triangle models,
+and clash detection of whole buildings and plants.")
 abut_package(render ${render} libs "${needs}" "Proximity queries on triangle models: pictures
- Draws models, parts and clashes with OpenGL, without a window.")
+Draws models, parts and clashes with OpenGL, without a window.")
 abut_package(dev libabut-dev libdevel "${needs_render}" "Proximity queries on triangle models: development files
- Headers for C++20 and C, static libraries, and files for CMake and pkg-config.
- To link the static libraries, install the recommended packages.")
+Headers for C++20 and C, static libraries, and files for CMake and pkg-config.
+To link the static libraries, install the recommended packages.")
 abut_package(command abut science "${needs_render}" "Finds out where models of buildings, plants and machines clash
- The command abut, its manual pages and shell completion, and the programs that
- read FBX, COLLADA, 3MF and IFC files. IFC needs Node.js.")
+The command abut, its manual pages and shell completion, and the programs that
+read FBX, COLLADA, 3MF and IFC files. IFC needs Node.js.")
 abut_package(mpi abut-mpi science "abut ${same}" "Clash detection by several machines
- The module with which abut joins the processes of mpirun.")
+The module with which abut joins the processes of mpirun.")
 abut_package(walk abut-walk science "${needs_render}" "Viewer to walk through models, measure and find clashes
- A window in which plants of any size are walked through.")
+A window in which plants of any size are walked through.")
 abut_package(python python3-abut python "${needs_render}, python3 (>= @python@), python3 (<< @next@), python3-numpy"
              "Proximity queries on triangle models: Python module
- The functions of libabut on numpy's arrays.")
+The functions of libabut on numpy's arrays.")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libtbb-dev, libfmt-dev, libhwy-dev, libqhull-dev, libmeshoptimizer-dev, libsqlite3-dev, libzstd-dev, libmetis-dev, libepoxy-dev, libpng-dev")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "nodejs (>= 18), libgl1-mesa-dri, libegl1")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "abut-walk, abut-mpi")
