@@ -56,7 +56,7 @@ A window in which plants of any size are walked through.")
 abut_package(python python3-abut python "${needs_render}, python3 (>= @python@), python3 (<< @next@), python3-numpy"
              "Proximity queries on triangle models: Python module
 The functions of libabut on numpy's arrays.")
-set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libtbb-dev, libfmt-dev, libhwy-dev, libqhull-dev, libmeshoptimizer-dev, libsqlite3-dev, libzstd-dev, libmetis-dev, libepoxy-dev, libpng-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libtbb-dev, libfmt-dev, libhwy-dev, libqhull-dev, libmeshoptimizer-dev, libsqlite3-dev, libzstd-dev, libmetis-dev, libzip-dev, libpugixml-dev, libepoxy-dev, libpng-dev")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "nodejs (>= 18), libgl1-mesa-dri, libegl1")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "abut-walk, abut-mpi")
 set(CPACK_DEBIAN_WALK_PACKAGE_RECOMMENDS "abut ${same}, libgl1-mesa-dri, libgl1")

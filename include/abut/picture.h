@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/clash.h>
+#include <abut/clash_viewpoint.h>
 #include <abut/progress.h>
 #include <abut/renderer.h>
 #include <abut/scene.h>
@@ -40,6 +41,14 @@ struct PairAim {
     std::optional<std::array<Vec3, 2>> points;
 };
 
+/// Two sets of parts in red and blue, as a camera sees them. The parts around them are ghosts; no
+/// other part is drawn.
+struct SidesAim {
+    Camera camera; ///< its size is ignored
+    std::array<std::vector<NamedPart>, 2> sides;
+    std::vector<NamedPart> around;
+};
+
 /// What parts take their colours from.
 enum class ColourBy : std::uint8_t {
     material, ///< the file's materials; of parts without one, as `type`
@@ -62,8 +71,8 @@ std::vector<Colour> part_colours(const Store& store, ColourBy by);
 
 struct PictureOptions {
     /// The picture shows the whole model from a side, or what a camera sees (its size is ignored),
-    /// or one part, or a pair of parts.
-    std::variant<NamedView, Camera, PartAim, PairAim> aim = NamedView::iso;
+    /// or one part, a pair of parts, or two sets of parts.
+    std::variant<NamedView, Camera, PartAim, PairAim, SidesAim> aim = NamedView::iso;
     std::uint32_t width = 1600, height = 1000; ///< pixels; at most 8192
     ColourBy colour_by = ColourBy::material;
     std::uint32_t samples = 2; ///< along each side of a pixel: 1, 2 or 4
@@ -84,9 +93,13 @@ Picture picture(const std::vector<Scene>& models, const PictureOptions& options 
 /// Errors      as above; those of the store.
 Picture picture(const Store& store, const PictureOptions& options = {});
 
+/// Returns a picture as the bytes of a PNG file.
+///
+/// Errors      Error{bad_argument} if the picture has no pixels.
+std::string png_bytes(const Picture& picture);
 /// Writes a picture as PNG, atomically.
 ///
-/// Errors      Error{cannot_write}, naming the file.
+/// Errors      as png_bytes; Error{cannot_write}, naming the file.
 void write_png(const Picture& picture, const std::string& path);
 
 } // namespace abut

@@ -34,6 +34,7 @@ PYBIND11_MODULE(_abut, module) {
     bind_store_clash(module);
     bind_clash_review(module);
     bind_clash_viewpoint(module);
+    bind_bcf(module);
     bind_walk(module);
     bind_maintenance_path(module);
     bind_carry(module);

@@ -30,6 +30,7 @@ void bind_crew(py::module_& module);
 void bind_store_clash(py::module_& module);
 void bind_clash_review(py::module_& module);
 void bind_clash_viewpoint(py::module_& module);
+void bind_bcf(py::module_& module);
 void bind_walk(py::module_& module);
 void bind_maintenance_path(py::module_& module);
 void bind_carry(py::module_& module);

@@ -147,7 +147,7 @@ OPTIONS = {
     "ReadOptions": "read_scene", "NearestOptions": "nearest", "ImportOptions": "import_models", "StoreOptions": "open_store",
     "OutOfCoreOptions": "find_clashes", "WalkOptions": "Walk", "BodyOptions": "World.add", "WorldOptions": "World",
     "SpeedBounds": "World.set_speed", "LevelOptions": "build_levels", "PathOptions": "check_path",
-    "CarryOptions": "Carry.move_to", "WalkerOptions": "Walker", "MarkChanges": "mark_clashes",
+    "CarryOptions": "Carry.move_to", "ViewpointOptions": "clash_viewpoints", "WalkerOptions": "Walker", "MarkChanges": "mark_clashes",
 }
 
 

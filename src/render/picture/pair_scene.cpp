@@ -13,7 +13,7 @@ namespace abut {
 
 namespace {
 
-constexpr Colour kRed{222, 62, 48}, kBlue{52, 110, 214}, kMarkColour{255, 214, 40};
+constexpr Colour kMarkColour{255, 214, 40};
 
 /// The view of larger parts is chosen by their largest triangles.
 constexpr std::size_t kMostTrialTriangles = 100'000;
@@ -69,8 +69,8 @@ PictureScene PictureJob::aimed(const PairAim& aim) {
             subject.ghosts.push_back(model_.parts[i].view.box);
 
     ghost_all_but(parts);
-    renderer_.set_state(parts[0], {.colour = kRed});
-    renderer_.set_state(parts[1], {.colour = kBlue});
+    renderer_.set_state(parts[0], {.colour = kSideA});
+    renderer_.set_state(parts[1], {.colour = kSideB});
     RenderStyle style = this->style(false);
     ChosenView view = choose_view(subject, model_.up, lens());
     if (std::min(view.shown[0], view.shown[1]) < kLeastShown) {

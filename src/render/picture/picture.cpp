@@ -7,6 +7,9 @@
 #include "render/picture/picture_job.h"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
 
 namespace abut {
 
@@ -128,11 +131,47 @@ void PictureJob::draw(const PictureScene& scene) {
         camera, opaque_, [&](const ViewFrame& frame) { renderer_.add(frame); }, options_.progress);
     if (!renderer_.has_ghosts())
         return;
-    std::vector<bool> ghosts = opaque_;
-    ghosts.flip();
+    std::vector<bool> ghosts = ghosts_;
+    if (ghosts.empty()) {
+        ghosts = opaque_;
+        ghosts.flip();
+    }
     stream_.visit(
         camera, ghosts, [&](const ViewFrame& frame) { renderer_.add_ghosts(frame); },
         options_.progress);
+}
+
+PictureScene PictureJob::aimed(const SidesAim& aim) {
+    std::map<std::pair<std::string_view, std::string_view>, std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < model_.parts.size(); ++i)
+        numbers.emplace(std::pair(std::string_view(model_.parts[i].view.file),
+                                  std::string_view(model_.parts[i].view.id)),
+                        i);
+    const auto number_of = [&](const NamedPart& part) {
+        const auto found = numbers.find({part.file, part.id});
+        if (found == numbers.end())
+            throw Error(ErrorCode::bad_argument,
+                        "no part of " + part.file + " has the id '" + part.id + "'");
+        return found->second;
+    };
+    ghosts_.assign(opaque_.size(), false);
+    for (const NamedPart& part : aim.around)
+        ghosts_[number_of(part)] = true;
+    std::vector<std::uint32_t> shown;
+    for (const std::vector<NamedPart>& side : aim.sides)
+        for (const NamedPart& part : side)
+            shown.push_back(number_of(part));
+    ghost_all_but(shown);
+    for (std::size_t side = 0; side < 2; ++side)
+        for (const NamedPart& part : aim.sides.at(side)) {
+            const std::uint32_t number = number_of(part);
+            ghosts_[number] = false;
+            renderer_.set_state(number, {.colour = side == 0 ? kSideA : kSideB});
+        }
+    Camera sized = aim.camera;
+    sized.width = options_.width;
+    sized.height = options_.height;
+    return {with_range(sized, model_.bounds), style(false), {}};
 }
 
 PictureScene PictureJob::aimed() {

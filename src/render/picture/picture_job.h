@@ -10,6 +10,9 @@
 
 namespace abut {
 
+/// The colours of both sides of a clash, in pictures and in BCF.
+inline constexpr Colour kSideA{222, 62, 48}, kSideB{52, 110, 214};
+
 /// What a picture shows, once its aim is known.
 struct PictureScene {
     Camera camera;
@@ -30,6 +33,7 @@ private:
     PictureScene aimed(const Camera& camera);
     PictureScene aimed(const PartAim& aim);
     PictureScene aimed(const PairAim& aim);
+    PictureScene aimed(const SidesAim& aim);
 
     [[nodiscard]] RenderStyle style(bool with_ground) const;
     [[nodiscard]] Camera lens() const;
@@ -43,7 +47,8 @@ private:
     OffscreenContext context_;
     Renderer renderer_;
     GeometryStream stream_;
-    std::vector<bool> opaque_; ///< by part; the others are ghosts
+    std::vector<bool> opaque_; ///< by part
+    std::vector<bool> ghosts_; ///< by part; empty: all that are not opaque
 };
 
 } // namespace abut

@@ -36,14 +36,18 @@ bool encode_png(const Picture& picture, std::string& file) {
 
 } // namespace
 
-void write_png(const Picture& picture, const std::string& path) {
+std::string png_bytes(const Picture& picture) {
     if (picture.width == 0 || picture.height == 0 ||
         picture.pixels.size() != std::size_t{picture.width} * picture.height * 3)
         throw Error(ErrorCode::bad_argument, "a picture without pixels cannot be written");
     std::string file;
     if (!encode_png(picture, file))
-        throw Error(ErrorCode::cannot_write, path, "cannot be encoded as PNG");
-    write_file_atomically(path, file);
+        throw Error(ErrorCode::cannot_write, "a picture cannot be encoded as PNG");
+    return file;
+}
+
+void write_png(const Picture& picture, const std::string& path) {
+    write_file_atomically(path, png_bytes(picture));
 }
 
 } // namespace abut
