@@ -1,0 +1,358 @@
+#include "rigid/penetration/overlap_volume.h"
+
+#include "core/stop.h"
+#include "math/predicates.h"
+#include "rigid/penetration/overlap_crossing.h"
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace abut {
+
+namespace {
+
+/// A triangle of a surface near the other solid, with its normal outwards.
+struct NearFace {
+    std::uint32_t number = 0; ///< in the whole mesh
+    Triangle corners;         ///< relative to the middle of the common box
+    std::array<std::uint32_t, 3> vertices{};
+    std::array<double, 3> inside{}; ///< by edge: crossings of the other surface, as fractions
+    std::array<int, 3> entered{};   ///< by edge: how often it enters the other solid, less leaves
+    Vec3 doubled_area;              ///< of the segments in the face, seen from corner 0
+    bool is_flat = false;           ///< without area: it takes no part
+};
+
+bool is_before(const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+Box3 box_of(const Triangle& t) {
+    return {min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))};
+}
+
+Box3 widened(const Box3& box, double by) {
+    const Vec3 margin{by, by, by};
+    return {box.lower - margin, box.upper + margin};
+}
+
+bool contains_point(const Box3& box, const Vec3& p) {
+    return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y &&
+           box.lower.z <= p.z && p.z <= box.upper.z;
+}
+
+double doubled_area(const Triangle& t) {
+    return length(cross(t[1] - t[0], t[2] - t[0]));
+}
+
+/// The triangles of one solid that reach a region.
+class NearSurface {
+public:
+    /// In          shift: is added to all positions; origin: is subtracted before.
+    NearSurface(const WorldSolid& solid, const Vec3& origin, const Vec3& shift)
+        : solid_(solid), origin_(origin), shift_(shift) {}
+
+    [[nodiscard]] std::vector<NearFace>& faces() { return faces_; }
+    [[nodiscard]] const std::vector<NearFace>& faces() const { return faces_; }
+    [[nodiscard]] const WorldSolid& solid() const { return solid_; }
+    [[nodiscard]] Vec3 to_local(const Vec3& world) const { return (world - origin_) + shift_; }
+
+    /// Calls visit(number, corners) for the triangles that may meet a local box. Returns false if
+    /// visit did.
+    template <typename Visit>
+    bool for_each(const Box3& local, const Visit& visit) const {
+        const double slack =
+            8 * 0x1p-52 * (max_abs(origin_) + max_abs(local.lower) + max_abs(local.upper));
+        const Vec3 back = origin_ - shift_;
+        const Box3 world = widened({local.lower + back, local.upper + back}, slack);
+        bool goes_on = true;
+        solid_.for_each_block(world, [&](const WorldSolid::Block& block) {
+            block.model.for_each_overlap(world, [&](std::uint32_t slot) {
+                if (!goes_on)
+                    return;
+                const std::uint32_t triangle = block.model.data().triangle_at(slot);
+                Triangle t = block.model.world_triangle(triangle);
+                for (Vec3& p : t)
+                    p = to_local(p);
+                if (solid_.outward() < 0)
+                    std::swap(t[1], t[2]);
+                if (overlap(box_of(t), local))
+                    goes_on = visit(block.number(triangle), t);
+            });
+            return goes_on;
+        });
+        return goes_on;
+    }
+
+    /// Reads the faces in a region; false if there are too many.
+    bool read(const Box3& region) {
+        const bool all = for_each(region, [&](std::uint32_t number, const Triangle& t) {
+            NearFace face;
+            face.number = number;
+            face.corners = t;
+            face.is_flat = collinear(t[0], t[1], t[2]);
+            faces_.push_back(face);
+            return faces_.size() <= kMostOverlapTriangles;
+        });
+        std::ranges::sort(faces_, {}, &NearFace::number);
+        if (all)
+            number_vertices();
+        return all;
+    }
+
+    [[nodiscard]] NearFace* find(std::uint32_t number) {
+        const auto at = std::ranges::lower_bound(faces_, number, {}, &NearFace::number);
+        return at == faces_.end() || at->number != number ? nullptr : &*at;
+    }
+    [[nodiscard]] std::size_t vertices() const { return positions_.size(); }
+    [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
+
+private:
+    void number_vertices() {
+        for (const NearFace& face : faces_)
+            positions_.insert(positions_.end(), face.corners.begin(), face.corners.end());
+        std::sort(positions_.begin(), positions_.end(), is_before);
+        positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
+        for (NearFace& face : faces_)
+            for (std::size_t i = 0; i < 3; ++i)
+                face.vertices.at(i) = static_cast<std::uint32_t>(
+                    std::lower_bound(positions_.begin(), positions_.end(), face.corners.at(i),
+                                     is_before) -
+                    positions_.begin());
+    }
+
+    const WorldSolid& solid_;
+    Vec3 origin_, shift_;
+    std::vector<NearFace> faces_;
+    std::vector<Vec3> positions_; ///< of the vertices, sorted
+};
+
+/// How often a solid winds around a local point: none if that cannot be decided.
+std::optional<int> winding_around(const NearSurface& surface, const Vec3& point) {
+    const Box3 world = surface.solid().world_box();
+    const Box3 box{surface.to_local(world.lower), surface.to_local(world.upper)};
+    const Vec3 size = box.upper - box.lower;
+    // The segments leave the box through its faces, a little askew, so that they miss edges.
+    for (int attempt = 0; attempt < 6; ++attempt) {
+        const double skew = 0x1p-7 * (attempt + 1);
+        Vec3 end = point + Vec3{skew * size.x, 0.71 * skew * size.y, 0.43 * skew * size.z};
+        const bool low = attempt % 2 == 1;
+        if (attempt % 3 == 0)
+            end.x = low ? box.lower.x - size.x : box.upper.x + size.x;
+        else if (attempt % 3 == 1)
+            end.y = low ? box.lower.y - size.y : box.upper.y + size.y;
+        else
+            end.z = low ? box.lower.z - size.z : box.upper.z + size.z;
+        int winding = 0;
+        const bool decided = surface.for_each(
+            {min(point, end), max(point, end)}, [&](std::uint32_t, const Triangle& t) {
+                const auto crossing = segment_crossing(point, end, t);
+                winding -= crossing.value_or(0);
+                return crossing.has_value();
+            });
+        if (decided)
+            return winding;
+    }
+    return std::nullopt;
+}
+
+/// The common solid of two surfaces, of which b is moved by a tiny vector.
+class CommonSolid {
+public:
+    CommonSolid(const WorldSolid& a, const WorldSolid& b, const Vec3& origin, const Vec3& shift)
+        : a_(a, origin, {}), b_(b, origin, shift) {}
+
+    enum class Outcome : std::uint8_t { done, degenerate, too_large };
+    Outcome integrate(const Box3& region) {
+        if (!a_.read(region) || !b_.read(region))
+            return Outcome::too_large;
+        if (!cross_all() || !wind(a_, b_) || !wind(b_, a_))
+            return Outcome::degenerate;
+        return Outcome::done;
+    }
+    [[nodiscard]] double volume() const { return volume_ / 6; }
+    [[nodiscard]] const NearSurface& a() const { return a_; }
+    [[nodiscard]] const NearSurface& b() const { return b_; }
+
+private:
+    /// Finds all pairs of faces that cross; false if one is degenerate.
+    bool cross_all() {
+        const bool a_leads = a_.faces().size() <= b_.faces().size();
+        NearSurface &leading = a_leads ? a_ : b_, &other = a_leads ? b_ : a_;
+        for (NearFace& face : leading.faces()) {
+            poll_stop();
+            if (face.is_flat)
+                continue;
+            std::vector<std::uint32_t> met;
+            other.for_each(box_of(face.corners), [&](std::uint32_t number, const Triangle&) {
+                met.push_back(number);
+                return true;
+            });
+            std::ranges::sort(met); // so that sums do not depend on the order of the hierarchy
+            for (const std::uint32_t number : met) {
+                NearFace* const found = other.find(number);
+                if (found == nullptr || found->is_flat)
+                    continue;
+                if (!cross(a_leads ? face : *found, a_leads ? *found : face))
+                    return false;
+            }
+        }
+        return true;
+    }
+
+    static bool cross(NearFace& f, NearFace& g) {
+        const FaceCrossing crossing = cross_faces(f.corners, g.corners);
+        if (crossing.is_degenerate)
+            return false;
+        if (!crossing.is_there)
+            return true;
+        for (const FaceCrossing::End& end : {crossing.start, crossing.stop}) {
+            NearFace& face = end.of_a ? f : g;
+            face.inside.at(end.edge) += end.enters ? -end.fraction : end.fraction;
+            face.entered.at(end.edge) += end.enters ? 1 : -1;
+        }
+        const auto add = [](NearFace& face, const Vec3& from, const Vec3& to) {
+            const Vec3& base = face.corners[0];
+            face.doubled_area = face.doubled_area + abut::cross(from - base, to - base);
+        };
+        add(f, crossing.start.point, crossing.stop.point);
+        add(g, crossing.stop.point, crossing.start.point);
+        return true;
+    }
+
+    /// Finds how often `other` winds around each vertex, and adds the integral over the faces.
+    /// Returns false if the surfaces contradict each other.
+    bool wind(const NearSurface& surface, const NearSurface& other) {
+        constexpr int kUnknown = INT_MAX;
+        std::vector<int> winding(surface.vertices(), kUnknown);
+        const Box3 world = other.solid().world_box();
+        const Box3 box = widened({other.to_local(world.lower), other.to_local(world.upper)},
+                                 0x1p-40 * (max_abs(world.lower) + max_abs(world.upper)));
+        for (std::uint32_t v = 0; v < winding.size(); ++v)
+            if (!contains_point(box, surface.position(v)))
+                winding[v] = 0;
+        if (!spread(surface, winding))
+            return false;
+        for (const NearFace& face : surface.faces()) {
+            if (face.is_flat || winding[face.vertices[0]] != kUnknown)
+                continue;
+            const auto known = winding_around(other, face.corners[0]);
+            if (!known)
+                return false;
+            winding[face.vertices[0]] = *known;
+            if (!spread(surface, winding))
+                return false;
+        }
+        for (const NearFace& face : surface.faces())
+            if (!face.is_flat)
+                add_face(face, winding[face.vertices[2]]);
+        return true;
+    }
+
+    /// Adds the part of a face that lies inside the other solid. Its edges at corner 0 add nothing.
+    void add_face(const NearFace& face, int winding_at_2) {
+        const Vec3& base = face.corners[0];
+        const Vec3 whole = abut::cross(face.corners[1] - base, face.corners[2] - base);
+        volume_ += dot(base, (winding_at_2 + face.inside[1]) * whole + face.doubled_area);
+    }
+
+    /// Carries the known winding numbers along the edges of faces, until none is new. Returns false
+    /// if two ways to a vertex disagree.
+    static bool spread(const NearSurface& surface, std::vector<int>& winding) {
+        for (bool changed = true; changed;) {
+            changed = false;
+            // Forth and back: the numbers of neighbouring faces are near each other.
+            const auto visit = [&](const NearFace& face) {
+                for (std::size_t i = 0; i < 3 && !face.is_flat; ++i) {
+                    int &from = winding[face.vertices.at(i)],
+                        &to = winding[face.vertices.at((i + 1) % 3)];
+                    if (from != INT_MAX && to == INT_MAX)
+                        to = from + face.entered.at(i), changed = true;
+                    else if (from == INT_MAX && to != INT_MAX)
+                        from = to - face.entered.at(i), changed = true;
+                    else if (from != INT_MAX && to != from + face.entered.at(i))
+                        return false;
+                }
+                return true;
+            };
+            const std::vector<NearFace>& faces = surface.faces();
+            if (!std::all_of(faces.begin(), faces.end(), visit) ||
+                !std::all_of(faces.rbegin(), faces.rend(), visit))
+                return false;
+        }
+        return true;
+    }
+
+    NearSurface a_, b_;
+    double volume_ = 0; ///< six times
+};
+
+/// Returns how much a tiny motion of a surface in a box of this diagonal, the rounding of its
+/// crossings, and its T-junctions can change a volume.
+double volume_error(const NearSurface& surface, double diagonal, double shift) {
+    constexpr double kRounding = 0x1p-46, kJunctions = 0x1p-20;
+    double in_box = 0, rounding = 0;
+    for (const NearFace& face : surface.faces()) {
+        const double area = doubled_area(face.corners);
+        in_box += std::min(area / 2, diagonal * diagonal);
+        rounding += kRounding * std::max(area, diagonal * diagonal);
+    }
+    const double gaps = surface.solid().closed() ? 0 : kJunctions * diagonal;
+    return in_box * (shift + gaps) + rounding * diagonal;
+}
+
+bool is_oriented_solid(const WorldSolid& solid) {
+    return solid.bounds_solid() && solid.outward() != 0;
+}
+
+} // namespace
+
+std::optional<OverlapVolume> overlap_volume(const WorldSolid& a, const WorldSolid& b) {
+    if (!is_oriented_solid(a) || !is_oriented_solid(b))
+        return std::nullopt;
+    const Box3 box_a = a.world_box(), box_b = b.world_box();
+    const Box3 common{max(box_a.lower, box_b.lower), min(box_a.upper, box_b.upper)};
+    if (is_empty(common))
+        return OverlapVolume{};
+    const double diagonal = length(common.upper - common.lower);
+    const Vec3 origin = 0.5 * common.lower + 0.5 * common.upper;
+    const double reach =
+        std::max({length(box_a.upper - box_a.lower), length(box_b.upper - box_b.lower), diagonal});
+    double shift = std::max(0x1p-38 * diagonal, 0x1p-49 * reach);
+    constexpr std::array kDirections{Vec3{0.53, 0.61, 0.59}, Vec3{-0.67, 0.41, 0.62},
+                                     Vec3{0.37, -0.71, 0.60}};
+    for (const Vec3& direction : kDirections) {
+        CommonSolid solid(a, b, origin, shift * direction);
+        const Box3 local = widened({common.lower - origin, common.upper - origin}, 2 * shift);
+        const auto outcome = solid.integrate(local);
+        if (outcome == CommonSolid::Outcome::too_large)
+            break;
+        if (outcome == CommonSolid::Outcome::done)
+            return OverlapVolume{std::max(solid.volume(), 0.0),
+                                 volume_error(solid.a(), diagonal, shift) +
+                                     volume_error(solid.b(), diagonal, shift)};
+        shift *= 64;
+    }
+    return std::nullopt;
+}
+
+std::optional<OverlapVolume> solid_volume(const WorldSolid& solid) {
+    if (!is_oriented_solid(solid))
+        return std::nullopt;
+    const Box3 box = solid.world_box();
+    const double diagonal = length(box.upper - box.lower);
+    NearSurface surface(solid, 0.5 * box.lower + 0.5 * box.upper, {});
+    const Vec3 half = 0.5 * (box.upper - box.lower);
+    if (!surface.read(widened({-half, half}, 0x1p-20 * diagonal)))
+        return std::nullopt;
+    double volume = 0;
+    for (const NearFace& face : surface.faces())
+        volume += dot(face.corners[0], cross(face.corners[1], face.corners[2])) / 6;
+    return OverlapVolume{std::max(volume, 0.0), volume_error(surface, diagonal, 0)};
+}
+
+} // namespace abut
