@@ -1,5 +1,6 @@
 #pragma once
 
+#include <abut/part_query.h>
 #include <abut/progress.h>
 #include <abut/scene.h>
 #include <abut/types.h>
@@ -35,9 +36,23 @@ inline constexpr std::array kClashStatuses{ClashStatus::fresh, ClashStatus::acti
 /// "new", "active", "reviewed", "approved", "resolved".
 const char* to_string(ClashStatus status);
 
-/// Selects parts by glob patterns (`*`, `?`). A part must match every list that is not empty.
+/// How two parts belong together, so that their meeting is expected (docs/selecting.md).
+enum class Neighbours : std::uint8_t {
+    fills,         ///< one fills an opening of the other: a window and its wall
+    connected,     ///< they are joined: two pipes at their ports
+    covers,        ///< one covers the other: insulation and its pipe
+    same_assembly, ///< both belong to one whole, or one is the whole: the flights of a stair
+};
+inline constexpr std::array kNeighbours{Neighbours::fills, Neighbours::connected,
+                                        Neighbours::covers, Neighbours::same_assembly};
+/// "fills", "connected", "covers", "same_assembly".
+const char* to_string(Neighbours neighbours);
+
+/// Selects parts by glob patterns (`*`, `?`) and a query. A part must match every list that is not
+/// empty, and the query.
 struct PartSelector {
     std::vector<std::string> file, name, type; ///< alternatives: a part matches one of a list
+    PartQuery query{};
 };
 
 /// The pairs of parts that a rule leaves out.
@@ -45,6 +60,7 @@ struct IgnoreRule {
     bool same_file = false;
     bool same_type = false;
     std::size_t same_name_prefix = 0; ///< names that agree in this many first characters; 0: none
+    std::vector<Neighbours> neighbours{}; ///< pairs that belong together in one of these ways
 };
 
 /// A rule selects pairs of parts, one part for each side in either order, and sets their
@@ -54,20 +70,66 @@ struct ClashRule {
     PartSelector a, b;
     std::optional<double> clearance, touch_tolerance; ///< metres; default: those of ClashOptions
     IgnoreRule ignore;
+    /// Metres: parts that meet no deeper than this are left out.
+    std::optional<double> tolerated_depth{};
+    std::vector<ClashKind> kinds{}; ///< clashes of other kinds are left out; empty: none is
+    std::string severity{};         ///< given to the clashes; any word, for example "high"
 };
 
-/// Reads rules from a JSON file; docs/clash.md lists the keys.
+/// Reads rules from a file, which is TOML if its name ends in .toml, else JSON. docs/selecting.md
+/// lists the keys.
 ///
 /// Errors      Error, naming the file: file_not_found, malformed (wrong syntax, an unknown key, or
 ///             a value of the wrong type or outside its domain).
 std::vector<ClashRule> read_rules(const std::string& path);
+
+/// Groups of parts, and for pairs of groups whether and how their parts are examined.
+struct ClashMatrix {
+    struct Group {
+        std::string name;
+        PartQuery select; ///< a part belongs to the first group that selects it
+    };
+    struct Cell {
+        std::uint32_t a = 0, b = 0; ///< indices of the groups, a <= b
+        bool examined = true;
+        /// Named "A / B" after the groups. Its selectors are not used.
+        ClashRule terms{};
+    };
+    std::vector<Group> groups;
+    /// At most one for two groups. Pairs of parts without a cell are not examined.
+    std::vector<Cell> cells;
+};
+
+/// Reads a matrix from a file, as read_rules does. docs/selecting.md lists the keys.
+ClashMatrix read_matrix(const std::string& path);
+
+/// The names of the matrices that Abut brings along; docs/selecting.md describes them.
+inline constexpr std::array<std::string_view, 3> kMatrixPresets{"mep-structure", "clearances",
+                                                                "architecture"};
+/// Returns a matrix that Abut brings along.
+///
+/// Errors      Error{bad_argument} if there is none of that name.
+ClashMatrix matrix_preset(std::string_view name);
+/// Returns the file that such a matrix is read from, in TOML.
+std::string_view matrix_preset_text(std::string_view name);
+
+/// The order of a report's clashes.
+enum class ClashOrder : std::uint8_t {
+    part,   ///< by models, then by part of a, then of b
+    volume, ///< as ranked_clashes
+};
 
 struct ClashOptions {
     double clearance = 0; ///< metres; reports pairs without contact that are nearer than this
     double touch_tolerance =
         0;             ///< metres; surfaces that meet no deeper than this are of kind `touch`
     bool self = false; ///< with several models: also tests the pairs within each model
-    std::vector<ClashRule> rules{}; ///< if empty, all pairs are tested
+    std::vector<ClashRule> rules{};      ///< if rules and matrix are empty, all pairs are tested
+    ClashMatrix matrix{};                ///< decides about the pairs that no rule selects
+    PartQuery only{};                    ///< both parts of a pair match it
+    PartQuery a{}, b{};                  ///< one part of a pair matches a, the other one b
+    std::vector<Neighbours> leave_out{}; ///< pairs that belong together in these ways
+    ClashOrder order = ClashOrder::part;
     Progress progress{};
 };
 
@@ -80,10 +142,16 @@ struct Clash {
         0; ///< metres; negative: penetration (contained: minus the gap to the enclosing surface)
     Vec3 point_a, point_b; ///< witness points, one on each surface, world frame
     Vec3 direction;        ///< unit vector along which b moves away from a; zero if there is none
-    std::uint64_t triangle_pairs = 0;  ///< number of intersecting triangle pairs
-    std::string rule;                  ///< name of the rule that decided; empty if none did
-    std::optional<ClashStatus> status; ///< set only for a store; never `resolved`
-    std::string note;                  ///< written by the person who reviewed or approved the clash
+    std::uint64_t triangle_pairs = 0; ///< number of intersecting triangle pairs
+    std::string rule;                 ///< name of the rule or cell that decided; empty if none did
+    std::string severity;             ///< of that rule or cell
+    /// Cubic metres that two solids have in common, if they are `hard`, `contained` or `duplicate`;
+    /// else 0. The true volume is at most volume_error larger or smaller. docs/clash.md says how it
+    /// is found, and when it is not.
+    double volume = 0, volume_error = 0;
+    std::optional<Neighbours> neighbours; ///< how the parts belong together, if they do
+    std::optional<ClashStatus> status;    ///< set only for a store; never `resolved`
+    std::string note; ///< written by the person who reviewed or approved the clash
 };
 
 /// A clash as a store lists it. Its parts are described in words, because they may no longer exist.
@@ -102,6 +170,25 @@ std::string clash_id_text(std::uint64_t id);
 /// Returns the id, or nothing if the text is not an id.
 std::optional<std::uint64_t> parse_clash_id(std::string_view text);
 
+/// Why a pair of parts whose boxes are within the clearance is not in the report.
+enum class LeftOut : std::uint8_t {
+    not_selected,  ///< no rule and no cell selects the pair, or `only`, `a` and `b` do not
+    ignored,       ///< by IgnoreRule::same_file, same_type or same_name_prefix
+    off,           ///< its cell is not examined
+    fills,         ///< known neighbours, as the four of Neighbours
+    connected,     ///< as above
+    covers,        ///< as above
+    same_assembly, ///< as above
+    tolerated,     ///< the parts meet no deeper than their rule or cell tolerates
+    other_kind,    ///< their rule or cell wants clashes of other kinds
+};
+inline constexpr std::array kLeftOut{
+    LeftOut::not_selected,  LeftOut::ignored,   LeftOut::off,
+    LeftOut::fills,         LeftOut::connected, LeftOut::covers,
+    LeftOut::same_assembly, LeftOut::tolerated, LeftOut::other_kind};
+/// The enumerator's name.
+const char* to_string(LeftOut reason);
+
 struct ClashReport {
     struct ModelSummary {
         std::string file;
@@ -116,6 +203,18 @@ struct ClashReport {
         UpAxis up = UpAxis::y;
         std::string of; ///< that model: the first one (in a store, the one imported first)
     };
+    /// The clashes of a matrix, cell by cell.
+    struct Matrix {
+        struct Cell {
+            std::uint32_t a = 0, b = 0; ///< indices of the groups, a <= b
+            bool examined = true;
+            double clearance = 0; ///< metres
+            std::string severity;
+            std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
+        };
+        std::vector<std::string> groups;
+        std::vector<Cell> cells;
+    };
     struct Seconds {
         double import = 0, build = 0, broad = 0, narrow = 0, total = 0;
     };
@@ -126,7 +225,12 @@ struct ClashReport {
     double clearance = 0, touch_tolerance = 0;
     std::uint64_t candidates = 0; ///< part pairs whose boxes are within the clearance on every axis
     std::array<std::uint64_t, 5> counts{}; ///< by ClashKind
-    std::vector<Clash> clashes;            ///< sorted by models, then by part of a, then of b
+    /// Pairs that are not in the report, by LeftOut. Only the last two reasons are counted after a
+    /// pair was tested; the other pairs are not tested.
+    std::array<std::uint64_t, kLeftOut.size()> left_out{};
+    std::array<std::uint64_t, kNeighbours.size()> neighbours{}; ///< clashes, by Neighbours
+    std::optional<Matrix> matrix;                               ///< if the options have one
+    std::vector<Clash> clashes;                                 ///< in the order of the options
     /// Set only for a store: the number of clashes of each ClashStatus, and the resolved clashes,
     /// the latest first.
     std::optional<std::array<std::uint64_t, 5>> statuses;
@@ -143,6 +247,11 @@ struct ClashReport {
 /// Cost        the broad phase takes O(n log n + candidates). A hierarchy is built once for each
 ///             mesh that a candidate needs.
 ClashReport find_clashes(const std::vector<Scene>& models, const ClashOptions& options);
+
+/// Returns the indices of the report's clashes, the worst first: `hard` by volume, then by depth;
+/// `contained` and `duplicate` by volume; `touch` by depth; `clearance` by distance, the nearest
+/// first. Clashes of equal rank keep their order.
+std::vector<std::uint32_t> ranked_clashes(const ClashReport& report);
 
 /// Report writers. Each is atomic: the file appears complete or not at all.
 ///

@@ -131,10 +131,12 @@ OTHER_OVERLOADS = {
     "find_clashes": [
         "def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., "
         "rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., "
-        "keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ...) -> ClashReport: ...",
+        "keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., "
+        "matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ...",
         "def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., "
         "touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., "
-        "progress: _Progress = ...) -> ClashReport: ..."],
+        "progress: _Progress = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., "
+        "matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ..."],
     "overlaps": [
         "def overlaps(model: Model, pose: _OnePose | ArrayLike, shape: Sphere | Box3 | OrientedBox | Segment, *, "
         "progress: _Progress = ...) -> bool: ...",

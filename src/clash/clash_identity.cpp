@@ -52,9 +52,17 @@ std::uint64_t clash_identity(std::string_view file_a, std::string_view part_a,
 void require_tolerances(const ClashOptions& options) {
     require_length(options.clearance, "clearance");
     require_length(options.touch_tolerance, "touch tolerance");
-    for (const ClashRule& rule : options.rules) {
+    const auto require_rule = [](const ClashRule& rule) {
         require_length(rule.clearance.value_or(0), "a rule's clearance");
         require_length(rule.touch_tolerance.value_or(0), "a rule's touch tolerance");
+        require_length(rule.tolerated_depth.value_or(0), "a rule's tolerated depth");
+    };
+    std::ranges::for_each(options.rules, require_rule);
+    for (const ClashMatrix::Cell& cell : options.matrix.cells) {
+        require_rule(cell.terms);
+        if (std::max(cell.a, cell.b) >= options.matrix.groups.size())
+            throw Error(ErrorCode::bad_argument,
+                        "a cell of the matrix has a group that is not there");
     }
 }
 
@@ -62,6 +70,9 @@ double largest_clearance(const ClashOptions& options) {
     double largest = options.clearance;
     for (const ClashRule& rule : options.rules)
         largest = std::max(largest, rule.clearance.value_or(0));
+    for (const ClashMatrix::Cell& cell : options.matrix.cells)
+        if (cell.examined)
+            largest = std::max(largest, cell.terms.clearance.value_or(0));
     return largest;
 }
 

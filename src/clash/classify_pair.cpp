@@ -7,6 +7,7 @@
 #include "rigid/pair/separating_plane.h"
 #include "rigid/penetration/contact_evidence.h"
 #include "rigid/penetration/local_penetration.h"
+#include "rigid/penetration/overlap_volume.h"
 
 #include <algorithm>
 #include <limits>
@@ -31,6 +32,11 @@ Clash clash_at(const WorldSolid& a, const WorldSolid& b, const TrianglePair& tri
     return clash;
 }
 
+void set_volume(Clash& clash, const std::optional<OverlapVolume>& found) {
+    if (found)
+        clash.volume = found->volume, clash.volume_error = found->error;
+}
+
 /// Returns the clash of two parts of the same triangles; none if they have none. Their contacts are
 /// counted and not kept, because there are too many.
 std::optional<Clash> classify_duplicates(PartPair& pair) {
@@ -46,6 +52,7 @@ std::optional<Clash> classify_duplicates(PartPair& pair) {
     clash.kind = ClashKind::duplicate;
     clash.direction = {};
     clash.triangle_pairs = count;
+    set_volume(clash, solid_volume(pair.a().solid()));
     return clash;
 }
 
@@ -77,6 +84,8 @@ std::optional<Clash> classify_meeting(PartPair& pair, double touch) {
         clash.point_a = p.point_a, clash.point_b = p.point_b;
         clash.direction = p.direction;
     }
+    if (clash.kind == ClashKind::hard)
+        set_volume(clash, overlap_volume(a, b));
     return clash;
 }
 
@@ -91,7 +100,8 @@ bool lies_inside(BlockList& inner, BlockList& outer) {
 
 /// Returns the clash of two parts whose surfaces do not meet: `contained`, `clearance` or none.
 std::optional<Clash> classify_apart(PartPair& pair, double clearance) {
-    const bool contained = lies_inside(pair.a(), pair.b()) || lies_inside(pair.b(), pair.a());
+    const bool a_inside = lies_inside(pair.a(), pair.b());
+    const bool contained = a_inside || lies_inside(pair.b(), pair.a());
     if (!contained && clearance == 0)
         return std::nullopt;
     const Gap gap = pair.nearest(contained ? std::numeric_limits<double>::infinity() : clearance);
@@ -103,6 +113,8 @@ std::optional<Clash> classify_apart(PartPair& pair, double clearance) {
     clash.point_a = gap.point_a, clash.point_b = gap.point_b;
     const Vec3 away = normalized_or_zero(gap.point_b - gap.point_a);
     clash.direction = contained ? -away : away;
+    if (contained)
+        set_volume(clash, solid_volume(a_inside ? pair.a().solid() : pair.b().solid()));
     return clash;
 }
 

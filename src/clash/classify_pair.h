@@ -18,8 +18,8 @@ struct ClashPart {
     const Box3& box; ///< world
 };
 
-/// Returns the clash of two parts, or none. All members are filled in except the ids, models, parts
-/// and rule.
+/// Returns the clash of two parts, or none. All members are filled in except the ids, models, parts,
+/// rule, severity and neighbours.
 ///
 /// In          clearance, touch: metres, not negative.
 /// Accuracy    whether surfaces meet, whether they cross and whether a part is contained are
@@ -29,6 +29,8 @@ struct ClashPart {
 ///             a depth). A part in blocks gets the kind, distance and contacts of the whole model,
 ///             to the last bit, and its depth within the accuracy of both. The bits do not depend
 ///             on which mesh blocks are in memory.
+///             The volume has its own bound of error; of parts in blocks, it is summed in another
+///             order.
 /// Cost        all contacts are in memory together, 12 to 28 bytes each; those of duplicates are
 ///             only counted.
 std::optional<Clash> classify_pair(const ClashPart& a, const ClashPart& b, double clearance,

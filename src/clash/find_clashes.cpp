@@ -4,11 +4,12 @@
 #include <abut/progress.h>
 
 #include "clash/clash_identity.h"
-#include "clash/classify_pair.h"
 #include "clash/mesh_in_blocks.h"
 #include "clash/model_boxes.h"
 #include "clash/part_instances.h"
-#include "clash/rule_table.h"
+#include "clash/report/report_order.h"
+#include "clash/rules/rule_table.h"
+#include "clash/test_pair.h"
 #include "core/parallel.h"
 #include "core/progress.h"
 #include "core/stop_watch.h"
@@ -77,17 +78,30 @@ private:
         for (std::uint32_t i = 0; i < parts_.parts.size(); ++i) {
             const PartInstance& p = parts_.parts[i];
             boxes.push_back(p.box);
-            rules.add({p.model, models_[p.model].file, part(i).id, part(i).name, part(i).type});
+            rules.add({p.model, models_[p.model].file, part(i).id, part(i).name, part(i).type,
+                       &models_[p.model].properties, p.part});
         }
+        std::size_t first = 0;
+        for (const Scene& model : models_) {
+            rules.add(model.relations, first);
+            first += model.parts.size();
+        }
+        for (std::string& warning : rules.warnings())
+            report_.warnings.push_back(std::move(warning));
         const bool across = models_.size() > 1 && !options_.self;
         const auto filter = [&](std::uint32_t i, std::uint32_t j) {
             return !across || parts_.parts[i].model != parts_.parts[j].model;
         };
         for (const IndexPair pair : overlapping_boxes(boxes, largest_clearance(options_), filter)) {
             const std::uint32_t i = pair.a(), j = pair.b();
-            const auto terms = rules.terms(i, j);
-            if (terms && overlap(boxes[i], boxes[j], terms->clearance))
-                candidates_.push_back({i, j, *terms});
+            const PairDecision decision = rules.decide(i, j);
+            if (!overlap(boxes[i], boxes[j],
+                         decision.terms ? decision.terms->clearance : decision.clearance))
+                continue;
+            if (decision.terms)
+                candidates_.push_back({i, j, *decision.terms});
+            else
+                ++report_.left_out.at(static_cast<std::size_t>(decision.reason));
         }
         report_.candidates = candidates_.size();
         progress.advance();
@@ -136,21 +150,23 @@ private:
 
     void classify() {
         ProgressMeter progress(options_.progress, "narrow phase", candidates_.size());
-        std::vector<std::optional<Clash>> found(candidates_.size());
+        std::vector<PairAnswer> found(candidates_.size());
         parallel_for(candidates_.size(), 1, [&](std::size_t k) {
             const Candidate& c = candidates_[k];
-            found[k] = classify_by_id(narrow_part(c.a), part(c.a).id, narrow_part(c.b),
-                                      part(c.b).id, c.terms.clearance, c.terms.touch);
-            if (found[k])
-                identify(*found[k], c);
+            found[k] =
+                test_pair(narrow_part(c.a), part(c.a).id, narrow_part(c.b), part(c.b).id, c.terms);
+            if (found[k].clash)
+                identify(*found[k].clash, c);
             progress.advance();
         });
         // Candidates are sorted by part, so the clashes are too.
-        for (std::optional<Clash>& clash : found)
-            if (clash) {
-                ++report_.counts[static_cast<std::size_t>(clash->kind)];
-                report_.clashes.push_back(std::move(*clash));
-            }
+        for (PairAnswer& answer : found) {
+            if (answer.left_out)
+                ++report_.left_out.at(static_cast<std::size_t>(*answer.left_out));
+            else if (answer.clash)
+                report_.clashes.push_back(std::move(*answer.clash));
+        }
+        sum_up(report_, options_);
     }
 
     [[nodiscard]] ClashPart narrow_part(std::uint32_t i) const {
@@ -164,7 +180,7 @@ private:
         clash.model = {a.model, b.model};
         clash.part = {a.part, b.part};
         if (c.terms.rule != nullptr)
-            clash.rule = c.terms.rule->name;
+            clash.rule = c.terms.rule->name, clash.severity = c.terms.rule->severity;
         clash.id = clash_identity(models_[a.model].file, part(c.a).id, models_[b.model].file,
                                   part(c.b).id, clash.kind);
     }

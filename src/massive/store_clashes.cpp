@@ -22,7 +22,7 @@ namespace {
 class AllWork final : public WorkSource {
 public:
     AllWork(const JobPlan& plan, JobResult& result, const Progress& progress)
-        : result_(result), schedule_(plan.stored, plan.units, 1),
+        : result_(result), schedule_(plan.stored, plan.units, 1, plan.rules.get()),
           progress_(progress, "narrow phase", plan.candidates) {
         progress_.advance(result.counters().recalled_pairs);
     }
@@ -39,7 +39,7 @@ private:
 void do_alone(const JobPlan& plan, JobResult& result, const ClashOptions& options,
               StoreFile& store) {
     AllWork source(plan, result, options.progress);
-    TaskTester tester(store, options, plan.stored.models, plan.budget, plan.blocks_budget,
+    TaskTester tester(store, plan.stored.models, plan.budget, plan.blocks_budget,
                       plan.hierarchies_room);
     work(tester, source);
 }

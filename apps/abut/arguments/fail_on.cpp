@@ -8,15 +8,37 @@
 
 namespace abut::command {
 
+namespace {
+
+/// Whether a text can only be a condition: no list of words has these characters.
+bool looks_like_condition(const std::string& text) {
+    return text.find_first_of(" =~<>()\"") != std::string::npos;
+}
+
+} // namespace
+
 FailOn::FailOn(const std::string& words, bool from_store) {
     if (words.empty())
         return;
+    if (looks_like_condition(words)) {
+        parse_condition(words, from_store);
+        return;
+    }
     std::vector<std::string> known{"any"};
     for (const ClashKind kind : kClashKinds)
         known.emplace_back(abut::to_string(kind));
     for (const ClashStatus status : kClashStatuses)
         if (status != ClashStatus::resolved)
             known.emplace_back(abut::to_string(status));
+    parse_list(words, known, from_store);
+    if (kinds_.empty())
+        kinds_.assign(kClashKinds.begin(), kClashKinds.end());
+    if (statuses_.empty())
+        statuses_ = {ClashStatus::fresh, ClashStatus::active, ClashStatus::reviewed};
+}
+
+void FailOn::parse_list(const std::string& words, const std::vector<std::string>& known,
+                        bool from_store) {
     for (const std::string& word : parse_words("--fail-on", words, known)) {
         for (const ClashKind kind : kClashKinds)
             if (word == abut::to_string(kind))
@@ -32,14 +54,24 @@ FailOn::FailOn(const std::string& words, bool from_store) {
         if (word == "any")
             kinds_.assign(kClashKinds.begin(), kClashKinds.end());
     }
-    if (kinds_.empty())
-        kinds_.assign(kClashKinds.begin(), kClashKinds.end());
-    if (statuses_.empty())
-        statuses_ = {ClashStatus::fresh, ClashStatus::active, ClashStatus::reviewed};
 }
 
-bool FailOn::is_problem(const ClashReport& report) const {
+void FailOn::parse_condition(const std::string& text, bool from_store) {
+    try {
+        query_ = ClashQuery::parse(text);
+    } catch (const Error& error) {
+        throw Error(ErrorCode::bad_argument, "--fail-on", error.what());
+    }
+    if (query_->asks_status() && !from_store)
+        throw Error(ErrorCode::bad_argument, "--fail-on",
+                    "a status applies only to a store: models have no earlier job");
+}
+
+bool FailOn::is_problem(const ClashReport& report, const std::vector<Scene>& models) const {
     return std::any_of(report.clashes.begin(), report.clashes.end(), [&](const Clash& clash) {
+        if (query_)
+            return (clash.status != ClashStatus::approved || query_->asks_status()) &&
+                   query_->matches(clash, models);
         return std::find(kinds_.begin(), kinds_.end(), clash.kind) != kinds_.end() &&
                (!clash.status ||
                 std::find(statuses_.begin(), statuses_.end(), *clash.status) != statuses_.end());

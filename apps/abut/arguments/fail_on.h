@@ -2,23 +2,32 @@
 
 #include <abut/clash.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace abut::command {
 
-/// The value of abut clash --fail-on: kinds and statuses of clashes that are a problem. If no kind
-/// is named, all kinds count. If no status is named, all except `approved` count.
+/// The value of abut clash --fail-on: the clashes that are a problem. It is a list of kinds and
+/// statuses, or a condition on clashes (ClashQuery). If a list names no kind, all kinds count. If
+/// no status is named, all except `approved` count.
 class FailOn {
 public:
-    /// In          words: comma-separated; if empty, no clash is a problem. from_store: whether
+    /// In          words: comma-separated, or a condition; if empty, no clash is a problem. from_store: whether
     ///             clashes have statuses.
     /// Errors      Error{bad_argument}, naming the option.
     FailOn(const std::string& words, bool from_store);
 
-    [[nodiscard]] bool is_problem(const ClashReport& report) const;
+    /// In          models: those that the report refers to.
+    [[nodiscard]] bool is_problem(const ClashReport& report,
+                                  const std::vector<Scene>& models) const;
 
 private:
+    void parse_list(const std::string& words, const std::vector<std::string>& known,
+                    bool from_store);
+    void parse_condition(const std::string& text, bool from_store);
+
+    std::optional<ClashQuery> query_;
     std::vector<ClashKind> kinds_;
     std::vector<ClashStatus> statuses_;
 };

@@ -1,6 +1,7 @@
 #include "text/clash_summary.h"
 
 #include "arguments/common.h"
+#include "text/clash_matrix.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -69,6 +70,20 @@ std::string extremes(const char* title, const ClashReport& report, const std::ve
     return text;
 }
 
+/// Lists the hard clashes that have the largest volumes in common.
+std::string largest(const ClashReport& report, const std::vector<Scene>& models) {
+    std::string text;
+    std::size_t rows = 0;
+    for (const std::uint32_t i : ranked_clashes(report)) {
+        const Clash& clash = report.clashes[i];
+        if (clash.kind != ClashKind::hard || clash.volume == 0 || rows++ == kRows)
+            break;
+        text += fmt::format("  {:>18} m3  {}  |  {}\n", number(clash.volume, 4),
+                            label(models, clash, 0), label(models, clash, 1));
+    }
+    return text.empty() ? text : "\nlargest common volumes\n" + text;
+}
+
 } // namespace
 
 std::string summary(const ClashReport& report, const std::vector<Scene>& models) {
@@ -94,6 +109,7 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
         const std::string column = count > 0 ? kind_column(kind) : kind_text(kind);
         text += fmt::format("  {} {:>9}\n", column, grouped(count));
     }
+    text += left_out_text(report);
     if (report.statuses) {
         std::string counts;
         for (const ClashStatus status : kClashStatuses)
@@ -102,6 +118,9 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
         text += fmt::format("status      {}\n", counts);
     }
 
+    if (report.matrix)
+        text += drawn(*report.matrix);
+    text += largest(report, models);
     const auto nearer = [](const Clash& a, const Clash& b) { return a.distance < b.distance; };
     text += extremes(
         "deepest", report, models,

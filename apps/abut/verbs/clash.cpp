@@ -8,6 +8,7 @@
 #include "arguments/fail_on.h"
 #include "arguments/interrupt.h"
 #include "arguments/output_files.h"
+#include "arguments/selection.h"
 #include "commands.h"
 #include "text/clash_summary.h"
 
@@ -23,7 +24,8 @@ namespace {
 struct ClashArguments {
     std::vector<std::string> files;
     ClashOptions options; ///< clearance, touch, self; run() fills in the rest
-    std::string rules, out, fail_on;
+    SelectionArguments selection;
+    std::string out, fail_on;
     std::optional<std::string> memory;
     bool no_hierarchies = false;
     ReadOptions read;
@@ -128,8 +130,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
     const FailOn fail_on(arguments.fail_on, from_store);
     ClashOptions options = arguments.options;
-    if (!arguments.rules.empty())
-        options.rules = read_rules(arguments.rules);
+    read_selection(arguments.selection, options);
     std::optional<OutputFiles> outputs;
     if (!arguments.out.empty())
         outputs.emplace(arguments.out,
@@ -168,7 +169,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         print_json(from_store ? abut::to_json(found) : abut::to_json(report, models));
     else if (!common.quiet)
         print_text(text_of(found, from_store, outputs));
-    return fail_on.is_problem(report) ? kExitProblem : kExitDone;
+    return fail_on.is_problem(report, models) ? kExitProblem : kExitDone;
 }
 
 } // namespace
@@ -202,15 +203,15 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
                "Surfaces that meet no deeper than this only touch (default 0)");
     app->add_flag("--self", arguments->options.self,
                   "With several models: also test the pairs within each");
-    app->add_option("--rules", arguments->rules, "JSON file that selects pairs (docs/clash.md)")
-        ->check(not_empty("FILE"));
+    add_selection(*app, arguments->selection);
     app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv")
         ->check(not_empty("FOLDER"));
     app->add_option(
            "--fail-on", arguments->fail_on,
            "Exit with status 1 if there is a clash of these kinds: hard, touch, contained, "
            "duplicate, clearance (comma-separated), or any; for a store, one that is not approved, "
-           "or has one of these statuses: new, active, reviewed, approved")
+           "or has one of these statuses: new, active, reviewed, approved. Or a condition: "
+           "'hard and storey = L2' (docs/selecting.md)")
         ->check(not_empty("WORDS"));
     add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};

@@ -9,15 +9,10 @@ namespace abut::python {
 
 namespace {
 
-std::vector<ClashRule> to_rules(py::handle rules) {
-    if (PyUnicode_Check(rules.ptr()) || py::hasattr(rules, "__fspath__"))
-        return read_rules(to_path(rules));
-    return rules.cast<std::vector<ClashRule>>();
-}
-
 py::object run_find_clashes(const Arguments& arguments) {
     const auto progress_argument = py::reinterpret_borrow<py::object>(arguments[5]);
     ClashOptions options = to_clash_options(arguments, 1);
+    take_selection(arguments, 6, options);
     auto models = to_scenes(py::reinterpret_borrow<py::object>(arguments[0]), progress_argument);
     Work work(progress_argument);
     auto report = work.run([&](const Progress& progress) {
@@ -32,63 +27,6 @@ py::object run_find_clashes(const Arguments& arguments) {
 
 bool anything(PyObject* first, PyObject* /*third*/) {
     return first != nullptr;
-}
-
-void bind_rules(py::module_& module) {
-    using Texts = std::vector<std::string>;
-    PlainBinder<PartSelector>(module, "PartSelector",
-                              "PartSelector(*, file=[], name=[], type=[])\n\n"
-                              "Which parts a rule means: all globs that are given must match (* "
-                              "and ?), one of each list.")
-        .field("file", &PartSelector::file, "")
-        .field("name", &PartSelector::name, "")
-        .field("type", &PartSelector::type, "")
-        .done()
-        .def(py::init([](Texts file, Texts name, Texts type) {
-                 return PartSelector{std::move(file), std::move(name), std::move(type)};
-             }),
-             py::kw_only(), py::arg("file") = Texts{}, py::arg("name") = Texts{},
-             py::arg("type") = Texts{});
-    PlainBinder<IgnoreRule>(
-        module, "IgnoreRule",
-        "IgnoreRule(*, same_file=False, same_type=False, same_name_prefix=0)\n\n"
-        "Pairs of parts that a rule leaves out.")
-        .field("same_file", &IgnoreRule::same_file, "")
-        .field("same_type", &IgnoreRule::same_type, "")
-        .field("same_name_prefix", &IgnoreRule::same_name_prefix,
-               "names that agree in so many first characters")
-        .done()
-        .def(py::init([](bool same_file, bool same_type, std::size_t prefix) {
-                 return IgnoreRule{same_file, same_type, prefix};
-             }),
-             py::kw_only(), py::arg("same_file") = false, py::arg("same_type") = false,
-             py::arg("same_name_prefix") = 0U);
-    PlainBinder<ClashRule>(module, "ClashRule",
-                           "ClashRule(name='', a=PartSelector(), b=PartSelector(), *, "
-                           "clearance=None, touch_tolerance=None,\n"
-                           "          ignore=IgnoreRule())\n\n"
-                           "Selects pairs of parts, one side each, in either order. Lengths in "
-                           "metres; None: those of the query.")
-        .field("name", &ClashRule::name, "")
-        .field("a", &ClashRule::a, "PartSelector")
-        .field("b", &ClashRule::b, "PartSelector")
-        .field("clearance", &ClashRule::clearance, "metres")
-        .field("touch_tolerance", &ClashRule::touch_tolerance, "metres")
-        .field("ignore", &ClashRule::ignore, "IgnoreRule")
-        .done()
-        .def(py::init([](std::string name, PartSelector a, PartSelector b,
-                         std::optional<double> clearance, std::optional<double> touch_tolerance,
-                         IgnoreRule ignore) {
-                 return ClashRule{std::move(name), std::move(a),    std::move(b),
-                                  clearance,       touch_tolerance, ignore};
-             }),
-             py::arg("name") = "", py::arg("a") = PartSelector{}, py::arg("b") = PartSelector{},
-             py::kw_only(), py::arg("clearance") = py::none(),
-             py::arg("touch_tolerance") = py::none(), py::arg("ignore") = IgnoreRule{});
-    module.def(
-        "read_rules", [](const py::object& path) { return read_rules(to_path(path)); },
-        py::arg("path"),
-        "Reads rules from JSON: a list of ClashRule. Raises Error: file_not_found, malformed.");
 }
 
 void bind_listed_clashes(py::module_& module) {
@@ -110,7 +48,11 @@ void bind_listed_clashes(py::module_& module) {
         .field("point_b", &Clash::point_b, "witness on the surface of b")
         .field("direction", &Clash::direction, "unit vector in which b moves to get away from a")
         .field("triangle_pairs", &Clash::triangle_pairs, "intersecting pairs of triangles")
-        .field("rule", &Clash::rule, "name of the rule that decided")
+        .field("rule", &Clash::rule, "name of the rule or cell that decided")
+        .field("severity", &Clash::severity, "of that rule or cell")
+        .field("volume", &Clash::volume, "cubic metres that two solids have in common")
+        .field("volume_error", &Clash::volume_error, "bound of its error")
+        .field("neighbours", &Clash::neighbours, "Neighbours: how the parts belong together")
         .field("status", &Clash::status, "ClashStatus, of a store alone")
         .field("note", &Clash::note, "of whoever reviewed it")
         .done();
@@ -162,6 +104,34 @@ void bind_report_writers(py::module_& module) {
                &write_clash_html);
 }
 
+/// Returns a dict of name to number.
+template <typename Value, std::size_t count>
+py::dict to_dict(const std::array<std::uint64_t, count>& numbers,
+                 const std::array<Value, count>& values) {
+    py::dict dict;
+    for (const Value value : values)
+        dict[to_string(value)] = numbers[static_cast<std::size_t>(value)];
+    return dict;
+}
+
+void bind_matrix_of_report(py::module_& module) {
+    using Matrix = ClashReport::Matrix;
+    PlainBinder<Matrix::Cell>(module, "MatrixCell", "A cell of a report's Matrix.")
+        .field("a", &Matrix::Cell::a, "index of a group")
+        .field("b", &Matrix::Cell::b, "index of a group")
+        .field("examined", &Matrix::Cell::examined, "")
+        .field("clearance", &Matrix::Cell::clearance, "metres")
+        .field("severity", &Matrix::Cell::severity, "")
+        .property(
+            "counts", [](const Matrix::Cell& cell) { return to_dict(cell.counts, kClashKinds); },
+            "dict of kind to number")
+        .done();
+    PlainBinder<Matrix>(module, "Matrix", "The clashes of a ClashReport by groups of parts.")
+        .field("groups", &Matrix::groups, "names")
+        .field("cells", &Matrix::cells, "list of MatrixCell")
+        .done();
+}
+
 void bind_model_summary(py::module_& module) {
     PlainBinder<ClashReport::ModelSummary>(module, "ModelSummary", "A model of a ClashReport.")
         .field("file", &ClashReport::ModelSummary::file, "")
@@ -173,36 +143,36 @@ void bind_model_summary(py::module_& module) {
         .done();
 }
 
+py::dict seconds_of(const Report& self) {
+    py::dict times;
+    const auto& s = self.report.seconds;
+    times["import"] = s.import;
+    times["build"] = s.build;
+    times["broad"] = s.broad;
+    times["narrow"] = s.narrow;
+    times["total"] = s.total;
+    return times;
+}
+
 void bind_results(py::module_& module) {
     bind_listed_clashes(module);
     bind_model_summary(module);
-    const auto counts = [](const Report& self) {
-        py::dict dict;
-        for (const ClashKind kind : kClashKinds)
-            dict[to_string(kind)] = self.report.counts[static_cast<std::size_t>(kind)];
-        return dict;
+    const auto counts = [](const Report& self) { return to_dict(self.report.counts, kClashKinds); };
+    const auto left_out = [](const Report& self) {
+        return to_dict(self.report.left_out, kLeftOut);
+    };
+    const auto neighbours = [](const Report& self) {
+        return to_dict(self.report.neighbours, kNeighbours);
     };
     const auto statuses = [](const Report& self) -> py::object {
         if (!self.report.statuses)
             return py::none();
-        py::dict dict;
-        for (const ClashStatus status : kClashStatuses)
-            dict[to_string(status)] = (*self.report.statuses)[static_cast<std::size_t>(status)];
-        return dict;
+        return to_dict(*self.report.statuses, kClashStatuses);
     };
-    const auto seconds = [](const Report& self) {
-        py::dict times;
-        const auto& s = self.report.seconds;
-        times["import"] = s.import;
-        times["build"] = s.build;
-        times["broad"] = s.broad;
-        times["narrow"] = s.narrow;
-        times["total"] = s.total;
-        return times;
-    };
+    bind_matrix_of_report(module);
     PlainBinder<Report>(module, "ClashReport",
                         "Returned by find_clashes. Its length is the number of clashes.")
-        .property("clashes", &named_clashes, "list of Clash, sorted by model, part of a, then of b")
+        .property("clashes", &named_clashes, "list of Clash, in the order that `sort` asks for")
         .property("counts", counts, "dict of kind to number")
         .property(
             "models", [](const Report& self) { return self.report.models; }, "list of ModelSummary")
@@ -219,6 +189,11 @@ void bind_results(py::module_& module) {
         .property(
             "candidates", [](const Report& self) { return self.report.candidates; },
             "pairs of parts whose boxes are near")
+        .property("left_out", left_out, "dict of LeftOut to number of pairs")
+        .property("neighbours", neighbours, "dict of Neighbours to number of clashes")
+        .property(
+            "matrix", [](const Report& self) { return self.report.matrix; },
+            "Matrix: the clashes cell by cell; None without a matrix")
         .property("statuses", statuses, "dict of status to number, of a store; else None")
         .property(
             "resolved", [](const Report& self) { return self.report.resolved; },
@@ -226,25 +201,19 @@ void bind_results(py::module_& module) {
         .property(
             "counters", [](const Report& self) { return self.counters; },
             "OutOfCoreCounters, of a store; else None")
-        .property("seconds", seconds, "dict of stage to seconds")
+        .property("seconds", seconds_of, "dict of stage to seconds")
         .property(
             "peak_rss_mib", [](const Report& self) { return self.report.peak_rss_mib; }, "MiB")
         .done()
         .def("__len__", [](const Report& self) { return self.report.clashes.size(); });
     bind_report_writers(module);
+    module.def(
+        "ranked_clashes", [](const Report& report) { return abut::ranked_clashes(report.report); },
+        py::arg("report"),
+        "Indices of a ClashReport's clashes, the worst first: hard ones by volume, then by depth.");
 }
 
 } // namespace
-
-ClashOptions to_clash_options(const Arguments& arguments, std::size_t first) {
-    ClashOptions options;
-    arguments.take(first, "clearance", options.clearance);
-    arguments.take(first + 1, "touch_tolerance", options.touch_tolerance);
-    arguments.take(first + 2, "self", options.self);
-    if (arguments.has(first + 3))
-        options.rules = to_rules(arguments[first + 3]);
-    return options;
-}
 
 std::vector<NamedClash> named_clashes(const Report& report) {
     std::vector<NamedClash> list;
@@ -272,16 +241,25 @@ void bind_clash(py::module_& module) {
     bind_enum<ClashStatus>(module, "ClashStatus",
                            {"fresh", "active", "reviewed", "approved", "resolved"},
                            "What has become of a clash between the jobs of a store.");
+    bind_enum<Neighbours>(module, "Neighbours", {"fills", "connected", "covers", "same_assembly"},
+                          "How two parts belong together (docs/selecting.md).");
+    bind_enum<LeftOut>(module, "LeftOut",
+                       {"not_selected", "ignored", "off", "fills", "connected", "covers",
+                        "same_assembly", "tolerated", "other_kind"},
+                       "Why a pair is not in a report.");
+    bind_enum<ClashOrder>(module, "ClashOrder", {"part", "volume"}, "The order of clashes.");
     bind_rules(module);
     bind_results(module);
     add_verb(
         module, "find_clashes",
         "find_clashes(models, *, clearance=0, touch_tolerance=0, self=False, rules=[], "
-        "progress=None)\n"
+        "progress=None,\n"
+        "             only='', a='', b='', matrix=None, leave_out=[], sort='part')\n"
         "find_clashes(store, *, clearance=0, touch_tolerance=0, self=False, rules=[], "
         "progress=None,\n"
         "             memory=512 MiB, order='partition', keep=True, keep_hierarchies=True, "
-        "crew=None)\n\n"
+        "crew=None,\n"
+        "             only='', a='', b='', matrix=None, leave_out=[], sort='part')\n\n"
         "All clashes and clearances between the parts of different models; of one model, between "
         "its parts.\n\n"
         "models            list of Scene or paths, or one of them\n"
@@ -289,14 +267,19 @@ void bind_clash(py::module_& module) {
         "clearance         metres; pairs without contact that are nearer are reported\n"
         "touch_tolerance   metres; surfaces that meet no deeper than this are of kind touch\n"
         "self              also the pairs within each model\n"
-        "rules             list of ClashRule, or the path of a JSON file\n"
+        "rules             list of ClashRule, or the path of a JSON or TOML file\n"
         "progress          function of (stage, fraction)\n"
         "memory            bytes for geometry, hierarchies and tables\n"
         "order             a WorkOrder\n"
         "keep              whether what is done is kept in the store, if that can be written to\n"
         "keep_hierarchies  whether hierarchies are kept with it\n"
         "crew              a Crew: the processes that do the job together, this one as their "
-        "leader\n\n"
+        "leader\n"
+        "only              a condition, as text or PartQuery: both parts match it\n"
+        "a, b              conditions: one part matches a, the other one b\n"
+        "matrix            a ClashMatrix, the path of its file, or the name of a preset\n"
+        "leave_out         list of Neighbours that are not tested\n"
+        "sort              a ClashOrder: the order of the clashes\n\n"
         "Returns a ClashReport. Raises Error: bad_argument for a negative length, those of "
         "read_scene and of the store;\n"
         "KeyboardInterrupt at Ctrl-C.");
@@ -305,7 +288,9 @@ void bind_clash(py::module_& module) {
 /// After the overload for stores, which is asked first.
 void bind_clash_of_scenes() {
     add_overload("find_clashes", {anything,
-                                  {"models * clearance touch_tolerance self rules progress", 1},
+                                  {"models * clearance touch_tolerance self rules progress "
+                                   "only a b matrix leave_out sort",
+                                   1},
                                   run_find_clashes});
 }
 

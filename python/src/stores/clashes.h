@@ -25,6 +25,9 @@ struct NamedClash : Clash {
 
 /// In: arguments `first` to `first` + 3: clearance, touch_tolerance, self, rules.
 ClashOptions to_clash_options(const Arguments& arguments, std::size_t first);
+/// In: arguments `first` to `first` + 5: only, a, b, matrix, leave_out, sort.
+void take_selection(const Arguments& arguments, std::size_t first, ClashOptions& options);
+void bind_rules(py::module_& module);
 std::vector<NamedClash> named_clashes(const Report& report);
 
 } // namespace abut::python

@@ -33,6 +33,7 @@ py::object run_find_in_store(const Arguments& arguments) {
     const Store store = get<OpenStore>(arguments[0], "store").get();
     ClashOptions options = to_clash_options(arguments, 1);
     const OutOfCoreOptions out_of_core = to_out_of_core(arguments, 6);
+    take_selection(arguments, 11, options);
     Work work(arguments[5]);
     auto found = work.run([&](const Progress& progress) {
         options.progress = progress;
@@ -142,11 +143,12 @@ void bind_store_clash(py::module_& module) {
                          "How the work on a store is put into an order.");
     bind_job_counters(module);
     bind_graph_report(module);
-    add_overload("find_clashes", {a_store,
-                                  {"store * clearance touch_tolerance self rules progress memory "
-                                   "order keep keep_hierarchies crew",
-                                   1},
-                                  run_find_in_store});
+    add_overload("find_clashes",
+                 {a_store,
+                  {"store * clearance touch_tolerance self rules progress memory "
+                   "order keep keep_hierarchies crew only a b matrix leave_out sort",
+                   1},
+                  run_find_in_store});
     bind_clash_of_scenes();
     add_verb(
         module, "overlap_graph",

@@ -16,7 +16,7 @@ namespace abut::python {
 /// The arguments of one call, by the numbers of the parameters.
 class Arguments {
 public:
-    static constexpr std::size_t kMost = 16;
+    static constexpr std::size_t kMost = 20;
 
     [[nodiscard]] bool has(std::size_t i) const noexcept {
         return values_[i] != nullptr && values_[i] != Py_None;

@@ -31,7 +31,8 @@ inline void append(TextBuffer& out, std::string_view text) {
 constexpr std::string_view kHeader =
     "id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,"
     "point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,"
-    "direction_x,direction_y,direction_z,triangle_pairs,rule";
+    "direction_x,direction_y,direction_z,triangle_pairs,rule,severity,volume,volume_error,"
+    "neighbours";
 constexpr std::string_view kStatusHeader = ",status,note"; // only in reports of a store
 
 /// Whether a spreadsheet may take the text for a formula or a command. A leading control character
@@ -100,6 +101,10 @@ void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& m
     append_cells(out, clash.direction);
     fmt::format_to(fmt::appender(out), ",{}", clash.triangle_pairs);
     append_cell(out, clash.rule);
+    append_cell(out, clash.severity);
+    append_cell(out, clash.volume);
+    append_cell(out, clash.volume_error);
+    append_cell(out, clash.neighbours ? to_string(*clash.neighbours) : "");
     if (with_status) {
         append_cell(out, clash.status ? to_string(*clash.status) : "");
         append_cell(out, clash.note);

@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json json_of(const Clash& clash, const std::vector<Scene>& models) {
-    constexpr std::size_t kMostMembers = 18;
+    constexpr std::size_t kMostMembers = 22;
     const Part& a = part_of(clash, 0, models);
     const Part& b = part_of(clash, 1, models);
     ordered_json row = ordered_json::object();
@@ -38,6 +38,14 @@ ordered_json json_of(const Clash& clash, const std::vector<Scene>& models) {
     put(row, "triangle_pairs", clash.triangle_pairs);
     if (!clash.rule.empty())
         put(row, "rule", clash.rule);
+    if (!clash.severity.empty())
+        put(row, "severity", clash.severity);
+    if (clash.volume > 0 || clash.volume_error > 0) {
+        put(row, "volume", json_number(clash.volume));
+        put(row, "volume_error", json_number(clash.volume_error));
+    }
+    if (clash.neighbours)
+        put(row, "neighbours", to_string(*clash.neighbours));
     if (clash.status)
         put(row, "status", to_string(*clash.status));
     if (!clash.note.empty())
@@ -94,12 +102,28 @@ ordered_json json_of(const ClashReport::ModelSummary& model) {
 }
 
 /// Returns {name: number} for each kind or status, in the order of `keys`.
-template <typename Key>
-ordered_json json_of(const std::array<std::uint64_t, 5>& numbers, const std::array<Key, 5>& keys) {
+template <typename Key, std::size_t count>
+ordered_json json_of(const std::array<std::uint64_t, count>& numbers,
+                     const std::array<Key, count>& keys) {
     ordered_json result = ordered_json::object();
     for (const Key key : keys)
         put(result, to_string(key), numbers[static_cast<std::size_t>(key)]);
     return result;
+}
+
+ordered_json json_of(const ClashReport::Matrix& matrix) {
+    ordered_json cells = ordered_json::array();
+    for (const ClashReport::Matrix::Cell& cell : matrix.cells) {
+        ordered_json row{{"a", matrix.groups[cell.a]},
+                         {"b", matrix.groups[cell.b]},
+                         {"on", cell.examined},
+                         {"clearance", json_number(cell.clearance)}};
+        if (!cell.severity.empty())
+            put(row, "severity", cell.severity);
+        put(row, "counts", json_of(cell.counts, kClashKinds));
+        cells.push_back(std::move(row));
+    }
+    return {{"groups", matrix.groups}, {"cells", std::move(cells)}};
 }
 
 /// Appends an array, each element on a line of its own.
@@ -143,6 +167,29 @@ const char* to_string(ClashKind kind) {
     return "unknown";
 }
 
+const char* to_string(Neighbours neighbours) {
+    switch (neighbours) {
+    case Neighbours::fills:
+        return "fills";
+    case Neighbours::connected:
+        return "connected";
+    case Neighbours::covers:
+        return "covers";
+    case Neighbours::same_assembly:
+        return "same_assembly";
+    }
+    return "unknown";
+}
+
+const char* to_string(LeftOut reason) {
+    constexpr std::array kNames{"not_selected",  "ignored",   "off",
+                                "fills",         "connected", "covers",
+                                "same_assembly", "tolerated", "other_kind"};
+    static_assert(kNames.size() == kLeftOut.size());
+    const auto index = static_cast<std::size_t>(reason);
+    return index < kNames.size() ? kNames.at(index) : "unknown";
+}
+
 const char* to_string(ClashStatus status) {
     switch (status) {
     case ClashStatus::fresh:
@@ -167,7 +214,11 @@ void write_head(JsonLines& out, const ClashReport& report) {
          {"clearance", json_number(report.clearance)},
          {"touch", json_number(report.touch_tolerance)},
          {"candidates", report.candidates},
-         {"counts", json_of(report.counts, kClashKinds)}});
+         {"counts", json_of(report.counts, kClashKinds)},
+         {"neighbours", json_of(report.neighbours, kNeighbours)},
+         {"left_out", json_of(report.left_out, kLeftOut)}});
+    if (report.matrix)
+        out.member("matrix", json_of(*report.matrix));
     if (report.statuses)
         out.member("statuses", json_of(*report.statuses, kClashStatuses));
 }

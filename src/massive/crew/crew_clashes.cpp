@@ -100,7 +100,7 @@ void lead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions
     StoreFile file(store, OpenMode::immutable);
     CrewLead leading(crew, plan, result, options);
     try {
-        TaskTester tester(file, options, plan.stored.models, plan.budget, plan.blocks_budget);
+        TaskTester tester(file, plan.stored.models, plan.budget, plan.blocks_budget);
         work(tester, leading);
     } catch (...) {
         leading.fail();
@@ -116,7 +116,7 @@ void help_find_clashes(const std::string& store, Crew& crew, const Progress& pro
         const std::vector<ModelRow> models = file.models();
         if (parts_key(models) != briefing.models)
             throw Error(ErrorCode::bad_argument, store, "is another store than the leader's");
-        TaskTester tester(file, briefing.options, models, briefing.budget, briefing.blocks_budget);
+        TaskTester tester(file, models, briefing.budget, briefing.blocks_budget);
         work(tester, source);
         source.wait_until_dismissed();
     } catch (const Dismissed&) {

@@ -28,7 +28,7 @@ constexpr int kPiecesAtOnce = 2;
 CrewLead::CrewLead(Crew& crew, const JobPlan& plan, JobResult& result, const ClashOptions& options)
     : crew_(crew), plan_(plan), options_(options),
       progress_(options.progress, "narrow phase", plan.candidates), result_(result),
-      schedule_(plan.stored, plan.units, crew.size()) {
+      schedule_(plan.stored, plan.units, crew.size(), plan.rules.get()) {
     progress_.advance(result.counters().recalled_pairs);
     server_ = std::thread([this] { serve(); });
     recorder_ = std::thread([this] { record(); });
@@ -51,8 +51,8 @@ void CrewLead::brief_helpers() {
         std::latch& latch;
         ~CountDown() { latch.count_down(); }
     } const count_down{helpers_have_work_};
-    const std::vector<std::byte> briefing = encode(
-        Briefing{options_, plan_.budget, plan_.blocks_budget, parts_key(plan_.stored.models)});
+    const std::vector<std::byte> briefing =
+        encode(Briefing{plan_.budget, plan_.blocks_budget, parts_key(plan_.stored.models)});
     for (std::size_t helper = 1; helper < crew_.size(); ++helper)
         crew_.send(helper, briefing);
     for (int i = 0; i < kPiecesAtOnce; ++i)

@@ -13,25 +13,18 @@ template <typename Value, typename Struct>
 concept Either = std::same_as<std::remove_const_t<Value>, Struct>;
 
 template <typename Stream>
-void fields(Stream& stream, Either<PartSelector> auto& side) {
-    stream(side.file, side.name, side.type);
-}
-
-template <typename Stream>
-void fields(Stream& stream, Either<ClashRule> auto& rule) {
-    stream(rule.name, rule.a, rule.b, rule.clearance, rule.touch_tolerance, rule.ignore.same_file,
-           rule.ignore.same_type, rule.ignore.same_name_prefix);
+void fields(Stream& stream, Either<Task::Terms> auto& terms) {
+    stream(terms.numbers, terms.rule, terms.severity);
 }
 
 template <typename Stream>
 void fields(Stream& stream, Either<Briefing> auto& briefing) {
-    stream(briefing.options.clearance, briefing.options.touch_tolerance, briefing.options.self,
-           briefing.options.rules, briefing.budget, briefing.blocks_budget, briefing.models);
+    stream(briefing.budget, briefing.blocks_budget, briefing.models);
 }
 
 template <typename Stream>
 void fields(Stream& stream, Either<Task> auto& task) {
-    stream(task.unit, task.alone, task.meshes, task.large, task.parts, task.pairs,
+    stream(task.unit, task.alone, task.meshes, task.large, task.parts, task.pairs, task.terms,
            task.large_pairs);
 }
 
@@ -42,7 +35,8 @@ template <typename Stream>
 void fields(Stream& stream, Either<TaskResult::Found> auto& found) {
     auto& clash = found.clash;
     stream(found.pair, clash.id, clash.kind, clash.distance, clash.point_a, clash.point_b,
-           clash.direction, clash.triangle_pairs, clash.rule);
+           clash.direction, clash.triangle_pairs, clash.rule, clash.severity, clash.volume,
+           clash.volume_error, clash.neighbours, found.left_out);
 }
 
 template <typename Stream>

@@ -20,7 +20,6 @@ namespace abut {
 
 /// The data that a helper needs before its first task.
 struct Briefing {
-    ClashOptions options;            ///< without progress
     std::uint64_t budget = 0;        ///< bytes of models in memory
     std::uint64_t blocks_budget = 0; ///< bytes of mesh blocks in memory
     Hash128 models;                  ///< parts_key of the leader's store

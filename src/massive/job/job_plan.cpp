@@ -36,11 +36,10 @@ bool needs_large(const StoredParts& parts, const std::vector<IndexPair>& pairs) 
            });
 }
 
-std::uint64_t bytes_for_models(const StoredParts& parts, const std::vector<IndexPair>& pairs,
-                               std::uint64_t hierarchies_room, const OutOfCoreOptions& options,
-                               const std::string& store) {
-    const std::uint64_t tables =
-        parts.bytes() + pairs.capacity() * sizeof(IndexPair) + hierarchies_room;
+std::uint64_t bytes_for_models(const JobPlan& plan, const std::vector<IndexPair>& pairs,
+                               const OutOfCoreOptions& options, const std::string& store) {
+    const std::uint64_t tables = plan.stored.bytes() + plan.rules->bytes() +
+                                 pairs.capacity() * sizeof(IndexPair) + plan.hierarchies_room;
     if (options.memory < kLeastMemory + tables)
         fail_for_memory(kLeastMemory + tables, store);
     return options.memory - tables;
@@ -53,11 +52,12 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
     require_tolerances(options);
     ProgressMeter progress(options.progress, "broad phase", 3);
     JobPlan plan;
-    std::optional<RuleTable> rules(options);
-    plan.stored = gather_parts(store, &*rules);
+    auto rules = std::make_unique<RuleTable>(options);
+    plan.stored = gather_parts(store, rules.get());
+    plan.rules = std::move(rules);
     progress.advance();
-    std::vector<IndexPair> pairs = find_candidates(plan.stored, *rules, options);
-    rules.reset();
+    std::vector<IndexPair> pairs =
+        find_candidates(plan.stored, *plan.rules, options, &plan.left_out);
     plan.candidates = pairs.size();
     progress.advance();
     if (recorded && out_of_core.keep)
@@ -68,8 +68,7 @@ JobPlan make_plan(StoreFile& store, const ClashOptions& options,
     // set aside even without a record, so that the work units are the same in both cases.
     if (out_of_core.keep_hierarchies && out_of_core.crew == nullptr)
         plan.hierarchies_room = out_of_core.memory / kHierarchiesShare;
-    plan.budget =
-        bytes_for_models(plan.stored, pairs, plan.hierarchies_room, out_of_core, store.path());
+    plan.budget = bytes_for_models(plan, pairs, out_of_core, store.path());
     if (needs_large(plan.stored, pairs)) {
         plan.blocks_budget = plan.budget / 2;
         plan.budget -= plan.blocks_budget;

@@ -22,6 +22,8 @@ struct JobPlan {
     std::uint64_t blocks_budget = 0;    ///< bytes of mesh blocks in memory
     std::uint64_t hierarchies_room = 0; ///< bytes of built hierarchies that wait to be stored
     std::unique_ptr<JobRecord> record;  ///< null if nothing is recorded
+    std::unique_ptr<const RuleTable> rules;
+    LeftOutCounts left_out{}; ///< pairs that are not candidates
 };
 
 /// Finds the candidate pairs of a store and divides them into work units.

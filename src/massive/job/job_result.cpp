@@ -2,6 +2,7 @@
 
 #include "clash/clash_identity.h"
 #include "clash/model_boxes.h"
+#include "clash/report/report_order.h"
 #include "math/vector.h"
 #include "store/import/note_text.h"
 
@@ -45,6 +46,9 @@ JobResult::JobResult(JobPlan& plan, const ClashOptions& options, StoreFile& stor
     if (!plan_.stored.models.empty())
         report.frame = {plan_.stored.models.front().world_up, plan_.stored.models.front().file};
     report.warnings = warn_of_distant_models(plan_.stored, options);
+    for (std::string& warning : plan_.rules->warnings())
+        report.warnings.push_back(std::move(warning));
+    report.left_out = plan_.left_out;
     OutOfCoreCounters& counters = result_.counters;
     counters.units = plan_.units.size();
     counters.workers.resize(workers);
@@ -72,9 +76,11 @@ void JobResult::recall() {
         left += unit.pairs.size();
     result_.counters.kept = true;
     result_.counters.recalled_pairs = plan_.candidates - left;
-    result_.report.clashes = plan_.record->found(plan_.stored);
-    for (Clash& clash : result_.report.clashes) {
+    found_ = plan_.record->found(plan_.stored);
+    for (auto& [clash, left_out] : found_) {
         set_models(clash);
+        if (left_out)
+            continue;
         for (const std::uint32_t part : clash.part) {
             if (named_.contains(part))
                 continue;
@@ -100,18 +106,19 @@ void JobResult::add(TaskResult result) {
     std::unordered_map<std::int64_t, Part*> names;
     for (TaskResult::Named& named : result.named)
         names.emplace(named.row, &named.part);
-    std::vector<Clash>& clashes = result_.report.clashes;
-    const std::size_t before = clashes.size();
+    const std::size_t before = found_.size();
     for (TaskResult::Found& found : result.clashes) {
         const IndexPair pair = plan_.units[result.unit].pairs[found.pair];
         found.clash.part = {pair.a(), pair.b()};
         set_models(found.clash);
-        for (const std::uint32_t part : found.clash.part)
-            named_.try_emplace(part, *names.at(plan_.stored.parts[part].row));
-        clashes.push_back(std::move(found.clash));
+        if (!found.left_out)
+            for (const std::uint32_t part : found.clash.part)
+                named_.try_emplace(part, *names.at(plan_.stored.parts[part].row));
+        found_.push_back({std::move(found.clash), found.left_out});
     }
     if (plan_.record != nullptr)
-        plan_.record->commit(plan_.stored, result.unit, std::span(clashes).subspan(before),
+        plan_.record->commit(plan_.stored, result.unit,
+                             std::span<const FoundClash>(found_).subspan(before),
                              result.hierarchies);
     result_.counters.hierarchies_kept += result.hierarchies.size();
     OutOfCoreCounters::Worker& figures = result_.counters.workers[result.from];
@@ -141,8 +148,20 @@ void JobResult::add_model(const ModelRow& row) {
     model.up = row.world_up;
 }
 
+void JobResult::move_found() {
+    ClashReport& report = result_.report;
+    for (auto& [clash, left_out] : found_)
+        if (left_out)
+            ++report.left_out.at(static_cast<std::size_t>(*left_out));
+        else
+            report.clashes.push_back(std::move(clash));
+    found_.clear();
+    std::ranges::sort(report.clashes, {}, &Clash::part);
+}
+
 StoreClashReport JobResult::finish() {
     sum_up_workers();
+    move_found();
     for (const ModelRow& model : plan_.stored.models)
         add_model(model);
     std::unordered_map<std::uint32_t, std::uint32_t> place;
@@ -152,11 +171,9 @@ StoreClashReport JobResult::finish() {
         parts.push_back(std::move(named));
     }
     std::vector<Clash>& clashes = result_.report.clashes;
-    std::ranges::sort(clashes, {}, &Clash::part);
-    for (Clash& clash : clashes) {
+    for (Clash& clash : clashes)
         clash.part = {place.at(clash.part[0]), place.at(clash.part[1])};
-        ++result_.report.counts.at(static_cast<std::size_t>(clash.kind));
-    }
+    sum_up(result_.report, options_);
     if (plan_.record != nullptr)
         plan_.record->finish(result_.report, result_.models);
     else

@@ -39,11 +39,13 @@ private:
     void sum_up_workers();
     void add_model(const ModelRow& row);
     void set_models(Clash& clash) const;
+    void move_found();
 
     JobPlan& plan_;
     const ClashOptions& options_;
     StoreFile& store_;
-    StoreClashReport result_; ///< until finish(), parts of clashes are indices in the plan's parts
+    StoreClashReport result_;             ///< its clashes come with finish()
+    std::vector<FoundClash> found_;       ///< parts are indices in the plan's parts
     std::map<std::uint32_t, Part> named_; ///< parts that clash, by index in the plan's parts
 };
 

@@ -129,25 +129,27 @@ void JobRecord::plan(const StoredParts& stored, const std::vector<WorkUnit>& uni
     job_ = planned;
 }
 
-std::vector<Clash> JobRecord::found(const StoredParts& stored) {
+std::vector<FoundClash> JobRecord::found(const StoredParts& stored) {
     const PartsByRow by_row(stored);
-    std::vector<Clash> result;
+    std::vector<FoundClash> result;
     for_each_clash(database_, job_.job, [&](ClashRow&& row) {
         const auto a = by_row.find(row.parts.first), b = by_row.find(row.parts.second);
         if (!a || !b)
             damaged_job(database_, "a clash of a job names parts that are not there");
         row.clash.part = {*a, *b};
-        result.push_back(std::move(row.clash));
+        result.push_back({std::move(row.clash), row.left_out});
     });
     return result;
 }
 
-void JobRecord::commit(const StoredParts& stored, std::size_t unit, std::span<const Clash> clashes,
+void JobRecord::commit(const StoredParts& stored, std::size_t unit,
+                       std::span<const FoundClash> clashes,
                        const std::vector<HierarchyRow>& hierarchies) {
     std::vector<ClashRow> rows;
     rows.reserve(clashes.size());
-    for (const Clash& clash : clashes)
-        rows.push_back({{stored.parts[clash.part[0]].row, stored.parts[clash.part[1]].row}, clash});
+    for (const auto& [clash, left_out] : clashes)
+        rows.push_back(
+            {{stored.parts[clash.part[0]].row, stored.parts[clash.part[1]].row}, clash, left_out});
     Transaction transaction(database_);
     require_ours();
     add_clashes(database_, job_.job, rows);

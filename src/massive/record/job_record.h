@@ -47,10 +47,10 @@ public:
     void plan(const StoredParts& stored, const std::vector<WorkUnit>& units);
     /// Returns the clashes that are known, with parts as indices in StoredParts and without models.
     /// Call it after plan().
-    std::vector<Clash> found(const StoredParts& stored);
+    std::vector<FoundClash> found(const StoredParts& stored);
     /// Records that a unit of the plan is done, with its clashes and the hierarchies that were
     /// built. The parts of the clashes are indices in StoredParts.
-    void commit(const StoredParts& stored, std::size_t unit, std::span<const Clash> clashes,
+    void commit(const StoredParts& stored, std::size_t unit, std::span<const FoundClash> clashes,
                 const std::vector<HierarchyRow>& hierarchies);
     /// Opens an outer transaction. Units that are committed while it is open reach the disk when it
     /// is committed, at the cost of one wait.

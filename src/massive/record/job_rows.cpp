@@ -4,6 +4,7 @@
 #include "massive/record/work_rows.h"
 #include "store/database/row_hash.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -24,18 +25,39 @@ Hash128 question_hash(const ClashOptions& options) {
             hash.add(text);
     };
     hash.add(options.clearance).add(options.touch_tolerance).add(options.self);
-    for (const ClashRule& rule : options.rules) {
+    const auto add_list = [&](const auto& list) {
+        hash.add(std::uint64_t{list.size()});
+        for (const auto element : list)
+            hash.add(static_cast<std::uint64_t>(element));
+    };
+    const auto add_rule = [&](const ClashRule& rule) {
         hash.add(rule.name);
         for (const PartSelector* side : {&rule.a, &rule.b}) {
             add_texts(side->file);
             add_texts(side->name);
             add_texts(side->type);
+            hash.add(side->query.text());
         }
-        for (const std::optional<double>& length : {rule.clearance, rule.touch_tolerance})
+        for (const std::optional<double>& length :
+             {rule.clearance, rule.touch_tolerance, rule.tolerated_depth})
             hash.add(length.has_value()).add(length.value_or(0));
         hash.add(rule.ignore.same_file)
             .add(rule.ignore.same_type)
             .add(std::uint64_t{rule.ignore.same_name_prefix});
+        add_list(rule.ignore.neighbours);
+        add_list(rule.kinds);
+        hash.add(rule.severity);
+    };
+    hash.add(std::uint64_t{options.rules.size()});
+    std::ranges::for_each(options.rules, add_rule);
+    hash.add(options.only.text()).add(options.a.text()).add(options.b.text());
+    add_list(options.leave_out);
+    hash.add(std::uint64_t{options.matrix.groups.size()});
+    for (const ClashMatrix::Group& group : options.matrix.groups)
+        hash.add(group.name).add(group.select.text());
+    for (const ClashMatrix::Cell& cell : options.matrix.cells) {
+        hash.add(std::uint64_t{cell.a}).add(std::uint64_t{cell.b}).add(cell.examined);
+        add_rule(cell.terms);
     }
     return hash.value_128();
 }

@@ -85,6 +85,10 @@ constexpr std::array kOfJobs{
   bx REAL NOT NULL, by REAL NOT NULL, bz REAL NOT NULL,
   triangle_pairs INTEGER NOT NULL,
   rule TEXT NOT NULL,
+  severity TEXT NOT NULL,
+  volume REAL NOT NULL,
+  neighbours TEXT NOT NULL,
+  left_out TEXT NOT NULL,
   exact BLOB NOT NULL,
   checksum INTEGER NOT NULL))"},
 };

@@ -4,21 +4,23 @@
 #include "massive/record/job_tables.h"
 #include "store/database/row_hash.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace abut {
 
 namespace {
 
-/// Distance, point a, point b and direction. They are also stored as bytes, because SQLite does not
-/// keep the sign of zero.
-using ExactNumbers = std::array<double, 10>;
+/// Distance, point a, point b, direction, volume and its error. They are also stored as bytes,
+/// because SQLite does not keep the sign of zero.
+using ExactNumbers = std::array<double, 12>;
 
 ExactNumbers pack(const Clash& c) {
-    return {c.distance,  c.point_a.x, c.point_a.y,   c.point_a.z,   c.point_b.x,
-            c.point_b.y, c.point_b.z, c.direction.x, c.direction.y, c.direction.z};
+    return {c.distance,  c.point_a.x,   c.point_a.y,   c.point_a.z,   c.point_b.x, c.point_b.y,
+            c.point_b.z, c.direction.x, c.direction.y, c.direction.z, c.volume,    c.volume_error};
 }
 
 void unpack(const ExactNumbers& n, Clash& c) {
@@ -26,6 +28,23 @@ void unpack(const ExactNumbers& n, Clash& c) {
     c.point_a = {n[1], n[2], n[3]};
     c.point_b = {n[4], n[5], n[6]};
     c.direction = {n[7], n[8], n[9]};
+    c.volume = n[10], c.volume_error = n[11];
+}
+
+/// Returns the name of a value as a row has it; empty without a value.
+template <typename Value>
+std::string_view name_of(const std::optional<Value>& value) {
+    return value ? to_string(*value) : "";
+}
+
+/// Reads a value by its name. Returns false if the name is of none.
+template <typename Value, std::size_t count>
+bool read_name(const std::string& name, const std::array<Value, count>& values,
+               std::optional<Value>& result) {
+    const auto at = std::ranges::find_if(values, [&](Value v) { return name == to_string(v); });
+    if (at != values.end())
+        result = *at;
+    return result.has_value() || name.empty();
 }
 
 std::uint64_t checksum(std::int64_t job, const ClashRow& row) {
@@ -36,6 +55,9 @@ std::uint64_t checksum(std::int64_t job, const ClashRow& row) {
         .add(row.parts)
         .add(row.clash.triangle_pairs)
         .add(row.clash.rule)
+        .add(row.clash.severity)
+        .add(name_of(row.clash.neighbours))
+        .add(name_of(row.left_out))
         .add(pack(row.clash))
         .value();
 }
@@ -57,7 +79,8 @@ std::string unit_list(std::int64_t job) {
 
 void add_clashes(Database& database, std::int64_t job, const std::vector<ClashRow>& clashes) {
     RowTally tally = read_tally(database, clash_list(job));
-    Statement add(database, "INSERT INTO clash VALUES (NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    Statement add(database,
+                  "INSERT INTO clash VALUES (NULL,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
     for (const ClashRow& row : clashes) {
         const Clash& c = row.clash;
         const ExactNumbers exact = pack(c);
@@ -65,7 +88,8 @@ void add_clashes(Database& database, std::int64_t job, const std::vector<ClashRo
         const std::uint64_t sum = checksum(job, row);
         add.bind(job, id, std::string_view(to_string(c.kind)), row.parts.first, row.parts.second,
                  c.distance, c.point_a.x, c.point_a.y, c.point_a.z, c.point_b.x, c.point_b.y,
-                 c.point_b.z, c.triangle_pairs, c.rule, std::as_bytes(std::span(exact)), sum)
+                 c.point_b.z, c.triangle_pairs, c.rule, c.severity, c.volume, name_of(c.neighbours),
+                 name_of(row.left_out), std::as_bytes(std::span(exact)), sum)
             .run();
         tally.add(sum);
     }
@@ -76,20 +100,23 @@ void for_each_clash(Database& database, std::int64_t job,
                     const std::function<void(ClashRow&&)>& take) {
     RowTally tally;
     Statement rows(database, "SELECT id, kind, part_a, part_b, triangle_pairs, rule, exact, "
-                             "checksum FROM clash WHERE job = ?");
+                             "checksum, severity, neighbours, left_out FROM clash WHERE job = ?");
     rows.bind(job);
     while (rows.step()) {
         ClashRow row;
         const auto id = parse_clash_id(rows.text(0));
         const auto kind = clash_kind_of(rows.text(1));
         const auto exact = blob_elements<ExactNumbers>(rows.bytes(6));
-        if (!id || !kind || exact.size() != 1)
+        const bool named = read_name(rows.text(9), kNeighbours, row.clash.neighbours) &&
+                           read_name(rows.text(10), kLeftOut, row.left_out);
+        if (!id || !kind || exact.size() != 1 || !named)
             damaged_job(database, "a clash of a job is none");
         row.clash.id = *id;
         row.clash.kind = *kind;
         row.parts = {rows.integer(2), rows.integer(3)};
         row.clash.triangle_pairs = static_cast<std::uint64_t>(rows.integer(4));
         row.clash.rule = rows.text(5);
+        row.clash.severity = rows.text(8);
         unpack(exact.front(), row.clash);
         const std::uint64_t sum = checksum(job, row);
         if (sum != static_cast<std::uint64_t>(rows.integer(7)))

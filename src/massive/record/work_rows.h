@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,10 +20,17 @@ namespace abut {
 /// The store rows of parts a and b.
 using RowPair = std::pair<std::int64_t, std::int64_t>;
 
-/// A clash of a job. `clash` has no model and part; `parts` stands for them.
+/// A clash of a job, and why the report does not have it if it does not.
+struct FoundClash {
+    Clash clash;
+    std::optional<LeftOut> left_out{};
+};
+
+/// A clash of a job as a row. `clash` has no model and part; `parts` stands for them.
 struct ClashRow {
     RowPair parts;
     Clash clash;
+    std::optional<LeftOut> left_out{};
 };
 void add_clashes(Database& database, std::int64_t job, const std::vector<ClashRow>& clashes);
 void for_each_clash(Database& database, std::int64_t job,

@@ -129,18 +129,23 @@ PairCell StoredParts::cell_of(const IndexPair& pair) const {
 }
 
 std::vector<IndexPair> find_candidates(const StoredParts& stored, const RuleTable& rules,
-                                       const ClashOptions& options) {
+                                       const ClashOptions& options, LeftOutCounts* left_out) {
     const bool across = stored.models.size() > 1 && !options.self;
     const auto filter = [&](std::uint32_t i, std::uint32_t j) {
         return !across || stored.parts[i].model != stored.parts[j].model;
     };
     std::vector<IndexPair> pairs =
         overlapping_boxes(stored.boxes, largest_clearance(options), filter);
-    if (options.rules.empty())
+    if (!rules.leaves_out())
         return pairs;
     const auto out_of_reach = [&](const IndexPair& pair) {
-        const auto terms = rules.terms(pair.a(), pair.b());
-        return !terms || !overlap(stored.boxes[pair.a()], stored.boxes[pair.b()], terms->clearance);
+        const PairDecision decision = rules.decide(pair.a(), pair.b());
+        if (!overlap(stored.boxes[pair.a()], stored.boxes[pair.b()],
+                     decision.terms ? decision.terms->clearance : decision.clearance))
+            return true;
+        if (!decision.terms && left_out != nullptr)
+            ++left_out->at(static_cast<std::size_t>(decision.reason));
+        return !decision.terms;
     };
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), out_of_reach), pairs.end());
     return pairs;

@@ -4,7 +4,7 @@
 #include <abut/clash.h>
 #include <abut/types.h>
 
-#include "clash/rule_table.h"
+#include "clash/rules/rule_table.h"
 #include "core/hash.h"
 #include "massive/work/block_cache.h"
 #include "store/database/store_file.h"
@@ -92,9 +92,15 @@ private:
 /// Errors      those of the store; Error{bad_argument}, naming it, if an import has not ended.
 StoredParts gather_parts(StoreFile& store, RuleTable* rules = nullptr);
 
+/// The number of pairs that are left out, by LeftOut.
+using LeftOutCounts = decltype(ClashReport::left_out);
+
 /// Returns the candidate pairs, sorted: pairs of parts whose boxes are within the clearance of each
 /// other and which the options and their rules select.
+///
+/// In          left_out: receives the numbers of other pairs; may be null.
 std::vector<IndexPair> find_candidates(const StoredParts& parts, const RuleTable& rules,
-                                       const ClashOptions& options);
+                                       const ClashOptions& options,
+                                       LeftOutCounts* left_out = nullptr);
 
 } // namespace abut

@@ -1,7 +1,9 @@
 #include "massive/work/task.h"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
+#include <utility>
 
 namespace abut {
 
@@ -41,9 +43,32 @@ std::vector<std::uint32_t> large_pairs(const StoredParts& stored,
     return order;
 }
 
+/// The terms of a task's pairs, each once.
+class TermsOfTask {
+public:
+    TermsOfTask(Task& task, const RuleTable& rules) : task_(task), rules_(rules) {}
+
+    std::uint32_t index(const IndexPair& pair) {
+        PairTerms terms = rules_.terms(pair.a(), pair.b()).value_or(PairTerms());
+        const ClashRule* const rule = std::exchange(terms.rule, nullptr);
+        const auto [at, is_new] = places_.try_emplace({rule, terms.neighbours}, places_.size());
+        if (is_new)
+            task_.terms.push_back(
+                {terms, rule == nullptr ? "" : rule->name, rule == nullptr ? "" : rule->severity});
+        return at->second;
+    }
+
+private:
+    Task& task_;
+    const RuleTable& rules_;
+    /// Pairs of one rule have equal terms, but for their neighbours.
+    std::map<std::pair<const ClashRule*, std::optional<Neighbours>>, std::uint32_t> places_;
+};
+
 } // namespace
 
-Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, std::size_t unit) {
+Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, std::size_t unit,
+               const RuleTable* rules) {
     const WorkUnit& work = units[unit];
     Task task;
     task.unit = static_cast<std::uint32_t>(unit);
@@ -72,7 +97,12 @@ Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, st
         task.parts.push_back({p.row, mesh, p.model});
     }
     for (const IndexPair& pair : work.pairs)
-        task.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b())});
+        task.pairs.push_back({place_of(parts, pair.a()), place_of(parts, pair.b()), 0});
+    if (rules != nullptr) {
+        TermsOfTask terms(task, *rules);
+        for (std::size_t k = 0; k < work.pairs.size(); ++k)
+            task.pairs[k].terms = terms.index(work.pairs[k]);
+    }
     if (!task.large.empty())
         task.large_pairs = large_pairs(stored, work.pairs);
     return task;

@@ -4,11 +4,14 @@
 #include <abut/scene.h>
 #include <abut/store_clash.h>
 
+#include "clash/rules/rule_table.h"
 #include "massive/work/stored_parts.h"
 #include "massive/work/work_units.h"
 #include "store/database/hierarchy_table.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace abut {
@@ -28,6 +31,12 @@ struct Task {
     };
     struct Pair {
         std::uint32_t a = 0, b = 0; ///< indices in parts
+        std::uint32_t terms = 0;    ///< index in terms
+    };
+    /// How pairs are tested and reported.
+    struct Terms {
+        PairTerms numbers; ///< without the rule
+        std::string rule, severity;
     };
     static constexpr std::uint32_t kNoUse = UINT32_MAX;
 
@@ -38,19 +47,24 @@ struct Task {
         large; ///< rows of large meshes, whose blocks are read during the test
     std::vector<PartUse> parts;
     std::vector<Pair> pairs; ///< in the order of the unit
+    std::vector<Terms> terms;
     /// Indices of the pairs that have a large mesh, in an order in which neighbouring pairs follow
     /// each other.
     std::vector<std::uint32_t> large_pairs;
 };
 
 /// Makes the task of a work unit. All next uses are kNoUse; the caller fills them in.
-Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, std::size_t unit);
+///
+/// In          rules: of the stored parts; null if the pairs are not to be tested.
+Task make_task(const StoredParts& stored, const std::vector<WorkUnit>& units, std::size_t unit,
+               const RuleTable* rules);
 
 /// The result of one task.
 struct TaskResult {
     struct Found {
-        std::uint32_t pair = 0; ///< index in the task's pairs
-        Clash clash;            ///< without model and part
+        std::uint32_t pair = 0;          ///< index in the task's pairs
+        Clash clash;                     ///< without model and part
+        std::optional<LeftOut> left_out; ///< why the report does not have it
     };
     struct Named {
         std::int64_t row = 0; ///< row in the store
@@ -61,7 +75,7 @@ struct TaskResult {
     std::uint32_t from = 0;     ///< rank of the worker; the receiver fills it in
     std::uint64_t pairs = 0;    ///< number of pairs tested
     std::vector<Found> clashes; ///< in the order of the pairs
-    std::vector<Named> named;   ///< the parts that clash, each once
+    std::vector<Named> named;   ///< the parts that clash in the report, each once
     /// Hierarchies that were built for this task or the next, to be stored. They are not sent to
     /// another process.
     std::vector<HierarchyRow> hierarchies;

@@ -3,7 +3,7 @@
 #include <abut/clash.h>
 #include <abut/model.h>
 
-#include "clash/rule_table.h"
+#include "clash/test_pair.h"
 #include "massive/work/large_meshes.h"
 #include "massive/work/model_cache.h"
 #include "massive/work/task.h"
@@ -11,8 +11,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,22 +19,19 @@ namespace abut {
 /// Does tasks: reads the meshes and parts that a task needs, and tests its pairs.
 class TaskTester {
 public:
-    /// In          store, options: must outlive this object; models: of the store; budget: bytes of
-    ///             models in memory; blocks_budget: bytes of mesh blocks in memory;
-    ///             hierarchies_room: bytes of built hierarchies that wait to be stored, 0 if none
-    ///             is stored.
-    TaskTester(StoreFile& store, const ClashOptions& options, const std::vector<ModelRow>& models,
-               std::uint64_t budget, std::uint64_t blocks_budget,
-               std::uint64_t hierarchies_room = 0);
+    /// In          store: must outlive this object; models: of the store; budget: bytes of models in
+    ///             memory; blocks_budget: bytes of mesh blocks in memory; hierarchies_room: bytes
+    ///             of built hierarchies that wait to be stored, 0 if none is stored.
+    TaskTester(StoreFile& store, const std::vector<ModelRow>& models, std::uint64_t budget,
+               std::uint64_t blocks_budget, std::uint64_t hierarchies_room = 0);
 
     /// A task with the data that it needs, valid until the load after the next.
     struct Loaded {
         Task task;
-        std::vector<const Model*> models;       ///< of the task's meshes
-        std::vector<const ModelBlocks*> large;  ///< of the task's large meshes
-        int threads = 1;                        ///< at most, for the pairs with a large mesh
-        std::vector<PartRow> parts;             ///< store rows of the task's parts
-        std::unique_ptr<const RuleTable> rules; ///< for the same parts
+        std::vector<const Model*> models;      ///< of the task's meshes
+        std::vector<const ModelBlocks*> large; ///< of the task's large meshes
+        int threads = 1;                       ///< at most, for the pairs with a large mesh
+        std::vector<PartRow> parts;            ///< store rows of the task's parts
     };
     /// Errors      those of the store.
     Loaded load(Task task);
@@ -54,10 +49,9 @@ public:
     [[nodiscard]] OutOfCoreCounters::Worker figures() const;
 
 private:
-    std::optional<Clash> test_pair(const Loaded& loaded, const Task::Pair& pair) const;
+    PairAnswer test(const Loaded& loaded, const Task::Pair& pair) const;
 
     StoreFile& store_;
-    const ClashOptions& options_;
     std::vector<std::string> files_; ///< by model
     ModelReader reader_;
     ModelCache cache_;

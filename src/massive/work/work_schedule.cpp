@@ -17,8 +17,8 @@ std::uint64_t work_of_unit(const WorkUnit& unit) {
 } // namespace
 
 WorkSchedule::WorkSchedule(const StoredParts& stored, const std::vector<WorkUnit>& units,
-                           std::size_t workers)
-    : stored_(stored), units_(units), runs_(workers), work_before_(units.size() + 1),
+                           std::size_t workers, const RuleTable* rules)
+    : stored_(stored), units_(units), rules_(rules), runs_(workers), work_before_(units.size() + 1),
       first_use_(stored.meshes.size() + 1) {
     for (std::size_t u = 0; u < units.size(); ++u) {
         work_before_[u + 1] = work_before_[u] + work_of_unit(units[u]);
@@ -69,7 +69,7 @@ std::optional<Task> WorkSchedule::next(std::size_t worker) {
     if (run.begin == run.end)
         return std::nullopt;
     const std::size_t unit = run.begin++;
-    Task task = make_task(stored_, units_, unit);
+    Task task = make_task(stored_, units_, unit, rules_);
     for (std::size_t i = 0; i < task.meshes.size(); ++i)
         task.meshes[i].next_use = next_use(units_[unit].meshes[i], run);
     return task;

@@ -16,9 +16,9 @@ namespace abut {
 class WorkSchedule {
 public:
     /// In          units: in an order in which each unit shares many meshes with the one before.
-    ///             stored, units: must outlive the schedule.
-    WorkSchedule(const StoredParts& stored, const std::vector<WorkUnit>& units,
-                 std::size_t workers);
+    ///             rules: as make_task. stored, units, rules: must outlive the schedule.
+    WorkSchedule(const StoredParts& stored, const std::vector<WorkUnit>& units, std::size_t workers,
+                 const RuleTable* rules = nullptr);
 
     /// Returns the next task of a worker, with the next uses of its meshes within the worker's run.
     /// Returns none if all units have been handed out.
@@ -38,6 +38,7 @@ private:
 
     const StoredParts& stored_;
     const std::vector<WorkUnit>& units_;
+    const RuleTable* rules_;
     std::vector<Run> runs_;                  ///< by worker
     std::vector<std::uint64_t> work_before_; ///< cost of the units before each one
     std::vector<std::uint32_t> first_use_;   ///< by mesh: index of its first use in uses_

@@ -1,6 +1,7 @@
 // The rule table against a direct implementation of the rules' definition.
 
-#include "clash/rule_table.h"
+#include "clash/query/glob.h"
+#include "clash/rules/rule_table.h"
 #include "tests/support/random.h"
 #include "tests/support/rounds.h"
 
@@ -15,7 +16,7 @@ namespace {
 struct NamedPart {
     std::uint32_t model;
     std::string file, id, name, type;
-    [[nodiscard]] RuleSubject subject() const { return {model, file, id, name, type}; }
+    [[nodiscard]] PartFacts subject() const { return {model, file, id, name, type}; }
 };
 
 bool matches(const std::vector<std::string>& globs, const std::string& text) {
@@ -114,6 +115,99 @@ TEST(RuleTable, WithoutRulesAllPairsUseTheOptions) {
     EXPECT_EQ(terms->clearance, 0.5);
     EXPECT_EQ(terms->touch, 0.25);
     EXPECT_EQ(terms->rule, nullptr);
+}
+
+/// A part of the tests below, with properties.
+struct KnownPart {
+    std::string type, storey, assembly;
+};
+
+/// Adds parts of one model to a table.
+void add_all(RuleTable& table, const std::vector<KnownPart>& parts, Properties& properties) {
+    PropertiesBuilder builder;
+    for (const KnownPart& part : parts) {
+        for (const auto& [name, value] :
+             {std::pair<std::string, std::string>{"storey", part.storey},
+              {"assembly", part.assembly}})
+            if (!value.empty())
+                builder.add(name, value);
+        builder.next_part();
+    }
+    properties = builder.finish(parts.size());
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+        table.add({0, "a.ifc", "id", "name", parts[i].type, &properties, i});
+}
+
+TEST(RuleTable, OnlyAAndBSelectPairs) {
+    ClashOptions options;
+    options.only = PartQuery::parse("storey = L1");
+    options.a = PartQuery::parse("type = Pipe");
+    options.b = PartQuery::parse("type = Beam or type = Pipe and tag = 7");
+    RuleTable table(options);
+    Properties properties;
+    add_all(table, {{"Pipe", "L1", ""}, {"Beam", "L1", ""}, {"Pipe", "L1", ""}, {"Beam", "L2", ""}},
+            properties);
+    EXPECT_TRUE(table.terms(0, 1) && table.terms(1, 2));
+    EXPECT_FALSE(table.terms(0, 2));
+    EXPECT_FALSE(table.terms(0, 3));
+    EXPECT_EQ(table.decide(0, 3).reason, LeftOut::not_selected);
+    EXPECT_EQ(table.warnings(),
+              std::vector<std::string>{"no part has the property \"tag\", which --b asks for"});
+}
+
+TEST(RuleTable, AMatrixDecidesWhereNoRuleDoes) {
+    ClashOptions options;
+    options.clearance = 0.5;
+    options.matrix.groups = {{"pipes", PartQuery::parse("type = Pipe")},
+                             {"rest", PartQuery::parse("id = *")}};
+    options.matrix.cells.resize(2);
+    options.matrix.cells[0] = {0, 1, true, {"pipes / rest", {}, {}, 0.1, 0.2, {}}};
+    options.matrix.cells[0].terms.kinds = {ClashKind::hard, ClashKind::clearance};
+    options.matrix.cells[1] = {1, 1, false, {"rest / rest", {}, {}, {}, {}, {}}};
+    ClashRule rule;
+    rule.name = "valves", rule.a.query = PartQuery::parse("type = Valve");
+    rule.b.query = PartQuery::parse("type = Pipe"), rule.clearance = 0.7;
+    options.rules = {rule};
+    RuleTable table(options);
+    Properties properties;
+    add_all(
+        table,
+        {{"Pipe", "", ""}, {"Pipe", "", ""}, {"Wall", "", ""}, {"Wall", "", ""}, {"Valve", "", ""}},
+        properties);
+    const auto crossing = table.terms(2, 0), valve = table.terms(0, 4);
+    ASSERT_TRUE(crossing && valve);
+    EXPECT_EQ(crossing->rule->name, "pipes / rest");
+    EXPECT_EQ(crossing->clearance, 0.1);
+    EXPECT_EQ(crossing->touch, 0.2);
+    EXPECT_EQ(crossing->kinds, 0b10001);
+    EXPECT_EQ(valve->rule->name, "valves");
+    EXPECT_EQ(valve->clearance, 0.7);
+    EXPECT_EQ(table.decide(2, 3).reason, LeftOut::off);
+    EXPECT_EQ(table.decide(0, 1).reason, LeftOut::not_selected);
+}
+
+TEST(RuleTable, KnownNeighboursAreNamedOrLeftOut) {
+    ClashOptions options;
+    options.leave_out = {Neighbours::fills};
+    RuleTable table(options);
+    Properties properties;
+    add_all(table,
+            {{"Window", "", ""},
+             {"Wall", "", ""},
+             {"Pipe", "", "S"},
+             {"Pipe", "", "S"},
+             {"Pipe", "", "T"}},
+            properties);
+    const std::vector<PartRelation> relations{{0, 1, RelationKind::fills},
+                                              {2, 4, RelationKind::connected},
+                                              {1, 4, RelationKind::part_of}};
+    table.add(relations, 0);
+    EXPECT_EQ(table.decide(1, 0).reason, LeftOut::fills);
+    EXPECT_FALSE(table.terms(0, 1));
+    EXPECT_EQ(table.terms(2, 3)->neighbours, Neighbours::same_assembly);
+    EXPECT_EQ(table.terms(4, 2)->neighbours, Neighbours::connected);
+    EXPECT_EQ(table.terms(4, 1)->neighbours, Neighbours::same_assembly);
+    EXPECT_EQ(table.terms(3, 4)->neighbours, std::nullopt);
 }
 
 } // namespace

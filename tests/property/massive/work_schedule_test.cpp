@@ -189,22 +189,22 @@ TEST(CrewMessages, SurviveEncodingAndDecoding) {
     EXPECT_GT(cut_short, 0U);
 
     Briefing briefing;
-    briefing.options.clearance = 0.25;
-    briefing.options.self = true;
-    briefing.options.rules.resize(2);
-    briefing.options.rules[0].name = "near";
-    briefing.options.rules[0].a.type = {"pipe", "duct"};
-    briefing.options.rules[0].touch_tolerance = 0.5;
-    briefing.options.rules[1].ignore.same_name_prefix = 7;
     briefing.budget = 99;
     const auto told = std::get<Briefing>(decode(encode(briefing)));
-    EXPECT_EQ(told.options.clearance, 0.25);
-    EXPECT_TRUE(told.options.self);
-    EXPECT_EQ(told.options.rules.at(0).a.type, (std::vector<std::string>{"pipe", "duct"}));
-    EXPECT_EQ(told.options.rules.at(0).touch_tolerance, 0.5);
-    EXPECT_FALSE(told.options.rules.at(0).clearance.has_value());
-    EXPECT_EQ(told.options.rules.at(1).ignore.same_name_prefix, 7U);
     EXPECT_EQ(told.budget, 99U);
+
+    Task task;
+    task.pairs = {{1, 2, 1}};
+    task.terms.resize(2);
+    task.terms[1].numbers.tolerated = 0.25;
+    task.terms[1].numbers.neighbours = Neighbours::covers;
+    task.terms[1].rule = "near", task.terms[1].severity = "high";
+    const auto asked = std::get<Task>(decode(encode(task)));
+    EXPECT_EQ(asked.pairs.at(0).terms, 1U);
+    EXPECT_EQ(asked.terms.at(1).numbers.tolerated, 0.25);
+    EXPECT_EQ(asked.terms.at(1).numbers.neighbours, Neighbours::covers);
+    EXPECT_EQ(asked.terms.at(1).rule, "near");
+    EXPECT_EQ(asked.terms.at(1).severity, "high");
 
     const Error error(ErrorCode::malformed, "a.abut", "is damaged");
     try {

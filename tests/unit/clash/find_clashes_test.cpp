@@ -3,7 +3,7 @@
 #include <abut/clash.h>
 #include <abut/error.h>
 
-#include "clash/rule_table.h"
+#include "clash/rules/rule_table.h"
 #include "tests/support/shapes.h"
 
 #include <atomic>

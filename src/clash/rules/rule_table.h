@@ -1,0 +1,117 @@
+#pragma once
+
+#include <abut/clash.h>
+
+#include "clash/query/part_facts.h"
+#include "clash/rules/known_neighbours.h"
+#include "core/hash.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+namespace abut {
+
+/// How a pair of parts is tested and reported.
+struct PairTerms {
+    double clearance = 0, touch = 0; ///< metres
+    double tolerated = -1;           ///< tolerated depth in metres; negative: none
+    std::uint8_t kinds = 0xff;       ///< bit k: clashes of ClashKind k are reported
+    std::optional<Neighbours> neighbours{};
+    const ClashRule* rule = nullptr; ///< null if there are neither rules nor a matrix
+};
+
+/// The terms of a pair, or why it is not tested.
+struct PairDecision {
+    std::optional<PairTerms> terms{};
+    LeftOut reason = LeftOut::not_selected; ///< without terms
+    double clearance = 0;                   ///< without terms: pairs farther apart do not count
+};
+
+/// Which rules select which parts. It stores a few bytes per part instead of the part's names,
+/// because most parts have the same answers as other parts. Without rules it stores nothing but
+/// known neighbours.
+class RuleTable {
+public:
+    /// In          options: must outlive the table.
+    explicit RuleTable(const ClashOptions& options);
+    RuleTable(const RuleTable&) = delete;
+    RuleTable& operator=(const RuleTable&) = delete;
+
+    /// Adds the next part. Parts are numbered from 0.
+    void add(const PartFacts& part);
+    /// Adds the relations of a model. Their parts are those from number `first` on.
+    void add(std::span<const PartRelation> relations, std::size_t first) {
+        neighbours_.add(relations, first);
+    }
+
+    /// Decides about a pair. Both parts must match `only`, one of them `a` and the other one `b`.
+    /// The terms are those of the first rule that selects the parts in either order, else of the
+    /// matrix, else, without rules and matrix, of the options. A rule may leave the pair out.
+    ///
+    /// A file selector matches the path or the file name alone. A name selector matches `name` or
+    /// `id`.
+    [[nodiscard]] PairDecision decide(std::size_t i, std::size_t k) const;
+    [[nodiscard]] std::optional<PairTerms> terms(std::size_t i, std::size_t k) const {
+        return decide(i, k).terms;
+    }
+
+    /// Returns whether decide() may return no terms.
+    [[nodiscard]] bool leaves_out() const { return selects_ || !options_.leave_out.empty(); }
+
+    /// Returns a warning for each name of a query that no part had a value of.
+    [[nodiscard]] std::vector<std::string> warnings() const;
+    /// Bytes in memory.
+    [[nodiscard]] std::uint64_t bytes() const;
+
+private:
+    static constexpr std::uint32_t kNoGroup = UINT32_MAX;
+
+    /// The answers of the rules that many parts have in common.
+    struct Kind {
+        std::vector<bool> is_a, is_b; ///< by rule: whether its side selects the part
+        bool only = true, a = true, b = true;
+        std::uint32_t group = kNoGroup;
+        std::uint32_t model = 0, type = 0;
+        [[nodiscard]] auto key() const {
+            return std::tie(is_a, is_b, only, a, b, group, model, type);
+        }
+        friend bool operator<(const Kind& x, const Kind& y) { return x.key() < y.key(); }
+    };
+    /// A name that a query asks for.
+    struct Asked {
+        std::string name, where;
+        bool found = false;
+    };
+
+    void ask(const PartQuery& query, const std::string& where);
+    void note_names(const PartFacts& part);
+    [[nodiscard]] bool ignores(const IgnoreRule& rule, std::size_t i, std::size_t k) const;
+    [[nodiscard]] const Hash128* prefix(std::size_t part, std::size_t length) const;
+    [[nodiscard]] const ClashMatrix::Cell* cell(std::uint32_t a, std::uint32_t b) const;
+    [[nodiscard]] PairDecision leave_out(LeftOut reason, const ClashRule* rule) const;
+    [[nodiscard]] PairDecision apply(const ClashRule* rule, std::size_t i, std::size_t k) const;
+
+    const ClashOptions& options_;
+    bool selects_ = false; ///< the options have rules, a matrix or a query
+    std::vector<Asked> asked_;
+    std::size_t not_found_ = 0;         ///< names in asked_ that no part had yet
+    const Properties* noted_ = nullptr; ///< the properties whose names were noted last
+    std::vector<std::size_t> lengths_;  ///< distinct lengths of the compared prefixes
+    bool asks_types_ = false;
+    std::vector<std::uint32_t> cells_; ///< index + 1 by both groups, 0: none
+    std::map<std::string, std::uint32_t, std::less<>> types_;
+    std::map<Kind, std::uint32_t> numbers_;
+    std::vector<const Kind*> kinds_; ///< keys of numbers_, by number
+    std::vector<std::uint32_t> parts_;
+    std::vector<Hash128> prefixes_; ///< by part and length; zero if the name is shorter
+    KnownNeighbours neighbours_;
+};
+
+} // namespace abut
