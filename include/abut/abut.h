@@ -22,6 +22,7 @@
 #include <abut/mesh.h>
 #include <abut/model.h>
 #include <abut/motion.h>
+#include <abut/part_query.h>
 #include <abut/penetration.h>
 #include <abut/progress.h>
 #include <abut/properties.h>
