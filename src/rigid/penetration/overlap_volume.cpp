@@ -20,6 +20,7 @@ namespace {
 struct NearFace {
     std::uint32_t number = 0; ///< in the whole mesh
     Triangle corners;         ///< relative to the middle of the common box
+    Box3 box;                 ///< of the corners
     std::array<std::uint32_t, 3> vertices{};
     std::array<double, 3> inside{}; ///< by edge: crossings of the other surface, as fractions
     std::array<int, 3> entered{};   ///< by edge: how often it enters the other solid, less leaves
@@ -94,6 +95,7 @@ public:
             NearFace face;
             face.number = number;
             face.corners = t;
+            face.box = box_of(t);
             face.is_flat = collinear(t[0], t[1], t[2]);
             faces_.push_back(face);
             return faces_.size() <= kMostOverlapTriangles;
@@ -112,17 +114,23 @@ public:
     [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
 
 private:
+    /// Gives corners at equal positions one number.
     void number_vertices() {
-        for (const NearFace& face : faces_)
-            positions_.insert(positions_.end(), face.corners.begin(), face.corners.end());
-        std::sort(positions_.begin(), positions_.end(), is_before);
-        positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
-        for (NearFace& face : faces_)
-            for (std::size_t i = 0; i < 3; ++i)
-                face.vertices.at(i) = static_cast<std::uint32_t>(
-                    std::lower_bound(positions_.begin(), positions_.end(), face.corners.at(i),
-                                     is_before) -
-                    positions_.begin());
+        const auto corner = [&](std::uint32_t c) -> const Vec3& {
+            return faces_[c / 3].corners[c % 3];
+        };
+        std::vector<std::uint32_t> order;
+        order.reserve(3 * faces_.size());
+        for (std::uint32_t c = 0; c < 3 * faces_.size(); ++c)
+            order.push_back(c);
+        std::sort(order.begin(), order.end(), [&](std::uint32_t c, std::uint32_t d) {
+            return is_before(corner(c), corner(d));
+        });
+        for (const std::uint32_t c : order) {
+            if (positions_.empty() || positions_.back() != corner(c))
+                positions_.push_back(corner(c));
+            faces_[c / 3].vertices[c % 3] = static_cast<std::uint32_t>(positions_.size() - 1);
+        }
     }
 
     const WorldSolid& solid_;
@@ -160,6 +168,33 @@ std::optional<int> winding_around(const NearSurface& surface, const Vec3& point)
     return std::nullopt;
 }
 
+/// The plane of a face, as a filter before exact tests.
+class PlaneOf {
+public:
+    explicit PlaneOf(const Triangle& t) : base_(t[0]) {
+        const Vec3 u = t[1] - t[0], v = t[2] - t[0];
+        normal_ = cross(u, v);
+        // Bounds the errors of a product below for points at a unit of distance.
+        rounding_ = 0x1p-48 * sum_of_sizes(u) * sum_of_sizes(v);
+    }
+    /// Whether all corners certainly lie strictly on one side.
+    [[nodiscard]] bool has_on_one_side(const Triangle& t) const {
+        int over = 0, under = 0;
+        for (const Vec3& p : t) {
+            const Vec3 from = p - base_;
+            const double height = dot(normal_, from);
+            const double error = rounding_ * sum_of_sizes(from);
+            over += height > error ? 1 : 0;
+            under += height < -error ? 1 : 0;
+        }
+        return over == 3 || under == 3;
+    }
+
+private:
+    Vec3 base_, normal_;
+    double rounding_ = 0;
+};
+
 /// The common solid of two surfaces, of which b is moved by a tiny vector.
 class CommonSolid {
 public:
@@ -179,29 +214,43 @@ public:
     [[nodiscard]] const NearSurface& b() const { return b_; }
 
 private:
+    /// Up to this many faces are all tested; of more, the hierarchy finds those near by.
+    static constexpr std::size_t kFew = 4096;
+
     /// Finds all pairs of faces that cross; false if one is degenerate.
     bool cross_all() {
         const bool a_leads = a_.faces().size() <= b_.faces().size();
         NearSurface &leading = a_leads ? a_ : b_, &other = a_leads ? b_ : a_;
+        const bool few = other.faces().size() <= kFew;
         for (NearFace& face : leading.faces()) {
             poll_stop();
             if (face.is_flat)
                 continue;
-            std::vector<std::uint32_t> met;
-            other.for_each(box_of(face.corners), [&](std::uint32_t number, const Triangle&) {
-                met.push_back(number);
-                return true;
-            });
-            std::ranges::sort(met); // so that sums do not depend on the order of the hierarchy
-            for (const std::uint32_t number : met) {
-                NearFace* const found = other.find(number);
-                if (found == nullptr || found->is_flat)
-                    continue;
-                if (!cross(a_leads ? face : *found, a_leads ? *found : face))
-                    return false;
-            }
+            const PlaneOf plane(face.corners);
+            const auto test = [&](NearFace& found) {
+                return found.is_flat || !overlap(face.box, found.box) ||
+                       plane.has_on_one_side(found.corners) ||
+                       cross(a_leads ? face : found, a_leads ? found : face);
+            };
+            if (few ? !std::ranges::all_of(other.faces(), test) : !cross_near(other, face, test))
+                return false;
         }
         return true;
+    }
+
+    /// Calls test(found) for the faces near a face, until it returns false.
+    template <typename Test>
+    static bool cross_near(NearSurface& other, const NearFace& face, const Test& test) {
+        std::vector<std::uint32_t> met;
+        other.for_each(face.box, [&](std::uint32_t number, const Triangle&) {
+            met.push_back(number);
+            return true;
+        });
+        std::ranges::sort(met); // so that sums do not depend on the order of the hierarchy
+        return std::ranges::all_of(met, [&](std::uint32_t number) {
+            NearFace* const found = other.find(number);
+            return found == nullptr || test(*found);
+        });
     }
 
     static bool cross(NearFace& f, NearFace& g) {
