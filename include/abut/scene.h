@@ -160,10 +160,10 @@ Mesh to_mesh(const Scene& scene);
 /// Reads all parts of a file as one mesh in world coordinates. Errors as `read_scene`.
 Mesh read_mesh(const std::string& path, const ReadOptions& options = {});
 
-/// Writes a scene as binary glTF, atomically. Positions become floats, `id` the node name, `name`
-/// and `type` extras, each distinct colour a material; instances stay shared. A world with another
-/// up axis is turned y up, as glTF requires. If it is read again and turned back, it has the
-/// transforms and colours that were written.
+/// Writes a scene as binary glTF, atomically. Positions become floats, `id` the node name, `name`,
+/// `type` and the properties extras, each distinct colour a material; instances stay shared. A
+/// world with another up axis is turned y up, as glTF requires. If it is read again and turned
+/// back, it has the transforms, colours and properties that were written, but no relations.
 ///
 /// Errors      Error{cannot_write}, naming the file.
 void write_glb(const Scene& scene, const std::string& path);

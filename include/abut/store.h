@@ -131,6 +131,14 @@ struct StoreSummary {
         double unit = 1;       ///< metres per unit of the file
         UpAxis up = UpAxis::y; ///< up axis of the file
         std::vector<SceneNote> notes{};
+        std::string project{};        ///< as Scene::project
+        Transform map_from_project{}; ///< as Scene::map_from_project
+    };
+    /// A property that parts of the store have.
+    struct Property {
+        std::string name;
+        std::uint64_t parts = 0;  ///< parts that have it
+        std::uint64_t values = 0; ///< different values
     };
     std::string path;
     int version = 0;
@@ -152,17 +160,27 @@ struct StoreSummary {
     std::uint64_t level_chunks = 0; ///< of them, or of earlier parts, or of a build that goes on
     std::uint64_t level_bytes = 0;
     std::uint64_t file_bytes = 0;
-    std::uint64_t unused_bytes = 0; ///< of the file; later imports reuse them
-    Box3 bounds;                    ///< of all parts, in the world
+    std::uint64_t unused_bytes = 0;     ///< of the file; later imports reuse them
+    Box3 bounds;                        ///< of all parts, in the world
+    std::vector<Property> properties{}; ///< by name, ascending
+    std::uint64_t relations = 0;        ///< see PartRelation
 };
 
 /// Summarises a store.
 ///
 /// Errors      Error{malformed} if a row that it reads is damaged.
-/// Cost        one pass over the parts.
+/// Cost        one pass over the parts and their properties.
 StoreSummary summary(const Store& store);
 
-/// Reads a whole store and checks every page, row, mesh block, hierarchy and level of
+/// Returns the parts of a model of the store, with their properties and relations but without
+/// meshes: each part's `mesh` is 0.
+///
+/// In          model: index in StoreSummary::models
+/// Errors      Error{bad_argument} if there is no such model; Error{malformed} for damage.
+/// Cost        memory for the names and properties of all its parts.
+Scene read_parts(const Store& store, std::size_t model);
+
+/// Reads a whole store and checks every page, row, property, mesh block, hierarchy and level of
 /// detail against its checksum.
 ///
 /// Errors      Error{malformed}, naming the file and the damage; Error{interrupted}.

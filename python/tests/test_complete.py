@@ -18,7 +18,7 @@ OTHER_TYPES = {
     "BodyPair": "array", "PiecePair": "array", "VertexPair": "array", "Placement": "poses", "MotionPair": "motions",
     "BodyMotion": "dict", "SpeedBounds": "keywords", "MarkChanges": "keywords", "WalkQuery": "keywords", "Progress": "function",
     "ElementaryPair": "arrays", "ElementaryQueries": "arrays", "StoreClashReport": "ClashReport", "WalkAnswer": "its members",
-    "DifferencePolytope": "within ConvexWarmStart",
+    "DifferencePolytope": "within ConvexWarmStart", "PropertiesBuilder": "Scene(properties=)",
 }
 OTHER_FUNCTIONS = {
     "to_string": "members of an enum have a name", "make_mesh": "Mesh", "clash_id_text": "ids are text",
@@ -32,7 +32,7 @@ OTHER_MEMBERS = {
     "Clash": {"rule": None}, "ClashReport": {"frame": "up"}, "ListedClash": {"part": "part_ids", "name": "names", "type": "types", "file": "files"},
     "OrientedBox": {"world_from_box": "pose"}, "Intersection": {"corners": "arrays of Contacts.segments"},
     "ConvexWarmStart": {"kind": "inner", "pairs": "inner", "deepest": "inner"},
-    "PiecesWarmStart": None, "WarmStart": None, "Impacts": {}, "Impact": {},
+    "Properties": {"first": "of", "entries": "of", "find": "names"}, "PiecesWarmStart": None, "WarmStart": None, "Impacts": {}, "Impact": {},
     "BodyImpact": {"impact": "its members"}, "Store": {"file": "inner"}, "Box3": {}, "ContactRegion": {},
 }
 

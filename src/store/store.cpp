@@ -5,6 +5,7 @@
 #include "math/vector.h"
 #include "store/codec/hierarchy_codec.h"
 #include "store/database/level_table.h"
+#include "store/database/property_table.h"
 #include "store/database/store_file.h"
 #include "store/import/mesh_draft.h"
 #include "store/import/note_text.h"
@@ -89,6 +90,18 @@ void check_boxes(StoreFile& file) {
     });
 }
 
+/// Counts what the parts have. Texts are not compared with their checksums here.
+void add_properties(Database& database, StoreSummary& summary) {
+    Statement rows(database, "SELECT text, count(DISTINCT part), count(DISTINCT value) "
+                             "FROM part_property JOIN property_name USING (name) "
+                             "GROUP BY name ORDER BY text");
+    while (rows.step())
+        summary.properties.push_back({rows.text(0), static_cast<std::uint64_t>(rows.integer(1)),
+                                      static_cast<std::uint64_t>(rows.integer(2))});
+    summary.relations =
+        static_cast<std::uint64_t>(database.number("SELECT count(*) FROM part_relation"));
+}
+
 /// Refuses whatever is not a readable, regular file, without opening it. Only SQLite may open a
 /// store: closing another descriptor of the file would release the locks that other connections of
 /// this process hold (POSIX, fcntl).
@@ -132,7 +145,8 @@ StoreSummary summary(const Store& store) {
     for (const ModelRow& model : models) {
         result.models.push_back({model.file, !model.importing, model.parts, model.triangles,
                                  model.generation, model.unit, model.up,
-                                 parse_notes(model.notes, file.path())});
+                                 parse_notes(model.notes, file.path()), model.project,
+                                 model.map_from_project});
         result.up = model.world_up;
         result.complete = result.complete && !model.importing;
         result.generation = std::max(result.generation, model.generation);
@@ -166,6 +180,7 @@ StoreSummary summary(const Store& store) {
             result.level_chunks = number("SELECT count(*) FROM level_chunk");
             result.level_bytes = number("SELECT sum(bytes) FROM level_chunk");
         }
+        add_properties(database, result);
         const auto page = static_cast<std::uint64_t>(database.number("PRAGMA page_size"));
         result.file_bytes = page * static_cast<std::uint64_t>(database.number("PRAGMA page_count"));
         result.unused_bytes =
@@ -174,11 +189,35 @@ StoreSummary summary(const Store& store) {
     return result;
 }
 
+Scene read_parts(const Store& store, std::size_t model) {
+    StoreFile& file = store.file();
+    const std::vector<ModelRow> models = file.models();
+    if (model >= models.size())
+        throw Error(ErrorCode::bad_argument, file.path(), "has no model " + std::to_string(model));
+    const ModelRow& row = models[model];
+    Scene scene;
+    scene.file = row.file;
+    scene.unit = row.unit;
+    scene.up = row.world_up;
+    scene.notes = parse_notes(row.notes, file.path());
+    scene.project = row.project;
+    scene.map_from_project = row.map_from_project;
+    std::vector<std::int64_t> parts;
+    file.for_each_part(row, [&](const PartRow& part) {
+        parts.push_back(part.part);
+        scene.parts.push_back(
+            {part.id, part.name, part.type, 0, part.world_from_mesh, part.colour});
+    });
+    scene.properties = file.properties(parts);
+    scene.relations = file.relations(parts);
+    return scene;
+}
+
 void verify(const Store& store, const Progress& progress) {
     StoreFile& file = store.file();
     std::vector<MeshRow> meshes;
     file.for_each_mesh([&](const MeshRow& mesh) { meshes.push_back(mesh); });
-    ProgressMeter meter(progress, "verify", meshes.size() + 5);
+    ProgressMeter meter(progress, "verify", meshes.size() + 6);
     check_pages(file);
     meter.advance();
     std::unordered_map<std::int64_t, bool> known;
@@ -194,6 +233,8 @@ void verify(const Store& store, const Progress& progress) {
     });
     meter.advance();
     check_boxes(file);
+    meter.advance();
+    file.with_connection(check_properties);
     meter.advance();
     check_hierarchies(file);
     meter.advance();

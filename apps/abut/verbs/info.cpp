@@ -5,6 +5,7 @@
 #include "arguments/interrupt.h"
 #include "commands.h"
 #include "pair/pieces_queries.h"
+#include "text/properties_text.h"
 #include "verbs/info_store.h"
 
 #include <algorithm>
@@ -19,7 +20,8 @@ struct InfoArguments {
     std::vector<std::string> files;
     bool parts = false;
     bool verify = false;
-    bool pieces = false; ///< also describes the convex pieces of each mesh
+    bool pieces = false;     ///< also describes the convex pieces of each mesh
+    bool properties = false; ///< also lists the properties that parts have
     ReadOptions read;
 };
 
@@ -95,7 +97,8 @@ void add_counts(nlohmann::ordered_json& to, const MeshReport& report) {
 
 nlohmann::ordered_json describe_parts(const Scene& scene, const std::vector<MeshReport>& reports) {
     nlohmann::ordered_json parts = nlohmann::ordered_json::array();
-    for (const Part& part : scene.parts) {
+    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+        const Part& part = scene.parts[i];
         const MeshReport& report = reports[part.mesh];
         nlohmann::ordered_json row{{"id", part.id},
                                    {"name", part.name},
@@ -107,6 +110,7 @@ nlohmann::ordered_json describe_parts(const Scene& scene, const std::vector<Mesh
         add_counts(row, report);
         row["colour"] = part.colour ? nlohmann::ordered_json(to_string(*part.colour)) : nullptr;
         row["bounds"] = describe(world_bounds(scene.meshes[part.mesh], part.world_from_mesh));
+        row["properties"] = properties_json(scene, i);
         parts.push_back(std::move(row));
     }
     return parts;
@@ -125,8 +129,12 @@ nlohmann::ordered_json describe(const Scene& scene, const std::vector<MeshReport
     add_counts(file, info.sum);
     file["bounds"] = describe(info.sum.bounds);
     file["notes"] = to_json(scene.notes);
-    if (with_parts)
+    file["project"] = scene.project;
+    file["map_from_project"] = scene.map_from_project.m;
+    if (with_parts) {
         file["part_list"] = describe_parts(scene, reports);
+        file["relations"] = relations_json(scene);
+    }
     return file;
 }
 
@@ -195,7 +203,8 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
     const auto stores = static_cast<std::size_t>(
         std::count_if(arguments.files.begin(), arguments.files.end(), looks_like_store));
     if (stores == arguments.files.size())
-        return describe_stores(arguments.files, arguments.verify, common);
+        return describe_stores(arguments.files,
+                               {arguments.verify, arguments.parts, arguments.properties}, common);
     if (stores > 0)
         throw Error(ErrorCode::bad_argument, "info takes models or stores, not both at once");
     if (arguments.verify)
@@ -222,10 +231,14 @@ int run(const InfoArguments& arguments, const CommonOptions& common) {
             files.push_back(describe(scene, reports, info, arguments.parts));
             if (arguments.pieces)
                 files.back()["convex_pieces"] = pieces;
+            if (arguments.properties)
+                files.back()["properties"] = to_json(property_uses({&scene, 1}));
         } else {
             text += (text.empty() ? "" : "\n") + table(scene, reports, info, arguments.parts);
             if (arguments.pieces)
                 text += pieces_table(pieces);
+            if (arguments.properties)
+                text += command::table(property_uses({&scene, 1}));
         }
     }
     if (common.json)
@@ -245,11 +258,16 @@ Subcommand add_info(CLI::App& root, CommonOptions& common) {
                         kModels,
                         "The contents of models or stores: parts, triangles, bounds, defects",
                         {{"abut info model.glb --parts", "totals, and a row for each part"},
+                         {"abut info house.ifc --properties",
+                          "the storeys, systems and property sets of the parts"},
                          {"abut info site.abut --verify", "checks a whole store for damage"}},
                         ""});
     app->add_option("MODEL", arguments->files, fmt::format("Models ({}), or stores", kModelHelp))
         ->required();
-    app->add_flag("--parts", arguments->parts, "Print a row for each part");
+    app->add_flag("--parts", arguments->parts,
+                  "Print a row for each part; with --json also its properties and relations");
+    app->add_flag("--properties", arguments->properties,
+                  "List the properties that parts have, with their most frequent values");
     app->add_flag("--verify", arguments->verify,
                   "For stores: check every page, row and mesh block");
     app->add_flag("--pieces", arguments->pieces, "Print the number of convex pieces of each mesh");

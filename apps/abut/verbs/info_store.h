@@ -8,8 +8,14 @@ namespace abut::command {
 /// its name.
 bool looks_like_store(const std::string& file);
 
+struct StoreDetails {
+    bool verify = false;
+    bool parts = false;      ///< lists the parts
+    bool properties = false; ///< lists the properties that parts have
+};
+
 /// Runs `abut info STORE…`. Returns the exit status.
-int describe_stores(const std::vector<std::string>& files, bool verify,
+int describe_stores(const std::vector<std::string>& files, const StoreDetails& details,
                     const CommonOptions& common);
 
 } // namespace abut::command

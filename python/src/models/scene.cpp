@@ -34,14 +34,81 @@ Part make_part(const std::string& id, std::uint32_t mesh, const py::object& pose
             colour};
 }
 
+/// From a list with a dict for each part, of names and texts or lists of texts.
+Properties make_properties(const py::object& list, std::size_t parts) {
+    PropertiesBuilder builder;
+    if (list.is_none())
+        return {};
+    std::size_t count = 0;
+    for (const py::handle part : list) {
+        for (const auto& [name, value] : part.cast<py::dict>())
+            if (PyUnicode_Check(value.ptr()))
+                builder.add(name.cast<std::string>(), value.cast<std::string>());
+            else
+                for (const py::handle each : value)
+                    builder.add(name.cast<std::string>(), each.cast<std::string>());
+        builder.next_part();
+        ++count;
+    }
+    if (count != parts)
+        throw py::value_error("properties of " + std::to_string(count) + " parts for " +
+                              std::to_string(parts));
+    return builder.finish(parts);
+}
+
+py::dict properties_of(const Properties& properties, std::uint32_t part) {
+    py::dict result;
+    for (const auto& [name, value] : properties.of(part)) {
+        const py::str key(properties.names[name]);
+        if (!result.contains(key))
+            result[key] = py::list();
+        result[key].cast<py::list>().append(properties.values[value]);
+    }
+    return result;
+}
+
+void bind_properties(py::module_& module) {
+    py::tuple common(kCommonProperties.size());
+    for (std::size_t i = 0; i < kCommonProperties.size(); ++i)
+        common[i] = std::string(kCommonProperties[i]);
+    module.attr("COMMON_PROPERTIES") = common;
+    py::class_<Properties>(module, "Properties",
+                           "What the parts of a Scene are known to be, as names and texts: "
+                           "'storey', 'system', 'Pset_WallCommon.FireRating'.")
+        .def_readonly("names", &Properties::names, "list of str, ascending")
+        .def_readonly("values", &Properties::values, "list of str: different values")
+        .def("of", &properties_of, py::arg("part"),
+             "The properties of a part by its index: a dict of names and lists of values.")
+        .def(
+            "value",
+            [](const Properties& self, std::uint32_t part, const std::string& name) {
+                return std::string(self.value(part, name));
+            },
+            py::arg("part"), py::arg("name"),
+            "The first value of that name; empty if the part has none.")
+        .def("__repr__", [](const Properties& self) {
+            return "<abut.Properties: " + std::to_string(self.names.size()) + " names>";
+        });
+    bind_enum<RelationKind>(module, "RelationKind", {"fills", "connected", "covers", "part_of"},
+                            "How two parts of a Scene belong together.");
+    PlainBinder<PartRelation>(module, "PartRelation",
+                              "Two parts of a Scene that belong together: a fills b, a is a part "
+                              "of b.")
+        .field("a", &PartRelation::a, "index in Scene.parts")
+        .field("b", &PartRelation::b, "index in Scene.parts")
+        .field("kind", &PartRelation::kind, "RelationKind")
+        .done();
+}
+
 Scene make_scene(const py::object& meshes, const std::vector<Part>& parts, const std::string& file,
-                 UpAxis up) {
+                 UpAxis up, const py::object& properties) {
     Scene scene;
     scene.file = file;
     scene.up = up;
     for (const py::handle mesh : meshes)
         scene.meshes.push_back(to_mesh_value(py::reinterpret_borrow<py::object>(mesh), py::none()));
     scene.parts = parts;
+    scene.properties = make_properties(properties, parts.size());
     for (const Part& part : parts)
         if (part.mesh >= scene.meshes.size())
             throw py::index_error("part '" + part.id + "' has mesh " + std::to_string(part.mesh) +
@@ -156,12 +223,14 @@ void bind_parts(py::module_& module) {
 
 void bind_scene_class(py::module_& module) {
     py::class_<Scene>(module, "Scene",
-                      "Scene(meshes, parts, *, file='', up='z')\n\n"
+                      "Scene(meshes, parts, *, file='', up='z', properties=None)\n\n"
                       "A file's parts, in metres. Parts may share a mesh. From Python: meshes are "
                       "what Model takes, parts are\n"
-                      "Part. Raises IndexError if a part's mesh is not there.")
+                      "Part, properties a list with a dict for each part. Raises IndexError if a "
+                      "part's mesh is not there,\n"
+                      "ValueError if there are more or fewer dicts than parts.")
         .def(py::init(&make_scene), py::arg("meshes"), py::arg("parts"), py::kw_only(),
-             py::arg("file") = "", py::arg("up") = "z")
+             py::arg("file") = "", py::arg("up") = "z", py::arg("properties") = py::none())
         .def_readonly("file", &Scene::file, "path as given")
         .def_property_readonly(
             "meshes",
@@ -176,6 +245,12 @@ void bind_scene_class(py::module_& module) {
         .def_readonly("unit", &Scene::unit, "metres per unit of the file; applied already")
         .def_readonly("up", &Scene::up, "UpAxis of the world")
         .def_readonly("notes", &Scene::notes, "list of SceneNote")
+        .def_readonly("properties", &Scene::properties, "Properties of the parts")
+        .def_readonly("relations", &Scene::relations, "list of PartRelation")
+        .def_readonly("project", &Scene::project, "GlobalId of an IFC file's project; else empty")
+        .def_property_readonly(
+            "map_from_project", [](const Scene& self) { return to_python(self.map_from_project); },
+            "matrix of shape (4, 4): from an IFC project to the map that its file names")
         .def("__repr__", [](const Scene& scene) {
             return "<abut.Scene: " + (scene.file.empty() ? "" : scene.file + ", ") +
                    std::to_string(scene.parts.size()) + " parts, " +
@@ -258,6 +333,7 @@ std::vector<Scene> to_scenes(const py::object& models, const py::object& progres
 
 void bind_scene(py::module_& module) {
     bind_parts(module);
+    bind_properties(module);
     bind_scene_class(module);
     bind_readers(module);
     module.def(

@@ -39,6 +39,15 @@ void bind_summary(py::module_& module) {
         .field("unit", &StoreSummary::Model::unit, "metres per unit of the file")
         .field("up", &StoreSummary::Model::up, "UpAxis of the file")
         .field("notes", &StoreSummary::Model::notes, "list of SceneNote")
+        .field("project", &StoreSummary::Model::project, "as Scene.project")
+        .field("map_from_project", &StoreSummary::Model::map_from_project,
+               "as Scene.map_from_project")
+        .done();
+    PlainBinder<StoreSummary::Property>(module, "StoredProperty",
+                                        "A property that parts of a store have.")
+        .field("name", &StoreSummary::Property::name, "")
+        .field("parts", &StoreSummary::Property::parts, "that have it")
+        .field("values", &StoreSummary::Property::values, "how many different ones")
         .done();
     PlainBinder<StoreSummary>(module, "StoreSummary", "Returned by summary.")
         .field("path", &StoreSummary::path, "")
@@ -63,6 +72,8 @@ void bind_summary(py::module_& module) {
         .field("file_bytes", &StoreSummary::file_bytes, "")
         .field("unused_bytes", &StoreSummary::unused_bytes, "of the file")
         .field("bounds", &StoreSummary::bounds, "Box3 of all parts in the world")
+        .field("properties", &StoreSummary::properties, "list of StoredProperty")
+        .field("relations", &StoreSummary::relations, "how many; see PartRelation")
         .done();
 }
 
@@ -173,6 +184,13 @@ void bind_store(py::module_& module) {
     module.def(
         "summary", [](const OpenStore& store) { return summary(store.get()); }, py::arg("store"),
         "A StoreSummary. Raises Error (malformed) if the store is damaged.");
+    module.def(
+        "read_parts",
+        [](const OpenStore& store, std::size_t model) { return read_parts(store.get(), model); },
+        py::arg("store"), py::arg("model") = 0,
+        "The parts of a model of a store as a Scene without meshes, with their properties and "
+        "relations. model is an index in\n"
+        "StoreSummary.models. Raises Error: bad_argument, malformed.");
     module.def(
         "verify",
         [](const OpenStore& store, const py::object& report) {

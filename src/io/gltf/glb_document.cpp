@@ -1,6 +1,7 @@
 #include "io/gltf/glb_document.h"
 
 #include "io/file/fault.h"
+#include "io/gltf/gltf_extras.h"
 #include "io/gltf/gltf_json.h"
 #include "io/gltf/gltf_material.h"
 #include "io/gltf/gltf_uri.h"
@@ -196,10 +197,12 @@ private:
 
     void take_node(const json& node) {
         Part part;
+        std::vector<PartProperty> properties;
         part.id = text_or_empty(node, "name");
         if (const auto extras = node.find("extras"); extras != node.end()) {
             part.name = text_or_empty(*extras, "name");
             part.type = text_or_empty(*extras, "type");
+            properties = properties_of_extras(*extras);
         }
         part.mesh = index_or_none(node, "mesh");
         part.world_from_mesh = gltf_transform(node);
@@ -213,7 +216,7 @@ private:
         for (const json& child : member_or_empty(node, "children"))
             document_.children.push_back(reference(child));
         document_.first_child.push_back(document_.children.size());
-        document_.nodes.append(part);
+        document_.nodes.append(part, properties);
     }
 
     void take_mesh(const json& mesh) {

@@ -138,6 +138,7 @@ public:
             ids.announce(id_of(node, part));
         });
         ids.finish();
+        PartSpool::Cursor nodes(document_.nodes);
         walk(document_, [&](std::uint32_t node, const Part& found, const Transform& world) {
             TakenMesh& mesh = taken[found.mesh];
             if (mesh.number == kUnknown)
@@ -148,11 +149,12 @@ public:
             part.mesh = mesh.number;
             part.colour = mesh.colour;
             const std::string id = id_of(node, found);
+            const std::vector<PartProperty> properties = nodes.properties(node);
             for_each_placement(node, world, [&](const Transform& world_from_mesh) {
                 part.id = ids.unique(id);
                 part.name = found.name.empty() ? part.id : found.name;
                 part.world_from_mesh = world_from_mesh;
-                append(part);
+                append(part, properties);
             });
         });
         mesh_of_accessor_ = {};

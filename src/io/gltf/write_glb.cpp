@@ -2,6 +2,7 @@
 #include <abut/scene.h>
 
 #include "core/atomic_file.h"
+#include "io/gltf/gltf_extras.h"
 #include "io/gltf/gltf_json.h"
 #include "io/gltf/gltf_material.h"
 #include "io/scene/model_frame.h"
@@ -140,13 +141,16 @@ private:
     json meshes_ = json::array(), materials_ = json::array();
 };
 
-json node_of(const Part& part, std::size_t mesh, UpAxis up) {
+json node_of(const Scene& scene, std::uint32_t number, std::size_t mesh) {
+    const Part& part = scene.parts[number];
     json node{{"name", part.id}, {"mesh", mesh}};
     if (part.name != part.id)
         node["extras"]["name"] = part.name;
     if (!part.type.empty())
         node["extras"]["type"] = part.type;
-    const Transform world_from_mesh = turned(part.world_from_mesh, up, *kGltfFrame.up);
+    if (json properties = json_of_properties(scene.properties, number); !properties.is_null())
+        node["extras"]["properties"] = std::move(properties);
+    const Transform world_from_mesh = turned(part.world_from_mesh, scene.up, *kGltfFrame.up);
     if (world_from_mesh != Transform()) {
         const auto& m = world_from_mesh.m;
         node["matrix"] = {m[0], m[1], m[2], 0, m[3], m[4],  m[5],  0,
@@ -167,9 +171,9 @@ void write_glb(const Scene& scene, const std::string& path) {
     ColouredMeshes meshes(scene);
     json nodes = json::array();
     json roots = json::array();
-    for (const Part& part : scene.parts) {
-        roots.push_back(nodes.size());
-        nodes.push_back(node_of(part, meshes.number_of(part), scene.up));
+    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+        roots.push_back(i);
+        nodes.push_back(node_of(scene, i, meshes.number_of(scene.parts[i])));
     }
     meshes.finish(document);
     document["nodes"] = std::move(nodes);

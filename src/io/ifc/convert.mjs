@@ -13,6 +13,7 @@ import fs from 'node:fs';
 
 import {Colours} from './colours.mjs';
 import {Fault, MALFORMED, UNSUPPORTED} from './fault.mjs';
+import {Knowledge} from './knowledge.mjs';
 import {mapFromProject} from './map.mjs';
 import {Products} from './products.mjs';
 import {edgeFaults, withClosedSlits} from './surface.mjs';
@@ -20,10 +21,13 @@ import {metresPerUnit} from './units.mjs';
 import {plainFile, zippedFile} from './zip.mjs';
 
 const RESULT = 3;
-const MAGIC = Buffer.from('abutscn3');
+const MAGIC = Buffer.from('abutscn4');
 const END = Buffer.from('abut-end');
 const HEADER_BYTES = 56;
 const Z_UP = 3; // 1 + UpAxis::z
+const ENTRY_BYTES = 8;
+const RELATION_BYTES = 12;
+const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
 // NoteKind of include/abut/scene.h.
 const SPACE = 0;
 const CUT_AWAY = 1;
@@ -132,9 +136,21 @@ class Output {
         ++this.#noteCount;
     }
 
-    /** unit: metres per unit of the file. */
-    end(unit) {
-        this.#append(Buffer.concat([...this.#parts, ...this.#notes, END]));
+    /**
+     * unit: metres per unit of the file; project: its GlobalId; map: twelve numbers, or null;
+     * knowledge: the result of Knowledge.of.
+     */
+    end(unit, project, map, {names, values, counts, entries, relations}) {
+        const sized = text => [Buffer.from(Uint32Array.of(Buffer.byteLength(text)).buffer), Buffer.from(text)];
+        const texts = [names, values].map(list => Buffer.concat(list.flatMap(sized)));
+        const numbers = Uint32Array.of(names.length, values.length, relations.length / RELATION_BYTES,
+                                       Buffer.byteLength(project));
+        this.#append(Buffer.concat([...this.#parts, ...this.#notes]));
+        for (const bytes of [Float64Array.from(map ?? IDENTITY), numbers, BigUint64Array.of(BigInt(entries.length / ENTRY_BYTES))])
+            this.#append(Buffer.from(bytes.buffer));
+        const properties = entries.length > 0 ? [counts, entries] : [];
+        for (const bytes of [Buffer.from(project), ...texts, ...properties, relations, END])
+            this.#append(bytes);
         this.#header(0, 0, this.#meshes, this.#partCount, unit, this.#noteCount);
     }
 
@@ -231,6 +247,7 @@ const scaleOf = m => Math.hypot(m[0], m[1], m[2]);
 class Converter {
     #meshOf = new Map();
     #seen = new Set(); // express ids of the products that web-ifc returns
+    parts = []; // results of Products.about
 
     /** map: the result of mapFromProject, or null. */
     constructor(api, model, output, products, map) {
@@ -257,6 +274,7 @@ class Converter {
         }
         if (placed.length === 0)
             return this.#missing(about);
+        this.parts.push(about);
         const [mesh, world] = placed.length === 1 ? this.#single(placed[0]) : this.#several(placed);
         this.output.part(transformOf(this.map === null ? world : multiply(this.map, world)), mesh, about.id, about.name,
                          about.type, this.colours.largest(placed));
@@ -341,6 +359,17 @@ function checkFile(file) {
         throw new Fault(UNSUPPORTED, `has the schema ${schema}; only IFC2X3 and IFC4 are supported`);
 }
 
+/** The result of mapFromProject. A map that is not asked for may be wrong; it is none then. */
+function mapOf(api, model, file, unit, isNeeded) {
+    try {
+        return mapFromProject(api, model, file, unit);
+    } catch (fault) {
+        if (isNeeded || !(fault instanceof Fault))
+            throw fault;
+        return null;
+    }
+}
+
 async function convert(path, withSpaces, withMap, output) {
     const damaged = text => { throw new Fault(MALFORMED, text); };
     const file = /\.ifczip$/i.test(path) ? zippedFile(path, damaged) : plainFile(path);
@@ -352,8 +381,8 @@ async function convert(path, withSpaces, withMap, output) {
     if (model < 0)
         throw new Fault(MALFORMED, 'cannot be parsed as IFC');
     const unit = metresPerUnit(api, model);
-    const map = withMap ? mapFromProject(api, model, file, unit) : null;
-    const converter = new Converter(api, model, output, new Products(api, model, withSpaces), map);
+    const map = mapOf(api, model, file, unit, withMap);
+    const converter = new Converter(api, model, output, new Products(api, model, withSpaces), withMap ? map : null);
     let fault = null;
     const take = product => {
         try {
@@ -368,7 +397,8 @@ async function convert(path, withSpaces, withMap, output) {
     if (fault !== null)
         throw fault;
     converter.noteOthers();
-    output.end(unit);
+    const knowledge = new Knowledge(api, model);
+    output.end(unit, knowledge.project(), map === null ? null : transformOf(map), knowledge.of(converter.parts));
 }
 
 const output = new Output();

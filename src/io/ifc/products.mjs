@@ -14,6 +14,10 @@ const SOLIDS = ['IFCSOLIDMODEL', 'IFCBOOLEANRESULT', 'IFCCSGPRIMITIVE3D'];
 // Maximum nesting of mapped items in a valid file.
 const DEEPEST = 32;
 
+/** Returns an attribute as text; null if it is none or empty. */
+export const textOf = attribute =>
+    typeof attribute?.value === 'string' && attribute.value !== '' ? attribute.value : null;
+
 export class Products {
     #withBody = new Map(); // express id: representations of its body
     #leftOut = new Set();
@@ -48,6 +52,10 @@ export class Products {
     about(expressID) {
         const line = this.api.GetLine(this.model, expressID);
         return {
+            expressID,
+            tag: textOf(line.Tag),
+            objectType: textOf(line.ObjectType),
+            predefinedType: textOf(line.PredefinedType),
             id: line.GlobalId?.value ?? `#${expressID}`,
             name: line.Name?.value ?? '',
             type: this.api.GetNameFromTypeCode(this.api.GetLineType(this.model, expressID)) ?? '',

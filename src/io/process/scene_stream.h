@@ -6,7 +6,7 @@
 /// it; decode_scene checks and decodes it. Byte order is the machine's; nothing is aligned or
 /// padded.
 ///
-///     header   char[8] magic "abutscn3"
+///     header   char[8] magic "abutscn4"
 ///              u32     status: 0 a scene follows; 1 + ErrorCode: an error follows
 ///              u32     bytes of the error's text (0 for a scene)
 ///              u64     meshes
@@ -22,13 +22,19 @@
 ///              bytes | u32 1 if it has a colour, else 0 | u8[4] red, green, blue, alpha (see
 ///              Colour) | the three texts
 ///     note     u32 NoteKind | u32 id, u32 name, u32 type, u32 text: bytes | the four texts
+///     known    f64[12] map_from_project (see Scene; in metres) | u32 names | u32 values
+///              u32 relations | u32 project: bytes | u64 entries | the text of the project
+///              names: u32 bytes, text | … | values: u32 bytes, text | …
+///              u32[parts] entries of each part | entries: u32 name, u32 value | …
+///              relations: u32 a, u32 b, u32 RelationKind | …   (see PartRelation; in any order)
 ///     end      char[8] "abut-end", and nothing after it
 ///
-/// All meshes come before all parts, and all parts before all notes. Positions are floats, as both
+/// All meshes come before all parts, and all parts before all notes. The entries of parts are left
+/// out, with their counts, if there is none. Positions are floats, as both
 /// readers deliver them, or doubles where the IFC converter joins several geometries.
 namespace abut::scene_stream {
 
-inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '3'};
+inline constexpr char kMagic[8] = {'a', 'b', 'u', 't', 's', 'c', 'n', '4'};
 inline constexpr char kEnd[8] = {'a', 'b', 'u', 't', '-', 'e', 'n', 'd'};
 
 struct Header {
@@ -43,6 +49,13 @@ struct Header {
     std::uint32_t notes;
 };
 static_assert(sizeof(Header) == 56);
+
+struct Known {
+    double map_from_project[12];
+    std::uint32_t names, values, relations, project_size;
+    std::uint64_t entries;
+};
+static_assert(sizeof(Known) == 120);
 
 /// Written for an index that its primitive does not contain, so that it is out of range in the
 /// whole mesh, too.

@@ -65,6 +65,15 @@ void StreamWriter::part(const Transform& world_from_mesh, std::uint32_t mesh, st
 }
 
 void StreamWriter::end() {
+    const scene_stream::Known nothing{
+        .map_from_project = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0},
+        .names = 0,
+        .values = 0,
+        .relations = 0,
+        .project_size = 0,
+        .entries = 0,
+    };
+    put(&nothing, sizeof nothing);
     put(scene_stream::kEnd, sizeof scene_stream::kEnd);
     flush();
 }

@@ -94,8 +94,18 @@ Scene collect_scene(const SceneSource& source, const std::string& file, const Re
     }
     PartSpool::Cursor cursor(source.parts());
     scene.parts.reserve(source.parts().size());
-    for (std::uint64_t i = 0; i < source.parts().size(); ++i)
+    SceneSource::PropertyCursor property_cursor(source);
+    PropertiesBuilder properties;
+    for (std::uint64_t i = 0; i < source.parts().size(); ++i) {
         scene.parts.push_back(cursor.part(i));
+        for (const auto& [name, value] : property_cursor.of(i))
+            properties.add(name, value);
+        properties.next_part();
+    }
+    scene.properties = properties.finish(scene.parts.size());
+    scene.relations = source.facts().relations;
+    scene.project = source.facts().project;
+    scene.map_from_project = source.facts().map_from_project;
     check_scene(scene, faults);
     return scene;
 }

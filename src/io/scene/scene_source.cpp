@@ -22,6 +22,8 @@ public:
             append(std::move(part));
         finish();
         notes_ = std::move(scene.notes);
+        properties_ = std::move(scene.properties);
+        facts_ = {std::move(scene.relations), std::move(scene.project), scene.map_from_project};
     }
     [[nodiscard]] std::uint32_t meshes() const override {
         return static_cast<std::uint32_t>(meshes_.size());
@@ -35,11 +37,24 @@ public:
     }
     [[nodiscard]] bool streams() const override { return false; }
 
+protected:
+    [[nodiscard]] const Properties* property_table() const override { return &properties_; }
+
 private:
     std::vector<Mesh> meshes_;
+    Properties properties_;
 };
 
 } // namespace
+
+std::vector<PartProperty> SceneSource::PropertyCursor::of(std::uint64_t part) {
+    if (table_ == nullptr)
+        return spool_.properties(part);
+    std::vector<PartProperty> properties;
+    for (const auto& [name, value] : table_->of(static_cast<std::uint32_t>(part)))
+        properties.push_back({table_->names[name], table_->values[value]});
+    return properties;
+}
 
 std::unique_ptr<SceneSource> open_own_source(const ModelPath& path, const SourceOptions& options) {
     const std::string extension = lower_extension(path.path);

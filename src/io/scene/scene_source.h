@@ -55,6 +55,25 @@ public:
     [[nodiscard]] const ModelFrame& frame() const noexcept { return frame_; }
     /// As Scene::notes.
     [[nodiscard]] const std::vector<SceneNote>& notes() const noexcept { return notes_; }
+    /// As the members of Scene.
+    struct Facts {
+        std::vector<PartRelation> relations;
+        std::string project;
+        Transform map_from_project;
+    };
+    [[nodiscard]] const Facts& facts() const noexcept { return facts_; }
+    /// Reads the properties of parts in ascending or nearly ascending order. For one thread.
+    class PropertyCursor {
+    public:
+        explicit PropertyCursor(const SceneSource& source)
+            : table_(source.property_table()), spool_(source.parts()) {}
+        /// Returns a part's properties by ascending name; each pair once.
+        [[nodiscard]] std::vector<PartProperty> of(std::uint64_t part);
+
+    private:
+        const Properties* table_;
+        PartSpool::Cursor spool_;
+    };
 
     struct Size {
         std::uint64_t vertices = 0; ///< before they are joined
@@ -85,14 +104,18 @@ protected:
           parts_(options.folder) {}
 
     /// In          part: as the file stores it, in the file's unit and axes.
-    void append(Part part) {
+    void append(Part part, std::span<const PartProperty> properties = {}) {
         scale(part.world_from_mesh, factor_);
         part.world_from_mesh = turned(part.world_from_mesh, frame_.up, world_);
-        parts_.append(part);
+        parts_.append(part, properties);
     }
     void finish() { parts_.finish(); }
 
+    /// The properties of all parts if they are in memory; null if they are with the parts.
+    [[nodiscard]] virtual const Properties* property_table() const { return nullptr; }
+
     std::vector<SceneNote> notes_; // NOLINT: filled by the format's reader
+    Facts facts_;                  // NOLINT: filled by the format's reader
 
 private:
     std::string folder_;

@@ -146,6 +146,15 @@ void JobResult::add_model(const ModelRow& row) {
     model.file = row.file;
     model.unit = row.unit;
     model.up = row.world_up;
+    model.project = row.project;
+    model.map_from_project = row.map_from_project;
+}
+
+void JobResult::add_knowledge(std::span<const std::vector<std::int64_t>> rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        result_.models[i].properties = store_.properties(rows[i]);
+        result_.models[i].relations = store_.relations(rows[i]);
+    }
 }
 
 void JobResult::move_found() {
@@ -165,11 +174,14 @@ StoreClashReport JobResult::finish() {
     for (const ModelRow& model : plan_.stored.models)
         add_model(model);
     std::unordered_map<std::uint32_t, std::uint32_t> place;
+    std::vector<std::vector<std::int64_t>> rows(result_.models.size());
     for (auto& [part, named] : named_) {
+        rows[plan_.stored.parts[part].model].push_back(plan_.stored.parts[part].row);
         std::vector<Part>& parts = result_.models[plan_.stored.parts[part].model].parts;
         place.emplace(part, static_cast<std::uint32_t>(parts.size()));
         parts.push_back(std::move(named));
     }
+    add_knowledge(rows);
     std::vector<Clash>& clashes = result_.report.clashes;
     for (Clash& clash : clashes)
         clash.part = {place.at(clash.part[0]), place.at(clash.part[1])};

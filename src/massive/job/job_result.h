@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace abut {
@@ -38,6 +39,9 @@ private:
     void add(TaskResult result);
     void sum_up_workers();
     void add_model(const ModelRow& row);
+    /// Adds the properties of the listed parts and the relations between them.
+    /// In          rows: those of the parts of each model
+    void add_knowledge(std::span<const std::vector<std::int64_t>> rows);
     void set_models(Clash& clash) const;
     void move_found();
 

@@ -2,6 +2,7 @@
 
 #include <abut/error.h>
 
+#include "store/database/property_table.h"
 #include "store/database/row_hash.h"
 
 #include <array>
@@ -51,6 +52,14 @@ std::optional<Colour> colour_of(const std::string& text) {
     return Colour{bytes[0], bytes[1], bytes[2], bytes[3]};
 }
 
+/// Returns false if the bytes are not those of a transform.
+bool read_transform(std::span<const std::byte> bytes, Transform& transform) {
+    if (bytes.size() != sizeof transform.m)
+        return false;
+    std::memcpy(transform.m.data(), bytes.data(), bytes.size());
+    return true;
+}
+
 constexpr const char* kTables = R"(
 CREATE TABLE model(
   model INTEGER PRIMARY KEY,
@@ -69,6 +78,8 @@ CREATE TABLE model(
   world_up TEXT NOT NULL,
   asked TEXT NOT NULL,
   notes TEXT NOT NULL,
+  project TEXT NOT NULL,
+  map_from_project BLOB NOT NULL,
   checksum INTEGER NOT NULL);
 CREATE TABLE mesh(
   mesh INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -107,6 +118,8 @@ CREATE TABLE part(
   world_from_mesh BLOB NOT NULL,
   generation INTEGER NOT NULL,
   colour TEXT NOT NULL,
+  properties INTEGER NOT NULL,
+  relations INTEGER NOT NULL,
   checksum INTEGER NOT NULL);
 CREATE UNIQUE INDEX part_by_id ON part(model, id);
 CREATE INDEX part_by_number ON part(model, number);
@@ -134,6 +147,8 @@ std::uint64_t ModelRow::checksum() const {
         .add(world_up)
         .add(asked)
         .add(notes)
+        .add(project)
+        .add(map_from_project.m)
         .value();
 }
 
@@ -179,6 +194,8 @@ std::uint64_t PartRow::checksum() const {
         .add(world_from_mesh.m)
         .add(generation)
         .add(colour_text(colour))
+        .add(properties)
+        .add(relations)
         .value();
 }
 
@@ -204,8 +221,11 @@ ModelRow read_model_row(const Statement& row, const std::string& store) {
                     up_of(row.text(12)),
                     up_of(row.text(13)),
                     row.text(14),
-                    row.text(15)};
-    require(result.checksum() == unsigned_of(row, 16), store, "model", result.model);
+                    row.text(15),
+                    row.text(16),
+                    {}};
+    const bool whole = read_transform(row.bytes(17), result.map_from_project);
+    require(whole && result.checksum() == unsigned_of(row, 18), store, "model", result.model);
     return result;
 }
 
@@ -253,13 +273,12 @@ PartRow read_part_row(const Statement& row, const std::string& store) {
                    {},
                    read_box(row, 7),
                    unsigned_of(row, 14),
-                   colour_of(row.text(15))};
-    const std::span<const std::byte> pose = row.bytes(13);
-    bool whole = pose.size() == sizeof result.world_from_mesh.m;
-    if (whole)
-        std::memcpy(result.world_from_mesh.m.data(), pose.data(), pose.size());
-    whole = whole && colour_text(result.colour) == row.text(15);
-    require(whole && result.checksum() == unsigned_of(row, 16), store, "part", result.part);
+                   colour_of(row.text(15)),
+                   unsigned_of(row, 16),
+                   unsigned_of(row, 17)};
+    const bool whole = read_transform(row.bytes(13), result.world_from_mesh) &&
+                       colour_text(result.colour) == row.text(15);
+    require(whole && result.checksum() == unsigned_of(row, 18), store, "part", result.part);
     return result;
 }
 
@@ -269,6 +288,7 @@ void create_schema(Database& database) {
                                "; PRAGMA user_version = " + std::to_string(kStoreVersion);
     database.run(header.c_str());
     database.run(kTables);
+    database.run(kPropertyTables);
     transaction.commit();
 }
 
@@ -282,10 +302,12 @@ void check_schema(Database& database) {
                     "is a store of version " + std::to_string(version) +
                         ", written by a newer Abut; this one reads version " +
                         std::to_string(kStoreVersion));
-    if (version == 1 || version == 2)
+    constexpr std::array kMissing{"its axes", "colours", "properties"};
+    if (version >= 1 && version < kStoreVersion)
         throw Error(ErrorCode::unsupported, database.path(),
                     "is a store of version " + std::to_string(version) +
-                        ", which does not record " + (version == 1 ? "its axes" : "colours") +
+                        ", which does not record " +
+                        kMissing.at(static_cast<std::size_t>(version - 1)) +
                         ": import the models into a new one");
     if (version != kStoreVersion)
         throw Error(ErrorCode::malformed, database.path(),

@@ -11,7 +11,7 @@
 
 namespace abut {
 
-inline constexpr int kStoreVersion = 3;
+inline constexpr int kStoreVersion = 4;
 /// Stored in the file's header, so that `file` and similar tools recognise a store: "Abut".
 inline constexpr std::int64_t kApplicationId = 0x41627574;
 
@@ -30,6 +30,8 @@ struct ModelRow {
     UpAxis world_up = UpAxis::y; ///< up axis of the parts' world: the same in all rows
     std::string asked;           ///< the import options that decide how the file is read
     std::string notes;           ///< as written by note_text
+    std::string project;         ///< as Scene::project
+    Transform map_from_project;  ///< as Scene::map_from_project
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
@@ -66,6 +68,8 @@ struct PartRow {
     Box3 box;
     std::uint64_t generation = 0;
     std::optional<Colour> colour;
+    /// Checksums of its properties and relations (property_table.h); 0 for none.
+    std::uint64_t properties = 0, relations = 0;
 
     [[nodiscard]] std::uint64_t checksum() const;
 };
@@ -76,7 +80,7 @@ std::string colour_text(const std::optional<Colour>& colour);
 /// Columns in the order that the read_… functions and the writer's statements use.
 inline constexpr const char* kModelColumns =
     "model, file, path, bytes, modified, hash, unit, importing, parts, triangles, generation, "
-    "parts_sum, up, world_up, asked, notes, checksum";
+    "parts_sum, up, world_up, asked, notes, project, map_from_project, checksum";
 inline constexpr const char* kMeshColumns =
     "mesh, hash, vertices, triangles, first_block, blocks, raw_bytes, stored_bytes, closed, "
     "x0, y0, z0, x1, y1, z1, checksum";
@@ -88,7 +92,7 @@ inline constexpr const char* kBlockRowColumns =
     "block, mesh, vertices, triangles, raw_bytes, x0, y0, z0, x1, y1, z1, data_checksum, checksum";
 inline constexpr const char* kPartColumns =
     "part, model, number, mesh, id, name, type, x0, y0, z0, x1, y1, z1, world_from_mesh, "
-    "generation, colour, checksum";
+    "generation, colour, properties, relations, checksum";
 
 /// Reads the row that a statement stands on. Its columns are those above.
 ///

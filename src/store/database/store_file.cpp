@@ -4,6 +4,7 @@
 
 #include "io/file/fault.h"
 #include "store/database/folder_lock.h"
+#include "store/database/property_table.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -138,6 +139,14 @@ PartRow StoreFile::part(std::int64_t part) {
     if (!row.bind(part).step())
         throw Error(ErrorCode::bad_argument, path_, "has no part " + std::to_string(part));
     return read_part_row(row, path_);
+}
+
+Properties StoreFile::properties(std::span<const std::int64_t> parts) {
+    return with_connection([&](Database& database) { return read_properties(database, parts); });
+}
+
+std::vector<PartRelation> StoreFile::relations(std::span<const std::int64_t> parts) {
+    return with_connection([&](Database& database) { return read_relations(database, parts); });
 }
 
 void StoreFile::for_each_mesh(const std::function<void(const MeshRow&)>& take) {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,11 @@ public:
     void for_each_part(const std::function<void(const PartRow&)>& take);
     void for_each_part(const ModelRow& model, const std::function<void(const PartRow&)>& take);
     PartRow part(std::int64_t part);
+    /// The properties of parts, and the relations between them, by their places in the list.
+    ///
+    /// In          parts: rows, each once
+    Properties properties(std::span<const std::int64_t> parts);
+    std::vector<PartRelation> relations(std::span<const std::int64_t> parts);
 
     void for_each_mesh(const std::function<void(const MeshRow&)>& take);
     MeshRow mesh(std::int64_t mesh);

@@ -6,6 +6,7 @@
 #include "io/file/input_file.h"
 #include "io/scene/scene_source.h"
 #include "store/database/generation.h"
+#include "store/database/property_table.h"
 #include "store/database/schema.h"
 #include "store/import/import_geometry.h"
 #include "store/import/merge_parts.h"
@@ -80,8 +81,10 @@ public:
         // are what it has stored so far.
         const bool is_complete =
             writer_.database().number("SELECT count(*) FROM model WHERE importing") == 0;
-        if (is_complete && may_have_unused_)
+        if (is_complete && may_have_unused_) {
             report.removed_meshes = writer_.remove_unused_meshes();
+            remove_unused_texts(writer_.database());
+        }
         report.new_meshes = writer_.new_meshes();
         report.seconds = watch.seconds();
         return report;
@@ -228,6 +231,8 @@ private:
         model.up = source->frame().up;
         model.world_up = from.world.value_or(model.up);
         model.notes = note_text(source->notes());
+        model.project = source->facts().project;
+        model.map_from_project = source->facts().map_from_project;
         result.streamed = source->streams();
         ImportedGeometry geometry(folder);
         import_geometry(*source, file, memory * 3 / 4, options_.progress, writer_, geometry);

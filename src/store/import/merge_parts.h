@@ -17,8 +17,8 @@ struct PartChanges {
 /// Replaces the parts of a model by those of a source, and updates the model's row, in one
 /// transaction. Whoever opens the store sees the model either as it was or as it is now.
 ///
-/// A part is identified by its id. A part whose mesh, transform, box, name or type has changed gets
-/// the generation of this import; the others keep theirs.
+/// A part is identified by its id. A part whose mesh, transform, box, name, type, properties or
+/// relations have changed gets the generation of this import; the others keep theirs.
 ///
 /// In/out      model: its row with all that is known of the file. Sets parts, triangles, parts_sum
 ///             and importing, and generation if anything changed.

@@ -2,6 +2,7 @@
 #include <abut/store.h>
 
 #include "store/database/generation.h"
+#include "store/database/property_table.h"
 #include "store/database/schema.h"
 #include "store/import/model_file.h"
 #include "store/import/store_writer.h"
@@ -45,12 +46,15 @@ RemovalReport remove_models(const std::vector<std::string>& files, const std::st
         Transaction transaction(database);
         keep_generation(database);
         for (const ModelRow& model : find_models(database, files)) {
+            remove_relations(database, model.model);
             for (const char* const sql :
-                 {"DELETE FROM part_box WHERE part IN (SELECT part FROM part WHERE model = ?)",
+                 {"DELETE FROM part_property WHERE part IN (SELECT part FROM part WHERE model = ?)",
+                  "DELETE FROM part_box WHERE part IN (SELECT part FROM part WHERE model = ?)",
                   "DELETE FROM part WHERE model = ?", "DELETE FROM model WHERE model = ?"})
                 Statement(database, sql).bind(model.model).run();
             report.models.push_back({model.file, model.parts});
         }
+        remove_unused_texts(database);
         transaction.commit();
     }
     // While an interrupted import can still be resumed, meshes without parts must stay: they are
