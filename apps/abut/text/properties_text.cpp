@@ -41,7 +41,7 @@ std::size_t rank_of(const std::string& name) {
         kCommonProperties.begin());
 }
 
-std::string shortened(const std::string& value) {
+std::string short_example(const std::string& value) {
     const std::string text = shown(value);
     if (text.size() <= kLongestExample)
         return text;
@@ -123,7 +123,7 @@ std::string table(const std::vector<PropertyUse>& uses) {
                                        grouped(use.parts), grouped(use.values));
         std::string examples;
         for (const std::string& example : use.examples) {
-            const std::string next = (examples.empty() ? "" : " | ") + shortened(example);
+            const std::string next = (examples.empty() ? "" : " | ") + short_example(example);
             if (columns > 0 && line.size() + examples.size() + next.size() > columns)
                 break;
             examples += next;

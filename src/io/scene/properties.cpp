@@ -19,36 +19,6 @@ bool are_distinct(const std::vector<std::string>& texts) {
                        [&](const std::string& text) { return seen.insert(text).second; });
 }
 
-/// Distinct texts with numbers in the order of their first use.
-class TextNumbers {
-public:
-    std::uint32_t number_of(std::string_view text) {
-        const auto found = numbers_.find(text);
-        if (found != numbers_.end())
-            return found->second;
-        const auto number = static_cast<std::uint32_t>(numbers_.size());
-        numbers_.emplace(text, number);
-        return number;
-    }
-    std::vector<std::string> take() {
-        std::vector<std::string> texts(numbers_.size());
-        while (!numbers_.empty()) {
-            auto node = numbers_.extract(numbers_.begin());
-            texts[node.mapped()] = std::move(node.key());
-        }
-        return texts;
-    }
-
-private:
-    struct Hash {
-        using is_transparent = void;
-        std::size_t operator()(std::string_view text) const {
-            return std::hash<std::string_view>()(text);
-        }
-    };
-    std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>> numbers_;
-};
-
 void sort_entries(std::vector<Properties::Entry>& entries) {
     std::stable_sort(entries.begin(), entries.end(),
                      [](const auto& a, const auto& b) { return a.name < b.name; });
@@ -93,6 +63,36 @@ std::string_view Properties::value(std::uint32_t part, std::string_view name) co
 }
 
 struct PropertiesBuilder::Data {
+    /// Distinct texts with numbers in the order of their first use.
+    class TextNumbers {
+    public:
+        std::uint32_t number_of(std::string_view text) {
+            const auto found = numbers_.find(text);
+            if (found != numbers_.end())
+                return found->second;
+            const auto number = static_cast<std::uint32_t>(numbers_.size());
+            numbers_.emplace(text, number);
+            return number;
+        }
+        std::vector<std::string> take() {
+            std::vector<std::string> texts(numbers_.size());
+            while (!numbers_.empty()) {
+                auto node = numbers_.extract(numbers_.begin());
+                texts[node.mapped()] = std::move(node.key());
+            }
+            return texts;
+        }
+
+    private:
+        struct Hash {
+            using is_transparent = void;
+            std::size_t operator()(std::string_view text) const {
+                return std::hash<std::string_view>()(text);
+            }
+        };
+        std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>> numbers_;
+    };
+
     TextNumbers names, values;
     Properties made{.names = {}, .values = {}, .first = {0}, .entries = {}};
 };

@@ -138,7 +138,7 @@ TEST(Import, SaysWhatIsWrongWithAStore) {
         newer.run("PRAGMA user_version = 7");
     }
     expect_both_refused(folder / "newer.abut", {"newer.abut", "version 7", "newer"});
-    for (const std::string version : {"1", "2"}) {
+    for (const std::string version : {"1", "2", "3"}) {
         {
             Database older(folder / "newer.abut", OpenMode::read_write);
             older.run(("PRAGMA user_version = " + version).c_str());

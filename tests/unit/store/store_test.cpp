@@ -49,7 +49,7 @@ TEST_F(StoreByHand, ThreePartsAreListed) {
     const Store store = open_store(store_);
     const StoreSummary found = summary(store);
     EXPECT_TRUE(found.complete);
-    EXPECT_EQ(found.version, 3);
+    EXPECT_EQ(found.version, 4);
     EXPECT_EQ(found.generation, 1U);
     EXPECT_EQ(found.parts, 3U);
     EXPECT_EQ(found.triangles, 9U);
