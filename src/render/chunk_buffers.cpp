@@ -128,7 +128,7 @@ bool ChunkBuffers::is_outside(const Chunk& chunk, std::span<const ChunkInstance>
 }
 
 void ChunkBuffers::draw(const ViewFrame& frame, bool instanced, ShaderProgram& program,
-                        const LeftOut& left_out) {
+                        const SkippedTriangles& left_out) {
     const EyePoint* const eye = left_out.backs_seen_from;
     for (const ChunkDraw& draw : frame.draws) {
         if ((draw.instances > 0) != instanced)

@@ -19,7 +19,7 @@ struct EyePoint {
 };
 
 /// What need not be drawn.
-struct LeftOut {
+struct SkippedTriangles {
     /// If given, the backs of closed surfaces that do not hold the eye.
     const EyePoint* backs_seen_from = nullptr;
     /// If given, chunks that are hidden; not those with instances.
@@ -34,7 +34,7 @@ public:
 
     /// Draws the chunks of a frame without instances, or with them. The program must be in use.
     void draw(const ViewFrame& frame, bool instanced, ShaderProgram& program,
-              const LeftOut& left_out = {});
+              const SkippedTriangles& left_out = {});
 
     [[nodiscard]] std::uint64_t chunks() const { return chunks_.size(); }
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
