@@ -21,11 +21,20 @@ install(TARGETS abut_command DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT comma
 if(TARGET abut_walk)
     install(TARGETS abut_walk DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT walk)
 endif()
-install(DIRECTORY ${PROJECT_BINARY_DIR}/documents/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT command)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/documents/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT command
+        PATTERN "abut-walk.1" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/documents/bash/abut
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT command)
 install(FILES ${PROJECT_BINARY_DIR}/documents/zsh/_abut DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
         COMPONENT command)
+if(TARGET abut_walk)
+    install(FILES ${PROJECT_BINARY_DIR}/documents/man1/abut-walk.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+            COMPONENT walk)
+    install(FILES ${PROJECT_BINARY_DIR}/documents/bash/abut-walk
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT walk)
+    install(FILES ${PROJECT_BINARY_DIR}/documents/zsh/_abut-walk
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT walk)
+endif()
 install(TARGETS abut_reader DESTINATION ${programs} COMPONENT command)
 if(TARGET abut_mpi)
     install(TARGETS abut_mpi LIBRARY DESTINATION ${programs} COMPONENT mpi)

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "vector.h"
+#include <abut/vector.h>
 
 #include <array>
 
 /// Rotations, as a simulator needs them.
 namespace drop {
 
-using namespace vectors; // for the operators on Vec3, which abut does not define
+using namespace abut::vectors;
 using abut::Transform;
 using abut::Vec3;
 using Quaternion = std::array<double, 4>; ///< w, x, y, z

@@ -1,13 +1,13 @@
 #include "walker.h"
 
-#include "vector.h"
+#include <abut/vector.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace walker {
 
-using namespace vectors;
+using namespace abut::vectors;
 
 Walker::Walker(abut::Walk& walk, const abut::Vec3& start, const Settings& settings)
     : walk_(walk), settings_(settings), body_(abut::Capsule{{{0, -0.6, 0}, {0, 0.6, 0}}, 0.3}),

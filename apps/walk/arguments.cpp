@@ -2,13 +2,23 @@
 
 #include <abut/error.h>
 
+#include "arguments/verb.h"
+#include "help/completion.h"
+#include "help/help.h"
+#include "help/man_page.h"
+#include "text/screen.h"
+
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 
 namespace abut::viewer {
 
 namespace {
+
+constexpr unsigned kLargestSide = 8192; ///< of a picture, pixels
 
 std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
     std::uint64_t value = 0;
@@ -23,38 +33,95 @@ std::uint64_t parse_bytes(const std::string& option, const std::string& text) {
     return value << shift;
 }
 
-} // namespace
+command::VerbHelp walk_help() {
+    return {"walk",
+            "",
+            "Walk through models in a window, with their distances in the hand",
+            {{"abut-walk plant.abut", "walks through a store; F1 lists the keys"},
+             {"abut-walk design.glb pipes.glb --carry pump.stl:mm",
+              "imports two models, and takes a third one in the hand"},
+             {"abut-walk plant.abut --path tour.json --frames pictures",
+              "replays a recorded path without a window"}},
+            "",
+            "abut-walk"};
+}
 
-bool parse(int argc, char** argv, Arguments& arguments) {
-    CLI::App app("Walk through models, with their distances in the hand. F1 in the window lists "
-                 "its keys; docs/viewer.md explains it.",
-                 "abut-walk");
-    app.set_version_flag("--version", "abut-walk " ABUT_VERSION);
-    std::string memory = "1G", gpu_memory = "512M", size = "1280x720";
+void write_document(const std::filesystem::path& folder, const std::string& name,
+                    const std::string& text) {
+    std::filesystem::create_directories(folder);
+    std::ofstream file(folder / name);
+    file << text;
+    if (!file.flush())
+        throw Error(ErrorCode::cannot_write, (folder / name).string(), "cannot be written");
+}
+
+/// Writes the manual page and the completion, for the build.
+void generate(const command::Verb& app, const std::filesystem::path& folder) {
+    write_document(folder / "man1", "abut-walk.1", command::man_page(app));
+    write_document(folder / "bash", "abut-walk", command::bash_completion_of(app));
+    write_document(folder / "zsh", "_abut-walk", command::zsh_completion_of(app));
+}
+
+struct Texts {
+    std::string memory = "1G", gpu_memory = "512M", size = "1280x720", generate;
+};
+
+void declare(command::Verb& app, Arguments& arguments, Texts& texts) {
+    app.set_version_flag("--version", "abut-walk " ABUT_VERSION, "Print the version and exit");
     app.add_option("MODEL", arguments.files, "Models, or one store")->required();
-    app.add_option("--memory", memory, "Memory for models, with K, M or G (default 1G)");
-    app.add_option("--gpu-memory", gpu_memory, "Memory on the graphics card (default 512M)");
+    const auto text = [&](const char* name, std::string& value, const char* kind,
+                          const char* says) {
+        return app.add_option(name, value, says)->type_name(kind);
+    };
+    text("--part", arguments.part, "NAME", "Begin at a part, by its id or name");
+    text("--carry", arguments.carry, "FILE", "Bring in a model, and take it in the hand");
+    text("--size", texts.size, "WxH", "Size of the window or the pictures (default 1280x720)");
+    text("--memory", texts.memory, "BYTES", "Memory for models, with K, M or G (default 1G)");
+    text("--gpu-memory", texts.gpu_memory, "BYTES", "Memory on the graphics card (default 512M)");
     app.add_option("--pixel-error", arguments.pixel_error,
                    "Largest error of what is drawn, in pixels (default 1)")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--size", size, "Size of the window or the pictures (default 1280x720)");
+        ->type_name("PIXELS")
+        ->check(CLI::PositiveNumber.description(""));
     CLI::Option* path =
-        app.add_option("--path", arguments.path, "Replay a recorded path, without a window");
-    CLI::Option* frames = app.add_option("--frames", arguments.frames,
-                                         "Folder for the pictures and figures of --path");
+        text("--path", arguments.path, "FILE", "Replay a recorded path, without a window");
+    CLI::Option* frames = text("--frames", arguments.frames, "FOLDER",
+                               "Folder for the pictures and figures of --path");
     app.add_option("--rate", arguments.rate, "Pictures a second of the path (default 15)")
-        ->check(CLI::Range(0.01, 1000.0));
-    CLI::Option* log =
-        app.add_option("--log", arguments.log,
-                       "Write each state of the window to this file, one JSON object a line");
+        ->type_name("NUMBER")
+        ->check(CLI::Range(0.01, 1000.0).description(""));
+    CLI::Option* log = text("--log", arguments.log, "FILE",
+                            "Write each state of the window to a file, one JSON object a line");
     app.add_flag("--quiet", arguments.quiet, "Print only errors");
+    app.add_option("--generate", texts.generate)->group("")->type_name("FOLDER");
     path->needs(frames);
     frames->needs(path);
     log->excludes(path);
+}
+
+void set_size(const std::string& size, Arguments& arguments) {
+    unsigned width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(size.c_str(), "%ux%u%c", &width, &height, &rest) != 2 || // NOLINT
+        width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
+        throw Error(ErrorCode::bad_argument, "--size",
+                    "'" + size + "' is not WIDTHxHEIGHT, each from 1 to 8192");
+    arguments.width = width, arguments.height = height;
+}
+
+} // namespace
+
+bool parse(int argc, char** argv, Arguments& arguments) {
+    command::Verb app(walk_help());
+    Texts texts;
+    declare(app, arguments, texts);
+    if (argc == 3 && std::string_view(argv[1]) == "--generate") { // NOLINT
+        generate(app, argv[2]);                                   // NOLINT
+        return false;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        std::fputs(app.help().c_str(), stdout);
+        command::print_text(command::help_of(app));
         return false;
     } catch (const CLI::CallForVersion&) {
         std::puts("abut-walk " ABUT_VERSION);
@@ -62,15 +129,9 @@ bool parse(int argc, char** argv, Arguments& arguments) {
     } catch (const CLI::ParseError& error) {
         throw Error(ErrorCode::bad_argument, error.what());
     }
-    arguments.memory = parse_bytes("--memory", memory);
-    arguments.gpu_memory = parse_bytes("--gpu-memory", gpu_memory);
-    unsigned width = 0, height = 0;
-    char rest = 0;
-    if (std::sscanf(size.c_str(), "%ux%u%c", &width, &height, &rest) != 2 || // NOLINT
-        width < 1 || height < 1 || width > 8192 || height > 8192)
-        throw Error(ErrorCode::bad_argument, "--size",
-                    "'" + size + "' is not WIDTHxHEIGHT, each from 1 to 8192");
-    arguments.width = width, arguments.height = height;
+    arguments.memory = parse_bytes("--memory", texts.memory);
+    arguments.gpu_memory = parse_bytes("--gpu-memory", texts.gpu_memory);
+    set_size(texts.size, arguments);
     return true;
 }
 

@@ -13,6 +13,8 @@ struct Arguments {
     std::uint64_t gpu_memory = std::uint64_t{512} << 20;
     double pixel_error = 1;
     std::uint32_t width = 1280, height = 720;
+    std::string part;   ///< id or name of a part to begin at
+    std::string carry;  ///< a model file to carry
     std::string path;   ///< a tour to replay without a window
     std::string frames; ///< folder for its pictures and figures
     double rate = 15;   ///< pictures a second of the tour
@@ -20,7 +22,8 @@ struct Arguments {
     bool quiet = false;
 };
 
-/// Parses the command line. Returns false if all was said already: help or the version.
+/// Parses the command line. Returns false if all was done already: help, the version, or the
+/// documents.
 ///
 /// Errors      Error{bad_argument}.
 bool parse(int argc, char** argv, Arguments& arguments);

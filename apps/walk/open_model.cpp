@@ -43,20 +43,9 @@ fs::path cache_folder() {
     return folder;
 }
 
-/// Shows a stage and its percentage in one line of a terminal.
-Progress shown_progress(bool quiet) {
-    if (quiet || isatty(STDERR_FILENO) == 0)
-        return {};
-    return {.report = [](std::string_view stage, double fraction) {
-        fmt::print(stderr, "\r{} {:.0f} %\033[K{}", stage, 100 * fraction,
-                   fraction >= 1 ? "\r\033[K" : "");
-        std::fflush(stderr);
-    }};
-}
-
 } // namespace
 
-std::string ready_store(const std::vector<std::string>& files, bool quiet) {
+std::string ready_store(const std::vector<std::string>& files, const Progress& progress) {
     std::string path = files.front();
     if (files.size() > 1 || !is_store(path)) {
         for (const std::string& file : files)
@@ -68,11 +57,23 @@ std::string ready_store(const std::vector<std::string>& files, bool quiet) {
         for (const std::string& file : files)
             models.push_back(parse_model_path(file));
         path = (cache_folder() / fmt::format("{:016x}.abut", name_hash(files))).string();
-        import_models(models, path, {.progress = shown_progress(quiet)});
+        import_models(models, path, {.progress = progress});
     }
     if (!has_levels(open_store(path)))
-        build_levels(path, {.progress = shown_progress(quiet)});
+        build_levels(path, {.progress = progress});
     return path;
+}
+
+Progress terminal_progress(bool quiet) {
+    if (quiet || isatty(STDERR_FILENO) == 0)
+        return {};
+    return {.report =
+                [](std::string_view stage, double fraction) {
+                    fmt::print(stderr, "\r{} {:.0f} %\033[K{}", stage, 100 * fraction,
+                               fraction >= 1 ? "\r\033[K" : "");
+                    std::fflush(stderr);
+                },
+            .stop = nullptr};
 }
 
 } // namespace abut::viewer

@@ -2,10 +2,11 @@
 
 #include <abut/error.h>
 #include <abut/progress.h>
+#include <abut/tour.h>
 
 #include "open_model.h"
-#include "scene_buffer.h"
-#include "session.h"
+#include "session/scene_buffer.h"
+#include "session/session.h"
 #include "vec.h"
 
 #include <chrono>
@@ -116,7 +117,7 @@ void replay(const Arguments& arguments) {
         throw Error(ErrorCode::cannot_write, arguments.frames,
                     "cannot be created: " + fault.message());
     OffscreenContext context;
-    const std::string store = ready_store(arguments.files, arguments.quiet);
+    const std::string store = ready_store(arguments.files, terminal_progress(arguments.quiet));
     Session session(store, {arguments.memory, arguments.gpu_memory, arguments.pixel_error},
                     arguments.width, arguments.height);
     SceneBuffer scene;

@@ -2,20 +2,22 @@
 
 #include <abut/error.h>
 
-#include "event_log.h"
-#include "keys.h"
+#include "input/keys.h"
 #include "open_model.h"
 #include "panels/panels.h"
-#include "scene_buffer.h"
-#include "session.h"
-#include "vec.h"
+#include "session/scene_buffer.h"
+#include "session/session.h"
+#include "tools/background_task.h"
+#include "tools/event_log.h"
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE // libepoxy has declared OpenGL
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <cstdio>
 #include <imgui.h>
+#include <stdexcept>
 
 namespace abut::viewer {
 
@@ -23,6 +25,10 @@ namespace {
 
 /// Seconds without a change after which the picture is made complete.
 constexpr double kRest = 0.3;
+constexpr double kIdle = 0.1;       ///< seconds between the frames of a window at rest
+constexpr double kLongFrame = 0.25; ///< seconds; a longer frame moves the person no farther
+constexpr double kSmoothing = 0.9;  ///< of the shown milliseconds of a frame
+constexpr float kPanelLeft = 10, kPanelWidth = 320, kPanelBelow = 50; ///< pixels
 
 [[noreturn]] void fail_to_open() {
     const char* reason = nullptr;
@@ -59,15 +65,28 @@ public:
         ImGui::GetStyle().WindowRounding = 4;
     }
     /// Dear ImGui calls the callbacks that were set before, so it comes after ours.
-    static void attach(GLFWwindow* window) {
+    void attach() const {
         ImGui_ImplGlfw_InitForOpenGL(window, true);
         ImGui_ImplOpenGL3_Init("#version 330");
     }
+    /// Before other callbacks are set.
+    static void detach() {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+    }
+    static void begin_panels() {
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui_ImplGlfw_NewFrame();
+        ImGui::NewFrame();
+    }
+    static void draw_panels(std::uint32_t width, std::uint32_t height) {
+        ImGui::Render();
+        glViewport(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    }
     ~Screen() {
-        if (ImGui::GetIO().BackendRendererUserData != nullptr) {
-            ImGui_ImplOpenGL3_Shutdown();
-            ImGui_ImplGlfw_Shutdown();
-        }
+        if (ImGui::GetIO().BackendRendererUserData != nullptr)
+            detach();
         ImGui::DestroyContext();
         glfwDestroyWindow(window);
         glfwTerminate();
@@ -81,24 +100,39 @@ public:
 /// The frames of the window.
 class Loop {
 public:
-    Loop(GLFWwindow* window, Session& session, const std::string& log)
-        : window_(window), session_(session), keys_(window, session, tools_), log_(log) {}
+    Loop(GLFWwindow* window, Session& session, const Arguments& arguments)
+        : window_(window), session_(session), keys_(window, session, tools_), log_(arguments.log) {
+        tools_.attempt([&] { tools_.viewpoints.open(session.path); });
+        if (!arguments.part.empty())
+            begin_at(arguments.part);
+        if (!arguments.carry.empty())
+            tools_.carrying.bring_in(arguments.carry);
+    }
 
     void run() {
         double last = glfwGetTime();
         while (glfwWindowShouldClose(window_) == GLFW_FALSE) {
             // A picture that is complete waits for input, and costs nothing.
             if (is_complete_)
-                glfwWaitEventsTimeout(0.1);
+                glfwWaitEventsTimeout(kIdle);
             else
                 glfwPollEvents();
-            const double now = glfwGetTime(), seconds = std::min(now - last, 0.25);
+            const double now = glfwGetTime(), seconds = std::min(now - last, kLongFrame);
             last = now;
             frame(now, seconds);
         }
     }
 
 private:
+    void begin_at(const std::string& name) {
+        const std::optional<std::uint32_t> part = session_.find(name);
+        if (!part)
+            throw Error(ErrorCode::bad_argument, "--part",
+                        "no part has the id or the name '" + name + "'");
+        session_.choose(*part);
+        session_.look_at(session_.box_of(*part));
+    }
+
     void frame(double now, double seconds) {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window_, &width, &height);
@@ -108,14 +142,13 @@ private:
             session_.lens.height != static_cast<std::uint32_t>(height))
             session_.resize(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
         keys_.update(seconds);
-        tools_.attempt([&] { tools_.viewpoints.update(session_, seconds); });
-        tools_.attempt([&] { tools_.carrying.update(session_); });
-        tools_.attempt([&] { tools_.clashes.update(session_); });
+        tools_.update(session_, seconds);
         draw_scene(now, seconds);
         draw_panels();
         glfwSwapBuffers(window_);
         log_.write(session_, tools_, is_complete_, now);
-        tools_.frame_milliseconds = 0.9 * tools_.frame_milliseconds + 100 * seconds;
+        tools_.frame_milliseconds =
+            kSmoothing * tools_.frame_milliseconds + (1 - kSmoothing) * 1000 * seconds;
     }
 
     void draw_scene(double now, double seconds) {
@@ -125,6 +158,7 @@ private:
         if (moves) {
             last_change_ = now;
             tools_.attempt([&] { tools_.proximity.update(session_); });
+            tools_.attempt([&] { tools_.proximity.colour(session_); });
         }
         eye_ = camera.eye, forward_ = camera.forward;
         session_.changed = false;
@@ -147,29 +181,30 @@ private:
 
     void draw_panels() {
         scene_.show();
-        ImGui_ImplOpenGL3_NewFrame();
-        ImGui_ImplGlfw_NewFrame();
-        ImGui::NewFrame();
-        if (tools_.with_panels) {
-            ImGui::SetNextWindowPos(ImVec2(10, 10), ImGuiCond_FirstUseEver);
-            ImGui::SetNextWindowSize(ImVec2(320, ImGui::GetIO().DisplaySize.y - 50),
-                                     ImGuiCond_FirstUseEver);
-            ImGui::Begin("Abut");
-            show_parts_panel(session_, tools_);
-            show_proximity_panel(session_, tools_);
-            show_measure_panel(session_, tools_);
-            show_section_panel(session_);
-            show_clash_panel(session_, tools_);
-            show_carry_panel(session_, tools_);
-            show_viewpoint_panel(session_, tools_);
-            ImGui::End();
-        }
+        Screen::begin_panels();
+        show_gizmo(session_, tools_);
+        if (tools_.with_panels)
+            show_panels();
         show_help_panel(tools_);
+        show_distance_legend(session_);
         show_status_line(session_, tools_);
-        ImGui::Render();
-        glViewport(0, 0, static_cast<GLsizei>(session_.lens.width),
-                   static_cast<GLsizei>(session_.lens.height));
-        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        Screen::draw_panels(session_.lens.width, session_.lens.height);
+    }
+
+    void show_panels() {
+        ImGui::SetNextWindowPos(ImVec2(kPanelLeft, kPanelLeft), ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSize(ImVec2(kPanelWidth, ImGui::GetIO().DisplaySize.y - kPanelBelow),
+                                 ImGuiCond_FirstUseEver);
+        ImGui::Begin("Abut");
+        show_parts_panel(session_, tools_);
+        show_proximity_panel(session_, tools_);
+        show_measure_panel(session_, tools_);
+        tools_.attempt([&] { show_colour_panel(session_); });
+        show_section_panel(session_);
+        show_clash_panel(session_, tools_);
+        show_carry_panel(session_, tools_);
+        show_viewpoint_panel(session_, tools_);
+        ImGui::End();
     }
 
     GLFWwindow* window_;
@@ -183,16 +218,57 @@ private:
     bool is_complete_ = false, was_moving_ = false;
 };
 
+/// Prepares the store, with its progress in the window. Returns no path if the window was closed.
+std::optional<std::string> prepare(const Screen& screen, const Arguments& arguments) {
+    BackgroundTask task;
+    std::string store;
+    screen.attach();
+    task.start([&](const Progress& progress) {
+        const Progress terminal = terminal_progress(arguments.quiet);
+        const auto report = [&](std::string_view stage, double fraction) {
+            progress.report(stage, fraction);
+            if (terminal.report)
+                terminal.report(stage, fraction);
+        };
+        store = ready_store(arguments.files, {report, progress.stop});
+    });
+    while (!task.has_ended()) {
+        glfwWaitEventsTimeout(kIdle);
+        if (glfwWindowShouldClose(screen.window) == GLFW_TRUE ||
+            glfwGetKey(screen.window, GLFW_KEY_ESCAPE) == GLFW_PRESS)
+            task.stop();
+        int width = 0, height = 0;
+        glfwGetFramebufferSize(screen.window, &width, &height);
+        glClearColor(0.93F, 0.94F, 0.95F, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+        Screen::begin_panels();
+        show_import(task.stage(), task.fraction());
+        Screen::draw_panels(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+        glfwSwapBuffers(screen.window);
+    }
+    Screen::detach();
+    if (task.was_interrupted())
+        return std::nullopt;
+    if (!task.error().empty())
+        throw std::runtime_error(task.error());
+    return store;
+}
+
 } // namespace
 
 void show_window(const Arguments& arguments) {
     // The window comes first: without a display nothing is imported.
     const Screen screen(arguments.width, arguments.height);
-    const std::string store = ready_store(arguments.files, arguments.quiet);
-    Session session(store, {arguments.memory, arguments.gpu_memory, arguments.pixel_error},
+    const std::optional<std::string> store = prepare(screen, arguments);
+    if (!store) {
+        if (!arguments.quiet)
+            std::puts("closed while the model was prepared; the next start goes on from there");
+        return;
+    }
+    Session session(*store, {arguments.memory, arguments.gpu_memory, arguments.pixel_error},
                     arguments.width, arguments.height);
-    Loop loop(screen.window, session, arguments.log);
-    Screen::attach(screen.window);
+    Loop loop(screen.window, session, arguments);
+    screen.attach();
     loop.run();
 }
 

@@ -34,6 +34,7 @@
 #include <abut/store_clash.h>
 #include <abut/tour.h>
 #include <abut/types.h>
+#include <abut/vector.h>
 #include <abut/view.h>
 #include <abut/volume.h>
 #include <abut/walk.h>

@@ -55,19 +55,39 @@ enum class ColourBy : std::uint8_t {
     type,
     file,
     part,
+    clash, ///< the worst kind of the part's clashes in the store's last jobs; grey without one
 };
 inline constexpr std::array kColourings{ColourBy::material, ColourBy::type, ColourBy::file,
-                                        ColourBy::part};
-/// "material", "type", "file", "part".
+                                        ColourBy::part, ColourBy::clash};
+/// "material", "type", "file", "part", "clash".
 const char* to_string(ColourBy by);
 
-/// Returns the colours of parts. Equal words get equal colours, in every model.
+/// Returns the colours of parts. Equal words get equal colours, in every model. By `clash`, all are
+/// grey: clashes belong to a store.
 std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by);
 
-/// Returns the colours of a store's parts, in the order of View::parts().
-///
+/// The colours of a store's parts, with a legend.
+struct PartColouring {
+    struct Group {
+        std::string word; ///< a type, a file, a kind of clash, or "none"
+        Colour colour;
+        std::uint64_t parts = 0;
+    };
+    std::vector<Colour> colours;       ///< in the order of View::parts()
+    std::vector<std::uint32_t> groups; ///< of each part, its index in `legend`
+    /// By `type`, `file` and `clash`, the largest group first; otherwise empty.
+    std::vector<Group> legend;
+};
 /// Errors      those of the store.
+PartColouring part_colouring(const Store& store, ColourBy by);
+/// The colours alone.
 std::vector<Colour> part_colours(const Store& store, ColourBy by);
+
+/// Surfaces are coloured by their exact distance from a part, up to `reach`; see DistanceColours.
+struct PartDistances {
+    std::string part; ///< its id or, if no part has that id, its name
+    double reach = 1;
+};
 
 struct PictureOptions {
     /// The picture shows the whole model from a side, or what a camera sees (its size is ignored),
@@ -79,6 +99,7 @@ struct PictureOptions {
     bool edges = true, ambient_occlusion = true, ground = true;
     std::vector<SectionPlane> sections; ///< at most 6
     std::optional<Box3> section_box;
+    std::optional<PartDistances> distances;
     Progress progress{};
 };
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <abut/camera.h>
+#include <abut/model.h>
 #include <abut/scene.h>
 #include <abut/types.h>
 #include <abut/view.h>
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -71,6 +73,27 @@ struct Ground {
     double reach = 100; ///< where it has faded
 };
 
+/// Colours surfaces by a distance: red where it is 0, then orange, yellow and green, to blue at
+/// `reach`. What is farther keeps its part's colour.
+struct DistanceColours {
+    /// Returns the distance of a point (world) on a part's surface. It is called for points of the
+    /// picture, from several threads at once, and must not throw.
+    std::function<double(std::uint32_t part, const Vec3& point)> distance;
+    double reach = 1;
+    /// The distance is computed for one pixel in `grid` x `grid`, and for all pixels at borders of
+    /// parts. Others are interpolated between points of the same part that are at most a tenth of
+    /// the reach away. 1: computed for all pixels.
+    std::uint32_t grid = 4;
+};
+/// The colour of a fraction of the reach, in [0, 1]; for a legend.
+Colour distance_colour(double fraction);
+/// Returns the colours by the exact distance from the surface of a part, which itself keeps its
+/// colour.
+///
+/// In          part: its number in the renderer.
+DistanceColours distances_from(std::uint32_t part, const Model& model,
+                               const Transform& world_from_part, double reach);
+
 struct RenderStyle {
     Vec3 up{0, 0, 1};              ///< for the light from the sky, and the ground
     bool edges = true;             ///< dark lines at silhouettes, creases and parts' borders
@@ -87,6 +110,7 @@ struct RenderStyle {
     bool leave_out_backs = false;
     std::vector<SectionPlane> sections; ///< at most 6
     std::optional<Box3> section_box;    ///< what lies outside is cut away
+    std::optional<DistanceColours> distances;
     Colour background_low{236, 239, 242}, background_high{171, 189, 208};
 };
 

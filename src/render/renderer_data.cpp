@@ -23,7 +23,7 @@ constexpr int kPicturesWithoutTest = 7;
 constexpr std::size_t kLeastDraws = 32;
 
 constexpr GLuint kPartsUnit = 0, kDepthUnit = 1, kStatesUnit = 2, kOcclusionUnit = 3,
-                 kGhostsUnit = 4;
+                 kGhostsUnit = 4, kDistancesUnit = 5;
 
 void require_valid_style(const RenderStyle& style) {
     const auto fail = [](const char* message) { throw Error(ErrorCode::bad_argument, message); };
@@ -33,6 +33,8 @@ void require_valid_style(const RenderStyle& style) {
         fail("a picture has at most 6 section planes");
     if (!is_finite(style.up) || length_sq(style.up) == 0 || !(style.detail > 0))
         fail("the style of a picture needs an up direction and a positive detail");
+    if (style.distances && (!style.distances->distance || !(style.distances->reach > 0)))
+        fail("colours by distance need a distance and a positive reach");
     for (const SectionPlane& plane : style.sections)
         if (!is_finite(plane.normal) || !std::isfinite(plane.offset))
             fail("a section plane is not finite");
@@ -257,6 +259,11 @@ void RendererData::draw_occlusion() {
     targets.smooth().bind_texture(0, kOcclusionUnit);
 }
 
+void RendererData::compute_distances() {
+    distances_.update(*style.distances, *camera, targets.parts(), depth_to_w(), style.samples,
+                      kDistancesUnit);
+}
+
 void RendererData::shade() {
     std::string definitions;
     if (style.edges)
@@ -271,6 +278,8 @@ void RendererData::shade() {
         definitions += "#define SECTION\n";
     if (has_ghosts_)
         definitions += "#define GHOSTS\n";
+    if (style.distances)
+        definitions += "#define DISTANCES\n";
     if (states.has_highlights())
         definitions += "#define HIGHLIGHTS\n";
     ShaderProgram& used = program("shade", definitions, kScreenVertexShader, kShadeFragmentShader);
@@ -279,6 +288,7 @@ void RendererData::shade() {
     used.set("u_occlusion", static_cast<int>(kOcclusionUnit));
     used.set("u_ghosts", static_cast<int>(kGhostsUnit));
     used.set("u_occlusion_scale", static_cast<int>(style.samples));
+    used.set("u_distances", static_cast<int>(kDistancesUnit));
     used.set("u_detail", to_float(style.detail));
     used.set("u_sky", abut::to_floats(style.up));
     const Vec3 light = 0.9 * style.up + -0.45 * camera->right + -0.6 * camera->forward;
@@ -326,6 +336,8 @@ void RendererData::finish(GLuint framebuffer, std::span<const Mark> marks) {
     targets.parts().bind_texture(1, kDepthUnit);
     if (style.ambient_occlusion)
         draw_occlusion();
+    if (style.distances)
+        compute_distances();
     const auto width = static_cast<GLsizei>(camera->width);
     const auto height = static_cast<GLsizei>(camera->height);
     if (style.samples > 1) {

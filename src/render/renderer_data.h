@@ -3,6 +3,7 @@
 #include <abut/renderer.h>
 
 #include "render/chunk_buffers.h"
+#include "render/distance_layer.h"
 #include "render/drawn_camera.h"
 #include "render/extra_parts.h"
 #include "render/frame_targets.h"
@@ -51,6 +52,7 @@ private:
     void draw_extra(Pass pass);
     void draw_ground();
     void draw_occlusion();
+    void compute_distances();
     void shade();
     void set_view(ShaderProgram& program) const;
     void to_pixels(GLuint framebuffer);
@@ -66,6 +68,7 @@ private:
     MarkLayer marks_;
     DepthTiles tiles_;
     int tests_left_out_ = 0; ///< pictures that are drawn in one step
+    DistanceLayer distances_;
 };
 
 } // namespace abut

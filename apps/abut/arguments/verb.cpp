@@ -74,6 +74,16 @@ OptionFacts facts_of(const CLI::Option& option) {
 
 } // namespace
 
+namespace {
+
+/// How a program of its own is called; empty for a verb of abut.
+std::string program_of(const CLI::App& app) {
+    const auto* const verb = dynamic_cast<const Verb*>(&app);
+    return verb == nullptr ? "" : verb->help_of_verb().program;
+}
+
+} // namespace
+
 std::vector<const Verb*> verbs_of(const CLI::App& root) {
     std::vector<const Verb*> verbs;
     for (const CLI::App* app : root.get_subcommands({}))
@@ -85,7 +95,7 @@ std::vector<const Verb*> verbs_of(const CLI::App& root) {
 
 std::vector<OptionGroup> options_of(const CLI::App& app) {
     std::vector<OptionGroup> groups{{kArguments, {}}};
-    OptionGroup common{kCommonGroup, {}};
+    OptionGroup common{program_of(app).empty() ? kCommonGroup : kOtherOptions, {}};
     const auto add = [&](const std::string& title, const CLI::Option& option) {
         const OptionFacts facts = facts_of(option);
         const bool is_common = title == kCommonGroup || &option == app.get_help_ptr();
@@ -100,7 +110,8 @@ std::vector<OptionGroup> options_of(const CLI::App& app) {
         group->options.push_back(facts);
     };
     for (const CLI::Option* option : app.get_options())
-        add(option->get_group(), *option);
+        if (!option->get_group().empty()) // CLI11 hides an option without a group
+            add(option->get_group(), *option);
     // In CLI11, a subcommand without a name is a group of options.
     for (const CLI::App* group : app.get_subcommands({}))
         if (group->get_name().empty())
@@ -115,7 +126,8 @@ std::vector<OptionGroup> options_of(const CLI::App& app) {
 }
 
 std::string usage_of(const CLI::App& app) {
-    std::string usage = "abut " + app.get_name() + " [OPTIONS]";
+    const std::string program = program_of(app);
+    std::string usage = (program.empty() ? "abut " + app.get_name() : program) + " [OPTIONS]";
     for (const CLI::Option* option : app.get_options())
         if (option->get_positional()) {
             std::string name = option->get_name(true, false);

@@ -16,8 +16,9 @@ inline constexpr const char* kClashes = "Clashes between the parts of models";
 inline constexpr const char* kDeforming = "Surfaces that deform";
 inline constexpr const char* kScenes = "Example scenes";
 
-/// The group of the options that all verbs have.
+/// The group of the options that all verbs have, and its name for a program of its own.
 inline constexpr const char* kCommonGroup = "Options of every verb";
+inline constexpr const char* kOtherOptions = "Other options";
 
 struct Example {
     std::string line; ///< as typed
@@ -29,7 +30,8 @@ struct VerbHelp {
     std::string group;
     std::string says; ///< one sentence
     std::vector<Example> examples;
-    std::string problem; ///< when the exit status is 1; never if empty
+    std::string problem;   ///< when the exit status is 1; never if empty
+    std::string program{}; ///< how it is called, if it is a program of its own: "abut-walk"
 };
 
 /// A subcommand that knows its help.

@@ -13,6 +13,15 @@ namespace abut::command {
 
 namespace {
 
+/// Functions that both completions for bash use.
+constexpr const char* kBashHelpers =
+    "_abut_words() { mapfile -t COMPREPLY < <(compgen -W \"$1\" -- \"$current\"); }\n"
+    "_abut_folders() {\n"
+    "    mapfile -t COMPREPLY < <(compgen -d -- \"$current\")\n"
+    "    compopt -o filenames 2>/dev/null\n"
+    "}\n"
+    "_abut_nothing() { compopt +o default +o bashdefault 2>/dev/null; }\n";
+
 std::vector<OptionFacts> options_in_a_row(const CLI::App& app) {
     std::vector<OptionFacts> all;
     for (OptionGroup& group : options_of(app))
@@ -132,13 +141,7 @@ std::string bash_completion(const CLI::App& root) {
         values += bash_values(*verb);
         cases += bash_verb(*verb);
     }
-    return "# Completion of abut for bash. Made by abut generate.\n"
-           "_abut_words() { mapfile -t COMPREPLY < <(compgen -W \"$1\" -- \"$current\"); }\n"
-           "_abut_folders() {\n"
-           "    mapfile -t COMPREPLY < <(compgen -d -- \"$current\")\n"
-           "    compopt -o filenames 2>/dev/null\n"
-           "}\n"
-           "_abut_nothing() { compopt +o default +o bashdefault 2>/dev/null; }\n"
+    return "# Completion of abut for bash. Made by abut generate.\n" + std::string(kBashHelpers) +
            "_abut() {\n"
            "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
            "    # bash splits --option=value into three words.\n"
@@ -207,6 +210,32 @@ std::string zsh_completion(const CLI::App& root) {
            "    esac\n"
            "}\n"
            "_abut \"$@\"\n";
+}
+
+std::string bash_completion_of(const Verb& program) {
+    const VerbHelp& help = program.help_of_verb();
+    std::vector<std::string> names;
+    for (const OptionFacts& option : options_in_a_row(program))
+        if (!option.is_argument)
+            names.insert(names.end(), option.names.begin(), option.names.end());
+    return fmt::format("# Completion of {0} for bash. Made by the build.\n{1}"
+                       "_abut_{2}() {{\n"
+                       "    local current=${{COMP_WORDS[COMP_CWORD]}} "
+                       "previous=${{COMP_WORDS[COMP_CWORD - 1]}}\n"
+                       "    [[ $current == = ]] && current=\n"
+                       "    [[ $previous == = ]] && previous=${{COMP_WORDS[COMP_CWORD - 2]}}\n"
+                       "    COMPREPLY=()\n"
+                       "    case \"{2} $previous\" in\n{3}    esac\n"
+                       "    [[ $current == -* ]] && _abut_words \"{4}\"\n"
+                       "    return 0\n}}\n"
+                       "complete -o default -o bashdefault -F _abut_{2} {0}\n",
+                       help.program, kBashHelpers, help.name, bash_values(program), joined(names));
+}
+
+std::string zsh_completion_of(const Verb& program) {
+    return fmt::format("#compdef {0}\n# Completion of {0} for zsh. Made by the build.\n"
+                       "_arguments{1}\n",
+                       program.help_of_verb().program, zsh_specs(program));
 }
 
 } // namespace abut::command

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "arguments/verb.h"
+
 #include <CLI/CLI.hpp>
 #include <string>
 
@@ -10,5 +12,9 @@ std::string bash_completion(const CLI::App& root);
 
 /// Returns the completion function for zsh, to be saved as a file _abut in its fpath.
 std::string zsh_completion(const CLI::App& root);
+
+/// The same for a program of its own.
+std::string bash_completion_of(const Verb& program);
+std::string zsh_completion_of(const Verb& program);
 
 } // namespace abut::command

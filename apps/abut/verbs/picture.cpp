@@ -25,7 +25,8 @@ struct PictureArguments {
     std::string size = "1600x1000";
     NamedView view = NamedView::iso;
     ColourBy colour_by = ColourBy::material;
-    double clearance = 0;
+    std::string distances_from;
+    double clearance = 0, reach = 1;
     bool plain = false;
     ReadOptions read;
 };
@@ -37,10 +38,11 @@ constexpr std::array<Named<NamedView>, 7> kViews{{{"iso", NamedView::iso},
                                                   {"right", NamedView::right},
                                                   {"top", NamedView::top},
                                                   {"bottom", NamedView::bottom}}};
-constexpr std::array<Named<ColourBy>, 4> kColours{{{"material", ColourBy::material},
+constexpr std::array<Named<ColourBy>, 5> kColours{{{"material", ColourBy::material},
                                                    {"type", ColourBy::type},
                                                    {"file", ColourBy::file},
-                                                   {"part", ColourBy::part}}};
+                                                   {"part", ColourBy::part},
+                                                   {"clash", ColourBy::clash}}};
 
 /// What is drawn: exactly one of both.
 struct PictureInput {
@@ -124,6 +126,8 @@ PictureOptions options_of(const PictureArguments& arguments) {
             parse_numbers("--section-box", arguments.section_box, "x0,y0,z0,x1,y1,z1", 6);
         options.section_box = Box3{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
     }
+    if (!arguments.distances_from.empty())
+        options.distances = PartDistances{arguments.distances_from, arguments.reach};
     if (!arguments.eye.empty())
         (void)camera_of(arguments, UpAxis::z);
     if (!arguments.clash.empty() && !parse_clash_id(arguments.clash))
@@ -246,6 +250,13 @@ Subcommand add_picture(CLI::App& root, CommonOptions& common) {
     app->add_option("--section-box", arguments->section_box,
                     "Cut away what lies outside of a box: x0,y0,z0,x1,y1,z1")
         ->check(not_empty("BOX"));
+    CLI::Option* from =
+        app->add_option("--distances-from", arguments->distances_from,
+                        "Colour surfaces by their distance from a part, by its id or name")
+            ->check(not_empty("NAME"));
+    add_length(*app, "--reach", arguments->reach,
+               "With --distances-from: the distance up to which there are colours");
+    app->get_option("--reach")->needs(from);
     app->add_flag("--plain", arguments->plain, "No edges, ground and ambient occlusion");
     add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};

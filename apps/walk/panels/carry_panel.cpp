@@ -1,4 +1,5 @@
 #include "panels/panels.h"
+#include "panels/widgets.h"
 
 #include <imgui.h>
 
@@ -6,22 +7,89 @@ namespace abut::viewer {
 
 namespace {
 
-void show_carried(Session& session, Tools& tools) {
-    Carrying& carrying = tools.carrying;
-    const CarryStep& step = carrying.carry->state();
+constexpr float kLargestCarryClearance = 2;        ///< metres
+constexpr float kLeastTurn = 0.1F, kMostTurn = 90; ///< degrees
+constexpr const char* kReportFile = "abut-walk-way.json";
+
+void show_modes(Session& session, Carrying& carrying) {
+    for (const CarryMode mode : {CarryMode::stop, CarryMode::slide, CarryMode::through}) {
+        if (mode != CarryMode::stop)
+            ImGui::SameLine();
+        if (ImGui::RadioButton(to_string(mode), carrying.mode == mode))
+            carrying.set_mode(session, mode);
+    }
+    slide("clearance##carry", carrying.clearance, kLeastTurn / 100, kLargestCarryClearance);
+    auto step = static_cast<float>(carrying.turn_step);
+    if (ImGui::SliderFloat("turn of a key", &step, kLeastTurn, kMostTurn, "%.1f degrees"))
+        carrying.turn_step = static_cast<double>(step);
+}
+
+void show_around(Session& session, const CarryStep& step) {
     if (step.blocked)
-        ImGui::TextColored(ImVec4(0.9F, 0.2F, 0.15F, 1), "blocked");
+        ImGui::TextColored(kWarning, "blocked");
     if (step.waits)
         ImGui::TextDisabled("waits for parts that are being read");
-    for (const WalkGap& gap : step.touched)
+    for (const WalkGap& gap : step.touched) {
         ImGui::TextWrapped("%.4f m deep in %s", -gap.distance, name_of(session, gap.part).c_str());
+        if (gap.distance < 0)
+            ImGui::TextDisabled("  way out: %.2f %.2f %.2f", gap.normal.x, gap.normal.y,
+                                gap.normal.z);
+    }
     for (const WalkGap& gap : step.near)
         ImGui::TextWrapped("%.4f m from %s", gap.distance, name_of(session, gap.part).c_str());
+}
+
+void show_hand(Session& session, Tools& tools) {
+    Carrying& carrying = tools.carrying;
     if (ImGui::Button("Put down"))
         carrying.put_down(session);
+    if (!carrying.carry)
+        return;
+    ImGui::SameLine();
+    if (ImGui::Button("Straight"))
+        carrying.straighten();
+    ImGui::SameLine();
+    if (ImGui::Button("Out"))
+        tools.attempt([&] { (void)carrying.move_out(session); });
     ImGui::SameLine();
     if (ImGui::Button("Check its way"))
         tools.attempt([&] { carrying.check_way(session); });
+    show_around(session, carrying.carry->state());
+}
+
+void show_file(Tools& tools) {
+    Carrying& carrying = tools.carrying;
+    if (carrying.is_reading()) {
+        ImGui::ProgressBar(static_cast<float>(carrying.reading.fraction()), ImVec2(-70, 0),
+                           carrying.reading.stage().c_str());
+        ImGui::SameLine();
+        if (ImGui::Button("Stop##reading"))
+            carrying.reading.stop();
+        return;
+    }
+    const bool is_entered = edit_text("##file", "a model file to carry", carrying.file);
+    ImGui::SameLine();
+    if ((ImGui::Button("Bring in") || is_entered) && !carrying.file.empty())
+        carrying.bring_in(carrying.file);
+}
+
+void show_report(Session& session, Tools& tools) {
+    const Carrying& carrying = tools.carrying;
+    if (!carrying.report)
+        return;
+    const PathReport& report = *carrying.report;
+    ImGui::Separator();
+    ImGui::Text("way of %.2f m: %s", report.length, report.is_free() ? "free" : "not free");
+    for (const PathContact& contact : report.contacts)
+        ImGui::TextWrapped("meets %s", name_of(session, contact.impact.part).c_str());
+    if (report.clearance.found)
+        ImGui::TextWrapped("least clearance %.4f m, from %s", report.clearance.distance,
+                           name_of(session, report.clearance.part).c_str());
+    if (ImGui::Button("Write report"))
+        tools.attempt([&] {
+            carrying.write_report(session, kReportFile);
+            tools.message = std::string(kReportFile) + " written";
+        });
 }
 
 } // namespace
@@ -30,28 +98,13 @@ void show_carry_panel(Session& session, Tools& tools) {
     Carrying& carrying = tools.carrying;
     if (!ImGui::CollapsingHeader("Carry"))
         return;
-    const auto choice = [&](const char* text, CarryMode mode) {
-        if (ImGui::RadioButton(text, carrying.mode == mode))
-            carrying.mode = mode;
-    };
-    choice("stop", CarryMode::stop);
-    ImGui::SameLine();
-    choice("slide", CarryMode::slide);
-    ImGui::SameLine();
-    choice("through", CarryMode::through);
+    show_modes(session, carrying);
     if (carrying.carry)
-        show_carried(session, tools);
+        show_hand(session, tools);
     else if (session.chosen && ImGui::Button("Take the chosen part"))
         tools.attempt([&] { carrying.take(session, *session.chosen); });
-    if (!carrying.report)
-        return;
-    const PathReport& report = *carrying.report;
-    ImGui::Text("way of %.2f m, %zu contacts", report.length, report.contacts.size());
-    for (const PathContact& contact : report.contacts)
-        ImGui::TextWrapped("meets %s", name_of(session, contact.impact.part).c_str());
-    if (report.clearance.found)
-        ImGui::TextWrapped("least clearance %.4f m, from %s", report.clearance.distance,
-                           name_of(session, report.clearance.part).c_str());
+    show_file(tools);
+    show_report(session, tools);
 }
 
 } // namespace abut::viewer

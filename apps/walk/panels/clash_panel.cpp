@@ -1,69 +1,98 @@
 #include "panels/panels.h"
+#include "panels/widgets.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 namespace abut::viewer {
 
 namespace {
 
-/// Returns whether the list has changed.
-bool show_clash_row(Session& session, ClashList& list, const ListedClash& clash) {
+constexpr float kClashListHeight = 160, kLargestClearance = 1; ///< pixels; metres
+
+void show_job(Session& session, ClashList& list) {
+    if (list.job.is_running()) {
+        ImGui::ProgressBar(static_cast<float>(list.job.fraction()), ImVec2(-70, 0),
+                           list.job.stage().c_str());
+        ImGui::SameLine();
+        if (ImGui::Button("Stop"))
+            list.job.stop();
+        return;
+    }
+    auto clearance = static_cast<float>(list.clearance);
+    if (ImGui::SliderFloat("clearance", &clearance, 0, kLargestClearance, "%.3f m"))
+        list.clearance = static_cast<double>(clearance);
+    if (ImGui::Button("Look for clashes"))
+        list.run_job(session);
+    ImGui::SameLine();
+    if (ImGui::Button("Read again"))
+        list.read(session);
+}
+
+void show_row(ClashList& list, const ListedClash& clash) {
     ImGui::PushID(clash_id_text(clash.id).c_str());
-    char text[300];
-    std::snprintf(text, sizeof text, "%-9s %-8s %8.4f m  %s | %s", to_string(clash.kind), // NOLINT
-                  to_string(clash.status), clash.distance, clash.name[0].c_str(),
-                  clash.name[1].c_str());
-    if (ImGui::Selectable(text, list.shown == clash.id))
+    const std::string text =
+        fmt::format("{:<9} {:<8} {:8.4f} m  {} | {}", to_string(clash.kind),
+                    to_string(clash.status), clash.distance, clash.name[0], clash.name[1]);
+    if (ImGui::Selectable(text.c_str(), list.shown == clash.id))
         list.wanted = clash;
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s\n%s", clash.name[0].c_str(), clash.name[1].c_str());
-    bool has_changed = false;
-    if (ImGui::BeginPopupContextItem()) {
-        MarkChanges changes;
-        if (ImGui::MenuItem("reviewed"))
-            changes.reviewed = {clash.id};
-        if (ImGui::MenuItem("approved"))
-            changes.approved = {clash.id};
-        if (ImGui::MenuItem("clear the mark"))
-            changes.cleared = {clash.id};
-        if (!changes.reviewed.empty() || !changes.approved.empty() || !changes.cleared.empty()) {
-            list.mark(session, changes);
-            has_changed = true;
-        }
-        ImGui::EndPopup();
-    }
+        ImGui::SetTooltip("%s\n%s%s%s", clash.name[0].c_str(), clash.name[1].c_str(),
+                          clash.note.empty() ? "" : "\n", clash.note.c_str());
     ImGui::PopID();
-    return has_changed;
+}
+
+void show_list(ClashList& list) {
+    if (!ImGui::BeginListBox("##clashes", ImVec2(-1, kClashListHeight)))
+        return;
+    for (const ClashReview& review : list.reviews)
+        for (const ListedClash& clash : review.clashes)
+            if (list.with_resolved || clash.status != ClashStatus::resolved)
+                show_row(list, clash);
+    ImGui::EndListBox();
+}
+
+/// Status and note of the clash that is shown.
+void show_marks(Session& session, Tools& tools) {
+    ClashList& list = tools.clashes;
+    if (!list.shown)
+        return;
+    ImGui::TextDisabled("clash %s", clash_id_text(*list.shown).c_str());
+    if (ImGui::Button("Reviewed"))
+        tools.attempt([&] { list.mark(session, ClashStatus::reviewed); });
+    ImGui::SameLine();
+    if (ImGui::Button("Approved"))
+        tools.attempt([&] { list.mark(session, ClashStatus::approved); });
+    ImGui::SameLine();
+    if (ImGui::Button("No mark"))
+        tools.attempt([&] { list.clear_mark(session); });
+    if (tools.note_wants_keyboard)
+        ImGui::SetKeyboardFocusHere();
+    if (edit_text("note", "Enter keeps it", list.note))
+        tools.attempt([&] { list.write_note(session); });
 }
 
 } // namespace
 
 void show_clash_panel(Session& session, Tools& tools) {
     ClashList& list = tools.clashes;
-    if (!ImGui::CollapsingHeader("Clashes"))
-        return;
-    if (!list.is_read)
-        list.read(session);
-    if (list.wanted)
-        ImGui::TextDisabled("reading the names of parts ...");
-    if (!list.message.empty())
-        ImGui::TextWrapped("%s", list.message.c_str());
-    if (ImGui::Button("Read again"))
-        list.read(session);
-    ImGui::SameLine();
-    if (ImGui::Button("No ghosts"))
-        session.ghost_all_but({});
-    ImGui::TextDisabled("click: fly to; right click: set the status");
-    if (ImGui::BeginListBox("##clashes", ImVec2(-1, 180))) {
-        for (const ClashReview& review : list.reviews) {
-            bool has_changed = false;
-            for (const ListedClash& clash : review.clashes)
-                has_changed = has_changed || show_clash_row(session, list, clash);
-            if (has_changed)
-                break; // `review` is gone
-        }
-        ImGui::EndListBox();
+    if (tools.note_wants_keyboard)
+        ImGui::SetNextItemOpen(true);
+    if (ImGui::CollapsingHeader("Clashes")) {
+        if (!list.is_read)
+            list.read(session);
+        show_job(session, list);
+        if (list.wanted)
+            ImGui::TextDisabled("reading the names of parts ...");
+        if (!list.message.empty())
+            ImGui::TextWrapped("%s", list.message.c_str());
+        ImGui::Text("%zu clashes", list.count());
+        ImGui::SameLine();
+        ImGui::Checkbox("resolved, too", &list.with_resolved);
+        show_list(list);
+        show_marks(session, tools);
     }
+    tools.note_wants_keyboard = false;
 }
 
 } // namespace abut::viewer

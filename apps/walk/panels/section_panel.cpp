@@ -1,5 +1,5 @@
 #include "panels/panels.h"
-#include "vec.h"
+#include "panels/widgets.h"
 
 #include <imgui.h>
 
@@ -7,10 +7,24 @@ namespace abut::viewer {
 
 namespace {
 
+constexpr float kNearestPlane = 0.1F, kFarthestPlane = 50, kBoxStep = 0.05F; ///< metres
+
+void show_new_planes(Session& session) {
+    if (session.sections.size() >= kMostPlanes)
+        return;
+    if (ImGui::Button("Plane before the eye"))
+        session.add_plane();
+    static constexpr std::array kAcross{"x", "y", "z"};
+    for (int i = 0; i < 3; ++i) {
+        ImGui::SameLine();
+        if (ImGui::Button(kAcross.at(static_cast<std::size_t>(i))))
+            session.add_plane_across(i);
+    }
+    slide("from the eye", session.plane_distance, kNearestPlane, kFarthestPlane);
+}
+
 void show_planes(Session& session) {
     const Box3 bounds = session.view.bounds();
-    if (session.sections.size() < kMostPlanes && ImGui::Button("Plane before the eye"))
-        session.add_plane();
     for (std::size_t i = 0; i < session.sections.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         SectionPlane& plane = session.sections[i];
@@ -18,7 +32,12 @@ void show_planes(Session& session) {
         auto at = static_cast<float>(plane.offset - centre);
         const auto half = static_cast<float>(diagonal(bounds) / 2);
         if (ImGui::SliderFloat("##offset", &at, -half, half, "%.2f m")) {
-            plane.offset = centre + at;
+            plane.offset = centre + static_cast<double>(at);
+            session.changed = true;
+        }
+        ImGui::SameLine();
+        if (ImGui::SmallButton("turn")) {
+            plane = {-1.0 * plane.normal, -plane.offset};
             session.changed = true;
         }
         ImGui::SameLine();
@@ -34,49 +53,31 @@ void show_planes(Session& session) {
 
 void show_box(Session& session) {
     bool on = session.section_box.has_value();
-    if (ImGui::Checkbox("Section box", &on)) {
-        Box3 box = session.view.bounds();
-        if (session.chosen)
-            box = session.box_of(*session.chosen);
-        const double margin = session.chosen ? 1 : 0;
-        const Vec3 by{margin, margin, margin};
-        session.section_box =
-            on ? std::optional(Box3{box.lower - by, box.upper + by}) : std::nullopt;
-        session.changed = true;
-    }
+    if (ImGui::Checkbox(session.chosen ? "Section box around the chosen part" : "Section box", &on))
+        session.toggle_box();
     if (!session.section_box)
         return;
     Box3& box = *session.section_box;
     const auto drag = [&](const char* text, double& lower, double& upper) {
         auto low = static_cast<float>(lower), high = static_cast<float>(upper);
-        if (ImGui::DragFloatRange2(text, &low, &high, 0.05F)) {
-            lower = low, upper = high;
+        if (ImGui::DragFloatRange2(text, &low, &high, kBoxStep)) {
+            lower = static_cast<double>(low), upper = static_cast<double>(high);
             session.changed = true;
         }
     };
-    drag("x", box.lower.x, box.upper.x);
-    drag("y", box.lower.y, box.upper.y);
-    drag("z", box.lower.z, box.upper.z);
+    drag("x##box", box.lower.x, box.upper.x);
+    drag("y##box", box.lower.y, box.upper.y);
+    drag("z##box", box.lower.z, box.upper.z);
 }
 
 } // namespace
 
 void show_section_panel(Session& session) {
-    if (!ImGui::CollapsingHeader("Sections and colours"))
+    if (!ImGui::CollapsingHeader("Sections"))
         return;
+    show_new_planes(session);
     show_planes(session);
     show_box(session);
-    for (const ColourBy by : kColourings) {
-        if (ImGui::RadioButton(to_string(by), session.colour_by == by))
-            session.colour(by);
-        if (by != kColourings.back())
-            ImGui::SameLine();
-    }
-    session.changed |= ImGui::Checkbox("Edges", &session.with_edges);
-    ImGui::SameLine();
-    session.changed |= ImGui::Checkbox("Ground", &session.with_ground);
-    ImGui::SameLine();
-    session.changed |= ImGui::Checkbox("Occlusion", &session.with_occlusion);
 }
 
 } // namespace abut::viewer

@@ -1,3 +1,4 @@
+#include <abut/clash_review.h>
 #include <abut/picture.h>
 
 #include "store/database/store_file.h"
@@ -5,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <string_view>
+#include <unordered_map>
 
 namespace abut {
 
@@ -75,6 +79,78 @@ Colour type_colour(const std::string& type) {
     return hashed_colour(lower);
 }
 
+struct ClashColour {
+    ClashKind kind;
+    Colour colour;
+};
+/// The kinds from the worst on.
+constexpr ClashColour kClashColours[]{{ClashKind::hard, {214, 50, 40}},
+                                      {ClashKind::contained, {156, 60, 170}},
+                                      {ClashKind::duplicate, {82, 84, 196}},
+                                      {ClashKind::touch, {236, 146, 40}},
+                                      {ClashKind::clearance, {236, 208, 72}}};
+constexpr Colour kNoClash{206, 210, 214};
+
+/// The word that gives a part its colour.
+struct ColourWord {
+    std::string word;
+    Colour colour;
+};
+
+ColourWord word_of(const ViewPart& part, ColourBy by) {
+    switch (by) {
+    case ColourBy::material:
+        return {"", part.colour ? *part.colour : type_colour(part.type)};
+    case ColourBy::type:
+        return {part.type, type_colour(part.type)};
+    case ColourBy::file:
+        return {part.file, hashed_colour(part.file)};
+    case ColourBy::part:
+        return {"", hashed_colour(part.id)};
+    default:
+        return {"", kNoClash};
+    }
+}
+
+std::string key_of(const std::string& file, const std::string& id) {
+    return file + '\n' + id;
+}
+
+/// The place of a part's worst clash in kClashColours, by file and id.
+std::unordered_map<std::string, std::size_t> worst_clashes(const Store& store) {
+    std::unordered_map<std::string, std::size_t> worst;
+    for (const ClashReview& review : review_clashes(store))
+        for (const ListedClash& clash : review.clashes) {
+            if (clash.status == ClashStatus::resolved)
+                continue;
+            const auto place = static_cast<std::size_t>(
+                std::ranges::find(kClashColours, clash.kind, &ClashColour::kind) - kClashColours);
+            for (std::size_t side = 0; side < 2; ++side) {
+                const auto [at, is_new] =
+                    worst.try_emplace(key_of(clash.file.at(side), clash.part.at(side)), place);
+                if (!is_new)
+                    at->second = std::min(at->second, place);
+            }
+        }
+    return worst;
+}
+
+/// Sorts the groups by their size, and renumbers those of the parts.
+void sort_legend(PartColouring& colouring) {
+    std::vector<std::uint32_t> order(colouring.legend.size()), place(order.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, std::greater<>(),
+                             [&](std::uint32_t i) { return colouring.legend[i].parts; });
+    std::vector<PartColouring::Group> sorted;
+    for (const std::uint32_t i : order) {
+        place[i] = static_cast<std::uint32_t>(sorted.size());
+        sorted.push_back(std::move(colouring.legend[i]));
+    }
+    colouring.legend = std::move(sorted);
+    for (std::uint32_t& group : colouring.groups)
+        group = place[group];
+}
+
 } // namespace
 
 const char* to_string(ColourBy by) {
@@ -85,8 +161,10 @@ const char* to_string(ColourBy by) {
         return "type";
     case ColourBy::file:
         return "file";
-    default:
+    case ColourBy::part:
         return "part";
+    default:
+        return "clash";
     }
 }
 
@@ -94,37 +172,57 @@ std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by) {
     std::vector<Colour> colours;
     colours.reserve(parts.size());
     for (const ViewPart& part : parts)
-        switch (by) {
-        case ColourBy::material:
-            colours.push_back(part.colour ? *part.colour : type_colour(part.type));
-            break;
-        case ColourBy::type:
-            colours.push_back(type_colour(part.type));
-            break;
-        case ColourBy::file:
-            colours.push_back(hashed_colour(part.file));
-            break;
-        case ColourBy::part:
-            colours.push_back(hashed_colour(part.id));
-            break;
-        }
+        colours.push_back(word_of(part, by).colour);
     return colours;
 }
 
-std::vector<Colour> part_colours(const Store& store, ColourBy by) {
-    std::vector<std::pair<std::int64_t, Colour>> found;
+PartColouring part_colouring(const Store& store, ColourBy by) {
+    const bool by_clash = by == ColourBy::clash;
+    const bool has_legend = by_clash || by == ColourBy::type || by == ColourBy::file;
+    const auto worst =
+        by_clash ? worst_clashes(store) : std::unordered_map<std::string, std::size_t>();
+    struct Found {
+        std::int64_t part;
+        Colour colour;
+        std::uint32_t group;
+    };
+    std::vector<Found> found;
+    PartColouring colouring;
+    std::unordered_map<std::string, std::uint32_t> numbers;
     StoreFile& file = store.file();
     for (const ModelRow& model : file.models())
         file.for_each_part(model, [&](const PartRow& row) {
             const ViewPart part{row.part, model.file, row.id, row.name, row.type, {}, row.colour};
-            found.emplace_back(row.part, part_colours(std::span(&part, 1), by).front());
+            ColourWord word = word_of(part, by);
+            if (const auto clash = worst.find(key_of(part.file, part.id)); clash != worst.end())
+                word = {abut::to_string(kClashColours[clash->second].kind), // NOLINT
+                        kClashColours[clash->second].colour};               // NOLINT
+            if (word.word.empty())
+                word.word = "none";
+            std::uint32_t group = 0;
+            if (has_legend) {
+                const auto next = static_cast<std::uint32_t>(colouring.legend.size());
+                const auto [at, is_new] = numbers.try_emplace(word.word, next);
+                if (is_new)
+                    colouring.legend.push_back({word.word, word.colour, 0});
+                group = at->second;
+                ++colouring.legend[group].parts;
+            }
+            found.push_back({row.part, word.colour, group});
         });
-    std::ranges::sort(found, {}, &std::pair<std::int64_t, Colour>::first);
-    std::vector<Colour> colours;
-    colours.reserve(found.size());
-    for (const auto& each : found)
-        colours.push_back(each.second);
-    return colours;
+    std::ranges::sort(found, {}, &Found::part);
+    colouring.colours.reserve(found.size());
+    for (const Found& each : found) {
+        colouring.colours.push_back(each.colour);
+        if (has_legend)
+            colouring.groups.push_back(each.group);
+    }
+    sort_legend(colouring);
+    return colouring;
+}
+
+std::vector<Colour> part_colours(const Store& store, ColourBy by) {
+    return part_colouring(store, by).colours;
 }
 
 } // namespace abut

@@ -49,11 +49,7 @@ PictureJob::PictureJob(const PictureModel& model, const PictureOptions& options)
     : model_(model), options_(checked(options)),
       renderer_(model.parts.size(), middle_of(model.bounds)),
       stream_(model, middle_of(model.bounds)), opaque_(model.parts.size(), true) {
-    std::vector<ViewPart> views;
-    views.reserve(model.parts.size());
-    for (const PicturePart& part : model.parts)
-        views.push_back(part.view);
-    const std::vector<Colour> colours = part_colours(views, options.colour_by);
+    const std::vector<Colour> colours = model.colours(options.colour_by);
     for (std::uint32_t i = 0; i < colours.size(); ++i)
         renderer_.set_state(i, {.colour = colours[i]});
 }
@@ -67,6 +63,12 @@ RenderStyle PictureJob::style(bool with_ground) const {
     style.detail = detail_of(model_);
     style.sections = options_.sections;
     style.section_box = options_.section_box;
+    if (options_.distances) {
+        const std::uint32_t from = find_part(model_, "", options_.distances->part);
+        const PicturePart& part = model_.parts[from];
+        style.distances = distances_from(from, Model(*model_.mesh(part.mesh)), part.world_from_mesh,
+                                         options_.distances->reach);
+    }
     if (options_.ground && with_ground && !is_empty(model_.bounds)) {
         const Box3& bounds = model_.bounds;
         const double diagonal = length(bounds.upper - bounds.lower);

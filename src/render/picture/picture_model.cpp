@@ -7,6 +7,7 @@
 #include "store/database/store_file.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace abut {
 
@@ -74,12 +75,30 @@ public:
     [[nodiscard]] std::shared_ptr<const Mesh> mesh(std::int64_t number) const override {
         return std::make_shared<Mesh>(store_.file().read_mesh(number));
     }
+    [[nodiscard]] std::vector<Colour> colours(ColourBy by) const override {
+        const std::vector<Colour> sorted = part_colours(store_, by);
+        std::vector<std::uint32_t> order(parts.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::ranges::sort(order, {}, [&](std::uint32_t i) { return parts[i].view.number; });
+        std::vector<Colour> colours(sorted.size());
+        for (std::size_t i = 0; i < sorted.size(); ++i)
+            colours[order[i]] = sorted[i];
+        return colours;
+    }
 
 private:
     Store store_;
 };
 
 } // namespace
+
+std::vector<Colour> PictureModel::colours(ColourBy by) const {
+    std::vector<ViewPart> views;
+    views.reserve(parts.size());
+    for (const PicturePart& part : parts)
+        views.push_back(part.view);
+    return part_colours(views, by);
+}
 
 std::unique_ptr<PictureModel> picture_model(const std::vector<Scene>& models) {
     return std::make_unique<ScenesModel>(models);

@@ -21,6 +21,8 @@ public:
     virtual ~PictureModel() = default;
     /// Returns a mesh. May be called from any thread.
     [[nodiscard]] virtual std::shared_ptr<const Mesh> mesh(std::int64_t number) const = 0;
+    /// The colours of `parts`.
+    [[nodiscard]] virtual std::vector<Colour> colours(ColourBy by) const;
 
     std::vector<PicturePart> parts;
     Box3 bounds; ///< of all parts, world

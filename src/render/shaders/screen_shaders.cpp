@@ -22,6 +22,9 @@ uniform vec3 u_low, u_high;
 uniform vec3 u_eye;                  // from the middle of the ground
 uniform float u_ground_reach, u_grid;
 uniform int u_occlusion_scale;
+#ifdef DISTANCES
+uniform sampler2D u_distances; // in pixels, as fractions of the reach
+#endif
 out vec4 o_colour;
 
 const uint kGround = 0x3fffffffu;
@@ -65,6 +68,17 @@ float edge(ivec2 here, ivec2 step, uvec2 part, vec3 n, vec3 at, float w, float f
     float off = abs(dot(n, ray_of(vec2(there) + 0.5) * w_there - at));
     return off > 4.0 * u_pixel * max(w, w_there) ? fade : 0.0;
 }
+
+#ifdef DISTANCES
+// As abut::distance_colour.
+vec3 distance_colour(float part) {
+    const vec3 ramp[5] = vec3[5](vec3(214, 38, 30), vec3(242, 140, 38), vec3(242, 222, 77),
+                                 vec3(115, 199, 102), vec3(89, 153, 217));
+    float at = clamp(part, 0.0, 1.0) * 4.0;
+    int i = min(int(at), 3);
+    return mix(ramp[i], ramp[i + 1], at - float(i)) / 255.0;
+}
+#endif
 
 vec3 background(vec3 ray) {
     float height = dot(normalize(ray), u_sky) * 0.5 + 0.5;
@@ -115,6 +129,11 @@ void main() {
     } else {
         uint state = number - 1u;
         vec3 own = texelFetch(u_states, ivec2(int(state & 4095u), int(state >> 12)), 0).rgb;
+#ifdef DISTANCES
+        float far = texelFetch(u_distances, here / u_occlusion_scale, 0).r;
+        if (far < 1.0)
+            own = distance_colour(far);
+#endif
         vec3 facing = dot(n, ray) > 0.0 ? -n : n;
         float sky = dot(facing, u_sky) * 0.5 + 0.5;
         float lit = max(dot(facing, u_light), 0.0);

@@ -8,6 +8,7 @@
 #include "tests/support/shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -191,6 +192,76 @@ TEST_F(PictureTest, OfAPairShowsBothParts) {
     const auto contained = reds(picture({scene}, options));
     EXPECT_GT(contained[0], 1000U);
     EXPECT_GT(contained[1], 1000U);
+}
+
+/// The distance of a point from a solid box.
+double box_distance(const Box3& box, const Vec3& p) {
+    const auto beyond = [](double at, double low, double high) {
+        return std::max({low - at, 0.0, at - high});
+    };
+    return std::hypot(beyond(p.x, box.lower.x, box.upper.x), beyond(p.y, box.lower.y, box.upper.y),
+                      beyond(p.z, box.lower.z, box.upper.z));
+}
+
+TEST_F(PictureTest, OfDistancesColoursAWallByItsDistanceFromABox) {
+    const Box3 box{{-0.4, -1.5, -0.3}, {0.4, -1, 0.3}};
+    const Camera camera = camera_to({2, -6, 1.5}, {0, 0, 0});
+    const Scene scene =
+        scene_of({box_mesh(box.lower, box.upper), box_mesh({-4, 0, -4}, {4, 1, 4})});
+    PictureOptions options = plain(camera);
+    const Picture before = picture({scene}, options);
+    constexpr double kReach = 1.6;
+    options.distances = PartDistances{"part0", kReach};
+    const Picture coloured = picture({scene}, options);
+    const Colour own = part_colours(std::array{ViewPart{1, "", "part1", "Part", "Thing", {}, {}}},
+                                    ColourBy::material)
+                           .front();
+    std::size_t near = 0, far = 0, wrong = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y)
+        for (std::uint32_t x = 0; x < kWidth; ++x) {
+            const Ray ray = ray_through(camera, x + 0.5, y + 0.5);
+            if (meets(ray, {{box.lower.x - 0.1, box.lower.y - 0.1, box.lower.z - 0.1},
+                            {box.upper.x + 0.1, box.upper.y + 0.1, box.upper.z + 0.1}}))
+                continue; // on the box, or at its border
+            const double t = -ray.origin.y / ray.direction.y;
+            const Vec3 at{ray.origin.x + t * ray.direction.x, 0,
+                          ray.origin.z + t * ray.direction.z};
+            if (std::abs(at.x) > 3.9 || std::abs(at.z) > 3.9)
+                continue;
+            const double distance = box_distance(box, at);
+            const Colour was = pixel(before, x, y), is = pixel(coloured, x, y);
+            if (std::abs(distance - kReach) < 0.03)
+                continue; // the border of the colours
+            if (distance > kReach) {
+                ++far;
+                wrong += is == was ? 0 : 1;
+                continue;
+            }
+            ++near;
+            // The light is the same with both colours.
+            const Colour ramp = distance_colour(distance / kReach);
+            const auto differs = [](int lit, int lit_own, int asked, int own_colour) {
+                return std::abs(lit - double(lit_own) / own_colour * asked) > 6;
+            };
+            wrong += differs(is.red, was.red, ramp.red, own.red) ||
+                             differs(is.green, was.green, ramp.green, own.green) ||
+                             differs(is.blue, was.blue, ramp.blue, own.blue)
+                         ? 1
+                         : 0;
+        }
+    std::cout << near << " pixels within the reach, " << far << " beyond\n";
+    EXPECT_GT(near, 800U);
+    EXPECT_GT(far, 800U);
+    EXPECT_LE(wrong, (near + far) / 500);
+}
+
+TEST_F(PictureTest, OfDistancesNeedsAPartAndAReach) {
+    const Scene scene = scene_of({box_mesh({0, 0, 0}, {1, 1, 1})});
+    PictureOptions options = plain(camera_to({3, -6, 1.5}, {0, 0, 0}));
+    options.distances = PartDistances{"nobody", 1};
+    EXPECT_THROW((void)picture({scene}, options), Error);
+    options.distances = PartDistances{"part0", 0};
+    EXPECT_THROW((void)picture({scene}, options), Error);
 }
 
 TEST_F(PictureTest, IsWrittenAsPng) {

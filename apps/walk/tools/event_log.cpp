@@ -1,7 +1,8 @@
-#include "event_log.h"
+#include "tools/event_log.h"
 
 #include <abut/error.h>
 
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -15,26 +16,65 @@ LogLine log_point(const Vec3& p) {
     return {p.x, p.y, p.z};
 }
 
-LogLine log_part(Session& session, std::uint32_t part) {
-    return session.view.part(part).id;
+LogLine log_part(const Session& session, std::uint32_t part) {
+    return session.facts(part).id;
+}
+
+LogLine log_gizmo(const Session& session, const Carrying& carrying) {
+    const Camera camera = session.camera();
+    const Gizmo gizmo = carrying.gizmo(session);
+    LogLine grips = LogLine::object();
+    for (const Handle handle : kHandles)
+        if (const auto grip = grip_of(camera, gizmo, handle))
+            grips[to_string(handle)] = {std::round(grip->x), std::round(grip->y)};
+    return grips;
+}
+
+LogLine log_way(Session& session, const Carrying& carrying) {
+    if (!carrying.report)
+        return nullptr;
+    const PathReport& report = *carrying.report;
+    LogLine meets = LogLine::array();
+    for (const PathContact& contact : report.contacts)
+        meets.push_back(name_of(session, contact.impact.part));
+    return {{"length", report.length},
+            {"free", report.is_free()},
+            {"meets", std::move(meets)},
+            {"clearance", report.clearance.found ? LogLine(report.clearance.distance) : LogLine()}};
 }
 
 LogLine log_carried(Session& session, const Carrying& carrying) {
     if (!carrying.carry)
         return nullptr;
-    static constexpr const char* kModes[]{"through", "stop", "slide"};
     const CarryStep& step = carrying.carry->state();
     LogLine touched = LogLine::array();
     for (const WalkGap& gap : step.touched)
         touched.push_back({{"part", gap.part.number}, {"depth", -gap.distance}});
     return {{"part", log_part(session, carrying.part)},
-            {"mode", kModes[static_cast<int>(carrying.mode)]}, // NOLINT
+            {"mode", to_string(carrying.mode)},
             {"place", log_point(step.pose.translation)},
+            {"rotation", step.pose.rotation},
             {"blocked", step.blocked},
             {"waits", step.waits},
             {"at_rest", carrying.at_rest},
             {"touched", std::move(touched)},
-            {"near", step.near.size()}};
+            {"near", step.near.size()},
+            {"gizmo", log_gizmo(session, carrying)},
+            {"way", log_way(session, carrying)}};
+}
+
+LogLine log_clashes(const ClashList& clashes) {
+    std::string status, note;
+    for (const ClashReview& review : clashes.reviews)
+        for (const ListedClash& clash : review.clashes)
+            if (clashes.shown == clash.id)
+                status = to_string(clash.status), note = clash.note;
+    return {{"count", clashes.count()},
+            {"running", clashes.job.is_running()},
+            {"shown", clashes.shown ? clash_id_text(*clashes.shown) : ""},
+            {"status", status},
+            {"note", note},
+            {"message", clashes.message}};
 }
 
 LogLine log_state(Session& session, const Tools& tools, bool is_complete) {
@@ -48,15 +88,19 @@ LogLine log_state(Session& session, const Tools& tools, bool is_complete) {
             {"forward", log_point(camera.forward)},
             {"on_ground", person.on_ground},
             {"blocked", person.blocked},
+            {"ducked", person.ducked},
             {"waits", person.waits},
             {"squeezed", person.squeezed},
             {"chosen", session.chosen ? log_part(session, *session.chosen) : LogLine()},
+            {"removed", session.removed()},
             {"nearest", nearest ? LogLine(nearest->distance) : LogLine()},
             {"picks", tools.measure.picks.size()},
             {"measured", tools.measure.result},
             {"carried", log_carried(session, tools.carrying)},
-            {"clash", tools.clashes.shown ? clash_id_text(*tools.clashes.shown) : ""},
+            {"clashes", log_clashes(tools.clashes)},
             {"planes", session.sections.size()},
+            {"box", session.section_box.has_value()},
+            {"distances", session.distances.has_value()},
             {"colour_by", to_string(session.colour_by)},
             {"viewpoints", viewpoints.saved.points.size()},
             {"recording", viewpoints.recording},

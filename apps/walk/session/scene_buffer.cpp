@@ -1,4 +1,4 @@
-#include "scene_buffer.h"
+#include "session/scene_buffer.h"
 
 #include <epoxy/gl.h>
 

@@ -4,10 +4,9 @@
 
 #include <cmath>
 
-/// Arithmetic on the library's plain vectors.
-namespace vectors {
-
-using abut::Vec3;
+/// Arithmetic on Vec3, for programs that use the library. Import what you need, for example with
+/// `using namespace abut::vectors` in a function.
+namespace abut::vectors {
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -28,4 +27,4 @@ inline double length(const Vec3& a) {
     return std::sqrt(dot(a, a));
 }
 
-} // namespace vectors
+} // namespace abut::vectors

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools.h"
+#include "tools/tools.h"
 
 #include <cstdint>
 #include <cstdio>

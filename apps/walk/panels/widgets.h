@@ -1,0 +1,43 @@
+#pragma once
+
+#include <abut/scene.h>
+
+#include <imgui.h>
+#include <string>
+
+namespace abut::viewer {
+
+inline ImVec4 to_imgui(const Colour& colour) {
+    constexpr float kWhole = 255;
+    return {static_cast<float>(colour.red) / kWhole, static_cast<float>(colour.green) / kWhole,
+            static_cast<float>(colour.blue) / kWhole, 1};
+}
+
+inline const ImVec4 kWarning{0.85F, 0.2F, 0.15F, 1};
+
+/// A line for text that grows with it. Returns true when Enter was pressed.
+inline bool edit_text(const char* label, const char* hint, std::string& text) {
+    const auto grow = [](ImGuiInputTextCallbackData* data) {
+        if (data->EventFlag == ImGuiInputTextFlags_CallbackResize) {
+            auto& grown = *static_cast<std::string*>(data->UserData);
+            grown.resize(static_cast<std::size_t>(data->BufTextLen));
+            data->Buf = grown.data();
+        }
+        return 0;
+    };
+    return ImGui::InputTextWithHint(
+        label, hint, text.data(), text.capacity() + 1,
+        ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue, grow, &text);
+}
+
+/// A slider of a length. Returns whether it was changed.
+inline bool slide(const char* label, double& metres, float least, float most,
+                  const char* format = "%.2f m") {
+    auto value = static_cast<float>(metres);
+    if (!ImGui::SliderFloat(label, &value, least, most, format, ImGuiSliderFlags_Logarithmic))
+        return false;
+    metres = value;
+    return true;
+}
+
+} // namespace abut::viewer
