@@ -200,7 +200,7 @@ private:
         show_proximity_panel(session_, tools_);
         show_measure_panel(session_, tools_);
         tools_.attempt([&] { show_colour_panel(session_); });
-        show_section_panel(session_);
+        show_section_panel(session_, tools_);
         show_clash_panel(session_, tools_);
         show_carry_panel(session_, tools_);
         show_viewpoint_panel(session_, tools_);

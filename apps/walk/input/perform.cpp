@@ -222,10 +222,38 @@ void perform_on_view(Action action, Session& session, Tools& tools) {
     }
 }
 
+/// The panel with the settings of what was begun.
+Panel panel_of(Action action) {
+    switch (action) {
+    case Action::go_to_name:
+        return Panel::parts;
+    case Action::measure:
+        return Panel::measure;
+    case Action::take:
+    case Action::carry_mode:
+    case Action::check_way:
+        return Panel::carry;
+    case Action::run_job:
+    case Action::next_clash:
+    case Action::write_note:
+        return Panel::clashes;
+    case Action::section_plane:
+    case Action::section_box:
+        return Panel::sections;
+    case Action::save_viewpoint:
+    case Action::record:
+        return Panel::viewpoints;
+    default:
+        return Panel::none;
+    }
+}
+
 } // namespace
 
 void perform(Action action, Session& session, Tools& tools) {
     session.changed = true;
+    if (const Panel panel = panel_of(action); panel != Panel::none)
+        tools.opens = panel;
     if (!perform_on_hand(action, session, tools) && !perform_on_clashes(action, session, tools) &&
         !perform_on_chosen(action, session, tools) &&
         !perform_on_viewpoints(action, session, tools))

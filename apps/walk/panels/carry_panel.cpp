@@ -96,7 +96,7 @@ void show_report(Session& session, Tools& tools) {
 
 void show_carry_panel(Session& session, Tools& tools) {
     Carrying& carrying = tools.carrying;
-    if (!ImGui::CollapsingHeader("Carry"))
+    if (!begin_panel(tools, Panel::carry, "Carry"))
         return;
     show_modes(session, carrying);
     if (carrying.carry)

@@ -76,9 +76,7 @@ void show_marks(Session& session, Tools& tools) {
 
 void show_clash_panel(Session& session, Tools& tools) {
     ClashList& list = tools.clashes;
-    if (tools.note_wants_keyboard)
-        ImGui::SetNextItemOpen(true);
-    if (ImGui::CollapsingHeader("Clashes")) {
+    if (begin_panel(tools, Panel::clashes, "Clashes")) {
         if (!list.is_read)
             list.read(session);
         show_job(session, list);

@@ -1,4 +1,5 @@
 #include "panels/panels.h"
+#include "panels/widgets.h"
 
 #include <imgui.h>
 
@@ -6,7 +7,7 @@ namespace abut::viewer {
 
 void show_measure_panel(Session& session, Tools& tools) {
     Measure& measure = tools.measure;
-    if (!ImGui::CollapsingHeader("Measure"))
+    if (!begin_panel(tools, Panel::measure, "Measure"))
         return;
     ImGui::Checkbox("Clicks measure", &measure.on);
     const auto choice = [&](const char* text, Measured kind) {

@@ -8,8 +8,8 @@ namespace abut::viewer {
 void show_parts_panel(Session& session, Tools& tools); ///< search, properties of the chosen part
 void show_proximity_panel(Session& session, Tools& tools); ///< nearest part, list of near parts
 void show_measure_panel(Session& session, Tools& tools);
-void show_section_panel(Session& session); ///< planes, box
-void show_colour_panel(Session& session);  ///< colours, their legend, style
+void show_section_panel(Session& session, Tools& tools); ///< planes, box
+void show_colour_panel(Session& session);                ///< colours, their legend, style
 void show_clash_panel(Session& session, Tools& tools);
 void show_carry_panel(Session& session, Tools& tools);
 void show_viewpoint_panel(Session& session, Tools& tools);

@@ -1,4 +1,5 @@
 #include "panels/panels.h"
+#include "panels/widgets.h"
 
 #include <imgui.h>
 
@@ -57,9 +58,7 @@ void show_found(Session& session, const Search& search) {
 
 void show_parts_panel(Session& session, Tools& tools) {
     Search& search = tools.search;
-    if (search.wants_keyboard)
-        ImGui::SetNextItemOpen(true);
-    if (!ImGui::CollapsingHeader("Parts", ImGuiTreeNodeFlags_DefaultOpen))
+    if (!begin_panel(tools, Panel::parts, "Parts", true))
         return;
     if (search.wants_keyboard)
         ImGui::SetKeyboardFocusHere();

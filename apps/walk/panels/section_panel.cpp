@@ -72,8 +72,8 @@ void show_box(Session& session) {
 
 } // namespace
 
-void show_section_panel(Session& session) {
-    if (!ImGui::CollapsingHeader("Sections"))
+void show_section_panel(Session& session, Tools& tools) {
+    if (!begin_panel(tools, Panel::sections, "Sections"))
         return;
     show_new_planes(session);
     show_planes(session);

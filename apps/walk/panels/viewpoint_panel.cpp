@@ -34,7 +34,7 @@ void show_saved(Session& session, Tools& tools) {
 
 void show_viewpoint_panel(Session& session, Tools& tools) {
     Viewpoints& viewpoints = tools.viewpoints;
-    if (!ImGui::CollapsingHeader("Viewpoints and paths"))
+    if (!begin_panel(tools, Panel::viewpoints, "Viewpoints and paths"))
         return;
     show_saved(session, tools);
     if (ImGui::Button(viewpoints.recording ? "Stop recording" : "Record a path"))

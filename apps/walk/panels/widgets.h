@@ -2,6 +2,8 @@
 
 #include <abut/scene.h>
 
+#include "tools/tools.h"
+
 #include <imgui.h>
 #include <string>
 
@@ -14,6 +16,21 @@ inline ImVec4 to_imgui(const Colour& colour) {
 }
 
 inline const ImVec4 kWarning{0.85F, 0.2F, 0.15F, 1};
+
+/// The header of a panel. Returns whether the panel is open. A panel whose tool was begun opens, and
+/// is scrolled to.
+inline bool begin_panel(Tools& tools, Panel panel, const char* title, bool is_open = false) {
+    const bool opens = tools.opens == panel;
+    if (opens)
+        ImGui::SetNextItemOpen(true);
+    const bool shown = ImGui::CollapsingHeader(title, is_open ? ImGuiTreeNodeFlags_DefaultOpen
+                                                              : ImGuiTreeNodeFlags_None);
+    if (opens) {
+        ImGui::SetScrollHereY(0);
+        tools.opens = Panel::none;
+    }
+    return shown;
+}
 
 /// A line for text that grows with it. Returns true when Enter was pressed.
 inline bool edit_text(const char* label, const char* hint, std::string& text) {

@@ -26,6 +26,9 @@ struct Search {
     void proceed(Session& session); ///< compares some more parts
 };
 
+/// The panels that can be opened.
+enum class Panel : std::uint8_t { none, parts, measure, sections, clashes, carry, viewpoints };
+
 /// The state of all panels.
 struct Tools {
     Proximity proximity;
@@ -35,6 +38,7 @@ struct Tools {
     Search search;
     ClashList clashes;
     bool with_help = false, with_panels = true;
+    Panel opens = Panel::none;        ///< this panel opens in the next frame
     bool note_wants_keyboard = false; ///< of the clash panel
     bool must_end = false;
     int pictures = 0; ///< written
