@@ -27,7 +27,7 @@ enum Button : std::size_t {
     pad_left,
 };
 
-constexpr double kDeadZone = 0.15;   ///< of a stick
+constexpr double kDeadZone = 0.15F;  ///< of a stick
 constexpr double kHalfPressed = 0.5; ///< of a trigger
 
 struct ButtonAction {
