@@ -30,12 +30,14 @@ constexpr double kLongFrame = 0.25; ///< seconds; a longer frame moves the perso
 constexpr double kSmoothing = 0.9;  ///< of the shown milliseconds of a frame
 constexpr float kPanelLeft = 10, kPanelWidth = 320, kPanelBelow = 50; ///< pixels
 
-[[noreturn]] void fail_to_open() {
+/// Throws with the reason that GLFW gives.
+///
+/// In          needs: what is missing, as far as this program knows.
+[[noreturn]] void fail_to_open(const char* needs) {
     const char* reason = nullptr;
     glfwGetError(&reason);
-    throw Error(ErrorCode::unsupported, std::string("no window can be opened: ") +
-                                            (reason != nullptr ? reason : "there is no display") +
-                                            " (--path and --frames need none)");
+    throw Error(ErrorCode::unsupported, std::string("no window can be opened: ") + needs +
+                                            (reason != nullptr ? std::string(": ") + reason : ""));
 }
 
 /// The window and its context, with Dear ImGui.
@@ -43,7 +45,7 @@ class Screen {
 public:
     Screen(std::uint32_t width, std::uint32_t height) {
         if (glfwInit() != GLFW_TRUE)
-            fail_to_open();
+            fail_to_open("it needs a display (--path and --frames need none)");
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -51,7 +53,7 @@ public:
                                   nullptr, nullptr);
         if (window == nullptr) {
             try {
-                fail_to_open();
+                fail_to_open("it needs OpenGL 3.3");
             } catch (...) {
                 glfwTerminate();
                 throw;

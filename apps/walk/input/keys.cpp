@@ -80,7 +80,7 @@ constexpr KeyHelp kKeyHelp[]{
     {"H, G, U", "hide it; ghosts: all others; show all"},
     {"Delete", "remove it from this walk"},
     {"M", "clicks measure: parts, point and part, points, off"},
-    {"O", "colours by distance"},
+    {"O", "colours by distance from it, or from you"},
     {"C", "take the chosen part, put it down"},
     {"X", "carry: stop, slide, through"},
     {"arrows, Page", "turn what is carried; Home: straight"},

@@ -200,6 +200,8 @@ void perform_on_view(Action action, Session& session, Tools& tools) {
         break;
     case Action::distances:
         tools.proximity.colours = !tools.proximity.colours;
+        if (tools.proximity.colours) // from the chosen part, or else from the person
+            tools.proximity.of_chosen = session.chosen.has_value();
         break;
     case Action::section_plane:
         session.add_plane();

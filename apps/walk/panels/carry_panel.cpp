@@ -20,7 +20,7 @@ void show_modes(Session& session, Carrying& carrying) {
     }
     slide("clearance##carry", carrying.clearance, kLeastTurn / 100, kLargestCarryClearance);
     auto step = static_cast<float>(carrying.turn_step);
-    if (ImGui::SliderFloat("turn of a key", &step, kLeastTurn, kMostTurn, "%.1f degrees"))
+    if (ImGui::SliderFloat("turn", &step, kLeastTurn, kMostTurn, "%.1f degrees"))
         carrying.turn_step = static_cast<double>(step);
 }
 

@@ -1,5 +1,5 @@
 /// What the sticks and buttons of a gamepad ask for, without a gamepad.
-#include "input/gamepad.h"
+#include "apps/walk/input/gamepad.h"
 
 #include <gtest/gtest.h>
 
