@@ -20,7 +20,7 @@ void show_new_planes(Session& session) {
         if (ImGui::Button(kAcross.at(static_cast<std::size_t>(i))))
             session.add_plane_across(i);
     }
-    slide("from the eye", session.plane_distance, kNearestPlane, kFarthestPlane);
+    slide("distance", session.plane_distance, kNearestPlane, kFarthestPlane);
 }
 
 void show_planes(Session& session) {

@@ -279,7 +279,14 @@ bool Session::show_clash(const ListedClash& clash) {
     paint(*a, kFirstOfClash);
     paint(*b, kSecondOfClash);
     const Box3 box_a = box_of(*a), box_b = box_of(*b);
-    const Box3& small = diagonal(box_a) < diagonal(box_b) ? box_a : box_b;
+    const bool a_is_small = diagonal(box_a) < diagonal(box_b);
+    const Box3& small = a_is_small ? box_a : box_b;
+    if (clash.kind == ClashKind::contained) { // the container would hide what it contains
+        const std::uint32_t container = a_is_small ? *b : *a;
+        PartState around = state(container);
+        around.ghosted = true;
+        set_state(container, around);
+    }
     set_move(Move::orbit);
     look_at(small);
     return true;
