@@ -7,8 +7,8 @@
 #include "panels/panels.h"
 #include "session/scene_buffer.h"
 #include "session/session.h"
-#include "tools/background_task.h"
-#include "tools/event_log.h"
+#include "toolbox/background_task.h"
+#include "toolbox/event_log.h"
 
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE // libepoxy has declared OpenGL

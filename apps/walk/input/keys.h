@@ -1,7 +1,7 @@
 #pragma once
 
 #include "input/gamepad.h"
-#include "tools/tools.h"
+#include "toolbox/tools.h"
 
 #include <span>
 

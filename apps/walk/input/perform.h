@@ -1,7 +1,7 @@
 #pragma once
 
 #include "input/action.h"
-#include "tools/tools.h"
+#include "toolbox/tools.h"
 
 namespace abut::viewer {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/tools.h"
+#include "toolbox/tools.h"
 
 /// The panels of the window, one file each. Each draws itself with Dear ImGui in every frame.
 namespace abut::viewer {

@@ -2,7 +2,7 @@
 
 #include <abut/scene.h>
 
-#include "tools/tools.h"
+#include "toolbox/tools.h"
 
 #include <imgui.h>
 #include <string>

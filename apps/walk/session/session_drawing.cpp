@@ -5,10 +5,10 @@ namespace abut::viewer {
 
 namespace {
 
-constexpr double kBoxMargin = 1;      ///< metres between a chosen part and a new section box
-constexpr double kDetail = 0.5;       ///< RenderStyle::detail, metres
-constexpr double kBelowFloors = 1e-4; ///< of the diagonal: floors on the ground are before it
-constexpr double kGroundReach = 2.5;  ///< of the diagonal
+constexpr double kBoxMargin = 1;       ///< metres between a chosen part and a new section box
+constexpr double kDetail = 0.5;        ///< RenderStyle::detail, metres
+constexpr double kBelowFloors = 1e-4;  ///< of the diagonal: floors on the ground are before it
+constexpr double kGroundReach = 2.5;   ///< of the diagonal
 constexpr unsigned kRestingBudget = 6; ///< times the budgets of a moving picture
 /// Pixels between exact distances; a picture that moves has to be quick.
 constexpr std::uint32_t kStillGrid = 2, kMovingGrid = 8;

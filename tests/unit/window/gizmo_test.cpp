@@ -2,7 +2,7 @@
 /// means.
 #include <abut/renderer.h>
 
-#include "apps/walk/tools/gizmo.h"
+#include "apps/walk/toolbox/gizmo.h"
 
 #include <gtest/gtest.h>
 #include <numbers>

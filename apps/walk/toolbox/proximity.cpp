@@ -1,4 +1,4 @@
-#include "tools/proximity.h"
+#include "toolbox/proximity.h"
 
 #include <chrono>
 

@@ -1,4 +1,4 @@
-#include "tools/gizmo.h"
+#include "toolbox/gizmo.h"
 
 #include <abut/renderer.h>
 

@@ -1,4 +1,4 @@
-#include "tools/tools.h"
+#include "toolbox/tools.h"
 
 namespace abut::viewer {
 

@@ -3,8 +3,8 @@
 #include <abut/carry.h>
 
 #include "session/session.h"
-#include "tools/background_task.h"
-#include "tools/gizmo.h"
+#include "toolbox/background_task.h"
+#include "toolbox/gizmo.h"
 
 #include <optional>
 #include <string>

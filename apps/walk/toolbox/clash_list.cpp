@@ -1,4 +1,4 @@
-#include "tools/clash_list.h"
+#include "toolbox/clash_list.h"
 
 #include <abut/error.h>
 #include <abut/store_clash.h>

@@ -3,7 +3,7 @@
 #include <abut/clash_review.h>
 
 #include "session/session.h"
-#include "tools/background_task.h"
+#include "toolbox/background_task.h"
 
 #include <optional>
 #include <string>

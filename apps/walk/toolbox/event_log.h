@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/tools.h"
+#include "toolbox/tools.h"
 
 #include <cstdint>
 #include <cstdio>

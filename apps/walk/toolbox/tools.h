@@ -1,10 +1,10 @@
 #pragma once
 
-#include "tools/carrying.h"
-#include "tools/clash_list.h"
-#include "tools/measure.h"
-#include "tools/proximity.h"
-#include "tools/viewpoints.h"
+#include "toolbox/carrying.h"
+#include "toolbox/clash_list.h"
+#include "toolbox/measure.h"
+#include "toolbox/proximity.h"
+#include "toolbox/viewpoints.h"
 
 #include <array>
 #include <exception>

@@ -1,4 +1,4 @@
-#include "tools/background_task.h"
+#include "toolbox/background_task.h"
 
 #include <abut/error.h>
 

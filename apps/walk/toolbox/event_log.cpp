@@ -1,4 +1,4 @@
-#include "tools/event_log.h"
+#include "toolbox/event_log.h"
 
 #include <abut/error.h>
 

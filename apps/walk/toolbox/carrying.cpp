@@ -1,4 +1,4 @@
-#include "tools/carrying.h"
+#include "toolbox/carrying.h"
 
 #include <abut/error.h>
 #include <abut/scene.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr Colour kTouching{226, 48, 40}, kClose{255, 170, 0}, kFree{90, 170, 100};
 constexpr double kNearestHand = 0.05;            ///< metres before the eye
 constexpr std::uint64_t kMostPathQueries = 4000; ///< of a report: a second or two
-constexpr std::uint64_t kDepthSteps = 2000; ///< while a part moves: a few milliseconds
+constexpr std::uint64_t kDepthSteps = 2000;      ///< while a part moves: a few milliseconds
 constexpr double kBeyond = 1e-3;                 ///< metres that the way out goes beyond the depth
 
 } // namespace

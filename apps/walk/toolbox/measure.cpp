@@ -1,4 +1,4 @@
-#include "tools/measure.h"
+#include "toolbox/measure.h"
 
 #include <abut/rigid.h>
 #include <abut/shape_queries.h>

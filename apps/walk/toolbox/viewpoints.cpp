@@ -1,4 +1,4 @@
-#include "tools/viewpoints.h"
+#include "toolbox/viewpoints.h"
 
 #include <filesystem>
 #include <fmt/format.h>
