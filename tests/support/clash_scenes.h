@@ -31,6 +31,7 @@ inline Mesh some_body(Random& random) {
 /// Parts in a flat box. It is so crowded that about every third pair of nearby boxes is a clash.
 inline Scene some_scene(Random& random, int parts, double reach) {
     Scene scene;
+    PropertiesBuilder properties;
     for (int i = 0; i < parts; ++i) {
         if (scene.meshes.empty() || random.chance(0.7))
             scene.meshes.push_back(some_body(random));
@@ -43,7 +44,10 @@ inline Scene some_scene(Random& random, int parts, double reach) {
                                static_cast<std::uint32_t>(
                                    random.integer(0, static_cast<int>(scene.meshes.size()) - 1)),
                                world});
+        properties.add("extras.level", std::to_string(i % 4));
+        properties.next_part();
     }
+    scene.properties = properties.finish(scene.parts.size());
     return scene;
 }
 
@@ -56,6 +60,13 @@ inline std::vector<ClashRule> some_rules(Random& random) {
     first.clearance = 0.2;
     first.ignore.same_name_prefix = 5;
     rest.name = "rest";
+    rest.severity = "low";
+    if (random.chance(0.5))
+        rest.tolerated_depth = random.uniform(0, 0.1);
+    if (random.chance(0.5))
+        rest.kinds = {ClashKind::hard, ClashKind::clearance};
+    if (random.chance(0.5))
+        rest.a.query = PartQuery::parse("name != name3 and extras.level < 2");
     return {first, rest};
 }
 
@@ -63,6 +74,8 @@ inline void expect_equal(const ClashReport& report, const std::vector<Scene>& mo
                          const ClashReport& truth, const std::vector<Scene>& truth_models) {
     ASSERT_EQ(report.candidates, truth.candidates);
     ASSERT_EQ(report.counts, truth.counts);
+    ASSERT_EQ(report.left_out, truth.left_out);
+    ASSERT_EQ(report.neighbours, truth.neighbours);
     ASSERT_EQ(report.clashes.size(), truth.clashes.size());
     ASSERT_EQ(report.models.size(), truth.models.size());
     for (std::size_t i = 0; i < truth.models.size(); ++i) {
@@ -81,6 +94,10 @@ inline void expect_equal(const ClashReport& report, const std::vector<Scene>& mo
         ASSERT_EQ(a.direction, b.direction);
         ASSERT_EQ(a.triangle_pairs, b.triangle_pairs);
         ASSERT_EQ(a.rule, b.rule);
+        ASSERT_EQ(a.severity, b.severity);
+        ASSERT_EQ(a.neighbours, b.neighbours);
+        ASSERT_EQ(a.volume, b.volume);
+        ASSERT_EQ(a.volume_error, b.volume_error);
         for (std::size_t side = 0; side < 2; ++side) {
             const Part &p = models.at(a.model.at(side)).parts.at(a.part.at(side)),
                        &q = truth_models.at(b.model.at(side)).parts.at(b.part.at(side));

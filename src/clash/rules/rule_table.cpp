@@ -194,6 +194,13 @@ PairDecision RuleTable::decide(std::size_t i, std::size_t k) const {
     return leave_out(LeftOut::not_selected, nullptr);
 }
 
+std::vector<std::string> RuleTable::names() const {
+    std::vector<std::string> result{"assembly"};
+    for (const Asked& asked : asked_)
+        result.push_back(asked.name);
+    return result;
+}
+
 std::vector<std::string> RuleTable::warnings() const {
     std::vector<std::string> result;
     for (const Asked& asked : asked_)

@@ -51,6 +51,11 @@ public:
         neighbours_.add(relations, first);
     }
 
+    /// Returns the names of the properties that add() looks at.
+    [[nodiscard]] std::vector<std::string> names() const;
+    /// Call it before other properties take the place of those that add() has seen.
+    void forget_properties() { noted_ = nullptr; }
+
     /// Decides about a pair. Both parts must match `only`, one of them `a` and the other one `b`.
     /// The terms are those of the first rule that selects the parts in either order, else of the
     /// matrix, else, without rules and matrix, of the options. A rule may leave the pair out.

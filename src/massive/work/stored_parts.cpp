@@ -5,6 +5,7 @@
 #include "clash/clash_identity.h"
 #include "math/vector.h"
 #include "rigid/model/model_data.h"
+#include "store/database/property_table.h"
 #include "store/database/row_hash.h"
 #include "store/import/cut_mesh.h"
 #include "volume/aabb.h"
@@ -15,6 +16,60 @@
 #include <numeric>
 
 namespace abut {
+
+namespace {
+
+/// Adds the parts of a store to a rule table, some at a time, with the properties that it asks for.
+class RuleFeeder {
+public:
+    RuleFeeder(StoreFile& store, RuleTable& rules) : store_(store), rules_(rules) {}
+
+    /// In          model: with its index; the same until the next flush().
+    void add(const ModelRow& model, std::uint32_t index, const PartRow& part) {
+        rows_.push_back(part.part);
+        parts_.push_back({part.id, part.name, part.type, 0, {}});
+        model_ = &model, index_ = index;
+        if (rows_.size() == kParts)
+            flush();
+    }
+    void flush() {
+        const Properties properties = store_.properties(rows_, rules_.names());
+        for (std::uint32_t i = 0; i < parts_.size(); ++i)
+            rules_.add({index_, model_->file, parts_[i].id, parts_[i].name, parts_[i].type,
+                        &properties, i});
+        rules_.forget_properties();
+        rows_.clear();
+        parts_.clear();
+    }
+
+    /// Hands on the relations of all parts.
+    void add_relations(const StoredParts& stored) {
+        std::vector<PartRelation> relations;
+        std::optional<PartsByRow> by_row;
+        store_.with_connection([&](Database& database) {
+            for_each_relation(database, [&](std::int64_t a, std::int64_t b, RelationKind kind) {
+                if (!by_row)
+                    by_row.emplace(stored);
+                const auto first = by_row->find(a), second = by_row->find(b);
+                if (first && second)
+                    relations.push_back({*first, *second, kind});
+            });
+        });
+        rules_.add(relations, 0);
+    }
+
+private:
+    static constexpr std::size_t kParts = 4096;
+
+    StoreFile& store_;
+    RuleTable& rules_;
+    std::vector<std::int64_t> rows_;
+    std::vector<Part> parts_;
+    const ModelRow* model_ = nullptr;
+    std::uint32_t index_ = 0;
+};
+
+} // namespace
 
 StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
     StoredParts result;
@@ -51,6 +106,8 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
     }
     result.parts.reserve(std::min(parts, most_parts));
     result.boxes.reserve(result.parts.capacity());
+    std::optional<RuleFeeder> feeder =
+        rules == nullptr ? std::nullopt : std::make_optional<RuleFeeder>(store, *rules);
     for (std::uint32_t m = 0; m < result.models.size(); ++m) {
         store.for_each_part(result.models[m], [&](const PartRow& part) {
             // The meshes are sorted by number.
@@ -64,10 +121,14 @@ StoredParts gather_parts(StoreFile& store, RuleTable* rules) {
                 {part.part, static_cast<std::uint32_t>(mesh - result.meshes.begin()), m,
                  static_cast<std::uint32_t>(
                      std::min<std::uint64_t>(part.generation, kLastGeneration))});
-            if (rules != nullptr)
-                rules->add({m, result.models[m].file, part.id, part.name, part.type});
+            if (feeder)
+                feeder->add(result.models[m], m, part);
         });
+        if (feeder)
+            feeder->flush();
     }
+    if (feeder)
+        feeder->add_relations(result);
     return result;
 }
 

@@ -88,7 +88,8 @@ private:
 
 /// Reads the tables of parts and meshes from a store.
 ///
-/// In          rules: the parts are added to it in the same order; may be null.
+/// In          rules: the parts, what rules ask about them, and their relations are added to it in
+///             the same order; may be null.
 /// Errors      those of the store; Error{bad_argument}, naming it, if an import has not ended.
 StoredParts gather_parts(StoreFile& store, RuleTable* rules = nullptr);
 

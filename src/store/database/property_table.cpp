@@ -267,6 +267,42 @@ Properties read_properties(Database& database, std::span<const std::int64_t> par
     return builder.finish(parts.size());
 }
 
+Properties read_properties(Database& database, std::span<const std::int64_t> parts,
+                           std::span<const std::string> names) {
+    std::unordered_map<std::int64_t, const std::string*> wanted;
+    Statement find(database, "SELECT name FROM property_name WHERE text = ?");
+    for (const std::string& name : names) {
+        find.bind(name);
+        while (find.step())
+            wanted.emplace(find.integer(0), &name);
+        find.reset();
+    }
+    if (wanted.empty())
+        return {};
+    PropertiesBuilder builder;
+    TextReader values(database, "property_value");
+    Statement rows(database,
+                   "SELECT name, value FROM part_property WHERE part = ? ORDER BY number");
+    for (const std::int64_t part : parts) {
+        rows.bind(part);
+        while (rows.step())
+            if (const auto at = wanted.find(rows.integer(0)); at != wanted.end())
+                builder.add(*at->second, values.text(rows.integer(1)));
+        rows.reset();
+        builder.next_part();
+    }
+    return builder.finish(parts.size());
+}
+
+void for_each_relation(Database& database,
+                       const std::function<void(std::int64_t, std::int64_t, RelationKind)>& take) {
+    Statement rows(database, "SELECT a, b, kind, checksum FROM part_relation");
+    while (rows.step()) {
+        const StoredRelation relation = read_relation(rows, database);
+        take(relation.a, relation.b, relation.kind);
+    }
+}
+
 std::vector<PartRelation> read_relations(Database& database, std::span<const std::int64_t> parts) {
     std::unordered_map<std::int64_t, std::uint32_t> place;
     for (std::uint32_t i = 0; i < parts.size(); ++i)

@@ -6,6 +6,7 @@
 #include "store/database/sqlite.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -73,11 +74,24 @@ void remove_unused_texts(Database& database);
 ///             there is no such part.
 Properties read_properties(Database& database, std::span<const std::int64_t> parts);
 
+/// Reads the properties of these names only. Their checksums are not compared, because those of a
+/// part are about all of its properties; check_properties does it.
+///
+/// Cost        nothing for each part if no part of the store has such a property.
+/// Errors      as above, for damaged texts.
+Properties read_properties(Database& database, std::span<const std::int64_t> parts,
+                           std::span<const std::string> names);
+
 /// Reads the relations between parts of a list, as indices in it.
 ///
 /// In          parts: rows, each once
 /// Errors      Error{malformed}, naming the store.
 std::vector<PartRelation> read_relations(Database& database, std::span<const std::int64_t> parts);
+
+/// Calls take(a, b, kind) for each relation, in the order of the rows.
+/// Errors      Error{malformed}, naming the store.
+void for_each_relation(Database& database,
+                       const std::function<void(std::int64_t, std::int64_t, RelationKind)>& take);
 
 /// Reads all properties and relations, and compares them with the checksums of the parts.
 ///

@@ -145,6 +145,12 @@ Properties StoreFile::properties(std::span<const std::int64_t> parts) {
     return with_connection([&](Database& database) { return read_properties(database, parts); });
 }
 
+Properties StoreFile::properties(std::span<const std::int64_t> parts,
+                                 std::span<const std::string> names) {
+    return with_connection(
+        [&](Database& database) { return read_properties(database, parts, names); });
+}
+
 std::vector<PartRelation> StoreFile::relations(std::span<const std::int64_t> parts) {
     return with_connection([&](Database& database) { return read_relations(database, parts); });
 }

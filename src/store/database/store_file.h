@@ -60,6 +60,8 @@ public:
     /// In          parts: rows, each once
     Properties properties(std::span<const std::int64_t> parts);
     std::vector<PartRelation> relations(std::span<const std::int64_t> parts);
+    /// The properties of these names only.
+    Properties properties(std::span<const std::int64_t> parts, std::span<const std::string> names);
 
     void for_each_mesh(const std::function<void(const MeshRow&)>& take);
     MeshRow mesh(std::int64_t mesh);
