@@ -217,3 +217,18 @@ def test_an_import_that_is_stopped(scenes, tmp_path):
         with pytest.raises(LookupError):
             abut.find_clashes(store, clearance=0.1, progress=stop)
         assert len(abut.find_clashes(store, clearance=0.1)) > 0
+
+
+def test_conditions_matrix_and_volume(scenes):
+    query = abut.PartQuery("type = IfcWall* and not (storey = L2)")
+    assert query.text == "type = IfcWall* and not storey = L2" and query.names() == ["storey", "type"]
+    with pytest.raises(abut.Error, match="at character 6"):
+        abut.PartQuery("type IfcWall")
+    report = abut.find_clashes(scenes, sort="volume")
+    worst = report.clashes[0]
+    assert worst.volume_error >= 0 and report.left_out["not_selected"] == 0
+    assert abut.ranked_clashes(report) == list(range(len(report)))
+    assert abut.ClashQuery("any").matches(report, 0) and not abut.ClashQuery("severity = high").matches(report, 0)
+    none = abut.find_clashes(scenes, only="id = nothing")
+    assert len(none) == 0 and none.left_out["not_selected"] > 0
+    assert abut.find_clashes(scenes, matrix="architecture").matrix.groups == ["architecture", "structure", "services"]

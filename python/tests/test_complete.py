@@ -29,7 +29,7 @@ OTHER_MEMBERS = {
     "Error": {"code": None}, "Pose": {}, "Motion": {},
     "Convex": {"face_count": "len(faces)", "face": "faces"}, "Deformable": {"triangles": "faces"},
     "World": {"size": "__len__"}, "ConvexPieces": {}, "Crew": {"send": "within the job", "receive": "within the job"},
-    "Clash": {"rule": None}, "ClashReport": {"frame": "up"}, "ListedClash": {"part": "part_ids", "name": "names", "type": "types", "file": "files"},
+    "PartQuery": {"condition": "inner"}, "Clash": {"rule": None}, "ClashReport": {"frame": "up"}, "ListedClash": {"part": "part_ids", "name": "names", "type": "types", "file": "files"},
     "OrientedBox": {"world_from_box": "pose"}, "Intersection": {"corners": "arrays of Contacts.segments"},
     "ConvexWarmStart": {"kind": "inner", "pairs": "inner", "deepest": "inner"},
     "Properties": {"first": "of", "entries": "of", "find": "names"}, "PiecesWarmStart": None, "WarmStart": None, "Impacts": {}, "Impact": {},
