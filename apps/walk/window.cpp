@@ -190,6 +190,7 @@ private:
         show_help_panel(tools_);
         show_distance_legend(session_);
         show_status_line(session_, tools_);
+        tools_.is_typing = ImGui::GetIO().WantTextInput;
         Screen::draw_panels(session_.lens.width, session_.lens.height);
     }
 

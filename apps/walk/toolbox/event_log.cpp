@@ -106,6 +106,7 @@ LogLine log_state(Session& session, const Tools& tools, bool is_complete) {
             {"recording", viewpoints.recording},
             {"replaying", viewpoints.replaying},
             {"path_points", viewpoints.path.points.size()},
+            {"typing", tools.is_typing},
             {"message", tools.message},
             {"complete", is_complete}};
 }

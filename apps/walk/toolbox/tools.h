@@ -40,6 +40,7 @@ struct Tools {
     bool with_help = false, with_panels = true;
     Panel opens = Panel::none;        ///< this panel opens in the next frame
     bool note_wants_keyboard = false; ///< of the clash panel
+    bool is_typing = false;           ///< a text field has the keyboard
     bool must_end = false;
     int pictures = 0; ///< written
     double frame_milliseconds = 0;
