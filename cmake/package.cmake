@@ -57,12 +57,12 @@ abut_package(python python3-abut python "${needs_render}, python3 (>= @python@),
              "Proximity queries on triangle models: Python module
 The functions of libabut on numpy's arrays.")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libtbb-dev, libfmt-dev, libhwy-dev, libqhull-dev, libmeshoptimizer-dev, libsqlite3-dev, libzstd-dev, libmetis-dev, libzip-dev, libpugixml-dev, libepoxy-dev, libpng-dev")
-set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "nodejs (>= 18), libgl1-mesa-dri, libegl1")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "nodejs (>= 18), libgl1-mesa-dri, libegl1, libopengl0")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "abut-walk, abut-mpi")
 set(CPACK_DEBIAN_WALK_PACKAGE_RECOMMENDS "abut ${same}, libgl1-mesa-dri, libgl1")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "abut ${same}, libgl1-mesa-dri, libegl1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "abut ${same}, libgl1-mesa-dri, libegl1, libopengl0")
 set(CPACK_DEBIAN_LIB_PACKAGE_SUGGESTS "abut ${same}")
-set(CPACK_DEBIAN_RENDER_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libegl1")
+set(CPACK_DEBIAN_RENDER_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libegl1, libopengl0")
 
 if(ABUT_SHARED)
     list(APPEND CPACK_COMPONENTS_ALL lib render)

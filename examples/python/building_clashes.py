@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Prints the clashes of a building as a table.
+"""Prints the clashes of a building as a table, and draws the worst one.
 
-    building_clashes.py [FILE…] [--clearance METRES] [--html REPORT]
+    building_clashes.py [FILE…] [--clearance METRES] [--html REPORT] [--png PICTURE]
 
 Without files it makes a small building of its own: slabs, columns, and pipes of which two are in the way.
 """
@@ -50,6 +50,7 @@ def main():
     arguments.add_argument("files", nargs="*")
     arguments.add_argument("--clearance", type=float, default=0.05, help="metres")
     arguments.add_argument("--html", help="also write the report as a page")
+    arguments.add_argument("--png", help="also draw the deepest clash")
     options = arguments.parse_args()
     models = options.files or [structure(), services()]
     report = abut.find_clashes(models, clearance=options.clearance)
@@ -61,6 +62,9 @@ def main():
     print(", ".join(f"{number} {kind}" for kind, number in report.counts.items()))
     if options.html:
         abut.write_clash_html(report, options.html)
+    if options.png and report.clashes:
+        worst = min(report.clashes, key=lambda clash: clash.distance)
+        abut.write_png(abut.picture(models, worst, width=800, height=500), options.png)
 
 
 if __name__ == "__main__":

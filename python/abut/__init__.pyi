@@ -152,6 +152,38 @@ class BroadPhaseMethod(IntEnum):
     sweep = 2
     sweep_and_prune = 3
 
+class Camera:
+    """width=1280, height=720, near=0.05, far=10000)
+
+    A perspective camera. Lengths in metres, world frame; field_of_view is the vertical angle in
+    radians, width and height are pixels of the picture.
+    """
+    def __init__(self, eye: ArrayLike = ..., forward: ArrayLike = ..., up: ArrayLike = ..., *, field_of_view: float = ..., width: int = ..., height: int = ..., near: float = ..., far: float = ...) -> None: ...
+    @property
+    def eye(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def forward(self) -> NDArray[Any]:
+        """array of shape (3,): viewing direction"""
+    @property
+    def up(self) -> NDArray[Any]:
+        """array of shape (3,), not parallel to forward"""
+    @property
+    def field_of_view(self) -> float:
+        """radians, in (0, pi)"""
+    @property
+    def width(self) -> int:
+        """pixels"""
+    @property
+    def height(self) -> int:
+        """pixels"""
+    @property
+    def near(self) -> nearest:
+        """nearest distance that is seen"""
+    @property
+    def far(self) -> float:
+        """farthest distance that is seen"""
+
 class Capsule:
     """All points at most `radius` from a Segment."""
     def __init__(self, axis: Segment, radius: float) -> None: ...
@@ -227,14 +259,37 @@ class CarryStep:
     def complete(self) -> bool:
         """False: parts that are not in memory are missing in the lists"""
     @property
-    def contacts(self) -> np.recarray[Any, Any]:
+    def contacts(self) -> record:
         """record array of PartImpact: what blocked it, in order"""
     @property
-    def touched(self) -> np.recarray[Any, Any]:
+    def touched(self) -> record:
         """record array of WalkGap: the parts that it overlaps or touches"""
     @property
-    def near(self) -> np.recarray[Any, Any]:
+    def near(self) -> record:
         """record array of WalkGap: the others within the clearance"""
+
+class ChunkDraw:
+    """A draw call."""
+    dtype: np.dtype[Any]
+    @property
+    def chunk(self) -> int:
+        """number of the chunk"""
+    @property
+    def first_instance(self) -> int:
+        """in ViewFrame.instances"""
+    @property
+    def instances(self) -> int:
+        """how many; 0: the chunk is drawn once"""
+
+class ChunkInstance:
+    """A part that shows a shared mesh."""
+    dtype: np.dtype[Any]
+    @property
+    def rows(self) -> NDArray[np.float32]:
+        """float32 array of shape (12,): three rows, from the mesh to world minus View.origin"""
+    @property
+    def part(self) -> int:
+        """index in View.parts"""
 
 class Clash:
     """Two parts that clash. Lengths in metres, world frame of the report."""
@@ -440,6 +495,14 @@ class Colour:
     @property
     def alpha(self) -> int:
         """0: transparent"""
+
+class ColourBy(IntEnum):
+    """What parts take their colours from."""
+    material = 0
+    type = 1
+    file = 2
+    part = 3
+    clash = 4
 
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
@@ -914,6 +977,15 @@ class FirstContact:
         """of these, those that were not in memory"""
     def __bool__(self) -> bool: ...
 
+class FoundParts:
+    """Returned by View.find_parts."""
+    @property
+    def parts(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n,): indices in View.parts"""
+    @property
+    def next(self) -> int:
+        """where to go on; the number of parts if all were compared"""
+
 class Gap:
     """Returned by distance."""
     dtype: np.dtype[Any]
@@ -1099,7 +1171,7 @@ class Impact:
 class Impacts:
     """Returned by impacts and self_impacts."""
     @property
-    def list(self) -> np.recarray[Any, Any]:
+    def list(self) -> record:
         """record array of FeatureImpact, sorted by kind, face_first, a, b"""
     @property
     def counters(self) -> DeformableCounters:
@@ -1369,10 +1441,20 @@ class NamedPart:
     @property
     def id(self) -> str: ...
 
+class NamedView(IntEnum):
+    """Directions from which a whole model is seen."""
+    iso = 0
+    front = 1
+    back = 2
+    left = 3
+    right = 4
+    top = 5
+    bottom = 6
+
 class NearParts:
     """Returned by Walk.within and Walk.penetration."""
     @property
-    def parts(self) -> np.recarray[Any, Any]:
+    def parts(self) -> record:
         """record array of WalkGap, sorted by part"""
     @property
     def complete(self) -> bool:
@@ -1487,6 +1569,19 @@ class OutOfCoreCounters:
     def workers(self) -> list[WorkerCounters]:
         """list of WorkerCounters, in the order of ranks"""
 
+class PairAim:
+    """A pair of parts in red and blue, seen from where most of both shows."""
+    def __init__(self, file: Sequence[str], part: Sequence[str], points: Sequence[ArrayLike] | None = ...) -> None: ...
+    @property
+    def file(self) -> list[str]:
+        """names of two files"""
+    @property
+    def part(self) -> list[str]:
+        """ids of two parts"""
+    @property
+    def points(self) -> list[NDArray[Any]] | None:
+        """points of both surfaces, or None: they are computed"""
+
 class Part:
     """A placed mesh of a Scene."""
     def __init__(self, id: str, mesh: int = ..., pose: _Poses = ..., *, name: str | None = ..., type: str = ..., colour: Colour | None = ...) -> None: ...
@@ -1507,6 +1602,13 @@ class Part:
     @property
     def colour(self) -> Colour | None:
         """Colour of most of its triangles; else None"""
+
+class PartAim:
+    """One part, by its id or name, filling a picture; all others are ghosts."""
+    def __init__(self, part: str) -> None: ...
+    @property
+    def part(self) -> str:
+        """id or name"""
 
 class PartImpact:
     """When a moving probe first meets a part."""
@@ -1555,7 +1657,7 @@ class PartSelector:
 class PartsInWay:
     """Returned by Walk.parts_in_way."""
     @property
-    def parts(self) -> np.recarray[Any, Any]:
+    def parts(self) -> record:
         """record array of PartImpact, sorted by time, then by part"""
     @property
     def time_free(self) -> float:
@@ -1890,6 +1992,16 @@ class Scheme(IntEnum):
     basic = 3
     features = 4
 
+class SectionPlane:
+    """Cuts away the points with dot(normal, point) > offset."""
+    def __init__(self, normal: ArrayLike, offset: float) -> None: ...
+    @property
+    def normal(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def offset(self) -> float:
+        """length"""
+
 class Segment:
     """A closed segment between two points."""
     def __init__(self, a: ArrayLike, b: ArrayLike) -> None: ...
@@ -2045,11 +2157,193 @@ class TouchedParts:
     def misses(self) -> int:
         """of these, those that were not in memory"""
 
+class Tour:
+    """Viewpoints in the order of their times, or a path of the camera."""
+    def __init__(self, points: list[TourPoint] = ...) -> None: ...
+    @property
+    def points(self) -> list[TourPoint]:
+        """list of TourPoint"""
+
+class TourPoint:
+    """Where the camera is at a time."""
+    def __init__(self, seconds: float, eye: ArrayLike, forward: ArrayLike, up: ArrayLike = ..., name: str = ...) -> None: ...
+    @property
+    def seconds(self) -> float: ...
+    @property
+    def eye(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def forward(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def up(self) -> NDArray[Any]:
+        """array of shape (3,)"""
+    @property
+    def name(self) -> str:
+        """of a saved viewpoint; empty for others"""
+
 class UpAxis(IntEnum):
     """The axis that points up."""
     x = 0
     y = 1
     z = 2
+
+class View:
+    """Chooses and loads what a renderer draws of a Store that has levels (build_levels). One thread
+    at a time may use it.
+
+    memory           bytes for the tree of levels and for chunks on their way
+    gpu_memory       bytes of the renderer's buffers
+    pixel_error      largest error in pixels; more if the budgets demand it
+    triangle_budget  triangles of a frame
+    draw_budget      draw calls of a frame
+    upload_budget    bytes that one frame hands over
+    look_ahead       seconds of the path for which chunks are read ahead
+    background       whether a second thread reads
+
+    Raises Error: bad_argument if the store has no current levels.
+    """
+    def __init__(self, store: Store, *, memory: int = ..., gpu_memory: int = ..., pixel_error: float = ..., triangle_budget: int = ..., draw_budget: int = ..., upload_budget: int = ..., look_ahead: float = ..., background: bool = ...) -> None: ...
+    def frame(self, camera: Camera, velocity: ArrayLike = ...) -> ViewFrame:
+        """Chooses what a Camera sees. Returns a ViewFrame.
+
+        velocity  of the eye, in units a second, for loading ahead
+
+        Raises Error: bad_argument, malformed if a chunk is damaged.
+        """
+    def wait(self) -> None:
+        """Waits until all that the last frame wanted is loaded, or memory is full."""
+    def set_hidden(self, part: int, hidden: bool) -> None:
+        """Leaves a part out of the picture, or brings it back."""
+    def set_occlusion(self, on: bool) -> None:
+        """Sets whether parts that others hide are left out; at first they are."""
+    def set_budgets(self, triangles: int, draws: int) -> None:
+        """Changes triangle_budget and draw_budget from the next frame on."""
+    @property
+    def statistics(self) -> ViewStatistics:
+        """ViewStatistics"""
+    @property
+    def origin(self) -> NDArray[Any]:
+        """array of shape (3,): chunks are relative to it"""
+    @property
+    def bounds(self) -> Box3:
+        """Box3, world frame"""
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis"""
+    @property
+    def parts(self) -> NDArray[np.int64]:
+        """int64 array of shape (n,): rows of the store's table part"""
+    def index_of(self, number: int) -> int | None:
+        """The index in parts of a row; None if there is no such part."""
+    def part(self, index: int) -> ViewPart:
+        """The ViewPart of an index in parts. Raises Error (bad_argument)."""
+    def find_parts(self, text: str, most: int = ..., from_part: int = ..., seconds: float = ...) -> FoundParts:
+        """Finds parts whose id, name or type contains a text. Returns FoundParts."""
+
+class ViewChunk:
+    """A piece of geometry that is drawn at once."""
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """float64 array of shape (n, 3): of an instanced mesh, or world minus View.origin"""
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (m, 3)"""
+    @property
+    def closed_triangles(self) -> int:
+        """the first triangles, of closed surfaces whose fronts are outside"""
+    @property
+    def parts(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n,): of each vertex, the index in View.parts"""
+
+class ViewFrame:
+    """Returned by View.frame: what to draw."""
+    @property
+    def drops(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n,): chunks that are no longer needed"""
+    @property
+    def uploads(self) -> dict[str, Any]:
+        """dict of number and ViewChunk: chunks that are needed from this frame on"""
+    @property
+    def draws(self) -> record:
+        """record array of ChunkDraw, nearest first"""
+    @property
+    def instances(self) -> record:
+        """record array of ChunkInstance"""
+    @property
+    def complete(self) -> bool:
+        """every chunk is at the level asked for"""
+    @property
+    def loaded(self) -> bool:
+        """nothing that was wanted is missing"""
+    @property
+    def pixel_error(self) -> float:
+        """largest error of what is drawn"""
+
+class ViewPart:
+    """A part of a View."""
+    @property
+    def number(self) -> int:
+        """its row in the store's table part"""
+    @property
+    def file(self) -> str: ...
+    @property
+    def id(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> str: ...
+    @property
+    def box(self) -> Box3:
+        """Box3, world frame"""
+    @property
+    def colour(self) -> Colour | None:
+        """Colour; else None"""
+
+class ViewStatistics:
+    """Work of a View."""
+    @property
+    def triangles(self) -> int:
+        """of the last frame"""
+    @property
+    def draw_calls(self) -> int:
+        """of the last frame"""
+    @property
+    def wanted(self) -> int:
+        """chunks of the last cut"""
+    @property
+    def missing(self) -> int:
+        """chunks of the last cut not in memory"""
+    @property
+    def lookups(self) -> int:
+        """chunks wanted, of all frames"""
+    @property
+    def misses(self) -> int:
+        """chunks missing, of all frames"""
+    @property
+    def culled_by_frustum(self) -> int:
+        """nodes of the last frame"""
+    @property
+    def culled_by_occlusion(self) -> int:
+        """nodes of the last frame"""
+    @property
+    def bytes_loaded(self) -> int:
+        """of all frames"""
+    @property
+    def bytes(self) -> int:
+        """in memory"""
+    @property
+    def peak_bytes(self) -> at:
+        """at most View's memory"""
+    @property
+    def gpu_bytes(self) -> int:
+        """of the renderer's buffers"""
+    @property
+    def peak_gpu_bytes(self) -> at:
+        """at most View's gpu_memory"""
+    @property
+    def seconds_selecting(self) -> float:
+        """of the last frame"""
 
 class Volume(IntEnum):
     """The bounding volume that a model's hierarchy is made of."""
@@ -2440,6 +2734,13 @@ def build_levels(store: _Path, *, memory: int = ..., progress: _Progress = ...) 
     Returns a LevelReport. Raises Error: bad_argument, cannot_write, those of open_store;
     KeyboardInterrupt at Ctrl-C.
     """
+def camera_at(tour: Tour, seconds: float, lens: Camera = ...) -> Camera:
+    """The Camera at a time: the position on a Catmull-Rom spline through the points.
+
+    lens  Camera with the field of view, size and clipping distances
+
+    Raises Error (bad_argument) if the tour has no points or one is not valid.
+    """
 def carried_part(walk: Walk, part: int) -> CarriedPart:
     """The CarriedPart of a part. Errors as Walk.model."""
 def check_path(walk: Walk, probe: int | Probe | Model | Convex | Sphere | Capsule | Box3, poses: _Poses, *, except_part: int = ..., largest_clearance: float = ..., clearance_error: float = ..., max_queries: int = ..., absolute_error: float | None = ..., progress: _Progress = ...) -> PathReport:
@@ -2468,6 +2769,10 @@ def clash_viewpoints(report: ClashReport, models: Iterable[Scene | _ModelPath] |
     near     whether the other parts in the section boxes are listed
 
     Returns a list of ClashViewpoint. Raises Error: bad_argument, those of the store.
+    """
+def clip_from_world(camera: Camera, origin: ArrayLike = ...) -> NDArray[Any]:
+    """Matrix of shape (4, 4), float32, from world minus `origin` to clip space (OpenGL).
+    Raises Error (bad_argument) if the camera is not as its members say.
     """
 @overload
 def collide(a: Model, pose_a: _OnePose, b: Model, pose_b: _OnePose, *, mode: ContactMode | str = ..., segments: bool = ..., warm_start: WarmStart | None = ..., progress: _Progress = ...) -> Contacts:
@@ -2537,6 +2842,8 @@ def distance(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePos
 def distance(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, upper_bound: float = ..., absolute_error: float = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> Any: ...
 @overload
 def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
+def duration(tour: Tour) -> float:
+    """The time of the last point; 0 if none."""
 def elementary_impact(kind: ElementaryKind | str, start: ArrayLike, end: ArrayLike, *, absolute_error: float = ..., thickness: float = ...) -> ElementaryImpact:
     """The first time in [0, 1] at which a moving vertex and face, or two moving edges, share a point.
 
@@ -2656,6 +2963,10 @@ def join_crew() -> Crew | None:
 
     Raises Error (unsupported) if this build has no MPI, or another one than the one that started the process.
     """
+def length_of_pixel(camera: Camera) -> float:
+    """The length at distance 1 that a pixel covers, in the middle of the picture."""
+def look_at_box(box: Box3, towards: ArrayLike, up: ArrayLike, lens: Camera = ...) -> Camera:
+    """The Camera that sees a whole Box3 from a direction: `towards` is where it looks."""
 def mark_clashes(store: Store, *, reviewed: list[str] = ..., approved: list[str] = ..., cleared: list[str] = ..., note: str = ...) -> None:
     """Marks clashes by their ids, all of them or, after an error, none. The store is opened with read_only=False.
 
@@ -2719,6 +3030,8 @@ def overlaps(model: Model, pose: _OnePose | ArrayLike, lower: _Point, upper: _Po
 def overlaps(model: Model, pose: _OnePose | ArrayLike, lower: ArrayLike, upper: ArrayLike, *, progress: _Progress = ...) -> Any: ...
 def parse_model_path(text: _Path) -> ModelPath:
     """The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument)."""
+def part_colours(store: Store, by: ColourBy | str = ...) -> list[Colour]:
+    """The list of Colour of a Store's parts, in the order of View.parts."""
 def peak_resident_mib() -> float:
     """The largest resident memory of this process, or of an ended child if larger, in MiB."""
 @overload
@@ -2747,6 +3060,27 @@ def penetration(a: Convex, pose_a: _Poses, b: Convex, pose_b: _Poses, *, warm_st
 def penetration(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, separation: bool = ..., progress: _Progress = ...) -> PiecesDepth: ...
 @overload
 def penetration(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, separation: bool = ..., progress: _Progress = ...) -> Any: ...
+def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, aim: NamedView | str | Camera | PartAim | PairAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
+    """Draws models at full detail, without a window.
+
+    models             a Store, or a Scene or path, or several
+    aim                NamedView or its name, Camera, PartAim, PairAim, or a Clash of these models
+    width, height      pixels, at most 8192
+    colour_by          ColourBy: 'material', 'type', 'file', 'part' or 'clash'
+    samples            along each side of a pixel: 1, 2 or 4
+    edges              dark lines at silhouettes and creases
+    ambient_occlusion  darker corners
+    ground             a grid below the model
+    sections           at most 6 SectionPlane
+    section_box        Box3: what lies outside is cut away
+    progress           function of (stage, fraction)
+
+    Returns a uint8 array of shape (height, width, 3): red, green, blue, rows from the top.
+    Raises Error: unsupported if EGL or OpenGL 3.3 is not available; bad_argument if no part or
+    several have the id; those of the files. KeyboardInterrupt at Ctrl-C.
+    """
+def ray_through(camera: Camera, x: float, y: float) -> Ray:
+    """The Ray from the eye through a pixel; (0, 0) is the top left corner of the picture."""
 def read_elementary_queries(file: str, kind: ElementaryKind | str | None = ...) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Reads pairs from comma-separated text. Returns (kinds, start, end, truth): arrays of shapes (n,),
     (n, 4, 3), (n, 4, 3) and (n,), the last empty if the file does not tell.
@@ -2799,6 +3133,12 @@ def read_scene(path: _ModelPath, *, unit: float = ..., up: UpAxis | str = ..., s
 def read_scenes(paths: Iterable[_ModelPath] | _ModelPath, *, progress: _Progress = ...) -> list[Scene]:
     """Reads several model files in parallel, with the options' defaults. Returns a list of Scene. Errors as
     read_scene.
+    """
+def read_tour(path: _Path) -> Tour:
+    """Reads a Tour from JSON. Raises Error: file_not_found, unreadable, malformed, unsupported."""
+def record(tour: Tour, seconds: float, camera: Camera, name: str = ...) -> None:
+    """Appends a point, unless the last one without a name is less than 1/30 second older.
+    Raises Error (bad_argument) if the time is before that of the last point.
     """
 def remove_models(files: Iterable[_Path], store: _Path) -> RemovalReport:
     """Takes models out of a store, all of them or none. Returns a RemovalReport. Raises Error (bad_argument) if a file
@@ -2902,3 +3242,7 @@ def write_frame(mesh: _Mesh, path: _Path) -> None:
     """Writes a frame as binary PLY. Takes what Model takes. Raises Error: unsupported, bad_mesh, cannot_write."""
 def write_glb(scene: Scene, path: _Path) -> None:
     """Writes a scene as binary glTF. Raises Error (cannot_write)."""
+def write_png(picture: NDArray[Any], path: _Path) -> None:
+    """Writes an array of shape (height, width, 3), uint8, as PNG, atomically. Raises Error (cannot_write)."""
+def write_tour(tour: Tour, path: _Path) -> None:
+    """Writes a Tour as JSON, atomically. Raises Error: bad_argument, cannot_write."""

@@ -70,10 +70,16 @@ PARAMETERS = {
     "parts": "Sequence[Part]", "paths": "Iterable[_ModelPath] | _ModelPath", "name": "str | None", "note": "str", "unit": "float",
     "models": "Iterable[Scene | _ModelPath] | Scene | _ModelPath", "report": "ClashReport", "file_name": "str",
     "warm_start": "WarmStart | None", "walk": "Walk", "poses": "_Poses", "feet": "ArrayLike", "wish": "ArrayLike",
-    "meshes": "Sequence[_Mesh]", "id": "str", "type": "str",
+    "meshes": "Sequence[_Mesh]", "id": "str", "type": "str", "eye": "ArrayLike", "forward": "ArrayLike",
+    "towards": "ArrayLike", "velocity": "ArrayLike", "aim": "NamedView | str | Camera | PartAim | PairAim | Clash",
+    "colour_by": "ColourBy | str", "by": "ColourBy | str", "picture": "NDArray[Any]", "normal": "ArrayLike",
 }
 # The same for one function or class.
 OWN_PARAMETERS = {
+    "Camera": {"up": "ArrayLike"}, "TourPoint": {"up": "ArrayLike", "name": "str"}, "look_at_box": {"up": "ArrayLike"},
+    "picture": {"models": "Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath", "section_box": "Box3 | None"},
+    "PairAim": {"file": "Sequence[str]", "part": "Sequence[str]", "points": "Sequence[ArrayLike] | None"},
+    "clip_from_world": {"origin": "ArrayLike"}, "record": {"name": "str"},
     "Convex": {"vertices": "ArrayLike | _Mesh"}, "ConvexPieces": {"model": "ArrayLike | _Mesh"}, "OrientedBox": {"pose": "_OnePose | ArrayLike"},
     "check_path": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3", "absolute_error": "float | None"},
     "Walk.sweep": {"absolute_error": "float | None"}, "Walk.time_of_impact": {"absolute_error": "float | None"},
@@ -167,7 +173,7 @@ RETURNS = {
     "overlapping_triangles": "NDArray[np.uint32]", "self_impacts": "Impacts", "impacts": "Impacts", "overlap_graph": "GraphReport",
     "self_time_of_impact": "FeatureImpact | None", "is_free_of_self_impacts": "bool", "is_free_of_impacts": "bool",
     "self_within": "np.recarray[Any, Any]", "elementary_impacts": "np.recarray[Any, Any]", "join_crew": "Crew | None",
-    "read_frame_positions": "NDArray[np.float64] | None", "Motion.between": "Any", "Motion.screw": "Any",
+    "read_frame_positions": "NDArray[np.float64] | None", "Motion.between": "Any", "Motion.screw": "Any", "picture": "NDArray[np.uint8]",
     "World.penetration": "np.recarray[Any, Any]", "World.within": "np.recarray[Any, Any]",
     "World.time_of_impact": "np.recarray[Any, Any]", "read_elementary_queries": "tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]",
 }

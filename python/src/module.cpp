@@ -40,6 +40,10 @@ PYBIND11_MODULE(_abut, module) {
     bind_carry(module);
     bind_walker(module);
     bind_levels(module);
+    bind_camera(module);
+    bind_tour(module);
+    bind_view(module);
+    bind_picture(module);
     bind_helper_programs(module);
 }
 

@@ -36,6 +36,10 @@ void bind_maintenance_path(py::module_& module);
 void bind_carry(py::module_& module);
 void bind_walker(py::module_& module);
 void bind_levels(py::module_& module);
+void bind_camera(py::module_& module);
+void bind_tour(py::module_& module);
+void bind_view(py::module_& module);
+void bind_picture(py::module_& module);
 void bind_helper_programs(py::module_& module);
 
 } // namespace abut::python

@@ -1,4 +1,4 @@
-"""The programs of docs/python.md run, and print what their comments say."""
+"""The programs of docs/python.md and docs/python-scenes.md run in turn, and print what their comments say."""
 
 import contextlib
 import io
@@ -12,9 +12,10 @@ import abut.manager
 DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
 
 
-def test_python_page(tmp_path):
-    blocks = re.findall(r"^```python\n(.*?)^```", (DOCS / "python.md").read_text(), re.M | re.S)
-    assert len(blocks) >= 8
+def test_python_pages(tmp_path):
+    text = "".join((DOCS / page).read_text() for page in ("python.md", "python-scenes.md"))
+    blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
+    assert len(blocks) >= 9
     names, here = {}, os.getcwd()
     os.chdir(tmp_path)
     try:

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import abut
 import pytest
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples/python"
@@ -28,6 +29,25 @@ def test_building_clashes(tmp_path):
                     "first slab | touching pipe", "first slab | close pipe"]
     assert "3 hard, 1 touch, 0 contained, 0 duplicate, 1 clearance" in text
     assert (tmp_path / "report.html").stat().st_size > 1000
+
+
+def test_picture_of_the_worst_clash(tmp_path):
+    try:
+        abut.picture([abut.Scene([abut.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])], [abut.Part("p")])], width=8, height=8)
+    except abut.Error as error:
+        pytest.skip(str(error))
+    run("building_clashes.py", "--png", tmp_path / "worst.png")
+    assert (tmp_path / "worst.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_robot_trajectory():
+    lines = run("robot_trajectory.py").splitlines()
+    assert lines[3].startswith("around the base: link 3 meets the cell after") and lines[3].endswith("of motion 3")
+    assert lines[-1] == "folded back: free, between the waypoints too"
+    # More waypoints of the same trajectory: the contact is found at the same angle.
+    finer = run("robot_trajectory.py", "--waypoints", 33).splitlines()[3]
+    coarse, fine = (re.search(r"after (\S+) % of motion (\d+)", text).groups() for text in (lines[3], finer))
+    assert (int(coarse[1]) + float(coarse[0]) / 100) / 8 == pytest.approx((int(fine[1]) + float(fine[0]) / 100) / 32, abs=0.01)
 
 
 def test_cloth_step():

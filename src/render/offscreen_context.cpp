@@ -1,6 +1,7 @@
 #include <abut/error.h>
 #include <abut/renderer.h>
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <mutex>
@@ -27,12 +28,26 @@ SharedDisplay& shared_display() {
     throw Error(ErrorCode::unsupported, "no picture can be drawn here: " + reason);
 }
 
+bool is_library_there(const char* name) {
+    return dlopen(name, RTLD_LAZY | RTLD_LOCAL) != nullptr; // stays open: it is used at once
+}
+
+/// Throws if the libraries of the graphics driver are not installed. Without them, libepoxy would
+/// end the program.
+void check_libraries() {
+    if (!is_library_there("libEGL.so.1"))
+        fail("libEGL.so.1 is not installed");
+    if (!is_library_there("libOpenGL.so.0") && !is_library_there("libGL.so.1"))
+        fail("neither libOpenGL.so.0 nor libGL.so.1 is installed");
+}
+
 bool has_client_extension(const char* name) {
     return epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
 }
 
 /// Returns an initialised display: without a surface if possible, else that of the window system.
 EGLDisplay open_display() {
+    check_libraries();
     EGLDisplay display = EGL_NO_DISPLAY;
     if (has_client_extension("EGL_MESA_platform_surfaceless") &&
         has_client_extension("EGL_EXT_platform_base")) {
