@@ -7,7 +7,8 @@
 
 namespace abut {
 
-inline constexpr std::string_view kMepStructurePreset = R"(# Building services against the structure: what the site must not find out by itself.
+inline constexpr std::string_view kMepStructurePreset =
+    R"(# Building services against the structure: what the site must not find out by itself.
 # Known neighbours are left out; so are contacts up to 10 mm deep, because hangers and sleeves touch.
 [[groups]]
 name = "services"
@@ -26,7 +27,8 @@ severity = "high"
 ignore = { neighbours = true }
 )";
 
-inline constexpr std::string_view kClearancesPreset = R"(# Free space around services: for insulation, for fixing, and for maintenance of equipment.
+inline constexpr std::string_view kClearancesPreset =
+    R"(# Free space around services: for insulation, for fixing, and for maintenance of equipment.
 # The distances are usual ones; write those of your contract into a copy.
 [[groups]]
 name = "equipment"
@@ -77,7 +79,8 @@ severity = "low"
 ignore = { neighbours = true }
 )";
 
-inline constexpr std::string_view kArchitecturePreset = R"(# Architecture against the other disciplines, and parts that were drawn twice.
+inline constexpr std::string_view kArchitecturePreset =
+    R"(# Architecture against the other disciplines, and parts that were drawn twice.
 # Finishes may reach 5 mm into what they lie on.
 [[groups]]
 name = "architecture"
