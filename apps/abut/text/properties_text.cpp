@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kExamples = 5;
 constexpr std::size_t kLongestExample = 40;
+constexpr std::size_t kWidestName = 56; // longer names push the other columns aside
 
 /// Counts how many parts have each value of one property.
 using ValueCounts = std::unordered_map<std::string, std::uint64_t>;
@@ -114,7 +115,7 @@ std::string table(const std::vector<PropertyUse>& uses) {
         return "\n  no part has properties\n";
     std::size_t width = 8;
     for (const PropertyUse& use : uses)
-        width = std::max(width, std::min(shown(use.name).size(), kLongestExample));
+        width = std::max(width, std::min(shown(use.name).size(), kWidestName));
     std::string text = fmt::format("\n  {:<{}} {:>9} {:>9}  most frequent values\n", "property",
                                    width, "parts", "values");
     const auto columns = static_cast<std::size_t>(columns_of(stdout));
