@@ -7,6 +7,7 @@
 #include "render/shaders/geometry_shaders.h"
 #include "render/shaders/screen_shaders.h"
 
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -14,8 +15,9 @@ namespace abut {
 
 namespace {
 
-/// One in this number of triangles is drawn before the others are tested.
-constexpr std::uint64_t kNearShare = 3;
+/// Chunks are drawn in steps up to these eighths of the triangles, the nearest first. Those of a step
+/// are compared with the depth of the steps before.
+constexpr std::array<std::uint64_t, 2> kSteps{2, 8};
 /// One chunk in this number must be hidden.
 constexpr std::uint64_t kWorthwhile = 6;
 constexpr int kPicturesWithoutTest = 7;
@@ -160,20 +162,25 @@ void RendererData::draw_both(const ViewFrame& frame, Pass pass, const DepthTiles
                     {without_backs ? &eye : nullptr, behind});
 }
 
-void RendererData::draw_in_two_steps(const ViewFrame& frame) {
-    std::uint64_t triangles = 0, near = 0;
+void RendererData::draw_in_steps(const ViewFrame& frame) {
+    std::uint64_t triangles = 0, drawn = 0;
     for (const ChunkDraw& draw : frame.draws)
         triangles += chunks.triangles_of(draw.chunk);
-    std::size_t count = 0;
-    while (count < frame.draws.size() && kNearShare * near < triangles)
-        near += chunks.triangles_of(frame.draws[count++].chunk);
-    ViewFrame part = frame;
-    part.draws = frame.draws.first(count);
-    draw_both(part, Pass::parts);
-    tiles_.read(targets.parts(), *camera, depth_to_w(), origin_);
-    targets.parts().bind();
-    part.draws = frame.draws.subspan(count);
-    draw_both(part, Pass::parts, &tiles_);
+    std::size_t begin = 0, end = 0;
+    for (const std::uint64_t eighths : kSteps) {
+        while (end < frame.draws.size() && 8 * drawn < eighths * triangles)
+            drawn += chunks.triangles_of(frame.draws[end++].chunk);
+        if (eighths == 8)
+            end = frame.draws.size();
+        ViewFrame part = frame;
+        part.draws = frame.draws.subspan(begin, end - begin);
+        if (begin > 0) {
+            tiles_.read(targets.parts(), *camera, depth_to_w(), origin_);
+            targets.parts().bind();
+        }
+        draw_both(part, Pass::parts, begin > 0 ? &tiles_ : nullptr);
+        begin = end;
+    }
     // Where little is hidden, the test is left out for some pictures.
     const bool pays = kWorthwhile * chunks.hidden_chunks() >= frame.draws.size();
     tests_left_out_ = pays ? 0 : kPicturesWithoutTest;
@@ -191,7 +198,7 @@ void RendererData::draw_chunks(const ViewFrame& frame) {
     chunks.update(frame);
     targets.parts().bind();
     if (in_software_ && frame.draws.size() >= kLeastDraws && tests_left_out_-- <= 0)
-        draw_in_two_steps(frame);
+        draw_in_steps(frame);
     else
         draw_both(frame, Pass::parts);
     draw_extra(Pass::parts);

@@ -48,7 +48,7 @@ private:
     void set_sections(ShaderProgram& program) const;
     void draw_both(const ViewFrame& frame, Pass pass, const DepthTiles* behind = nullptr);
     /// Draws the nearest chunks, and then those that these do not hide.
-    void draw_in_two_steps(const ViewFrame& frame);
+    void draw_in_steps(const ViewFrame& frame);
     void draw_extra(Pass pass);
     void draw_ground();
     void draw_occlusion();
