@@ -32,12 +32,14 @@ int main() {
 }
 CPP
     cat >"$work/draw.cpp" <<'CPP'
+#include <abut/error.h>
 #include <abut/picture.h>
 #include <cstdio>
+#include <vector>
 
 int main() {
     try {
-        abut::picture(std::vector<abut::Scene>{}, {.width = 0});
+        abut::picture(std::vector<abut::Scene>{}, abut::PictureOptions{.width = 0});
     } catch (const abut::Error& error) {
         std::printf("%s\n", error.what());
     }
