@@ -55,27 +55,28 @@ enum class ColourBy : std::uint8_t {
     type,
     file,
     part,
-    clash, ///< the worst kind of the part's clashes in the store's last jobs; grey without one
+    storey, ///< the property `storey`; grey without one
+    clash,  ///< the worst kind of the part's clashes in the store's last jobs; grey without one
 };
-inline constexpr std::array kColourings{ColourBy::material, ColourBy::type, ColourBy::file,
-                                        ColourBy::part, ColourBy::clash};
-/// "material", "type", "file", "part", "clash".
+inline constexpr std::array kColourings{ColourBy::material, ColourBy::type,   ColourBy::file,
+                                        ColourBy::part,     ColourBy::storey, ColourBy::clash};
+/// "material", "type", "file", "part", "storey", "clash".
 const char* to_string(ColourBy by);
 
-/// Returns the colours of parts. Equal words get equal colours, in every model. By `clash`, all are
-/// grey: clashes belong to a store.
+/// Returns the colours of parts. Equal words get equal colours, in every model. By `storey` and by
+/// `clash`, all are grey: a ViewPart does not state them.
 std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by);
 
 /// The colours of a store's parts, with a legend.
 struct PartColouring {
     struct Group {
-        std::string word; ///< a type, a file, a kind of clash, or "none"
+        std::string word; ///< a type, a file, a storey, a kind of clash, or "none"
         Colour colour;
         std::uint64_t parts = 0;
     };
     std::vector<Colour> colours;       ///< in the order of View::parts()
     std::vector<std::uint32_t> groups; ///< of each part, its index in `legend`
-    /// By `type`, `file` and `clash`, the largest group first; otherwise empty.
+    /// By `type`, `file`, `storey` and `clash`, the largest group first; otherwise empty.
     std::vector<Group> legend;
 };
 /// Errors      those of the store.

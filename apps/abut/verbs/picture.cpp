@@ -38,10 +38,11 @@ constexpr std::array<Named<NamedView>, 7> kViews{{{"iso", NamedView::iso},
                                                   {"right", NamedView::right},
                                                   {"top", NamedView::top},
                                                   {"bottom", NamedView::bottom}}};
-constexpr std::array<Named<ColourBy>, 5> kColours{{{"material", ColourBy::material},
+constexpr std::array<Named<ColourBy>, 6> kColours{{{"material", ColourBy::material},
                                                    {"type", ColourBy::type},
                                                    {"file", ColourBy::file},
                                                    {"part", ColourBy::part},
+                                                   {"storey", ColourBy::storey},
                                                    {"clash", ColourBy::clash}}};
 
 /// What is drawn: exactly one of both.

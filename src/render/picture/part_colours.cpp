@@ -1,5 +1,6 @@
 #include <abut/clash_review.h>
 #include <abut/picture.h>
+#include <abut/properties.h>
 
 #include "store/database/store_file.h"
 
@@ -89,7 +90,7 @@ constexpr ClashColour kClashColours[]{{ClashKind::hard, {214, 50, 40}},
                                       {ClashKind::duplicate, {82, 84, 196}},
                                       {ClashKind::touch, {236, 146, 40}},
                                       {ClashKind::clearance, {236, 208, 72}}};
-constexpr Colour kNoClash{206, 210, 214};
+constexpr Colour kNone{206, 210, 214}; ///< of a part without a clash or a storey
 
 /// The word that gives a part its colour.
 struct ColourWord {
@@ -108,7 +109,7 @@ ColourWord word_of(const ViewPart& part, ColourBy by) {
     case ColourBy::part:
         return {"", hashed_colour(part.id)};
     default:
-        return {"", kNoClash};
+        return {"", kNone};
     }
 }
 
@@ -133,6 +134,45 @@ std::unordered_map<std::string, std::size_t> worst_clashes(const Store& store) {
             }
         }
     return worst;
+}
+
+/// A part of a store, and the word that gives it its colour.
+struct FoundWord {
+    std::int64_t part;
+    ColourWord word;
+};
+
+void take_storeys(StoreFile& file, std::vector<FoundWord>& found) {
+    std::vector<std::int64_t> parts;
+    parts.reserve(found.size());
+    for (const FoundWord& each : found)
+        parts.push_back(each.part);
+    const std::array<std::string, 1> names{"storey"};
+    const Properties properties = file.properties(parts, names);
+    for (std::uint32_t i = 0; i < found.size(); ++i)
+        if (const std::string_view storey = properties.value(i, names[0]); !storey.empty())
+            found[i].word = {std::string(storey), hashed_colour(storey)};
+}
+
+/// The words of all parts, in the order of their rows.
+std::vector<FoundWord> words_of(const Store& store, ColourBy by) {
+    const auto worst = by == ColourBy::clash ? worst_clashes(store)
+                                             : std::unordered_map<std::string, std::size_t>();
+    std::vector<FoundWord> found;
+    StoreFile& file = store.file();
+    for (const ModelRow& model : file.models())
+        file.for_each_part(model, [&](const PartRow& row) {
+            const ViewPart part{row.part, model.file, row.id, row.name, row.type, {}, row.colour};
+            ColourWord word = word_of(part, by);
+            if (const auto clash = worst.find(key_of(part.file, part.id)); clash != worst.end())
+                word = {abut::to_string(kClashColours[clash->second].kind), // NOLINT
+                        kClashColours[clash->second].colour};               // NOLINT
+            found.push_back({row.part, std::move(word)});
+        });
+    std::ranges::sort(found, {}, &FoundWord::part);
+    if (by == ColourBy::storey)
+        take_storeys(file, found);
+    return found;
 }
 
 /// Sorts the groups by their size, and renumbers those of the parts.
@@ -163,6 +203,8 @@ const char* to_string(ColourBy by) {
         return "file";
     case ColourBy::part:
         return "part";
+    case ColourBy::storey:
+        return "storey";
     default:
         return "clash";
     }
@@ -177,45 +219,22 @@ std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by) {
 }
 
 PartColouring part_colouring(const Store& store, ColourBy by) {
-    const bool by_clash = by == ColourBy::clash;
-    const bool has_legend = by_clash || by == ColourBy::type || by == ColourBy::file;
-    const auto worst =
-        by_clash ? worst_clashes(store) : std::unordered_map<std::string, std::size_t>();
-    struct Found {
-        std::int64_t part;
-        Colour colour;
-        std::uint32_t group;
-    };
-    std::vector<Found> found;
+    const std::vector<FoundWord> found = words_of(store, by);
     PartColouring colouring;
-    std::unordered_map<std::string, std::uint32_t> numbers;
-    StoreFile& file = store.file();
-    for (const ModelRow& model : file.models())
-        file.for_each_part(model, [&](const PartRow& row) {
-            const ViewPart part{row.part, model.file, row.id, row.name, row.type, {}, row.colour};
-            ColourWord word = word_of(part, by);
-            if (const auto clash = worst.find(key_of(part.file, part.id)); clash != worst.end())
-                word = {abut::to_string(kClashColours[clash->second].kind), // NOLINT
-                        kClashColours[clash->second].colour};               // NOLINT
-            if (word.word.empty())
-                word.word = "none";
-            std::uint32_t group = 0;
-            if (has_legend) {
-                const auto next = static_cast<std::uint32_t>(colouring.legend.size());
-                const auto [at, is_new] = numbers.try_emplace(word.word, next);
-                if (is_new)
-                    colouring.legend.push_back({word.word, word.colour, 0});
-                group = at->second;
-                ++colouring.legend[group].parts;
-            }
-            found.push_back({row.part, word.colour, group});
-        });
-    std::ranges::sort(found, {}, &Found::part);
     colouring.colours.reserve(found.size());
-    for (const Found& each : found) {
-        colouring.colours.push_back(each.colour);
-        if (has_legend)
-            colouring.groups.push_back(each.group);
+    for (const FoundWord& each : found)
+        colouring.colours.push_back(each.word.colour);
+    if (by == ColourBy::material || by == ColourBy::part)
+        return colouring;
+    std::unordered_map<std::string, std::uint32_t> numbers;
+    for (const FoundWord& each : found) {
+        const std::string word = each.word.word.empty() ? "none" : each.word.word;
+        const auto next = static_cast<std::uint32_t>(colouring.legend.size());
+        const auto [at, is_new] = numbers.try_emplace(word, next);
+        if (is_new)
+            colouring.legend.push_back({word, each.word.colour, 0});
+        ++colouring.legend[at->second].parts;
+        colouring.groups.push_back(at->second);
     }
     sort_legend(colouring);
     return colouring;
