@@ -7,6 +7,7 @@
 #include <abut/camera.h>
 #include <abut/carry.h>
 #include <abut/clash.h>
+#include <abut/clash_groups.h>
 #include <abut/clash_review.h>
 #include <abut/convex.h>
 #include <abut/convex_pieces.h>
@@ -32,6 +33,7 @@
 #include <abut/shapes.h>
 #include <abut/store.h>
 #include <abut/store_clash.h>
+#include <abut/topics.h>
 #include <abut/tour.h>
 #include <abut/types.h>
 #include <abut/vector.h>

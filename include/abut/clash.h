@@ -1,8 +1,10 @@
 #pragma once
 
+#include <abut/clash_groups.h>
 #include <abut/part_query.h>
 #include <abut/progress.h>
 #include <abut/scene.h>
+#include <abut/topics.h>
 #include <abut/types.h>
 
 #include <array>
@@ -235,6 +237,15 @@ struct ClashReport {
     /// the latest first.
     std::optional<std::array<std::uint64_t, 5>> statuses;
     std::vector<ListedClash> resolved;
+    /// The criteria of `groups`, outermost first; empty: the clashes are not grouped. Filled in by
+    /// the caller with group_clashes.
+    std::vector<GroupBy> grouping;
+    std::vector<ClashGroup> groups;
+    /// Set only for a store that was grouped: the jobs of the question, the earliest first; what
+    /// people said of the groups, and the revision of that.
+    std::vector<JobCounts> history;
+    std::vector<Topic> topics;
+    std::int64_t topics_revision = 0;
     Seconds seconds;
     double peak_rss_mib = 0; ///< MiB; of this process or its largest reader, whichever is larger
 };

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <abut/clash.h>
+#include <abut/clash_groups.h>
 #include <abut/store.h>
+#include <abut/topics.h>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +34,50 @@ std::vector<ClashReview> review_clashes(const Store& store);
 std::string to_json(const ClashReview& review);
 /// One JSON object with the path of a store and its reviews, as `abut review --json` prints it.
 std::string to_json(const std::vector<ClashReview>& reviews, const std::string& store);
+
+/// A group as a store lists it.
+struct ListedGroup {
+    std::string id;
+    std::string path; ///< names of the groups around it, each followed by " / "
+    std::string name, what;
+    GroupKind kind = GroupKind::part;
+    GroupChange change = GroupChange::fresh;
+    std::uint64_t size = 0; ///< clashes that it has now
+    Vec3 centre;
+    /// When it appeared, was last reopened, last moved, and was resolved, in seconds since 1970; 0:
+    /// never.
+    std::int64_t appeared = 0, reopened = 0, moved = 0, resolved = 0;
+    std::optional<Topic> topic; ///< none if nobody has said anything about it
+};
+
+/// The groups of one question by one grouping, and what has become of them.
+struct GroupReview {
+    double clearance = 0, touch_tolerance = 0; ///< metres; the tolerances of the question
+    bool self = false;
+    std::uint64_t rules = 0; ///< number of rules
+    std::vector<GroupBy> by;
+    std::int64_t since = 0; ///< end of the job that changes are counted from; 0: from the beginning
+    std::int64_t finished = 0;              ///< end of the last job
+    std::array<std::uint64_t, 5> changes{}; ///< number of groups of each GroupChange
+    std::vector<ListedGroup> groups;        ///< by change, the largest first
+    std::vector<JobCounts> history;         ///< of the question's jobs, the earliest first
+};
+
+/// Returns what has become of the groups that jobs found: since the job before the last one, or
+/// since the last job that ended before a time.
+///
+/// In          since: seconds since 1970.
+/// Errors      as review_clashes.
+std::vector<GroupReview> review_groups(const Store& store,
+                                       std::optional<std::int64_t> since = std::nullopt);
+
+/// Returns one JSON object; docs/clash-groups.md lists the keys.
+std::string to_json(const GroupReview& review);
+/// One JSON object with the path of a store, its reviews, its groups, its topics and their
+/// revision, as `abut review --json` prints it.
+std::string to_json(const std::vector<ClashReview>& reviews, const std::vector<GroupReview>& groups,
+                    const std::vector<Topic>& topics, std::int64_t revision,
+                    const std::string& store);
 
 /// Marks to set and to clear, by clash ids.
 struct MarkChanges {

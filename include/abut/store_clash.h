@@ -74,6 +74,8 @@ struct StoreClashReport {
     /// report refer to parts by their index here.
     std::vector<Scene> models;
     OutOfCoreCounters counters;
+    /// The numbers of the question and of its finished job in the store; 0: the store has none.
+    std::int64_t question = 0, job = 0;
 };
 
 /// Returns one JSON object: that of the report, with a last member `out_of_core` for the counters
@@ -90,6 +92,14 @@ std::string to_json(const StoreClashReport& found);
 ///             While one work unit is processed, the meshes of the next are read.
 StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
                               const OutOfCoreOptions& out_of_core = {});
+
+/// Groups the clashes of a report with the groups that the store remembers: clashes stay in their
+/// groups, and groups keep their ids and names. Sets `grouping`, `groups`, `history`, `topics` and
+/// `topics_revision` of the report. The groups are recorded once for each job, if the report is
+/// that of the last finished job and the store can be written to. `options.earlier` is ignored.
+///
+/// Errors      as group_clashes of a report, and those of the store.
+void group_clashes(const Store& store, StoreClashReport& found, const GroupOptions& options = {});
 
 /// Takes part in a job whose leader calls find_clashes with the crew; each helper calls this.
 /// Returns when the leader has left the crew. Also returns after an error here, which the leader

@@ -28,10 +28,14 @@ PYBIND11_MODULE(_abut, module) {
     bind_world(module);
     bind_scene(module);
     bind_frame(module);
+    bind_topic_records(module);
+    bind_group_records(module);
     bind_clash(module);
     bind_store(module);
     bind_crew(module);
     bind_store_clash(module);
+    bind_topics(module);
+    bind_clash_groups(module);
     bind_clash_review(module);
     bind_clash_viewpoint(module);
     bind_bcf(module);

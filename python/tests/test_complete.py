@@ -16,7 +16,7 @@ HEADERS = sorted(path for path in (pathlib.Path(__file__).resolve().parents[2] /
 OTHER_TYPES = {
     "Vec3": "array", "Transform": "matrix", "BodyId": "int", "WalkPart": "int", "IndexPair": "array", "TrianglePair": "array",
     "BodyPair": "array", "PiecePair": "array", "VertexPair": "array", "Placement": "poses", "MotionPair": "motions",
-    "BodyMotion": "dict", "SpeedBounds": "keywords", "MarkChanges": "keywords", "WalkQuery": "keywords", "Progress": "function",
+    "BodyMotion": "dict", "SpeedBounds": "keywords", "MarkChanges": "keywords", "EarlierGroup": "within a store", "WalkQuery": "keywords", "Progress": "function",
     "ElementaryPair": "arrays", "ElementaryQueries": "arrays", "StoreClashReport": "ClashReport", "WalkAnswer": "its members",
     "SidesAim": "missing", "PartColouring": "missing", "PartDistances": "missing", "ChunkVertex": "arrays of ViewChunk", "ChunkUpload": "dict of ViewFrame", "DifferencePolytope": "within ConvexWarmStart",
     "PropertiesBuilder": "Scene(properties=)",
@@ -148,7 +148,7 @@ OPTIONS = {
     "ElementaryOptions": "elementary_impact", "ModelOptions": "Model", "ImpactOptions": "time_of_impact",
     "PenetrationOptions": "penetration", "CollideOptions": "collide", "DistanceOptions": "distance", "WithinOptions": "within",
     "ReadOptions": "read_scene", "NearestOptions": "nearest", "ImportOptions": "import_models", "StoreOptions": "open_store",
-    "OutOfCoreOptions": "find_clashes", "WalkOptions": "Walk", "BodyOptions": "World.add", "WorldOptions": "World",
+    "OutOfCoreOptions": "find_clashes", "GroupOptions": "group_clashes", "MergeOptions": "merge_topics", "WalkOptions": "Walk", "BodyOptions": "World.add", "WorldOptions": "World",
     "SpeedBounds": "World.set_speed", "LevelOptions": "build_levels", "PathOptions": "check_path",
     "CarryOptions": "Carry.move_to", "ViewOptions": "View", "PictureOptions": "picture", "ViewpointOptions": "clash_viewpoints",
     "WalkerOptions": "Walker", "MarkChanges": "mark_clashes",

@@ -2,6 +2,7 @@
 
 #include "arguments/common.h"
 #include "text/clash_matrix.h"
+#include "text/group_summary.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -120,6 +121,7 @@ std::string summary(const ClashReport& report, const std::vector<Scene>& models)
 
     if (report.matrix)
         text += drawn(*report.matrix);
+    text += group_summary(report);
     text += largest(report, models);
     const auto nearer = [](const Clash& a, const Clash& b) { return a.distance < b.distance; };
     text += extremes(

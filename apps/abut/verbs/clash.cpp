@@ -1,4 +1,5 @@
 #include <abut/clash.h>
+#include <abut/clash_groups.h>
 #include <abut/crew.h>
 #include <abut/error.h>
 #include <abut/scene.h>
@@ -25,7 +26,8 @@ struct ClashArguments {
     std::vector<std::string> files;
     ClashOptions options; ///< clearance, touch, self; run() fills in the rest
     SelectionArguments selection;
-    std::string out, fail_on;
+    std::string out, fail_on, group = to_string(GroupOptions().by);
+    GroupOptions grouping; ///< the reach; run() fills in the rest
     std::optional<std::string> memory;
     bool no_hierarchies = false;
     ReadOptions read;
@@ -108,6 +110,24 @@ void refuse_misplaced(const ClashArguments& arguments, bool from_store) {
                     "applies only to models: a store has the units of its import");
 }
 
+/// The options of the groups; no criterion if the clashes are not to be grouped.
+GroupOptions grouping_of(const ClashArguments& arguments) {
+    GroupOptions options = arguments.grouping;
+    options.by.clear();
+    if (arguments.group != "none")
+        options.by = parse_grouping(arguments.group);
+    return options;
+}
+
+void group(StoreClashReport& found, const std::string& store, const GroupOptions& options) {
+    if (options.by.empty())
+        return;
+    if (!store.empty())
+        return group_clashes(open_store(store), found, options);
+    found.report.groups = group_clashes(found.report, found.models, options);
+    found.report.grouping = options.by;
+}
+
 OutOfCoreOptions limits_of(const ClashArguments& arguments, Crew* crew) {
     OutOfCoreOptions limits;
     if (arguments.memory)
@@ -129,6 +149,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     refuse_repeated(files);
     const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
     const FailOn fail_on(arguments.fail_on, from_store);
+    const GroupOptions grouping = grouping_of(arguments);
     ClashOptions options = arguments.options;
     read_selection(arguments.selection, options);
     std::optional<OutputFiles> outputs;
@@ -158,6 +179,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             report = find_clashes(models, options);
             report.seconds.import = seconds_import;
         }
+        group(found, from_store ? arguments.files.front() : "", grouping);
         report.seconds.total = watch.seconds();
     }
     bar.finish();
@@ -204,6 +226,13 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
     app->add_flag("--self", arguments->options.self,
                   "With several models: also test the pairs within each");
     add_selection(*app, arguments->selection);
+    app->add_option("--group", arguments->group,
+                    "Criteria of the groups of clashes, outermost first: part, place, storey, "
+                    "system, types, discipline (comma-separated), or none")
+        ->check(not_empty("CRITERIA"))
+        ->capture_default_str();
+    add_length(*app, "--group-reach", arguments->grouping.reach,
+               "Largest distance of a clash from the centre of its place (default 6m)");
     app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv")
         ->check(not_empty("FOLDER"));
     app->add_option(

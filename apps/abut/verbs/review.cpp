@@ -3,11 +3,17 @@
 #include <abut/store.h>
 
 #include "commands.h"
+#include "text/group_list.h"
+#include "verbs/review_topics.h"
 
 #include <algorithm>
+#include <ctime>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <iomanip>
 #include <memory>
+#include <optional>
+#include <sstream>
 
 namespace abut::command {
 
@@ -16,7 +22,9 @@ namespace {
 struct ReviewArguments {
     std::string store, status, note;
     std::vector<std::string> approved, reviewed, cleared;
-    bool list = false, forget = false;
+    bool list = false, forget = false, groups = false;
+    std::string since;
+    TopicArguments topics;
 };
 
 std::vector<std::uint64_t> parse_ids(const std::string& option,
@@ -83,20 +91,43 @@ std::string table(const ClashReview& review) {
     return text;
 }
 
-void print_list(const std::string& path, const std::vector<ClashStatus>& wanted,
+std::optional<std::int64_t> parse_since(const std::string& text) {
+    if (text.empty())
+        return std::nullopt;
+    std::tm time{};
+    std::istringstream in(text);
+    in >> std::get_time(&time, text.size() > 10 ? "%Y-%m-%dT%H:%M:%SZ" : "%Y-%m-%d");
+    if (in.fail() || in.peek() != std::istringstream::traits_type::eof())
+        throw Error(ErrorCode::bad_argument, "--since",
+                    "'" + text +
+                        "' is not a date: YYYY-MM-DD, or with a time, as in "
+                        "2026-11-22T10:00:00Z");
+    return timegm(&time);
+}
+
+void print_list(const ReviewArguments& arguments, const std::vector<ClashStatus>& wanted,
                 const CommonOptions& common) {
-    std::vector<ClashReview> reviews = review_clashes(open_store(path));
+    const std::string& path = arguments.store;
+    const std::optional<std::int64_t> since = parse_since(arguments.since);
+    const Store store = open_store(path);
+    std::vector<ClashReview> reviews = review_clashes(store);
+    const std::vector<GroupReview> groups = review_groups(store, since);
     for (ClashReview& review : reviews)
         std::erase_if(review.clashes, [&](const ListedClash& clash) {
             return std::find(wanted.begin(), wanted.end(), clash.status) == wanted.end();
         });
     if (common.json) {
-        print_json(abut::to_json(reviews, path));
+        print_json(
+            abut::to_json(reviews, groups, read_topics(store), topics_revision(store), path));
         return;
     }
     std::string text;
+    for (const GroupReview& review : groups)
+        if (arguments.groups)
+            text += (text.empty() ? "" : "\n") + group_list(review);
     for (const ClashReview& review : reviews)
-        text += (text.empty() ? "" : "\n") + table(review);
+        if (!arguments.groups)
+            text += (text.empty() ? "" : "\n") + table(review);
     if (!common.quiet)
         print_text(text.empty() ? shown(path) + ": no clash job has finished\n" : text);
 }
@@ -107,9 +138,22 @@ int run(const ReviewArguments& arguments, const CommonOptions& common) {
                         parse_ids("--approve", arguments.approved),
                         parse_ids("--clear", arguments.cleared), arguments.note};
     const std::size_t marked = changes.reviewed.size() + changes.approved.size();
+    (void)parse_since(arguments.since);
     const bool is_change = marked + changes.cleared.size() > 0 || arguments.forget;
     if (!arguments.note.empty() && marked == 0)
         throw Error(ErrorCode::bad_argument, "--note", "needs --approve or --reviewed");
+    if (arguments.topics.is_change()) {
+        if (is_change)
+            throw Error(ErrorCode::bad_argument, "abut review",
+                        "changes either marks or topics, not both at once");
+        const TopicMerge merge =
+            change_topics(open_store(arguments.store, {.read_only = false}), arguments.topics);
+        if (common.json)
+            print_json(abut::to_json(merge));
+        else if (!common.quiet)
+            print_text(merge_text(merge));
+        return kExitDone;
+    }
     if (is_change) {
         const Store store = open_store(arguments.store, {.read_only = false});
         mark_clashes(store, changes);
@@ -127,7 +171,7 @@ int run(const ReviewArguments& arguments, const CommonOptions& common) {
             return kExitDone;
         }
     }
-    print_list(arguments.store, wanted, common);
+    print_list(arguments, wanted, common);
     return kExitDone;
 }
 
@@ -139,11 +183,16 @@ Subcommand add_review(CLI::App& root, CommonOptions& common) {
         add_subcommand(root, common,
                        {"review",
                         kClashes,
-                        "List the clashes of a store by status, and mark them",
+                        "List the clashes of a store and their groups, mark and assign them",
                         {{"abut review site.abut --status new,active",
                           "lists the clashes that nobody has reviewed"},
                          {"abut review site.abut --approve 0123456789abcdef --note \"as built\"",
-                          "approves a clash, by its id in a report"}},
+                          "approves a clash, by its id in a report"},
+                         {"abut review site.abut --groups --since 2026-11-16",
+                          "what has become of the groups since that day"},
+                         {"abut review site.abut --topic 0123456789abcdef --assign Hydra --due "
+                          "2026-12-01",
+                          "assigns a group, by its id in a report"}},
                         ""});
     app->add_option("STORE", arguments->store, "A store (abut import)")
         ->required()
@@ -162,6 +211,12 @@ Subcommand add_review(CLI::App& root, CommonOptions& common) {
     app->add_option("--status", arguments->status,
                     "List only these: new, active, reviewed, approved, resolved (comma-separated)")
         ->check(not_empty("STATUSES"));
+    app->add_flag("--groups", arguments->groups, "List the groups of clashes, with their topics");
+    app->add_option("--since", arguments->since,
+                    "Compare groups with the last job before this date (default: with the job "
+                    "before the last)")
+        ->check(not_empty("DATE"));
+    add_topic_options(*app, arguments->topics);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -154,6 +154,28 @@ py::dict seconds_of(const Report& self) {
     return times;
 }
 
+void bind_memory_and_groups_of_report(PlainBinder<Report>& binder) {
+    binder
+        .property(
+            "resolved", [](const Report& self) { return self.report.resolved; },
+            "list of ListedClash, of a store")
+        .property(
+            "grouping", [](const Report& self) { return self.report.grouping; },
+            "list of GroupBy; empty: not grouped")
+        .property(
+            "groups", [](const Report& self) { return self.report.groups; },
+            "list of ClashGroup, once group_clashes was called")
+        .property(
+            "history", [](const Report& self) { return self.report.history; },
+            "list of JobCounts, of a store that was grouped")
+        .property(
+            "topics", [](const Report& self) { return self.report.topics; },
+            "list of Topic, of a store that was grouped")
+        .property(
+            "topics_revision", [](const Report& self) { return self.report.topics_revision; },
+            "number of their last change");
+}
+
 void bind_results(py::module_& module) {
     bind_listed_clashes(module);
     bind_model_summary(module);
@@ -170,9 +192,10 @@ void bind_results(py::module_& module) {
         return to_dict(*self.report.statuses, kClashStatuses);
     };
     bind_matrix_of_report(module);
-    PlainBinder<Report>(module, "ClashReport",
-                        "Returned by find_clashes. Its length is the number of clashes.")
-        .property("clashes", &named_clashes, "list of Clash, in the order that `sort` asks for")
+    PlainBinder<Report> binder(module, "ClashReport",
+                               "Returned by find_clashes. Its length is the number of clashes.");
+    bind_memory_and_groups_of_report(binder);
+    binder.property("clashes", &named_clashes, "list of Clash, in the order that `sort` asks for")
         .property("counts", counts, "dict of kind to number")
         .property(
             "models", [](const Report& self) { return self.report.models; }, "list of ModelSummary")
@@ -195,9 +218,6 @@ void bind_results(py::module_& module) {
             "matrix", [](const Report& self) { return self.report.matrix; },
             "Matrix: the clashes cell by cell; None without a matrix")
         .property("statuses", statuses, "dict of status to number, of a store; else None")
-        .property(
-            "resolved", [](const Report& self) { return self.report.resolved; },
-            "list of ListedClash, of a store")
         .property(
             "counters", [](const Report& self) { return self.counters; },
             "OutOfCoreCounters, of a store; else None")

@@ -16,6 +16,7 @@ struct Report {
     ClashReport report;
     std::shared_ptr<const std::vector<Scene>> models;
     std::optional<OutOfCoreCounters> counters; ///< of a store's job
+    std::int64_t question = 0, job = 0;        ///< as StoreClashReport has them
 };
 
 /// A clash with the names of its parts.

@@ -41,7 +41,7 @@ py::object run_find_in_store(const Arguments& arguments) {
     });
     return py::cast(Report{std::move(found.report),
                            std::make_shared<const std::vector<Scene>>(std::move(found.models)),
-                           std::move(found.counters)});
+                           std::move(found.counters), found.question, found.job});
 }
 
 py::object run_overlap_graph(const Arguments& arguments) {

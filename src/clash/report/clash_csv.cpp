@@ -34,6 +34,7 @@ constexpr std::string_view kHeader =
     "direction_x,direction_y,direction_z,triangle_pairs,rule,severity,volume,volume_error,"
     "neighbours";
 constexpr std::string_view kStatusHeader = ",status,note"; // only in reports of a store
+constexpr std::string_view kGroupHeader = ",group,group_name";
 
 /// Whether a spreadsheet may take the text for a formula or a command. A leading control character
 /// suffices, because programs differ in which of them they skip.
@@ -83,7 +84,7 @@ void append_cells(TextBuffer& out, const Vec3& point) {
 }
 
 void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& models,
-                bool with_status) {
+                bool with_status, bool with_group, const ClashGroup* group) {
     const Part& a = part_of(clash, 0, models);
     const Part& b = part_of(clash, 1, models);
     fmt::format_to(fmt::appender(out), "{:016x},{}", clash.id, to_string(clash.kind));
@@ -109,6 +110,10 @@ void append_row(TextBuffer& out, const Clash& clash, const std::vector<Scene>& m
         append_cell(out, clash.status ? to_string(*clash.status) : "");
         append_cell(out, clash.note);
     }
+    if (with_group) {
+        append_cell(out, group != nullptr ? group->id : "");
+        append_cell(out, group != nullptr ? group->name : "");
+    }
     append(out, "\r\n");
 }
 
@@ -119,9 +124,12 @@ void write_clash_csv(const ClashReport& report, const std::vector<Scene>& models
     TextBuffer out;
     append(out, kHeader);
     append(out, report.statuses ? kStatusHeader : "");
+    append(out, report.grouping.empty() ? "" : kGroupHeader);
     append(out, "\r\n");
-    for (const Clash& clash : report.clashes)
-        append_row(out, clash, models, report.statuses.has_value());
+    const std::vector<const ClashGroup*> groups = groups_of_clashes(report);
+    for (std::size_t i = 0; i < report.clashes.size(); ++i)
+        append_row(out, report.clashes[i], models, report.statuses.has_value(),
+                   !report.grouping.empty(), groups[i]);
     write_file_atomically(path, {out.data(), out.size()});
 }
 

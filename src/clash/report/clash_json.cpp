@@ -3,11 +3,10 @@
 #include <abut/clash_review.h>
 
 #include "clash/report/clash_text.h"
+#include "clash/report/group_json.h"
 #include "core/atomic_file.h"
 
 #include <array>
-#include <ctime>
-#include <fmt/chrono.h>
 
 namespace abut {
 
@@ -16,7 +15,7 @@ using nlohmann::ordered_json;
 namespace {
 
 ordered_json json_of(const Clash& clash, const std::vector<Scene>& models) {
-    constexpr std::size_t kMostMembers = 22;
+    constexpr std::size_t kMostMembers = 23;
     const Part& a = part_of(clash, 0, models);
     const Part& b = part_of(clash, 1, models);
     ordered_json row = ordered_json::object();
@@ -51,11 +50,6 @@ ordered_json json_of(const Clash& clash, const std::vector<Scene>& models) {
     if (!clash.note.empty())
         put(row, "note", clash.note);
     return row;
-}
-
-/// Formats seconds since 1970 as "2026-11-22T10:00:00Z".
-std::string time_text(std::int64_t seconds) {
-    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(seconds)));
 }
 
 ordered_json json_of(const ListedClash& clash) {
@@ -101,16 +95,6 @@ ordered_json json_of(const ClashReport::ModelSummary& model) {
     return row;
 }
 
-/// Returns {name: number} for each kind or status, in the order of `keys`.
-template <typename Key, std::size_t count>
-ordered_json json_of(const std::array<std::uint64_t, count>& numbers,
-                     const std::array<Key, count>& keys) {
-    ordered_json result = ordered_json::object();
-    for (const Key key : keys)
-        put(result, to_string(key), numbers[static_cast<std::size_t>(key)]);
-    return result;
-}
-
 ordered_json json_of(const ClashReport::Matrix& matrix) {
     ordered_json cells = ordered_json::array();
     for (const ClashReport::Matrix::Cell& cell : matrix.cells) {
@@ -120,7 +104,7 @@ ordered_json json_of(const ClashReport::Matrix& matrix) {
                          {"clearance", json_number(cell.clearance)}};
         if (!cell.severity.empty())
             put(row, "severity", cell.severity);
-        put(row, "counts", json_of(cell.counts, kClashKinds));
+        put(row, "counts", json_counts(cell.counts, kClashKinds));
         cells.push_back(std::move(row));
     }
     return {{"groups", matrix.groups}, {"cells", std::move(cells)}};
@@ -137,16 +121,17 @@ void write_array(JsonLines& out, std::string_view name, const std::vector<Elemen
     out.end_array();
 }
 
-void write_review(JsonLines& out, const ClashReview& review) {
-    out.begin_object();
-    out.members({{"clearance", json_number(review.clearance)},
-                 {"touch", json_number(review.touch_tolerance)},
-                 {"self", review.self},
-                 {"rules", review.rules},
-                 {"finished", review.finished == 0 ? "" : time_text(review.finished)},
-                 {"statuses", json_of(review.statuses, kClashStatuses)}});
-    write_array(out, "clashes", review.clashes);
-    out.end_object();
+void write_clashes(JsonLines& out, const ClashReport& report, const std::vector<Scene>& models) {
+    const std::vector<const ClashGroup*> groups = groups_of_clashes(report);
+    out.key("clashes");
+    out.begin_array();
+    for (std::size_t i = 0; i < report.clashes.size(); ++i) {
+        ordered_json row = json_of(report.clashes[i], models);
+        if (groups[i] != nullptr)
+            put(row, "group", groups[i]->id);
+        out.value(row);
+    }
+    out.end_array();
 }
 
 } // namespace
@@ -206,6 +191,18 @@ const char* to_string(ClashStatus status) {
     return "unknown";
 }
 
+void write_review(JsonLines& out, const ClashReview& review) {
+    out.begin_object();
+    out.members({{"clearance", json_number(review.clearance)},
+                 {"touch", json_number(review.touch_tolerance)},
+                 {"self", review.self},
+                 {"rules", review.rules},
+                 {"finished", review.finished == 0 ? "" : time_text(review.finished)},
+                 {"statuses", json_counts(review.statuses, kClashStatuses)}});
+    write_array(out, "clashes", review.clashes);
+    out.end_object();
+}
+
 void write_head(JsonLines& out, const ClashReport& report) {
     write_array(out, "models", report.models);
     out.members(
@@ -214,13 +211,13 @@ void write_head(JsonLines& out, const ClashReport& report) {
          {"clearance", json_number(report.clearance)},
          {"touch", json_number(report.touch_tolerance)},
          {"candidates", report.candidates},
-         {"counts", json_of(report.counts, kClashKinds)},
-         {"neighbours", json_of(report.neighbours, kNeighbours)},
-         {"left_out", json_of(report.left_out, kLeftOut)}});
+         {"counts", json_counts(report.counts, kClashKinds)},
+         {"neighbours", json_counts(report.neighbours, kNeighbours)},
+         {"left_out", json_counts(report.left_out, kLeftOut)}});
     if (report.matrix)
         out.member("matrix", json_of(*report.matrix));
     if (report.statuses)
-        out.member("statuses", json_of(*report.statuses, kClashStatuses));
+        out.member("statuses", json_counts(*report.statuses, kClashStatuses));
 }
 
 void write_resolved(JsonLines& out, const ClashReport& report) {
@@ -241,8 +238,9 @@ void write_tail(JsonLines& out, const ClashReport& report) {
 
 void write_report(JsonLines& out, const ClashReport& report, const std::vector<Scene>& models) {
     write_head(out, report);
-    write_array(out, "clashes", report.clashes, models);
+    write_clashes(out, report, models);
     write_resolved(out, report);
+    write_groups(out, report, models);
     write_tail(out, report);
 }
 

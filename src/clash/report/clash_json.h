@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/clash.h>
+#include <abut/clash_review.h>
 
 #include "clash/report/json_lines.h"
 
@@ -16,6 +17,9 @@ void write_report(JsonLines& out, const ClashReport& report, const std::vector<S
 void write_head(JsonLines& out, const ClashReport& report);
 /// Appends "resolved" if the report has statuses.
 void write_resolved(JsonLines& out, const ClashReport& report);
+/// Appends the object of one question of a store.
+void write_review(JsonLines& out, const ClashReview& review);
+
 /// Appends "seconds" and "peak_rss_mib".
 void write_tail(JsonLines& out, const ClashReport& report);
 

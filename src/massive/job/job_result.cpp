@@ -186,12 +186,17 @@ StoreClashReport JobResult::finish() {
     for (Clash& clash : clashes)
         clash.part = {place.at(clash.part[0]), place.at(clash.part[1])};
     sum_up(result_.report, options_);
-    if (plan_.record != nullptr)
+    RecordedJob recorded;
+    if (plan_.record != nullptr) {
         plan_.record->finish(result_.report, result_.models);
-    else
+        recorded = plan_.record->job();
+    } else {
         store_.with_connection([&](Database& database) {
-            tell_statuses(database, plan_.stored, options_, result_.report);
+            recorded = tell_statuses(database, plan_.stored, options_, result_.report);
         });
+    }
+    result_.question = recorded.question;
+    result_.job = recorded.job;
     return std::move(result_);
 }
 

@@ -4,6 +4,7 @@
 
 #include "massive/record/clash_history.h"
 #include "massive/record/earlier_answers.h"
+#include "massive/record/job_counts.h"
 #include "massive/record/job_tables.h"
 #include "store/database/row_hash.h"
 
@@ -17,11 +18,6 @@ namespace abut {
 
 namespace {
 
-bool is_writable(const std::string& store) {
-    const std::filesystem::path folder = std::filesystem::absolute(store).parent_path();
-    return access(store.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0;
-}
-
 /// Returns a key that is equal for jobs of the same question about the same parts.
 Hash128 job_key(const Hash128& parts, std::int64_t question) {
     return RowHash().add(parts).add(question).value_128();
@@ -29,9 +25,14 @@ Hash128 job_key(const Hash128& parts, std::int64_t question) {
 
 } // namespace
 
+bool is_writable_store(const std::string& store) {
+    const std::filesystem::path folder = std::filesystem::absolute(store).parent_path();
+    return access(store.c_str(), W_OK) == 0 && access(folder.c_str(), W_OK) == 0;
+}
+
 std::unique_ptr<JobRecord> JobRecord::open(const std::string& store, const StoredParts& stored,
                                            const ClashOptions& options, std::uint64_t candidates) {
-    if (!is_writable(store))
+    if (!is_writable_store(store))
         return nullptr;
     return std::unique_ptr<JobRecord>(new JobRecord(store, stored, options, candidates));
 }
@@ -159,24 +160,26 @@ void JobRecord::commit(const StoredParts& stored, std::size_t unit,
 }
 
 void JobRecord::finish(ClashReport& report, const std::vector<Scene>& models) {
-    if (job_.finished == 0) {
-        Transaction transaction(database_);
-        require_ours();
-        JobRow finished = job_;
-        finished.finished = now();
-        record_history(database_, finished, report, models);
-        put_job(database_, finished);
-        remove_other_jobs(database_, finished, true);
-        transaction.commit();
-        job_ = finished;
-    }
-    tell_statuses(database_, job_.question, job_.job, report);
+    if (job_.finished != 0)
+        return tell_statuses(database_, job_.question, job_.job, report);
+    Transaction transaction(database_);
+    require_ours();
+    JobRow finished = job_;
+    finished.finished = now();
+    record_history(database_, finished, report, models);
+    put_job(database_, finished);
+    remove_other_jobs(database_, finished, true);
+    tell_statuses(database_, finished.question, finished.job, report);
+    record_counts(database_, finished, report);
+    transaction.commit();
+    job_ = finished;
 }
 
-void tell_statuses(Database& database, const StoredParts& stored, const ClashOptions& options,
-                   ClashReport& report) {
+RecordedJob tell_statuses(Database& database, const StoredParts& stored,
+                          const ClashOptions& options, ClashReport& report) {
     // A job that the history does not have gets a number larger than any other.
-    std::int64_t question = 0, job = std::numeric_limits<std::int64_t>::max();
+    constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+    std::int64_t question = 0, job = kNone;
     if (has_job_tables(database))
         question = find_question(database, options).value_or(0);
     if (question != 0)
@@ -184,6 +187,7 @@ void tell_statuses(Database& database, const StoredParts& stored, const ClashOpt
             known && known->finished != 0)
             job = known->job;
     tell_statuses(database, question, job, report);
+    return {question, job == kNone ? 0 : job};
 }
 
 } // namespace abut

@@ -19,6 +19,14 @@
 
 namespace abut {
 
+/// Whether a store can be written to.
+bool is_writable_store(const std::string& store);
+
+/// Numbers of a question and of a finished job of it; 0: the store has none.
+struct RecordedJob {
+    std::int64_t question = 0, job = 0;
+};
+
 /// The progress of a job, recorded in its store: the pairs that are left and the clashes of the
 /// others. Each work unit is recorded entirely or not at all, so that a killed job can be resumed.
 /// A new job takes over the answers of an earlier job of the same question for parts that have not
@@ -59,6 +67,8 @@ public:
     /// removes the other jobs of the same question.
     void finish(ClashReport& report, const std::vector<Scene>& models);
 
+    [[nodiscard]] RecordedJob job() const { return {job_.question, job_.job}; }
+
 private:
     JobRecord(const std::string& store, const StoredParts& stored, const ClashOptions& options,
               std::uint64_t candidates);
@@ -71,8 +81,9 @@ private:
     std::vector<ClashRow> taken_over_; ///< clashes of an earlier job, until the plan is recorded
 };
 
-/// Gives the clashes of a report their statuses when the job is not recorded.
-void tell_statuses(Database& database, const StoredParts& stored, const ClashOptions& options,
-                   ClashReport& report);
+/// Gives the clashes of a report their statuses when the job is not recorded. Returns the finished
+/// job of the same question about the same parts.
+RecordedJob tell_statuses(Database& database, const StoredParts& stored,
+                          const ClashOptions& options, ClashReport& report);
 
 } // namespace abut

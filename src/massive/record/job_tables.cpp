@@ -12,15 +12,10 @@ namespace abut {
 
 namespace {
 
-struct JobTable {
-    std::string_view name;
-    const char* sql;
-};
-
 /// The tables whose contents no job can find again. SQLite stores these texts verbatim; comparing
 /// them tells whether this version made a table.
 constexpr std::array kOfPeople{
-    JobTable{"question", R"(CREATE TABLE question(
+    StoreTable{"question", R"(CREATE TABLE question(
   question INTEGER PRIMARY KEY AUTOINCREMENT,
   hash BLOB NOT NULL,
   clearance REAL NOT NULL,
@@ -28,7 +23,7 @@ constexpr std::array kOfPeople{
   self INTEGER NOT NULL,
   rules INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    JobTable{"clash_history", R"(CREATE TABLE clash_history(
+    StoreTable{"clash_history", R"(CREATE TABLE clash_history(
   question INTEGER NOT NULL REFERENCES question,
   id TEXT NOT NULL,
   kind TEXT NOT NULL,
@@ -42,20 +37,36 @@ constexpr std::array kOfPeople{
   resolved INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
   PRIMARY KEY(question, id)) WITHOUT ROWID)"},
-    JobTable{"clash_mark", R"(CREATE TABLE clash_mark(
+    StoreTable{"clash_mark", R"(CREATE TABLE clash_mark(
   serial INTEGER PRIMARY KEY AUTOINCREMENT,
   id TEXT NOT NULL UNIQUE,
   mark TEXT NOT NULL,
   note TEXT NOT NULL,
   marked INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    JobTable{"row_tally", R"(CREATE TABLE row_tally(
+    StoreTable{"job_counts", R"(CREATE TABLE job_counts(
+  question INTEGER NOT NULL REFERENCES question,
+  job INTEGER NOT NULL,
+  finished INTEGER NOT NULL,
+  hard INTEGER NOT NULL,
+  touch INTEGER NOT NULL,
+  contained INTEGER NOT NULL,
+  duplicate INTEGER NOT NULL,
+  clearance INTEGER NOT NULL,
+  new INTEGER NOT NULL,
+  active INTEGER NOT NULL,
+  reviewed INTEGER NOT NULL,
+  approved INTEGER NOT NULL,
+  resolved INTEGER NOT NULL,
+  checksum INTEGER NOT NULL,
+  PRIMARY KEY(question, job)) WITHOUT ROWID)"},
+    StoreTable{"row_tally", R"(CREATE TABLE row_tally(
   list TEXT PRIMARY KEY,
   rows INTEGER NOT NULL,
   sum INTEGER NOT NULL) WITHOUT ROWID)"},
 };
 constexpr std::array kOfJobs{
-    JobTable{"job", R"(CREATE TABLE job(
+    StoreTable{"job", R"(CREATE TABLE job(
   job INTEGER PRIMARY KEY AUTOINCREMENT,
   question INTEGER NOT NULL REFERENCES question,
   key BLOB NOT NULL,
@@ -67,13 +78,13 @@ constexpr std::array kOfJobs{
   planned INTEGER NOT NULL,
   finished INTEGER NOT NULL,
   checksum INTEGER NOT NULL))"},
-    JobTable{"job_unit", R"(CREATE TABLE job_unit(
+    StoreTable{"job_unit", R"(CREATE TABLE job_unit(
   job INTEGER NOT NULL REFERENCES job,
   unit INTEGER NOT NULL,
   checksum INTEGER NOT NULL,
   pairs BLOB NOT NULL,
   PRIMARY KEY(job, unit)))"},
-    JobTable{"clash", R"(CREATE TABLE clash(
+    StoreTable{"clash", R"(CREATE TABLE clash(
   clash INTEGER PRIMARY KEY,
   job INTEGER NOT NULL REFERENCES job,
   id TEXT NOT NULL,
@@ -94,7 +105,7 @@ constexpr std::array kOfJobs{
 };
 
 /// The view gives each clash its status. A clash is `new` if the last finished job found it first.
-constexpr JobTable kStatusView{"clash_status", R"(CREATE VIEW clash_status AS
+constexpr StoreTable kStatusView{"clash_status", R"(CREATE VIEW clash_status AS
 SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_file, distance,
   CASE WHEN resolved > 0 THEN 'resolved'
     WHEN serial > returned THEN mark
@@ -109,32 +120,20 @@ bool is_of_first_version(Database& database) {
                "SELECT count(*) FROM pragma_table_info('job') WHERE name = 'generation'") == 0;
 }
 
-/// Errors      Error{malformed} if there is a foreign table of this name.
-bool is_there(Database& database, const JobTable& table) {
-    Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = ?");
-    find.bind(std::string_view(table.sql), table.name);
-    if (!find.step())
-        return false;
-    if (find.integer(0) == 0)
-        damaged_job(database, "table " + std::string(table.name) +
-                                  " is not as this version of Abut makes it");
-    return true;
-}
-
-bool are_there(Database& database, std::span<const JobTable> tables) {
+bool are_there(Database& database, std::span<const StoreTable> tables) {
     return std::ranges::all_of(tables,
-                               [&](const JobTable& table) { return is_there(database, table); });
+                               [&](const StoreTable& table) { return has_table(database, table); });
 }
 
 bool has_tables_of_jobs(Database& database) {
     return !is_of_first_version(database) && are_there(database, kOfJobs) &&
-           is_there(database, kStatusView);
+           has_table(database, kStatusView);
 }
 
 void make_anew(Database& database) {
     database.run("DROP VIEW IF EXISTS clash_status; DROP TABLE IF EXISTS job_unit; "
                  "DROP TABLE IF EXISTS clash; DROP TABLE IF EXISTS job");
-    for (const JobTable& table : kOfJobs)
+    for (const StoreTable& table : kOfJobs)
         database.run(table.sql);
     database.run("CREATE INDEX clash_by_job ON clash(job)");
     database.run(kStatusView.sql);
@@ -146,9 +145,20 @@ void make_anew(Database& database) {
 
 } // namespace
 
+bool has_table(Database& database, const StoreTable& table) {
+    Statement find(database, "SELECT sql = ? FROM sqlite_schema WHERE name = ?");
+    find.bind(std::string_view(table.sql), table.name);
+    if (!find.step())
+        return false;
+    if (find.integer(0) == 0)
+        damaged_job(database, "table " + std::string(table.name) +
+                                  " is not as this version of Abut makes it");
+    return true;
+}
+
 void prepare_job_tables(Database& database) {
-    for (const JobTable& table : kOfPeople)
-        if (!is_there(database, table))
+    for (const StoreTable& table : kOfPeople)
+        if (!has_table(database, table))
             database.run(table.sql);
     if (!has_tables_of_jobs(database))
         make_anew(database);

@@ -6,10 +6,20 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// The tables of jobs in a store. docs/massive.md explains the columns.
 namespace abut {
+
+/// A table or a view and the statement that makes it. SQLite stores the statement verbatim.
+struct StoreTable {
+    std::string_view name;
+    const char* sql;
+};
+/// Whether the table exists.
+/// Errors      Error{malformed}, naming the store, if there is a foreign table of this name.
+bool has_table(Database& database, const StoreTable& table);
 
 /// Creates the tables that are missing. Job tables of the first version are replaced by empty ones,
 /// because jobs can be run again. The marks of users stay. The caller holds a transaction.

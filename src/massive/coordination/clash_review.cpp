@@ -1,8 +1,12 @@
 #include <abut/clash_review.h>
 #include <abut/error.h>
 
+#include "massive/coordination/coordination_tables.h"
+#include "massive/coordination/group_rows.h"
+#include "massive/coordination/topic_rows.h"
 #include "massive/record/clash_history.h"
 #include "massive/record/clash_marks.h"
+#include "massive/record/job_counts.h"
 #include "massive/record/job_rows.h"
 #include "massive/record/job_tables.h"
 #include "massive/record/work_rows.h"
@@ -71,6 +75,27 @@ ClashReview review(Database& database, const QuestionRow& question, const Marks&
     return result;
 }
 
+/// Removes clashes that no history knows from all groups, and resolved groups that are left without
+/// any, unless people have said something about them.
+void forget_members(Database& database, const std::unordered_set<std::uint64_t>& known) {
+    std::unordered_set<std::string> with_topic;
+    for (const Topic& topic : read_topic_rows(database))
+        with_topic.insert(topic.group);
+    for (const GroupingKey& grouping : read_groupings(database)) {
+        const GroupMemory before = read_memory(database, grouping);
+        GroupMemory after = before;
+        std::erase_if(after.members, [&](const auto& row) { return !known.contains(row.first); });
+        std::unordered_set<std::uint64_t> used;
+        for (const auto& [clash, row] : after.members)
+            used.insert(row.group);
+        std::erase_if(after.groups, [&](const auto& row) {
+            return row.second.resolved != 0 && !used.contains(row.first) &&
+                   !with_topic.contains(clash_id_text(row.first));
+        });
+        write_memory(database, grouping, before, after);
+    }
+}
+
 } // namespace
 
 std::vector<ClashReview> review_clashes(const Store& store) {
@@ -110,7 +135,7 @@ void mark_clashes(const Store& store, const MarkChanges& changes) {
 std::uint64_t forget_resolved_clashes(const Store& store) {
     return store.file().with_connection([](Database& database) {
         Transaction transaction(database);
-        prepare_job_tables(database);
+        prepare_coordination_tables(database);
         std::vector<std::uint64_t> gone;
         for (const QuestionRow& question : read_questions(database))
             for (const std::uint64_t id : forget_resolved(database, question.question))
@@ -120,6 +145,7 @@ std::uint64_t forget_resolved_clashes(const Store& store) {
         for (const std::uint64_t id : gone)
             if (!ids.known.contains(id)) // another question may still have it
                 remove_mark(database, marks, id);
+        forget_members(database, ids.known);
         transaction.commit();
         return std::uint64_t{gone.size()};
     });
@@ -130,12 +156,19 @@ void verify_jobs(const Store& store) {
         if (!has_job_tables(database))
             return;
         (void)read_marks(database);
-        for (const QuestionRow& question : read_questions(database))
+        for (const QuestionRow& question : read_questions(database)) {
             for_each_in_history(database, question.question, [](const HistoryRow&) {});
+            (void)read_counts(database, question.question);
+        }
         for (const JobRow& job : read_jobs(database)) {
             for_each_clash(database, job.job, [](const ClashRow&) {});
             for_each_pair_left(database, job.job, [](const RowPair&) {});
         }
+        if (!has_coordination_tables(database))
+            return;
+        for (const GroupingKey& grouping : read_groupings(database))
+            (void)read_memory(database, grouping);
+        verify_topics(database);
     });
 }
 

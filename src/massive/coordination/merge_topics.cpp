@@ -1,0 +1,229 @@
+#include <abut/clash.h>
+#include <abut/error.h>
+#include <abut/store.h>
+#include <abut/topics.h>
+
+#include "clash/groups/group_topics.h"
+#include "clash/report/group_json.h"
+#include "clash/report/topic_document.h"
+#include "core/uuid.h"
+#include "massive/coordination/apply_review.h"
+#include "massive/coordination/coordination_tables.h"
+#include "massive/coordination/topic_marks.h"
+#include "massive/coordination/topic_merge.h"
+#include "massive/coordination/topic_rows.h"
+#include "massive/record/job_tables.h"
+#include "store/database/store_file.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+[[noreturn]] void refuse_topic(const std::string& topic, const char* why) {
+    throw Error(ErrorCode::bad_argument, "topic " + topic + " " + why);
+}
+
+std::string guid_of(const Topic& topic) {
+    if (!topic.guid.empty())
+        return topic.guid;
+    if (!topic.group.empty())
+        return group_topic_guid(topic.group);
+    if (!topic.clashes.empty())
+        return clash_topic_guid(topic.clashes.front());
+    throw Error(ErrorCode::bad_argument, "a topic has neither a GUID, nor a group, nor a clash");
+}
+
+/// The topics of all groups that the store knows, by GUID, as if nobody had said anything of them.
+std::map<std::string, Topic> topics_nobody_touched(Database& database) {
+    std::map<std::string, Topic> topics;
+    Statement rows(database, "SELECT id, path, name, what FROM clash_group ORDER BY question DESC");
+    while (rows.step()) {
+        Topic topic = fresh_topic(rows.text(0), rows.text(2), rows.text(3));
+        const std::string guid = topic.guid;
+        topics.insert_or_assign(guid, std::move(topic));
+    }
+    return topics;
+}
+
+/// Merges topics one by one within a transaction.
+class Merger {
+public:
+    Merger(Database& database, const MergeOptions& options)
+        : database_(database), options_(options),
+          now_(options.now != 0 ? options.now : abut::now()),
+          fresh_(topics_nobody_touched(database)) {
+        for (Topic& topic : read_topic_rows(database)) {
+            const std::string guid = topic.guid;
+            stored_.emplace(guid, std::move(topic));
+        }
+        const std::int64_t last = last_revision(database);
+        if (options.base && (*options.base < 0 || *options.base > last))
+            throw Error(ErrorCode::bad_argument, database.path(),
+                        fmt::format("has no revision {}; its last one is {}", *options.base, last));
+        result_.revision = last;
+    }
+
+    void merge(Topic edited) {
+        edited.guid = guid_of(edited);
+        if (!seen_.insert(edited.guid).second)
+            refuse_topic(edited.guid, "is given twice");
+        if (!edited.due.empty() && !is_date(edited.due))
+            refuse_topic(edited.guid, "has a due date that is none: YYYY-MM-DD is asked for");
+        const auto known = stored_.find(edited.guid);
+        const auto fresh = fresh_.find(edited.guid);
+        Topic before;
+        before.guid = edited.guid;
+        if (known != stored_.end())
+            before = known->second;
+        else if (fresh != fresh_.end())
+            before = fresh->second;
+        complete_comments(edited);
+        const std::size_t conflicts = result_.conflicts.size();
+        Topic merged = merge_topic(base_of(before), before, edited, result_.conflicts);
+        keep_what_lost(merged, conflicts);
+        write(known != stored_.end() ? &before : nullptr, before, std::move(merged), edited);
+    }
+
+    TopicMerge finish() { return std::move(result_); }
+
+private:
+    Topic base_of(const Topic& stored) const {
+        if (!options_.base)
+            return stored;
+        if (auto at = topic_at_revision(database_, stored.guid, *options_.base))
+            return *std::move(at);
+        // The editor saw the topic before anyone had touched it.
+        const auto fresh = fresh_.find(stored.guid);
+        if (fresh != fresh_.end())
+            return fresh->second;
+        Topic empty;
+        empty.guid = stored.guid;
+        return empty;
+    }
+
+    std::string author_of(const Topic& edited) const {
+        return options_.author.empty() ? edited.modified_by : options_.author;
+    }
+
+    /// Gives comments without a GUID, an author or a time what they lack.
+    void complete_comments(Topic& edited) const {
+        for (TopicComment& comment : edited.comments) {
+            if (comment.author.empty())
+                comment.author = author_of(edited);
+            if (comment.time == 0)
+                comment.time = now_;
+            if (comment.guid.empty())
+                comment.guid =
+                    uuid_of_name(edited.guid, comment.author + "\n" + time_text(comment.time) +
+                                                  "\n" + comment.text);
+        }
+    }
+
+    /// Adds a comment with the edited value of each conflict since `first`.
+    void keep_what_lost(Topic& merged, std::size_t first) const {
+        for (std::size_t i = first; i < result_.conflicts.size(); ++i) {
+            const TopicConflict& conflict = result_.conflicts[i];
+            TopicComment comment;
+            comment.author = options_.author;
+            comment.time = now_;
+            comment.text = fmt::format("Conflict: {} stays \"{}\"; not taken: \"{}\"",
+                                       conflict.field, conflict.stored, conflict.edited);
+            comment.guid = uuid_of_name(merged.guid, comment.text + time_text(now_));
+            if (std::ranges::find(merged.comments, comment.guid, &TopicComment::guid) ==
+                merged.comments.end())
+                merged.comments.push_back(comment);
+        }
+    }
+
+    void write(const Topic* stored, const Topic& before, Topic merged, const Topic& edited) {
+        if (merged == before && (stored != nullptr || !merged.group.empty()))
+            return;
+        const bool is_change = result_.added.empty() && result_.changed.empty();
+        if (is_change)
+            ++result_.revision;
+        if (stored == nullptr) {
+            merged.created = edited.created != 0 ? edited.created : now_;
+            merged.created_by = edited.created_by.empty() ? author_of(edited) : edited.created_by;
+        }
+        merged.modified = now_;
+        merged.modified_by = author_of(edited);
+        (stored == nullptr ? result_.added : result_.changed).push_back(merged.guid);
+        for (const TopicComment& comment : merged.comments)
+            if (std::ranges::find(before.comments, comment.guid, &TopicComment::guid) ==
+                before.comments.end())
+                ++result_.comments;
+        write_topic(database_, stored, merged, result_.revision);
+        result_.marked += mark_by_topic(database_, before, merged, now_);
+    }
+
+    Database& database_;
+    const MergeOptions& options_;
+    std::int64_t now_;
+    std::map<std::string, Topic> stored_, fresh_;
+    std::set<std::string> seen_;
+    TopicMerge result_;
+};
+
+/// The topic that a file's edits refer to, as it was when they were made.
+Topic edited_at(Database& database, const std::string& guid, std::optional<std::int64_t> base) {
+    if (base)
+        if (auto at = topic_at_revision(database, guid, *base))
+            return *std::move(at);
+    if (!base)
+        for (Topic& topic : read_topic_rows(database))
+            if (topic.guid == guid)
+                return std::move(topic);
+    const auto fresh = topics_nobody_touched(database);
+    const auto found = fresh.find(guid);
+    if (found != fresh.end())
+        return found->second;
+    Topic empty;
+    empty.guid = guid;
+    return empty;
+}
+
+} // namespace
+
+std::vector<Topic> read_topics(const Store& store) {
+    return store.file().with_connection([](Database& database) {
+        return has_coordination_tables(database) ? read_topic_rows(database) : std::vector<Topic>();
+    });
+}
+
+std::int64_t topics_revision(const Store& store) {
+    return store.file().with_connection([](Database& database) {
+        return has_coordination_tables(database) ? last_revision(database) : std::int64_t{0};
+    });
+}
+
+TopicMerge merge_topics(const Store& store, const std::vector<Topic>& edited,
+                        const MergeOptions& options) {
+    return store.file().with_connection([&](Database& database) {
+        Transaction transaction(database);
+        prepare_coordination_tables(database);
+        Merger merger(database, options);
+        for (const Topic& topic : edited)
+            merger.merge(topic);
+        transaction.commit();
+        return merger.finish();
+    });
+}
+
+Topic topic_before_edit(const Store& store, const std::string& guid,
+                        std::optional<std::int64_t> base) {
+    return store.file().with_connection([&](Database& database) {
+        if (has_coordination_tables(database))
+            return edited_at(database, guid, base);
+        Topic empty;
+        empty.guid = guid;
+        return empty;
+    });
+}
+
+} // namespace abut
