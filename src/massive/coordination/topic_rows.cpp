@@ -60,9 +60,9 @@ void change_tally(Database& database, const char* list, std::optional<std::uint6
     write_tally(database, list, tally);
 }
 
-std::vector<std::string> texts_of(const std::string& json) {
+std::vector<std::string> texts_of(const std::string& list) {
     std::vector<std::string> texts;
-    const auto parsed = nlohmann::json::parse(json, nullptr, false);
+    const auto parsed = nlohmann::json::parse(list, nullptr, false);
     if (parsed.is_array())
         for (const auto& text : parsed)
             if (text.is_string())
@@ -81,9 +81,9 @@ std::string clashes_text(const std::vector<std::uint64_t>& clashes) {
     return json_text(texts);
 }
 
-std::vector<std::uint64_t> clashes_of_text(const std::string& json) {
+std::vector<std::uint64_t> clashes_of_text(const std::string& list) {
     std::vector<std::uint64_t> clashes;
-    for (const std::string& text : texts_of(json))
+    for (const std::string& text : texts_of(list))
         if (const auto id = parse_clash_id(text))
             clashes.push_back(*id);
     return clashes;
