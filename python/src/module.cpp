@@ -39,6 +39,7 @@ PYBIND11_MODULE(_abut, module) {
     bind_clash_review(module);
     bind_clash_viewpoint(module);
     bind_bcf(module);
+    bind_clash_bcf(module);
     bind_walk(module);
     bind_maintenance_path(module);
     bind_carry(module);

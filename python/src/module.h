@@ -35,6 +35,7 @@ void bind_topics(py::module_& module);
 void bind_clash_review(py::module_& module);
 void bind_clash_viewpoint(py::module_& module);
 void bind_bcf(py::module_& module);
+void bind_clash_bcf(py::module_& module);
 void bind_walk(py::module_& module);
 void bind_maintenance_path(py::module_& module);
 void bind_carry(py::module_& module);

@@ -150,7 +150,7 @@ OPTIONS = {
     "ReadOptions": "read_scene", "NearestOptions": "nearest", "ImportOptions": "import_models", "StoreOptions": "open_store",
     "OutOfCoreOptions": "find_clashes", "GroupOptions": "group_clashes", "MergeOptions": "merge_topics", "WalkOptions": "Walk", "BodyOptions": "World.add", "WorldOptions": "World",
     "SpeedBounds": "World.set_speed", "LevelOptions": "build_levels", "PathOptions": "check_path",
-    "CarryOptions": "Carry.move_to", "ViewOptions": "View", "PictureOptions": "picture", "ViewpointOptions": "clash_viewpoints",
+    "CarryOptions": "Carry.move_to", "ViewOptions": "View", "PictureOptions": "picture", "ViewpointOptions": "clash_viewpoints", "ClashBcfOptions": "clash_bcf",
     "WalkerOptions": "Walker", "MarkChanges": "mark_clashes",
 }
 

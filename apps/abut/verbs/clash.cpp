@@ -12,6 +12,7 @@
 #include "arguments/selection.h"
 #include "commands.h"
 #include "text/clash_summary.h"
+#include "verbs/bcf_output.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ struct ClashArguments {
     GroupOptions grouping; ///< the reach; run() fills in the rest
     std::optional<std::string> memory;
     bool no_hierarchies = false;
+    BcfArguments bcf;
     ReadOptions read;
 };
 
@@ -137,6 +139,16 @@ OutOfCoreOptions limits_of(const ClashArguments& arguments, Crew* crew) {
     return limits;
 }
 
+void write_bcf_of(BcfOutput& bcf, const ClashArguments& arguments, bool from_store,
+                  StoreClashReport& found, const Progress& progress) {
+    throw_if_interrupted();
+    const InterruptScope scope(OnInterrupt::ask);
+    std::optional<Store> store;
+    if (from_store)
+        store = open_store(arguments.files.front());
+    bcf.write(found, store, progress, found.report.warnings);
+}
+
 int run(const ClashArguments& arguments, const CommonOptions& common) {
     const Stopwatch watch;
     std::unique_ptr<Crew> crew = join_crew();
@@ -156,6 +168,9 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     if (!arguments.out.empty())
         outputs.emplace(arguments.out,
                         std::vector<std::string>{"report.html", "report.json", "report.csv"});
+    std::optional<BcfOutput> bcf;
+    if (!arguments.bcf.out.empty())
+        bcf.emplace(arguments.bcf);
     refuse_misplaced(arguments, from_store);
     if (crew && !from_store)
         throw Error(ErrorCode::bad_argument, arguments.files.front(),
@@ -182,6 +197,8 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         group(found, from_store ? arguments.files.front() : "", grouping);
         report.seconds.total = watch.seconds();
     }
+    if (bcf)
+        write_bcf_of(*bcf, arguments, from_store, found, options.progress);
     bar.finish();
     throw_if_interrupted();
 
@@ -242,6 +259,7 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
            "or has one of these statuses: new, active, reviewed, approved. Or a condition: "
            "'hard and storey = L2' (docs/selecting.md)")
         ->check(not_empty("WORDS"));
+    add_bcf_options(*app, "--bcf", arguments->bcf);
     add_read_options(*app, arguments->read);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
