@@ -272,7 +272,20 @@ void write_clash_json(const ClashReport& report, const std::vector<Scene>& model
                       const std::string& path);
 void write_clash_csv(const ClashReport& report, const std::vector<Scene>& models,
                      const std::string& path);
-/// Writes one self-contained page with a summary, filters and sorting.
+struct ClashPageOptions {
+    /// Characters that the 3D view's geometry may take in the page, approximately; 0: no 3D view.
+    std::uint64_t building_bytes = 16'000'000;
+    Progress progress{};
+};
+
+/// Writes one self-contained page: the clashes to filter and sort, and the building in 3D
+/// (docs/clash-report.md). The geometry is simplified until it fits `building_bytes`, first that of
+/// parts far from clashes. Without meshes in `models`, the page has no 3D view.
+///
+/// Errors      also Error{bad_argument} if a clash refers to a part that is not in `models`;
+///             Error{interrupted}.
+void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
+                      const std::string& path, const ClashPageOptions& options);
 void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
                       const std::string& path);
 

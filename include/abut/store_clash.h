@@ -101,6 +101,14 @@ StoreClashReport find_clashes(const Store& store, const ClashOptions& options,
 /// Errors      as group_clashes of a report, and those of the store.
 void group_clashes(const Store& store, StoreClashReport& found, const GroupOptions& options = {});
 
+/// Writes the page of a job on a store, as write_clash_html of models does. Its 3D view is made
+/// from the geometry in the store, mesh by mesh.
+///
+/// Errors      as write_clash_html; those of the store; Error{unreadable} if an import has changed
+///             the store since the job.
+void write_clash_html(const StoreClashReport& found, const Store& store, const std::string& path,
+                      const ClashPageOptions& options = {});
+
 /// Takes part in a job whose leader calls find_clashes with the crew; each helper calls this.
 /// Returns when the leader has left the crew. Also returns after an error here, which the leader
 /// then throws.

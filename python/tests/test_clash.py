@@ -77,6 +77,10 @@ def test_reports_are_written(scenes, tmp_path):
     abut.write_clash_html(report, tmp_path / "r.html")
     assert len(json.loads((tmp_path / "r.json").read_text())["clashes"]) == len(report)
     assert (tmp_path / "r.html").read_text().startswith("<!")
+    abut.write_clash_html(report, tmp_path / "3d.html", scenes)
+    abut.write_clash_html(report, tmp_path / "list.html", scenes, building_bytes=0)
+    assert "\"building\":" not in (tmp_path / "list.html").read_text()
+    assert len((tmp_path / "3d.html").read_text()) >= len((tmp_path / "list.html").read_text())
     with pytest.raises(abut.Error) as error:
         abut.write_clash_csv(report, tmp_path / "no" / "r.csv")
     assert error.value.code is abut.ErrorCode.cannot_write and error.value.file

@@ -152,6 +152,7 @@ OPTIONS = {
     "SpeedBounds": "World.set_speed", "LevelOptions": "build_levels", "PathOptions": "check_path",
     "CarryOptions": "Carry.move_to", "ViewOptions": "View", "PictureOptions": "picture", "ViewpointOptions": "clash_viewpoints", "ClashBcfOptions": "clash_bcf",
     "WalkerOptions": "Walker", "MarkChanges": "mark_clashes",
+    "ClashPageOptions": "write_clash_html",
 }
 
 

@@ -1,8 +1,11 @@
-/// abut-make-report FOLDER COUNT [statuses]: writes report.html, report.json and report.csv of
+/// abut-make-report FOLDER COUNT [statuses|building]: writes report.html, report.json and report.csv of
 /// COUNT made-up clashes. Some names would break pages that do not escape text. With `statuses`,
-/// the clashes have statuses as from a store. The same count gives the same files.
+/// the clashes have statuses as from a store. With `building`, they are found between parts with
+/// geometry. The same arguments give the same files.
 #include <abut/clash.h>
 #include <abut/error.h>
+
+#include "made_building.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -159,21 +162,27 @@ void add_statuses(ClashReport& report, const std::vector<Scene>& models) {
 
 int main(int argc, char** argv) try {
     if (argc != 3 && argc != 4) {
-        fmt::print(stderr, "usage: abut-make-report FOLDER COUNT [statuses]\n");
+        fmt::print(stderr, "usage: abut-make-report FOLDER COUNT [statuses|building]\n");
         return 2;
     }
-    const std::string folder = argv[1];
+    const std::string folder = argv[1], kind = argc == 4 ? argv[3] : "";
     const std::size_t count = std::strtoull(argv[2], nullptr, 10);
     std::mt19937 random(20);
     std::vector<Scene> models;
-    models.push_back(
-        make_scene("models/hospital_structure.glb", kBuilding, 300 + count / 20, random));
-    models.push_back(
-        make_scene("models/hospital_plumbing.glb", kServices, 200 + count / 10, random));
-    models.push_back(
-        make_scene("models/hospital_sprinklers.glb", kServices, 200 + count / 30, random));
-    ClashReport report = make_report(models, count, random);
-    if (argc == 4)
+    ClashReport report;
+    if (kind == "building") {
+        models = MadeBuilding(count, {std::begin(kHostileNames), std::end(kHostileNames)}).models;
+        report = find_clashes(models, {});
+    } else {
+        models.push_back(
+            make_scene("models/hospital_structure.glb", kBuilding, 300 + count / 20, random));
+        models.push_back(
+            make_scene("models/hospital_plumbing.glb", kServices, 200 + count / 10, random));
+        models.push_back(
+            make_scene("models/hospital_sprinklers.glb", kServices, 200 + count / 30, random));
+        report = make_report(models, count, random);
+    }
+    if (kind == "statuses")
         add_statuses(report, models);
     write_clash_html(report, models, folder + "/report.html");
     write_clash_json(report, models, folder + "/report.json");

@@ -372,7 +372,7 @@ describe('1,000 clashes of a store', () => {
     assert.deepEqual(exported[0], written[0]);
     const byId = (a, b) => (a[0] < b[0] ? -1 : 1);
     assert.deepEqual(exported.slice(1).map(numbersRead).sort(byId),
-      written.slice(1).filter((row) => row[22] === 'approved').map(numbersRead).sort(byId));
+      written.slice(1).filter((row) => row[26] === 'approved').map(numbersRead).sort(byId));
   });
 
   test('sorts by status, and lists what is resolved', async () => {
@@ -440,5 +440,5 @@ function parseCsv(text) {
 
 /** Cells 10 to 20 as numbers, so that 1e-07 equals 1e-7. */
 function numbersRead(row) {
-  return row.map((value, c) => (c >= 10 && c <= 20 ? Number(value) : value));
+  return row.map((value, c) => ((c >= 10 && c <= 20) || c === 23 || c === 24 ? Number(value) : value));
 }

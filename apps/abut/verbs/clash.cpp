@@ -29,7 +29,7 @@ struct ClashArguments {
     SelectionArguments selection;
     std::string out, fail_on, group = to_string(GroupOptions().by);
     GroupOptions grouping; ///< the reach; run() fills in the rest
-    std::optional<std::string> memory;
+    std::optional<std::string> memory, page_geometry;
     bool no_hierarchies = false;
     BcfArguments bcf;
     ReadOptions read;
@@ -47,14 +47,22 @@ void refuse_repeated(const std::vector<ModelPath>& files) {
         }
 }
 
-void write_reports(OutputFiles& outputs, const ClashReport& report,
-                   const std::vector<Scene>& models) {
+/// Writes the reports. In          store: path of the store that `found` is about; empty for models.
+void write_reports(OutputFiles& outputs, const StoreClashReport& found, const std::string& store,
+                   const ClashPageOptions& page) {
     const InterruptScope scope(OnInterrupt::defer);
+    const ClashReport& report = found.report;
+    const std::vector<Scene>& models = found.models;
+    throw_if_interrupted();
+    outputs.stage("report.html", [&](const std::string& path) {
+        if (!store.empty())
+            write_clash_html(found, open_store(store), path, page);
+        else
+            write_clash_html(report, models, path, page);
+    });
     using Writer = decltype(&write_clash_json);
-    constexpr std::array<std::pair<const char*, Writer>, 3> kWriters{
-        {{"report.html", write_clash_html},
-         {"report.json", write_clash_json},
-         {"report.csv", write_clash_csv}}};
+    constexpr std::array<std::pair<const char*, Writer>, 2> kWriters{
+        {{"report.json", write_clash_json}, {"report.csv", write_clash_csv}}};
     for (const auto& [name, writer] : kWriters) {
         throw_if_interrupted();
         outputs.stage(
@@ -91,7 +99,10 @@ int help(const ClashArguments& arguments, Crew& crew) {
 }
 
 /// Refuses options that are only for a store, or only for models.
-void refuse_misplaced(const ClashArguments& arguments, bool from_store) {
+void refuse_misplaced(const ClashArguments& arguments, bool from_store, bool has_crew) {
+    if (has_crew && !from_store)
+        throw Error(ErrorCode::bad_argument, arguments.files.front(),
+                    "is not a store: several processes can work only on a store");
     if (arguments.no_hierarchies && !from_store)
         throw Error(ErrorCode::bad_argument, "--no-keep-hierarchies",
                     "applies only to a store: without one, nothing is kept");
@@ -149,6 +160,14 @@ void write_bcf_of(BcfOutput& bcf, const ClashArguments& arguments, bool from_sto
     bcf.write(found, store, progress, found.report.warnings);
 }
 
+ClashPageOptions page_options_of(const ClashArguments& arguments) {
+    ClashPageOptions page;
+    if (arguments.page_geometry)
+        page.building_bytes = parse_bytes("--page-geometry", *arguments.page_geometry);
+    page.progress.stop = &interrupt_flag();
+    return page;
+}
+
 int run(const ClashArguments& arguments, const CommonOptions& common) {
     const Stopwatch watch;
     std::unique_ptr<Crew> crew = join_crew();
@@ -171,10 +190,8 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     std::optional<BcfOutput> bcf;
     if (!arguments.bcf.out.empty())
         bcf.emplace(arguments.bcf);
-    refuse_misplaced(arguments, from_store);
-    if (crew && !from_store)
-        throw Error(ErrorCode::bad_argument, arguments.files.front(),
-                    "is not a store: several processes can work only on a store");
+    refuse_misplaced(arguments, from_store, crew != nullptr);
+    const ClashPageOptions page = page_options_of(arguments);
     ProgressBar bar(common.progress_style());
     options.progress = bar.progress();
     StoreClashReport found; // `counters` is filled in for a store only
@@ -203,7 +220,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     throw_if_interrupted();
 
     if (outputs)
-        write_reports(*outputs, report, models);
+        write_reports(*outputs, found, from_store ? arguments.files.front() : "", page);
     if (common.json)
         print_json(from_store ? abut::to_json(found) : abut::to_json(report, models));
     else if (!common.quiet)
@@ -252,6 +269,10 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
                "Largest distance of a clash from the centre of its place (default 6m)");
     app->add_option("--out", arguments->out, "Folder for report.html, report.json and report.csv")
         ->check(not_empty("FOLDER"));
+    app->add_option("--page-geometry", arguments->page_geometry,
+                    "Bytes of report.html for the building in 3D, with K, M or G (default 16M; "
+                    "0: no 3D view)")
+        ->check(not_empty("BYTES"));
     app->add_option(
            "--fail-on", arguments->fail_on,
            "Exit with status 1 if there is a clash of these kinds: hard, touch, contained, "

@@ -4,6 +4,8 @@
 #include "module.h"
 #include "queries/queries.h"
 #include "stores/clashes.h"
+#include "stores/open_store.h"
+#include "support/work.h"
 
 namespace abut::python {
 
@@ -23,6 +25,31 @@ py::object run_find_clashes(const Arguments& arguments) {
         scene.meshes = {};
     return py::cast(Report{
         std::move(report), std::make_shared<const std::vector<Scene>>(std::move(models)), {}});
+}
+
+void run_write_html(const Report& report, const py::object& path, const py::object& models,
+                    std::uint64_t building_bytes, const py::object& progress) {
+    ClashPageOptions options{building_bytes, {}};
+    const std::string file = to_path(path);
+    if (py::isinstance<OpenStore>(models)) {
+        const Store store = models.cast<const OpenStore&>().get();
+        const StoreClashReport found{report.report, *report.models, {}};
+        Work work(progress);
+        work.run([&](const Progress& reported) {
+            options.progress = reported;
+            write_clash_html(found, store, file, options);
+            return true;
+        });
+        return;
+    }
+    const std::vector<Scene> scenes =
+        models.is_none() ? *report.models : to_scenes(models, progress);
+    Work work(progress);
+    work.run([&](const Progress& reported) {
+        options.progress = reported;
+        write_clash_html(report.report, scenes, file, options);
+        return true;
+    });
 }
 
 bool anything(PyObject* first, PyObject* /*third*/) {
@@ -99,9 +126,15 @@ void bind_report_writers(py::module_& module) {
     add_writer("write_clash_csv",
                "Writes a report as comma-separated text. Raises Error (cannot_write).",
                &write_clash_csv);
-    add_writer("write_clash_html",
-               "Writes a report as one page of HTML. Raises Error (cannot_write).",
-               &write_clash_html);
+    module.def(
+        "write_clash_html", &run_write_html, py::arg("report"), py::arg("path"),
+        py::arg("models") = py::none(), py::kw_only(),
+        py::arg("building_bytes") = ClashPageOptions().building_bytes,
+        py::arg("progress") = py::none(),
+        "Writes a report as one page of HTML, with the building in 3D if the models are given.\n\n"
+        "models           what the report is about: list of Scene or paths, or a Store\n"
+        "building_bytes   of the page for the 3D view, approximately; 0: no 3D view\n\n"
+        "Raises Error: cannot_write, bad_argument, those of the store.");
 }
 
 /// Returns a dict of name to number.

@@ -1,136 +1,17 @@
 #include <abut/clash.h>
-#include <abut/error.h>
 
-#include "clash/report/clash_json.h"
-#include "clash/report/clash_text.h"
+#include "clash/building/scenes_source.h"
+#include "clash/report/clash_page.h"
+#include "clash/report/page_data.h"
 #include "clash/report/report_page.h"
 #include "core/atomic_file.h"
+#include "math/vector.h"
 
-#include <array>
-#include <unordered_map>
+#include <algorithm>
 
 namespace abut {
 
 namespace {
-
-/// Distinct values in order of first use. Each has an index.
-class Table {
-public:
-    std::uint32_t index(const std::string& value) {
-        const auto [entry, is_new] = index_.try_emplace(value, index_.size());
-        if (is_new)
-            values_.push_back(&entry->first);
-        return entry->second;
-    }
-    [[nodiscard]] const std::vector<const std::string*>& values() const { return values_; }
-
-private:
-    std::unordered_map<std::string, std::uint32_t> index_;
-    std::vector<const std::string*> values_; // keys of the map, whose addresses are stable
-};
-
-/// The report as the page reads it: in columns, with every part, type, file and rule stored once. A
-/// page of 100,000 clashes has a third of the size that the rows of the JSON report would need.
-class PageData {
-public:
-    PageData(const ClashReport& report, const std::vector<Scene>& models)
-        : report_(report), models_(models) {
-        for (const Clash& clash : report.clashes) {
-            part_index_.push_back({index_part(clash, 0), index_part(clash, 1)});
-            rule_index_.push_back(rules_.index(clash.rule));
-            note_index_.push_back(notes_.index(clash.note));
-        }
-    }
-
-    [[nodiscard]] std::string json() const {
-        JsonLines out;
-        out.begin_object();
-        write_head(out, report_);
-        write_parts(out);
-        write_clashes(out);
-        if (report_.statuses)
-            write_statuses(out);
-        write_tail(out, report_);
-        out.end_object();
-        return out.take();
-    }
-
-private:
-    std::uint32_t index_part(const Clash& clash, int side) {
-        const Part& part = part_of(clash, side, models_);
-        const auto [entry, is_new] =
-            parts_.try_emplace(&part, static_cast<std::uint32_t>(parts_.size()));
-        if (is_new) {
-            part_order_.push_back(&part);
-            part_type_.push_back(types_.index(part.type));
-            part_file_.push_back(
-                files_.index(models_[clash.model[static_cast<std::size_t>(side)]].file));
-        }
-        return entry->second;
-    }
-
-    /// Appends an array: of(row) for each row.
-    template <typename Row, typename Of>
-    static void write_column(JsonLines& out, std::string_view name, const std::vector<Row>& rows,
-                             const Of& of) {
-        nlohmann::ordered_json::array_t column;
-        column.reserve(rows.size());
-        for (const Row& row : rows)
-            column.push_back(of(row));
-        out.member(name, std::move(column));
-    }
-
-    static void write_texts(JsonLines& out, std::string_view name, const Table& table) {
-        write_column(out, name, table.values(), [](const std::string* text) { return *text; });
-    }
-
-    void write_parts(JsonLines& out) const {
-        write_texts(out, "types", types_);
-        write_texts(out, "files", files_);
-        write_texts(out, "rules", rules_);
-        write_column(out, "part_id", part_order_, [](const Part* part) { return part->id; });
-        write_column(out, "part_name", part_order_, [](const Part* part) { return part->name; });
-        out.member("part_type", part_type_);
-        out.member("part_file", part_file_);
-    }
-
-    void write_clashes(JsonLines& out) const {
-        const auto column = [&](std::string_view name, const auto& of) {
-            write_column(out, name, report_.clashes, of);
-        };
-        const auto side = [&](std::string_view name, std::size_t k) {
-            write_column(out, name, part_index_, [&](const auto& parts) { return parts[k]; });
-        };
-        column("id", [](const Clash& clash) { return clash_id_text(clash.id); });
-        column("kind", [](const Clash& clash) { return static_cast<unsigned>(clash.kind); });
-        side("a", 0);
-        side("b", 1);
-        out.member("rule", rule_index_);
-        column("distance", [](const Clash& clash) { return json_number(clash.distance); });
-        column("triangle_pairs", [](const Clash& clash) { return clash.triangle_pairs; });
-        column("point_a", [](const Clash& clash) { return json_point(clash.point_a); });
-        column("point_b", [](const Clash& clash) { return json_point(clash.point_b); });
-        column("direction", [](const Clash& clash) { return json_point(clash.direction); });
-    }
-
-    void write_statuses(JsonLines& out) const {
-        write_texts(out, "notes", notes_);
-        out.member("note", note_index_);
-        write_column(out, "status", report_.clashes, [](const Clash& clash) {
-            return static_cast<unsigned>(clash.status.value_or(ClashStatus::fresh));
-        });
-        write_resolved(out, report_);
-    }
-
-    const ClashReport& report_;
-    const std::vector<Scene>& models_;
-    std::unordered_map<const Part*, std::uint32_t> parts_;
-    std::vector<const Part*> part_order_;
-    std::vector<std::uint32_t> part_type_, part_file_;
-    std::vector<std::array<std::uint32_t, 2>> part_index_; ///< by clash
-    std::vector<std::uint32_t> rule_index_, note_index_;
-    Table types_, files_, rules_, notes_;
-};
 
 /// Appends the template up to the marker, then removes that text and the marker from `html`.
 void append_until(std::string& out, std::string_view& html, std::string_view marker) {
@@ -139,20 +20,74 @@ void append_until(std::string& out, std::string_view& html, std::string_view mar
     html.remove_prefix(at + marker.size());
 }
 
+/// Packs the parts that clash and what is around them.
+PackedBuilding building_of(const ClashReport& report, const PartNumbers& numbers,
+                           const BuildingSource& source, const ClashPageOptions& options) {
+    std::vector<std::uint32_t> clashing;
+    std::unordered_map<std::uint32_t, std::uint32_t> number_of;
+    for (const auto& [model, part] : numbers.places()) {
+        number_of.emplace(source.part_of_report(model, part), clashing.size());
+        clashing.push_back(source.part_of_report(model, part));
+    }
+    std::vector<Vec3> points;
+    for (const Clash& clash : report.clashes)
+        for (const Vec3& point : {clash.point_a, clash.point_b})
+            if (is_finite(point))
+                points.push_back(point);
+    // Base64 takes 4 characters for 3 bytes.
+    return pack_building(source,
+                         {.clashing = clashing,
+                          .points = points,
+                          .most_bytes = options.building_bytes / 4 * 3,
+                          .progress = options.progress},
+                         number_of);
+}
+
+bool has_geometry(const std::vector<Scene>& models) {
+    return std::ranges::any_of(models, [](const Scene& model) { return !model.meshes.empty(); });
+}
+
 } // namespace
 
-void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
-                      const std::string& path) {
+void write_clash_page(const ClashReport& report, const std::vector<Scene>& models,
+                      const BuildingSource* source, const std::string& path,
+                      const ClashPageOptions& options) {
+    const PartNumbers numbers(report, models);
+    PackedBuilding building;
+    if (source != nullptr && !report.clashes.empty() && options.building_bytes > 0 &&
+        !report_page::scene.empty())
+        building = building_of(report, numbers, *source, options);
     std::string out;
     std::string_view html = report_page::html;
     append_until(out, html, "@STYLE@");
     out += report_page::style;
     append_until(out, html, "@DATA@");
-    out += PageData(report, models).json();
+    out += page_data(report, models, numbers, building);
     append_until(out, html, "@SCRIPT@");
     out += report_page::script;
+    append_until(out, html, "@BUILDING@");
+    if (!building.bytes.empty()) {
+        out += "<script type=\"text/plain\" id=\"building\">";
+        out += base64(building.bytes);
+        out += "</script>\n<script type=\"module\">";
+        out += report_page::scene;
+        out += "</script>\n";
+    }
     out += html;
     write_file_atomically(path, out);
+}
+
+void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
+                      const std::string& path, const ClashPageOptions& options) {
+    if (!has_geometry(models) || options.building_bytes == 0)
+        return write_clash_page(report, models, nullptr, path, options);
+    const ScenesSource source(models, report.frame.up);
+    write_clash_page(report, models, &source, path, options);
+}
+
+void write_clash_html(const ClashReport& report, const std::vector<Scene>& models,
+                      const std::string& path) {
+    write_clash_html(report, models, path, ClashPageOptions{});
 }
 
 } // namespace abut

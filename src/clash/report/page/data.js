@@ -11,6 +11,12 @@ dataElement.remove(); // frees tens of megabytes of text
 const count = report.id.length;
 const hasStatus = report.status !== undefined; // only reports of a store have statuses
 
+const byId = (id) => document.getElementById(id);
+const once = (make) => {
+  let made;
+  return () => (made ??= make());
+};
+
 const typeOf = (part) => report.part_type[part];
 const fileOf = (part) => report.part_file[part];
 
@@ -30,10 +36,6 @@ function ranks(texts, compare) {
   return rank;
 }
 
-const once = (make) => {
-  let made;
-  return () => (made ??= make());
-};
 const nameRanks = once(() => ranks(report.part_name, byAlphabet));
 const typeRanks = once(() => ranks(report.types, byAlphabet));
 
@@ -66,6 +68,57 @@ function sortedBy(column, descending) {
     return i - j;
   };
   return Uint32Array.from({ length: count }, (_, i) => i).sort(compare);
+}
+
+// ── properties ──────────────────────────────────────────────────────────────────────────────────────────────
+
+/** What the models say of a part, as pairs of indices of names and values. */
+const pairsOf = (part) => report.part_properties?.[part] ?? [];
+
+/** Returns the values of a property of a part. `type` and `file` count as properties. */
+function valuesOfPart(part, name) {
+  if (name === 'type')
+    return [report.types[typeOf(part)]];
+  if (name === 'file')
+    return [report.files[fileOf(part)]];
+  const wanted = report.property_names?.indexOf(name) ?? -1;
+  const pairs = pairsOf(part);
+  const values = [];
+  for (let k = 0; k < pairs.length; k += 2)
+    if (pairs[k] === wanted)
+      values.push(report.property_values[pairs[k + 1]]);
+  return values;
+}
+
+/** Values of a property for all parts: an array of texts by part. */
+const allValues = (() => {
+  const known = new Map();
+  return (name) => {
+    if (!known.has(name))
+      known.set(name, report.part_id.map((_, part) => valuesOfPart(part, name)));
+    return known.get(name);
+  };
+})();
+
+const NO_VALUE = '';
+/** The first value of a property; '' if the part has none. */
+const firstValue = (part, name) => allValues(name)[part][0] ?? NO_VALUE;
+
+/** Properties that order a building, those that the models have. */
+const COMMON = ['discipline', 'storey', 'system', 'zone', 'space', 'material', 'type_object', 'classification'];
+const commonProperties = once(() => COMMON.filter((name) => report.property_names?.includes(name)));
+
+/**
+ * Returns a test whether one part of a clash has a value of a property, and the other one the
+ * second value; any value if the second is null.
+ */
+function propertyTest({ name, value, other }) {
+  const values = allValues(name);
+  const has = (part, wanted) => (wanted === NO_VALUE ? values[part].length === 0 || values[part].includes('') : values[part].includes(wanted));
+  return (i) => {
+    const [a, b] = [report.a[i], report.b[i]];
+    return (has(a, value) && (other === null || has(b, other))) || (has(b, value) && (other === null || has(a, other)));
+  };
 }
 
 // ── filter ──────────────────────────────────────────────────────────────────────────────────────────────
@@ -109,10 +162,18 @@ function distanceTest(min, max) {
   return (i) => report.distance[i] !== null && report.distance[i] >= lower && report.distance[i] <= upper;
 }
 
+const UP = { x: 0, y: 1, z: 2 }[report.frame?.up] ?? 2;
+const heightOf = (i) => report.point_a[i][UP];
+
+function heightTest(lower, upper) {
+  return (i) => heightOf(i) !== null && heightOf(i) >= lower && heightOf(i) <= upper;
+}
+
 /**
  * Returns the clashes of `order` that pass the filter, and the number of each kind that pass all of
  * it except the kind.
- * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, status, min, max}
+ * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, status, min, max,
+ * properties: [{name, value, other}], heights: [lower, upper] or null}
  */
 function filtered(order, filter) {
   const tests = [
@@ -122,6 +183,8 @@ function filtered(order, filter) {
     filter.rule === ANY ? null : (i) => report.rule[i] === filter.rule,
     filter.status === ANY ? null : (i) => report.status[i] === filter.status,
     textTest(filter.query),
+    ...filter.properties.map(propertyTest),
+    filter.heights && heightTest(...filter.heights),
   ].filter(Boolean);
   const byKind = new Array(KINDS.length).fill(0);
   const rows = new Uint32Array(order.length);
@@ -149,7 +212,7 @@ function toCsv(rows) {
   const number = (value) => value ?? '';
   const lines = ['id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,' +
     'point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,' +
-    'direction_x,direction_y,direction_z,triangle_pairs,rule' + (hasStatus ? ',status,note' : '')];
+    'direction_x,direction_y,direction_z,triangle_pairs,rule,severity,volume,volume_error,neighbours' + (hasStatus ? ',status,note' : '')];
   for (const i of rows) {
     const sides = [report.a[i], report.b[i]];
     lines.push([
@@ -161,6 +224,7 @@ function toCsv(rows) {
       number(report.distance[i]),
       ...report.point_a[i].map(number), ...report.point_b[i].map(number), ...report.direction[i].map(number),
       report.triangle_pairs[i], csvText(report.rules[report.rule[i]]),
+      csvText(report.severities[report.severity[i]]), number(report.volume[i]), number(report.volume_error[i]), report.neighbours[i],
       ...(hasStatus ? [STATUSES[report.status[i]], csvText(report.notes[report.note[i]])] : []),
     ].join(','));
   }

@@ -10,16 +10,17 @@ const signed = (value, digits) => {
 };
 const millimetres = (metres) => (metres === null ? '' : metres === 0 ? '0' : signed(metres * 1000, 2));
 const orNoName = (text) => text || '(no name)';
+const baseName = (path) => path.split(/[\\/]/).pop() || path;
 
 const COLUMNS = [
   { key: 'kind', title: 'Kind', width: '104px', text: (i) => KINDS[report.kind[i]] },
   ...(hasStatus ? [{ key: 'status', title: 'Status', width: '92px', text: (i) => STATUSES[report.status[i]] }] : []),
   { key: 'a_name', title: 'A', width: '', cut: true, text: (i) => orNoName(report.part_name[report.a[i]]) },
-  { key: 'a_type', title: 'A type', width: '16%', text: (i) => report.types[typeOf(report.a[i])] },
+  { key: 'a_type', title: 'A type', width: '16%', broadOnly: true, text: (i) => report.types[typeOf(report.a[i])] },
   { key: 'b_name', title: 'B', width: '', cut: true, text: (i) => orNoName(report.part_name[report.b[i]]) },
-  { key: 'b_type', title: 'B type', width: '16%', text: (i) => report.types[typeOf(report.b[i])] },
+  { key: 'b_type', title: 'B type', width: '16%', broadOnly: true, text: (i) => report.types[typeOf(report.b[i])] },
   { key: 'distance', title: 'Distance, mm', width: '118px', num: true, text: (i) => millimetres(report.distance[i]) },
-  { key: 'triangle_pairs', title: 'Tri. pairs', hint: 'Intersecting triangle pairs', width: '98px', num: true,
+  { key: 'triangle_pairs', title: 'Tri. pairs', hint: 'Intersecting triangle pairs', width: '98px', num: true, broadOnly: true,
     text: (i) => wholeNumber.format(report.triangle_pairs[i]) },
   { key: 'id', title: 'Clash id', width: '152px', mono: true, wideOnly: true, text: (i) => report.id[i] },
 ];
@@ -39,19 +40,21 @@ function make(tag, properties = {}, ...children) {
 }
 
 class ClashTable {
-  /** onSort(column key), onOpen(clash or null) */
-  constructor({ onSort, onOpen }) {
+  /** onSort(column key), onOpen(clash), onOpenGroup(group), onToggle(group) */
+  constructor({ onSort, onOpen, onOpenGroup, onToggle }) {
     this.viewport = document.getElementById('viewport');
     this.table = document.getElementById('clashes');
     this.body = document.getElementById('rows');
     this.above = document.querySelector('#above td');
     this.below = document.querySelector('#below td');
-    this.rows = new Uint32Array(0);
+    this.rows = new Int32Array(0); // entries: clashes, and groups below 0
+    this.groups = [];
     this.active = 0; // index of the row that has the keyboard focus
     this.opened = null; // clash shown in the detail
-    this.pool = [];
+    this.openedGroup = null; // key of the group shown in the detail
+    this.pools = { clash: [], group: [] };
     this.printing = false;
-    this.onOpen = onOpen;
+    Object.assign(this, { onOpen, onOpenGroup, onToggle });
     this.makeHead(onSort);
     this.rowHeight = parseInt(getComputedStyle(document.documentElement).getPropertyValue('--row'), 10);
 
@@ -59,7 +62,9 @@ class ClashTable {
     new ResizeObserver(() => this.render()).observe(this.viewport);
     this.body.addEventListener('click', (event) => {
       const row = event.target.closest('tr');
-      if (row && getSelection().isCollapsed) // a click that ends a text selection opens nothing
+      if (event.target.closest('.twist'))
+        this.toggle(Number(row.dataset.place));
+      else if (row && getSelection().isCollapsed) // a click that ends a text selection opens nothing
         this.open(Number(row.dataset.place));
     });
     this.table.addEventListener('keydown', (event) => this.key(event));
@@ -89,22 +94,35 @@ class ClashTable {
   }
 
   classOf(column) {
-    return [column.num && 'num', column.mono && 'mono soft', column.wideOnly && 'narrow-hidden'].filter(Boolean).join(' ');
+    return [column.num && 'num', column.mono && 'mono soft', column.wideOnly && 'narrow-hidden', column.broadOnly && 'broad-only'].filter(Boolean).join(' ');
   }
 
-  /** Shows these clashes. The scroll position is kept only if the caller says that the rows are the same. */
-  show(rows, sort, keepScroll) {
-    this.rows = rows.subarray(0, MOST_ROWS);
+  /** Shows these entries. The scroll position is kept only if the caller says that the rows are the same. */
+  show({ entries, groups }, sort, keepScroll) {
+    this.rows = entries.subarray(0, MOST_ROWS);
+    this.groups = groups;
+    this.table.setAttribute('role', groups.length > 0 ? 'treegrid' : 'grid');
     for (const head of document.querySelectorAll('#heads th')) {
       const is = head.dataset.key === sort.key;
       head.setAttribute('aria-sort', is ? (sort.descending ? 'descending' : 'ascending') : 'none');
     }
     this.table.setAttribute('aria-rowcount', this.rows.length + 1);
-    const at = this.opened === null ? -1 : this.rows.indexOf(this.opened);
-    this.active = Math.max(at, 0);
+    const at = this.placeOfOpened();
+    this.active = keepScroll && at < 0 ? Math.min(this.active, Math.max(0, this.rows.length - 1)) : Math.max(at, 0);
     if (!keepScroll)
       this.viewport.scrollTop = 0;
     this.render();
+  }
+
+  groupAt(place) {
+    const entry = this.rows[place];
+    return entry !== undefined && isGroup(entry) ? this.groups[-1 - entry] : null;
+  }
+
+  placeOfOpened() {
+    if (this.opened !== null)
+      return this.rows.indexOf(this.opened);
+    return this.openedGroup === null ? -1 : this.rows.findIndex((_, place) => this.groupAt(place)?.key === this.openedGroup);
   }
 
   render() {
@@ -120,43 +138,87 @@ class ClashTable {
     }
     this.above.style.height = `${first * height}px`;
     this.below.style.height = this.printing ? '0' : `${(this.rows.length - end) * height}px`;
-    for (let place = first; place < end; ++place)
-      this.fill(this.rowElement(place - first), place);
+    // A cell across hidden columns would make columns of its own.
+    this.visibleColumns = Array.from(document.querySelectorAll('#heads th')).filter((head) => head.offsetParent !== null).length;
+    const used = { clash: 0, group: 0 };
+    for (let place = first; place < end; ++place) {
+      const kind = isGroup(this.rows[place]) ? 'group' : 'clash';
+      const row = this.rowElement(kind, used[kind]++);
+      if (this.body.children[place - first] !== row)
+        this.body.insertBefore(row, this.body.children[place - first] ?? null);
+      this.fill(row, place);
+    }
     while (this.body.children.length > end - first)
       this.body.lastChild.remove();
     this.markActive();
   }
 
-  rowElement(k) {
-    if (k >= this.pool.length) {
-      const row = document.createElement('tr');
-      for (const column of COLUMNS) {
-        const cell = row.appendChild(document.createElement('td'));
-        cell.className = this.classOf(column);
-        if (column.key === 'kind')
-          cell.append(make('span', { className: 'mark' }));
-        if (column.cut)
-          cell.append(make('div', { className: 'cut' }, make('span'), make('span')));
-      }
-      this.pool.push(row);
+  rowElement(kind, k) {
+    const pool = this.pools[kind];
+    if (k >= pool.length)
+      pool.push(kind === 'group' ? this.makeGroupRow() : this.makeClashRow());
+    return pool[k];
+  }
+
+  makeClashRow() {
+    const row = document.createElement('tr');
+    for (const column of COLUMNS) {
+      const cell = row.appendChild(document.createElement('td'));
+      cell.className = this.classOf(column);
+      if (column.key === 'kind')
+        cell.append(make('span', { className: 'mark' }));
+      if (column.cut)
+        cell.append(make('div', { className: 'cut' }, make('span'), make('span')));
     }
-    const row = this.pool[k];
-    if (row.parentNode !== this.body)
-      this.body.appendChild(row);
     return row;
   }
 
+  makeGroupRow() {
+    return make('tr', { className: 'group' }, make('td', { colSpan: COLUMNS.length },
+      make('div', {}, make('span', { className: 'twist', ariaHidden: 'true' }), make('b'),
+        make('span', { className: 'name' }), make('span', { className: 'kinds-of soft' }), make('span', { className: 'num soft' }))));
+  }
+
   fill(row, place) {
-    const clash = this.rows[place];
+    const entry = this.rows[place];
+    const group = this.groupAt(place);
+    const isOpen = group ? group.key === this.openedGroup : entry === this.opened;
     row.dataset.place = place;
     row.id = `row-${place}`;
-    row.classList.toggle('open', clash === this.opened);
+    row.classList.toggle('open', isOpen);
     row.classList.toggle('active', place === this.active);
     row.setAttribute('aria-rowindex', place + 2); // the head is row 1
-    row.setAttribute('aria-selected', clash === this.opened);
-    if (Number(row.dataset.clash ?? -1) === clash)
+    row.setAttribute('aria-selected', isOpen);
+    if (group)
+      this.fillGroup(row, group);
+    else
+      this.fillClash(row, entry);
+  }
+
+  fillGroup(row, group) {
+    const isExpanded = state.openGroups.has(group.key);
+    row.cells[0].colSpan = Math.max(1, this.visibleColumns);
+    row.setAttribute('aria-level', group.level);
+    row.setAttribute('aria-expanded', isExpanded);
+    const [twist, number, name, kinds, deepest] = row.cells[0].firstChild.children;
+    twist.textContent = isExpanded ? '▾' : '▸';
+    row.cells[0].firstChild.style.paddingInlineStart = `${14 * (group.level - 1)}px`;
+    number.textContent = wholeNumber.format(group.clashes.length);
+    name.textContent = group.name.replace(/\s+/g, ' ');
+    name.title = group.name;
+    kinds.textContent = kindsInWords(group.kinds);
+    deepest.textContent = group.deepest < 0 ? `${millimetres(group.deepest)} mm` : '';
+  }
+
+  fillClash(row, clash) {
+    if (this.groups.length > 0)
+      row.setAttribute('aria-level', 2);
+    else
+      row.removeAttribute('aria-level');
+    if (Number(row.dataset.clash ?? -1) === clash && row.dataset.version === String(this.version ?? 0))
       return;
     row.dataset.clash = clash;
+    row.dataset.version = this.version ?? 0;
     COLUMNS.forEach((column, c) => {
       const cell = row.cells[c];
       const text = column.text(clash);
@@ -210,20 +272,47 @@ class ClashTable {
       return;
     this.active = Math.max(0, Math.min(place, this.rows.length - 1));
     this.scrollToActive();
-    if (this.opened !== null) // the detail follows the keyboard focus
+    if (this.opened !== null || this.openedGroup !== null) // the detail follows the keyboard focus
       this.open(this.active);
   }
 
   open(place) {
     this.active = place;
-    this.setOpened(this.rows[place]);
-    this.onOpen(this.opened);
+    const group = this.groupAt(place);
+    if (group) {
+      this.setOpened(null, group.key);
+      this.onOpenGroup(group);
+    } else {
+      this.setOpened(this.rows[place]);
+      this.onOpen(this.opened);
+    }
   }
 
-  /** Marks the clash that the detail shows, and scrolls to it; null marks none. */
-  setOpened(clash) {
+  toggle(place) {
+    const group = this.groupAt(place);
+    this.active = place;
+    if (group)
+      this.onToggle(group);
+  }
+
+  /** Opens the next clash, or the one before, from the opened one; groups are skipped. */
+  step(by) {
+    let place = this.placeOfOpened();
+    do
+      place += by;
+    while (this.groupAt(place) !== null && place < this.rows.length);
+    if (place >= 0 && place < this.rows.length) {
+      this.active = place;
+      this.scrollToActive();
+      this.open(place);
+    }
+  }
+
+  /** Marks the clash or group that the detail shows, and scrolls to it; null marks none. */
+  setOpened(clash, groupKey = null) {
     this.opened = clash;
-    const place = clash === null ? -1 : this.rows.indexOf(clash);
+    this.openedGroup = groupKey;
+    const place = this.placeOfOpened();
     if (place >= 0) {
       this.active = place;
       this.scrollToActive();
@@ -242,11 +331,28 @@ class ClashTable {
     };
     if (event.key in moves)
       this.moveTo(moves[event.key]);
+    else if (event.key === 'ArrowRight' || event.key === 'ArrowLeft')
+      return this.turnGroup(event);
     else if ((event.key === 'Enter' || event.key === ' ') && this.rows.length > 0)
       this.open(this.active);
     else
       return;
     event.preventDefault();
+  }
+
+  /** Right opens a group; left closes it, or goes from a clash to its group. */
+  turnGroup(event) {
+    if (this.groups.length === 0)
+      return;
+    event.preventDefault();
+    const group = this.groupAt(this.active);
+    const isExpanded = group !== null && state.openGroups.has(group.key);
+    if (group !== null && isExpanded === (event.key === 'ArrowLeft'))
+      this.toggle(this.active);
+    else if (event.key === 'ArrowLeft')
+      for (let place = this.active - 1; place >= 0; --place)
+        if (this.groupAt(place) !== null && (group === null || this.groupAt(place).level < group.level))
+          return this.moveTo(place);
   }
 
   print(on) {
