@@ -140,6 +140,31 @@ private:
     Table types_, files_, rules_, notes_, property_names_, property_values_, severities_;
 };
 
+/// A group with its clashes by number, as the page's list opens it.
+ordered_json group_of_page(const ClashGroup& group) {
+    ordered_json row{{"id", group.id}, {"name", group.name}, {"what", group.what}};
+    if (group.change)
+        put(row, "change", to_string(*group.change));
+    ordered_json inner = ordered_json::array();
+    for (const ClashGroup& one : group.groups)
+        inner.push_back(group_of_page(one));
+    put(row, "clashes", group.groups.empty() ? ordered_json(group.clashes) : ordered_json::array());
+    put(row, "groups", std::move(inner));
+    return row;
+}
+
+void write_page_groups(JsonLines& out, const ClashReport& report) {
+    if (report.groups.empty())
+        return;
+    write_column(out, "groups", report.groups, group_of_page);
+    write_column(out, "history", report.history, [](const JobCounts& job) {
+        return ordered_json{
+            {"finished", job.finished}, {"kinds", job.kinds}, {"statuses", job.statuses}};
+    });
+    if (!report.history.empty())
+        out.member("topics_revision", report.topics_revision);
+}
+
 void write_building(JsonLines& out, const PackedBuilding& building) {
     ordered_json chunks = ordered_json::array();
     for (const PackedBuilding::Chunk& chunk : building.chunks)
@@ -181,6 +206,7 @@ std::string page_data(const ClashReport& report, const std::vector<Scene>& model
     out.begin_object();
     write_head(out, report);
     PageColumns(report, models, parts).write(out);
+    write_page_groups(out, report);
     if (!building.bytes.empty())
         write_building(out, building);
     write_tail(out, report);
