@@ -80,8 +80,8 @@ int main(int argc, char** argv) {
         add_penetration(root, common), add_time_of_impact(root, common), add_nearest(root, common),
         add_ray(root, common),         add_overlap(root, common),        add_contains(root, common),
         add_clash(root, common),       add_review(root, common),         add_graph(root, common),
-        add_ccd(root, common),         add_ccd_query(root, common),      add_scene(root, common),
-        add_generate(root, common)};
+        add_ccd(root, common),         add_ccd_query(root, common),      add_robot(root, common),
+        add_scene(root, common),       add_generate(root, common)};
     try {
         return run(root, commands, common, arguments);
     } catch (const abut::Error& error) {

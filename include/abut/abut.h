@@ -28,6 +28,8 @@
 #include <abut/progress.h>
 #include <abut/properties.h>
 #include <abut/rigid.h>
+#include <abut/robot.h>
+#include <abut/robot_description.h>
 #include <abut/scene.h>
 #include <abut/shape_queries.h>
 #include <abut/shapes.h>

@@ -49,6 +49,8 @@ PYBIND11_MODULE(_abut, module) {
     bind_tour(module);
     bind_view(module);
     bind_picture(module);
+    bind_robot_description(module);
+    bind_robot(module);
     bind_helper_programs(module);
 }
 

@@ -45,6 +45,8 @@ void bind_camera(py::module_& module);
 void bind_tour(py::module_& module);
 void bind_view(py::module_& module);
 void bind_picture(py::module_& module);
+void bind_robot_description(py::module_& module);
+void bind_robot(py::module_& module);
 void bind_helper_programs(py::module_& module);
 
 } // namespace abut::python

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <abut/robot.h>
+
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// Which variables place each joint of a robot.
+struct JointVariables {
+    std::vector<RobotVariable> variables;
+    std::vector<std::uint32_t> first; ///< of each joint; for one that follows, of its source
+};
+
+JointVariables number_variables(const RobotDescription& robot);
+
+/// Computes the place of every link, parents first. Positions follow from these transforms as
+/// abut/types.h states.
+///
+/// In          a valid configuration.
+void forward_kinematics(const RobotDescription& robot, const JointVariables& variables,
+                        std::span<const double> configuration, std::vector<Transform>& links);
+
+/// Bounds of a joint's motion between two configurations, while every variable changes at a constant
+/// rate in unit time.
+struct JointMotion {
+    double speed = 0; ///< of the child's origin relative to the parent; metres
+    double turn = 0;  ///< angular speed, radians
+    double reach = 0; ///< largest distance of the child's origin from the parent's origin
+};
+std::vector<JointMotion> joint_motions(const RobotDescription& robot,
+                                       const JointVariables& variables,
+                                       std::span<const double> from, std::span<const double> to);
+
+} // namespace abut

@@ -1,0 +1,92 @@
+#include "articulated/placed_bodies.h"
+
+#include <abut/rigid.h>
+#include <abut/shape_queries.h>
+
+#include "math/transform.h"
+#include "math/vector.h"
+
+#include <string>
+
+namespace abut {
+
+QueryBodies::QueryBodies(const RobotData& robot, const RobotQuery& query)
+    : robot_(robot), links_(robot.bodies) {
+    if (query.self)
+        tests_ = robot.tests;
+    if (query.obstacles.data() != nullptr)
+        obstacles_ = query.obstacles.data()->bodies;
+    const auto links = static_cast<std::uint32_t>(links_.size());
+    for (std::uint32_t a = 0; a < links; ++a)
+        if (query.root || links_[a].owner != robot.description.root)
+            for (std::uint32_t b = 0; b < obstacles_.size(); ++b)
+                tests_.push_back({a, links + b});
+}
+
+RobotPair QueryBodies::pair_of(const BodyTest& test) const {
+    return {(*this)[test.a].owner, (*this)[test.b].owner, is_obstacle(test.b)};
+}
+
+PlacedBodies::PlacedBodies(const QueryBodies& bodies)
+    : bodies_(bodies), places_(bodies.size()), centres_(bodies.size()) {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (bodies.is_obstacle(i)) {
+            places_[i] = bodies[i].owner_from_model;
+            centres_[i] = bodies[i].centre;
+        }
+}
+
+void PlacedBodies::place(std::span<const double> configuration) {
+    const RobotData& robot = bodies_.robot();
+    forward_kinematics(robot.description, robot.joints, configuration, links_);
+    for (std::size_t i = 0; i < robot.bodies.size(); ++i) {
+        const RobotBody& body = robot.bodies[i];
+        const Transform& link = links_[body.owner];
+        places_[i] = compose(link, body.owner_from_model);
+        centres_[i] = apply(link, body.centre);
+    }
+}
+
+double PlacedBodies::ball_gap(const BodyTest& test) const {
+    constexpr double kRoundingShare = 1e-12; // of the coordinates: far more than their rounding
+    const Vec3& a = centres_[test.a];
+    const Vec3& b = centres_[test.b];
+    return length(b - a) - bodies_[test.a].radius - bodies_[test.b].radius -
+           kRoundingShare * (max_abs(a) + max_abs(b));
+}
+
+double PlacedBodies::hull_gap(const BodyTest& test) const {
+    return abut::distance(bodies_[test.a].hull, places_[test.a], bodies_[test.b].hull,
+                          places_[test.b])
+        .at_least;
+}
+
+Gap PlacedBodies::measure(const BodyTest& test, const DistanceOptions& options) const {
+    Gap gap = distance(bodies_[test.a].model, places_[test.a], bodies_[test.b].model,
+                       places_[test.b], options);
+    if (gap.distance > 0 && (is_inside(test.a, test.b) || is_inside(test.b, test.a))) {
+        gap.distance = gap.at_least = 0;
+        gap.status = Status::exact;
+    }
+    return gap;
+}
+
+bool PlacedBodies::meet(const BodyTest& test) const {
+    return collide(bodies_[test.a].model, places_[test.a], bodies_[test.b].model, places_[test.b])
+               .meet() ||
+           is_inside(test.a, test.b) || is_inside(test.b, test.a);
+}
+
+bool PlacedBodies::is_inside(std::uint32_t inner, std::uint32_t outer) const {
+    const RobotBody& solid = bodies_[outer];
+    if (!solid.is_solid)
+        return false;
+    const Vec3 point = apply(places_[inner], bodies_[inner].vertex);
+    // The surfaces do not meet, so one vertex decides. A point outside of the solid's ball is not
+    // inside of the solid.
+    if (length(point - centres_[outer]) > solid.radius)
+        return false;
+    return contains(solid.model, places_[outer], point).side == Side::inside;
+}
+
+} // namespace abut
