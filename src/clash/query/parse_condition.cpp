@@ -11,7 +11,7 @@ namespace abut {
 
 namespace {
 
-constexpr std::string_view kSpaces = " \t\n\r\v\f";
+constexpr std::string_view kBlanks = " \t\n\r\v\f";
 constexpr std::string_view kOperatorCharacters = "=!~<>";
 
 struct QueryToken {
@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] const QueryToken& token() const { return token_; }
     void next() {
-        at_ = std::min(text_.find_first_not_of(kSpaces, at_), text_.size());
+        at_ = std::min(text_.find_first_not_of(kBlanks, at_), text_.size());
         token_ = {QueryToken::Kind::end, {}, at_};
         if (at_ == text_.size())
             return;
