@@ -1,6 +1,7 @@
 #include <abut/clash.h>
 #include <abut/part_query.h>
 
+#include "models/scenes.h"
 #include "module.h"
 #include "queries/queries.h"
 #include "stores/clashes.h"
