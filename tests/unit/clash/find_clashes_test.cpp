@@ -3,7 +3,6 @@
 #include <abut/clash.h>
 #include <abut/error.h>
 
-#include "clash/rules/rule_table.h"
 #include "tests/support/shapes.h"
 
 #include <atomic>
@@ -438,24 +437,6 @@ TEST(FindClashes, ProgressRunsUpToOneInEveryStage) {
     };
     (void)find_clashes({three_in_a_row("m.glb")}, options);
     EXPECT_EQ(finished, (std::set<std::string>{"broad phase", "hierarchies", "narrow phase"}));
-}
-
-TEST(GlobMatch, ByHand) {
-    EXPECT_TRUE(glob_match("", ""));
-    EXPECT_FALSE(glob_match("", "a"));
-    EXPECT_TRUE(glob_match("*", ""));
-    EXPECT_TRUE(glob_match("**", "abc"));
-    EXPECT_TRUE(glob_match("a?c", "abc"));
-    EXPECT_FALSE(glob_match("a?c", "ac"));
-    EXPECT_TRUE(glob_match("*.glb", "dir/a.glb"));
-    EXPECT_FALSE(glob_match("*.glb", "a.glbx"));
-    EXPECT_TRUE(glob_match("*ab*ab", "xababab"));
-    EXPECT_FALSE(glob_match("*ab*abc", "xababab"));
-    EXPECT_FALSE(glob_match("abc", "ab"));
-    EXPECT_FALSE(glob_match("ab", "abc"));
-    EXPECT_FALSE(glob_match("[a]", "a")); // character sets are not supported
-    EXPECT_FALSE(glob_match("A", "a"));
-    EXPECT_FALSE(glob_match(std::string(200, '*') + "b", std::string(5000, 'a'))); // ends soon
 }
 
 class ReadRules : public testing::Test {
