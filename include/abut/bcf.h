@@ -11,8 +11,8 @@
 #include <vector>
 
 /// BCF files (BIM Collaboration Format): topics with comments and viewpoints, which programs for
-/// buildings exchange. docs/bcf.md explains them. What a file holds beyond this is kept, too, so
-/// that a file that is read and written again loses nothing.
+/// buildings exchange. docs/bcf.md explains them. Other files of the archive are kept, and so are
+/// elements and attributes beyond the format where a struct has a member `unknown`.
 namespace abut {
 
 enum class BcfVersion : std::uint8_t {
@@ -197,8 +197,8 @@ BcfFile parse_bcf(const std::string& bytes, const std::string& name, const BcfLi
 /// What the version cannot state takes another form: docs/bcf.md lists it. Characters that XML does
 /// not allow become U+FFFD.
 ///
-/// Errors      Error{bad_argument} for version 2.0, a topic whose GUID is not one, or two entries
-///             of one name.
+/// Errors      Error{bad_argument} for version 2.0, a topic whose GUID is not one, a number that is
+///             not finite, or two entries of one name.
 std::string bcf_bytes(const BcfFile& file, BcfVersion version);
 /// Writes a BCF file, atomically.
 ///

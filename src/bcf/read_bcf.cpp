@@ -144,14 +144,26 @@ private:
         check(topic.viewpoints, "viewpoint");
     }
 
+    /// Counts an entry that a viewpoint refers to. Many viewpoints may refer to one large entry,
+    /// and each of them gets its content.
+    void charge(const std::string& entry) {
+        const std::uint64_t bytes = entries_.at(entry).size();
+        if (bytes > left_)
+            throw Error(ErrorCode::malformed, file_,
+                        entry + ": the viewpoints refer to more bytes than are allowed");
+        left_ -= bytes;
+    }
+
     void read_files_of(BcfViewpoint& viewpoint, const std::string& folder,
                        const std::string& entry) {
         const auto find = [&](std::string& reference) -> std::optional<std::string> {
             if (reference.empty())
                 return std::nullopt;
             const std::optional<std::string> name = entry_of(folder, reference);
-            if (name && has(*name))
+            if (name && has(*name)) {
+                charge(*name);
                 return name;
+            }
             warn(entry, "there is no entry '" + reference.substr(0, 100) + "'");
             reference.clear();
             return std::nullopt;
@@ -166,6 +178,7 @@ private:
 
     std::string file_;
     const BcfLimits& limits_;
+    std::uint64_t left_ = limits_.bytes; ///< that viewpoints may still refer to
     std::map<std::string, std::string> entries_;
     std::set<std::string> used_;
     BcfFile result_;

@@ -1,6 +1,8 @@
 #include "bcf/bcf_parts.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 
 namespace abut {
 
@@ -21,17 +23,19 @@ void read_hints(const XmlReader& xml, pugi::xml_node parent, BcfViewpoint& viewp
     parent.remove_child(hints);
 }
 
-void add_colour(BcfViewpoint& viewpoint, const std::string& colour, const BcfComponent& component) {
-    const auto same = std::ranges::find(viewpoint.colouring, colour, &BcfColouring::colour);
-    if (same != viewpoint.colouring.end())
-        same->components.push_back(component);
-    else
-        viewpoint.colouring.push_back({colour, {component}});
+/// Adds a component to the list of its colour. place: by colour, the number of its list.
+void add_colour(BcfViewpoint& viewpoint, std::map<std::string, std::size_t>& place,
+                const std::string& colour, const BcfComponent& component) {
+    const auto [at, is_new] = place.try_emplace(colour, viewpoint.colouring.size());
+    if (is_new)
+        viewpoint.colouring.push_back({colour, {}});
+    viewpoint.colouring[at->second].components.push_back(component);
 }
 
 /// In 2.0 each component states by itself whether it is selected, visible and coloured.
 void read_components_of_2_0(const XmlReader& xml, pugi::xml_node all, BcfViewpoint& viewpoint) {
     std::vector<BcfComponent> hidden, shown;
+    std::map<std::string, std::size_t> place;
     xml.take_each(all, "Component", [&](pugi::xml_node node) {
         const std::optional<bool> is_selected = xml.take_truth(node, "Selected");
         const std::optional<bool> is_visible = xml.take_truth(node, "Visible");
@@ -42,7 +46,7 @@ void read_components_of_2_0(const XmlReader& xml, pugi::xml_node all, BcfViewpoi
         if (is_visible)
             (*is_visible ? shown : hidden).push_back(component);
         if (!colour.empty())
-            add_colour(viewpoint, colour, component);
+            add_colour(viewpoint, place, colour, component);
     });
     // Components that are listed as visible matter only where others are hidden.
     const bool lists_visible = hidden.empty() && shown.size() > viewpoint.selection.size();

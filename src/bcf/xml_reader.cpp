@@ -143,16 +143,18 @@ std::optional<int> XmlReader::take_integer(pugi::xml_node parent, const char* na
 
 std::optional<std::string> XmlReader::take_attribute(pugi::xml_node node, const char* name,
                                                      const char* other) const {
+    std::optional<std::string> value;
     for (const char* const spelling : {name, other}) {
-        const pugi::xml_attribute attribute =
-            spelling == nullptr ? pugi::xml_attribute() : node.attribute(spelling);
-        if (!attribute)
+        if (spelling == nullptr)
             continue;
-        std::string value = attribute.value();
-        node.remove_attribute(attribute);
-        return value;
+        // All of them are taken: what remains is written again beside the one of the writer.
+        while (const pugi::xml_attribute attribute = node.attribute(spelling)) {
+            if (!value)
+                value = attribute.value();
+            node.remove_attribute(attribute);
+        }
     }
-    return std::nullopt;
+    return value;
 }
 
 std::optional<bool> XmlReader::take_truth(pugi::xml_node node, const char* name,

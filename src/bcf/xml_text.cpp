@@ -1,7 +1,10 @@
 #include "bcf/xml_text.h"
 
+#include <abut/error.h>
+
 #include "clash/report/clash_text.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace abut {
@@ -132,6 +135,8 @@ void XmlText::leaf(const char* name, std::string_view text) {
 }
 
 void XmlText::leaf(const char* name, double value) {
+    if (!std::isfinite(value))
+        throw Error(ErrorCode::bad_argument, std::string(name) + " is not a finite number");
     leaf(name, std::string_view(fmt::format("{}", value)));
 }
 
