@@ -2,6 +2,7 @@
 
 #include "clash/report/clash_json.h"
 #include "clash/report/clash_text.h"
+#include "clash/report/group_json.h"
 
 #include <unordered_map>
 
@@ -161,8 +162,10 @@ void write_page_groups(JsonLines& out, const ClashReport& report) {
         return ordered_json{
             {"finished", job.finished}, {"kinds", job.kinds}, {"statuses", job.statuses}};
     });
-    if (!report.history.empty())
-        out.member("topics_revision", report.topics_revision);
+    if (report.history.empty())
+        return;
+    write_column(out, "topics", report.topics, [](const Topic& topic) { return json_of(topic); });
+    out.member("topics_revision", report.topics_revision);
 }
 
 void write_building(JsonLines& out, const PackedBuilding& building) {

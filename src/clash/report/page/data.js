@@ -201,9 +201,12 @@ function filtered(order, filter) {
 
 // ── CSV ─────────────────────────────────────────────────────────────────────────────────────────────────
 
+/** What a spreadsheet may take for a formula or a command, as the CSV of the command (clash_csv.cpp). */
+const ACTIVE = /^[ \u00a0\u3000\u200b\ufeff]*[\u0000-\u001f=+\-@|\uff1d\uff0b\uff0d\uff20\uff5c]/;
+
 /** Returns a text cell. A text that a spreadsheet would take for a formula gets a leading apostrophe. */
 function csvText(text) {
-  const safe = /^[=+\-@\t\r\n]/.test(text) ? `'${text}` : text;
+  const safe = ACTIVE.test(text) ? `'${text}` : text;
   return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 }
 

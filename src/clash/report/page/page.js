@@ -35,12 +35,10 @@ function openClash(i) {
   announce(clashInWords(i));
 }
 
-/** Opens the clash after, or before, the opened one. A closed group is opened on the way. */
+/** Opens the clash after, or before, the opened one. Closed groups, and groups in them, are opened on the way. */
 function stepClash(by) {
-  const place = table.placeOfOpened();
-  const next = table.groupAt(place < 0 ? 0 : by > 0 && table.groupAt(place) ? place : place + by);
-  if (next !== null && !state.openGroups.has(next.key))
-    table.onToggle(next);
+  for (let group = table.closedGroupBefore(by); group !== null; group = table.closedGroupBefore(by))
+    table.onToggle(group);
   table.step(by);
 }
 

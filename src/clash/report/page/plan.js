@@ -16,8 +16,11 @@ function namedLevels() {
     for (const part of [report.a[i], report.b[i]]) {
       const name = firstValue(part, 'storey');
       const bottom = building?.bottomOf(part) ?? heightOf(i);
-      if (name !== NO_VALUE && bottom !== null)
-        heights.set(name, [...(heights.get(name) ?? []), bottom]);
+      if (name === NO_VALUE || bottom === null)
+        continue;
+      if (!heights.has(name))
+        heights.set(name, []);
+      heights.get(name).push(bottom);
     }
   const floors = [...heights].map(([name, all]) => ({ name, lower: all.sort((a, b) => a - b)[Math.floor(all.length / 5)] }));
   floors.sort((a, b) => a.lower - b.lower);

@@ -73,7 +73,10 @@ const valueOf = (topic, field) => edits.get(topic.key)?.[field] ?? topic.base?.[
 /** Returns the section of the detail in which a topic is edited. */
 function reviewSection(topic) {
   const set = (field) => (event) => {
-    editOf(topic)[field] = event.target.value.trim();
+    const edit = editOf(topic);
+    edit[field] = event.target.value.trim();
+    if (field === 'status' && edit.status === '')
+      delete edit.status; // an empty status in the file would clear the one in the store
     keepEdits();
   };
   const field = (title, control, name) => {

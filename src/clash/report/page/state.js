@@ -14,9 +14,9 @@ const emptyState = () => ({
 });
 const defaultGroup = () => (report.groups ? 'groups' : 'none');
 
-/** A filter by a property in the address: "storey=L1" or "system=Supply&other=Return", each encoded. */
+/** A filter by a property in the address: "storey~L1" or "system~Supply~Return", each encoded. */
 const propertyText = ({ name, value, other }) =>
-  [name, value, ...(other === null ? [] : [other])].map(encodeURIComponent).join('~');
+  [name, value, ...(other === null ? [] : [other])].map((part) => encodeURIComponent(part).replaceAll('~', '%7E')).join('~');
 
 function propertyFrom(text) {
   const [name, value, other] = text.split('~').map((part) => {

@@ -295,6 +295,18 @@ class ClashTable {
       this.onToggle(group);
   }
 
+  /** Returns the closed group that comes before the clash to which step(by) goes; null if there is none. */
+  closedGroupBefore(by) {
+    const opened = this.placeOfOpened();
+    let place = opened < 0 ? 0 : by > 0 && this.groupAt(opened) !== null ? opened : opened + by;
+    for (let group = this.groupAt(place); group !== null; group = this.groupAt(place)) {
+      if (!state.openGroups.has(group.key))
+        return group;
+      place += by;
+    }
+    return null;
+  }
+
   /** Opens the next clash, or the one before, from the opened one; groups are skipped. */
   step(by) {
     let place = this.placeOfOpened();
