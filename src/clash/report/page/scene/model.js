@@ -52,9 +52,20 @@ export class BuildingModel {
     return new THREE.BufferAttribute(indices, 1);
   }
 
+  /**
+   * Frees a geometry of geometryOf. three.js would free the points too, which all geometries share,
+   * and send them to the graphics card again.
+   */
+  release(geometry) {
+    geometry.deleteAttribute('position');
+    geometry.deleteAttribute('part');
+    geometry.dispose();
+  }
+
   /** From now on only the parts that meet the box are drawn; null: all parts. */
   restrictTo(box) {
-    this.local?.dispose();
+    if (this.local !== null)
+      this.release(this.local);
     this.local = box === null ? null : this.geometryOf(this.indexOf(this.parts.filter((part) => meet(part.box, box))));
     for (const mesh of [...this.passes, this.numberMesh])
       mesh.geometry = this.local ?? this.whole;

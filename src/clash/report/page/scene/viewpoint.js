@@ -79,7 +79,7 @@ export class ViewpointFinder {
     this.renderer.setClearColor(0x000000, 1);
     this.candidates.forEach((_, c) => this.drawCandidate(c, middle, radius));
     this.renderer.setRenderTarget(null);
-    geometry.dispose();
+    this.model.release(geometry);
   }
 
   /**
