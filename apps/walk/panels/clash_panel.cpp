@@ -1,8 +1,11 @@
 #include "panels/panels.h"
 #include "panels/widgets.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <vector>
 
 namespace abut::viewer {
 
@@ -31,9 +34,10 @@ void show_job(Session& session, ClashList& list) {
 
 void show_row(ClashList& list, const ListedClash& clash) {
     ImGui::PushID(clash_id_text(clash.id).c_str());
-    const std::string text =
+    std::string text =
         fmt::format("{:<9} {:<8} {:8.4f} m  {} | {}", to_string(clash.kind),
                     to_string(clash.status), clash.distance, clash.name[0], clash.name[1]);
+    std::ranges::replace(text, '\n', ' '); // all rows are equally high
     if (ImGui::Selectable(text.c_str(), list.shown == clash.id))
         list.wanted = clash;
     if (ImGui::IsItemHovered())
@@ -45,10 +49,17 @@ void show_row(ClashList& list, const ListedClash& clash) {
 void show_list(ClashList& list) {
     if (!ImGui::BeginListBox("##clashes", ImVec2(-1, kClashListHeight)))
         return;
+    std::vector<const ListedClash*> rows;
     for (const ClashReview& review : list.reviews)
         for (const ListedClash& clash : review.clashes)
             if (list.with_resolved || clash.status != ClashStatus::resolved)
-                show_row(list, clash);
+                rows.push_back(&clash);
+    // Only the rows in view are made: there may be 100,000.
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(rows.size()), ImGui::GetTextLineHeightWithSpacing());
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+            show_row(list, *rows[static_cast<std::size_t>(i)]);
     ImGui::EndListBox();
 }
 
