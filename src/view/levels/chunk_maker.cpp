@@ -98,9 +98,7 @@ MadeChunk make_leaf(StoreFile& store, std::span<const LevelItem> items, const Ve
         if (item.block != 0 || slice != kNoSlice) {
             // All leaves of the mesh have one grid, so that their borders have equal vertices.
             const Box3 whole{part.box.lower - origin, part.box.upper - origin};
-            const double size = max_abs(whole.upper - whole.lower);
             least_exponent = std::max(least_exponent, grid_of(whole, -1000).exponent - 4);
-            static_cast<void>(size);
         }
     }
     return pack_leaf(surface, least_exponent);
