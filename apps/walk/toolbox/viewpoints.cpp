@@ -1,5 +1,7 @@
 #include "toolbox/viewpoints.h"
 
+#include <abut/error.h>
+
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -10,12 +12,16 @@ std::string viewpoint_file(const std::string& store) {
 }
 
 void Viewpoints::open(const std::string& store) {
-    kept_in = viewpoint_file(store);
-    if (std::filesystem::exists(kept_in))
-        saved = read_tour(kept_in);
+    const std::string known = viewpoint_file(store);
+    if (std::filesystem::exists(known))
+        saved = read_tour(known);
+    kept_in = known;
 }
 
 void Viewpoints::keep() const {
+    if (kept_in.empty())
+        throw Error(ErrorCode::cannot_write,
+                    "the file of viewpoints could not be read, and is not overwritten");
     write_tour(saved, kept_in);
 }
 

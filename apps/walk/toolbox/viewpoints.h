@@ -16,7 +16,7 @@ struct Viewpoints {
     Tour saved, path;
     bool recording = false, replaying = false;
     double clock = 0;
-    std::string kept_in;            ///< file of the viewpoints
+    std::string kept_in;            ///< file of the viewpoints; empty if it could not be read
     std::string file = "tour.json"; ///< of the path
     std::size_t next = 0;           ///< the viewpoint that `visit_next` goes to
 
