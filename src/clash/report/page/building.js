@@ -176,7 +176,7 @@ function makePrintPictures() {
 async function printReport() {
   if (building !== null) {
     announce('Preparing the pictures');
-    await building.findViewpoints(printSubjects());
+    await building.findViewpoints(printSubjects()).catch(() => {}); // the usual viewpoints do, too
   }
   print();
 }

@@ -19,13 +19,16 @@ function cameraOf(view, subject, aspect) {
 /** Finds the viewpoints of subjects, for the pictures to come. */
 export async function findViewpoints(view, subjects) {
   const before = { ...view.state };
-  for (const subject of subjects) {
-    view.state = { ...before, subject, slice: null, section: true };
+  try {
+    for (const subject of subjects) {
+      view.state = { ...before, subject, slice: null, section: true };
+      view.apply();
+      await view.viewpointOf(subject);
+    }
+  } finally {
+    view.state = before;
     view.apply();
-    await view.viewpointOf(subject);
   }
-  view.state = before;
-  view.apply();
 }
 
 /**
