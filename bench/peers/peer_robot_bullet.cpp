@@ -14,8 +14,8 @@ namespace {
 
 btTransform bullet_transform(const Transform& t) {
     const auto m = [&](std::size_t i) { return static_cast<btScalar>(t.m[i]); };
-    return {btMatrix3x3(m(0), m(3), m(6), m(1), m(4), m(7), m(2), m(5), m(8)),
-            btVector3(m(9), m(10), m(11))};
+    return btTransform(btMatrix3x3(m(0), m(3), m(6), m(1), m(4), m(7), m(2), m(5), m(8)),
+                       btVector3(m(9), m(10), m(11)));
 }
 
 /// Triangle meshes (GImpact) in a collision world with a dynamic tree. Bullet has no distance of two

@@ -159,10 +159,9 @@ TaskResult some_result(Random& random) {
         clash.distance = random.uniform(-1, 1);
         clash.point_a = random.in_cube();
         clash.rule = some_text(random);
-        result.clashes.push_back({static_cast<std::uint32_t>(random.bits()), clash});
-        result.named.push_back(
-            {static_cast<std::int64_t>(random.bits()),
-             {some_text(random), some_text(random), some_text(random), 0, {}, {}}});
+        result.clashes.push_back({static_cast<std::uint32_t>(random.bits()), clash, {}});
+        result.named.push_back({static_cast<std::int64_t>(random.bits()),
+                                {some_text(random), some_text(random), some_text(random), 0, {}}});
     }
     result.worker.processor_seconds = random.uniform(0, 1);
     return result;
