@@ -32,6 +32,27 @@ _Poses = Union[_OnePose, ArrayLike, Sequence["Pose"], tuple[ArrayLike, ArrayLike
 _Progress = Union[Callable[[str, float], object], None]
 _Bodies = Union[int, ArrayLike]
 
+class AllowReason(IntEnum):
+    """The reason why a pair of links is not tested."""
+    adjacent = 0
+    at_rest = 1
+    always = 2
+    never = 3
+    user = 4
+
+class AllowedPair:
+    """A pair of links that may meet."""
+    def __init__(self, a: int, b: int, reason: AllowReason | str = ...) -> None: ...
+    @property
+    def a(self) -> int:
+        """index of a link"""
+    @property
+    def b(self) -> int:
+        """index of a link"""
+    @property
+    def reason(self) -> AllowReason:
+        """AllowReason"""
+
 class Assignment(IntEnum):
     """Which one of its triangles represents a vertex or an edge."""
     greedy = 0
@@ -39,6 +60,359 @@ class Assignment(IntEnum):
     uniform_vertex_edge = 2
     uniform_edge_edge = 3
     adaptive = 4
+
+class BcfBitmap:
+    """A picture that stands in the model."""
+    def __init__(self) -> None: ...
+    @property
+    def format(self) -> str:
+        """png or jpg"""
+    @property
+    def reference(self) -> str:
+        """name of its file"""
+    @property
+    def location(self) -> NDArray[Any]: ...
+    @property
+    def normal(self) -> NDArray[Any]: ...
+    @property
+    def up(self) -> NDArray[Any]: ...
+    @property
+    def height(self) -> float:
+        """metres"""
+
+class BcfCamera:
+    """A camera; metres, z up."""
+    def __init__(self) -> None: ...
+    @property
+    def view_point(self) -> NDArray[Any]: ...
+    @property
+    def direction(self) -> NDArray[Any]: ...
+    @property
+    def up(self) -> NDArray[Any]: ...
+    @property
+    def size(self) -> float:
+        """perspective: vertical angle in degrees; orthogonal: metres"""
+    @property
+    def aspect_ratio(self) -> float | None:
+        """width / height; None: not stated"""
+
+class BcfClippingPlane:
+    """Cuts away one side."""
+    def __init__(self) -> None: ...
+    @property
+    def location(self) -> NDArray[Any]: ...
+    @property
+    def direction(self) -> NDArray[Any]:
+        """points to what is cut away"""
+
+class BcfColouring:
+    """Parts of one colour."""
+    def __init__(self) -> None: ...
+    @property
+    def colour(self) -> str:
+        """RRGGBB or AARRGGBB"""
+    @property
+    def components(self) -> list[BcfComponent]:
+        """list of BcfComponent"""
+
+class BcfComment:
+    """A comment of a topic."""
+    def __init__(self) -> None: ...
+    @property
+    def guid(self) -> str: ...
+    @property
+    def date(self) -> str: ...
+    @property
+    def author(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def viewpoint(self) -> str:
+        """GUID; may be empty"""
+    @property
+    def modified_date(self) -> str: ...
+    @property
+    def modified_author(self) -> str: ...
+    @property
+    def unknown(self) -> BcfUnknown:
+        """BcfUnknown"""
+
+class BcfComponent:
+    """A part of a building."""
+    def __init__(self) -> None: ...
+    @property
+    def ifc_guid(self) -> str:
+        """GlobalId, 22 characters; may be empty"""
+    @property
+    def originating_system(self) -> str:
+        """the program whose id follows"""
+    @property
+    def authoring_tool_id(self) -> str: ...
+
+class BcfDocument:
+    """A document of BCF 3.0."""
+    def __init__(self) -> None: ...
+    @property
+    def guid(self) -> str: ...
+    @property
+    def filename(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+
+class BcfDocumentReference:
+    """A link to a document."""
+    def __init__(self) -> None: ...
+    @property
+    def guid(self) -> str: ...
+    @property
+    def is_external(self) -> bool:
+        """True: an address"""
+    @property
+    def reference(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+
+class BcfEntry:
+    """A file within a BCF file."""
+    def __init__(self) -> None: ...
+    @property
+    def name(self) -> str:
+        """path within the BCF file"""
+    @property
+    def bytes(self) -> bytes: ...
+
+class BcfExtensions:
+    """The words that topics may use."""
+    def __init__(self) -> None: ...
+    @property
+    def types(self) -> list[str]: ...
+    @property
+    def statuses(self) -> list[str]: ...
+    @property
+    def priorities(self) -> list[str]: ...
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def users(self) -> list[str]: ...
+    @property
+    def snippet_types(self) -> list[str]: ...
+    @property
+    def stages(self) -> list[str]: ...
+
+class BcfFile:
+    """Returned by read_bcf."""
+    def __init__(self) -> None: ...
+    @property
+    def version(self) -> BcfVersion:
+        """BcfVersion of the file that was read"""
+    @property
+    def project_id(self) -> str: ...
+    @property
+    def project_name(self) -> str: ...
+    @property
+    def extension_schema(self) -> str: ...
+    @property
+    def extensions(self) -> BcfExtensions:
+        """BcfExtensions"""
+    @property
+    def documents(self) -> list[BcfDocument]:
+        """list of BcfDocument"""
+    @property
+    def topics(self) -> list[BcfTopic]:
+        """list of BcfTopic, sorted by folder"""
+    @property
+    def entries(self) -> list[BcfEntry]:
+        """list of BcfEntry: what no other member holds"""
+    @property
+    def warnings(self) -> list[str]: ...
+
+class BcfHeaderFile:
+    """A model that a topic is about."""
+    def __init__(self) -> None: ...
+    @property
+    def ifc_project(self) -> str:
+        """GlobalId; may be empty"""
+    @property
+    def ifc_spatial_structure_element(self) -> str: ...
+    @property
+    def is_external(self) -> bool: ...
+    @property
+    def filename(self) -> str: ...
+    @property
+    def date(self) -> str: ...
+    @property
+    def reference(self) -> str: ...
+    @property
+    def unknown(self) -> BcfUnknown:
+        """BcfUnknown"""
+
+class BcfLimits:
+    """Limits of untrusted files."""
+    def __init__(self) -> None: ...
+    @property
+    def entries(self) -> int: ...
+    @property
+    def bytes(self) -> int:
+        """of all entries, unpacked"""
+    @property
+    def xml_bytes(self) -> int:
+        """of one XML entry, unpacked"""
+
+class BcfSnippet:
+    """Data in a format of its own."""
+    def __init__(self) -> None: ...
+    @property
+    def type(self) -> str: ...
+    @property
+    def is_external(self) -> bool: ...
+    @property
+    def reference(self) -> str: ...
+    @property
+    def reference_schema(self) -> str: ...
+
+class BcfTopic:
+    """One issue. Texts that are not stated are empty."""
+    def __init__(self) -> None: ...
+    @property
+    def folder(self) -> str:
+        """in the file"""
+    @property
+    def guid(self) -> str: ...
+    @property
+    def type(self) -> str: ...
+    @property
+    def status(self) -> str: ...
+    @property
+    def server_assigned_id(self) -> str: ...
+    @property
+    def files(self) -> list[BcfHeaderFile]:
+        """list of BcfHeaderFile"""
+    @property
+    def reference_links(self) -> list[str]: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def priority(self) -> str: ...
+    @property
+    def index(self) -> int | None: ...
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def creation_date(self) -> str:
+        """as 2026-03-01T08:00:00Z"""
+    @property
+    def creation_author(self) -> str: ...
+    @property
+    def modified_date(self) -> str: ...
+    @property
+    def modified_author(self) -> str: ...
+    @property
+    def due_date(self) -> str: ...
+    @property
+    def assigned_to(self) -> str: ...
+    @property
+    def stage(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def snippet(self) -> BcfSnippet:
+        """BcfSnippet or None"""
+    @property
+    def documents(self) -> list[BcfDocumentReference]:
+        """list of BcfDocumentReference"""
+    @property
+    def related_topics(self) -> list[str]:
+        """GUIDs"""
+    @property
+    def comments(self) -> list[BcfComment]:
+        """list of BcfComment"""
+    @property
+    def viewpoints(self) -> list[BcfViewpoint]:
+        """list of BcfViewpoint"""
+    @property
+    def unknown(self) -> BcfUnknown:
+        """BcfUnknown, in the topic"""
+    @property
+    def unknown_markup(self) -> BcfUnknown:
+        """BcfUnknown, around the topic"""
+
+class BcfUnknown:
+    """XML that is in a file, but not in BCF."""
+    def __init__(self) -> None: ...
+    @property
+    def attributes(self) -> list[tuple[str, str]]:
+        """list of names and values"""
+    @property
+    def elements(self) -> str:
+        """XML text"""
+
+class BcfVersion(IntEnum):
+    """A version of BCF."""
+    v2_0 = 0
+    v2_1 = 1
+    v3_0 = 2
+
+class BcfViewpoint:
+    """What a viewer shows; metres, z up."""
+    def __init__(self) -> None: ...
+    @property
+    def guid(self) -> str: ...
+    @property
+    def file(self) -> str:
+        """name in the topic's folder; empty: only a snapshot"""
+    @property
+    def snapshot_file(self) -> str:
+        """name; empty: no snapshot"""
+    @property
+    def snapshot(self) -> bytes:
+        """of a PNG or JPEG file"""
+    @property
+    def index(self) -> int | None: ...
+    @property
+    def content_guid(self) -> str:
+        """stated in the viewpoint's own file"""
+    @property
+    def has_components(self) -> bool:
+        """whether components are stated"""
+    @property
+    def selection(self) -> list[BcfComponent]:
+        """list of BcfComponent"""
+    @property
+    def colouring(self) -> list[BcfColouring]:
+        """list of BcfColouring"""
+    @property
+    def default_visibility(self) -> bool | None:
+        """whether parts other than the exceptions are shown"""
+    @property
+    def spaces_visible(self) -> bool | None: ...
+    @property
+    def space_boundaries_visible(self) -> bool | None: ...
+    @property
+    def openings_visible(self) -> bool | None: ...
+    @property
+    def exceptions(self) -> list[BcfComponent]:
+        """list of BcfComponent"""
+    @property
+    def perspective(self) -> BcfCamera:
+        """BcfCamera or None"""
+    @property
+    def orthogonal(self) -> BcfCamera:
+        """BcfCamera or None"""
+    @property
+    def lines(self) -> list[list[NDArray[Any]]]:
+        """list of pairs of points"""
+    @property
+    def clipping_planes(self) -> list[BcfClippingPlane]:
+        """list of BcfClippingPlane"""
+    @property
+    def bitmaps(self) -> list[BcfBitmap]:
+        """list of BcfBitmap"""
+    @property
+    def unknown(self) -> BcfUnknown:
+        """BcfUnknown, of the topic's file"""
+    @property
+    def unknown_content(self) -> BcfUnknown:
+        """BcfUnknown, of its own file"""
 
 class BodyGap:
     """How two bodies lie to each other, world frame."""
@@ -334,13 +708,65 @@ class Clash:
         """intersecting pairs of triangles"""
     @property
     def rule(self) -> str:
-        """name of the rule that decided"""
+        """name of the rule or cell that decided"""
+    @property
+    def severity(self) -> str:
+        """of that rule or cell"""
+    @property
+    def volume(self) -> float:
+        """cubic metres that two solids have in common"""
+    @property
+    def volume_error(self) -> float:
+        """bound of its error"""
+    @property
+    def neighbours(self) -> Neighbours:
+        """Neighbours: how the parts belong together"""
     @property
     def status(self) -> ClashStatus:
         """ClashStatus, of a store alone"""
     @property
     def note(self) -> str:
         """of whoever reviewed it"""
+
+class ClashGroup:
+    """Clashes that share a property."""
+    @property
+    def id(self) -> str:
+        """16 hexadecimal digits, the same in every run"""
+    @property
+    def name(self) -> str: ...
+    @property
+    def what(self) -> str:
+        """the types that clash, with their numbers"""
+    @property
+    def kind(self) -> GroupKind:
+        """GroupKind"""
+    @property
+    def key(self) -> str:
+        """what all clashes share"""
+    @property
+    def clashes(self) -> list[int]:
+        """indices in the report's clashes"""
+    @property
+    def groups(self) -> list[ClashGroup]:
+        """list of ClashGroup, those of the next criterion"""
+    @property
+    def bounds(self) -> Box3:
+        """Box3 of the witness points"""
+    @property
+    def centre(self) -> NDArray[Any]: ...
+    @property
+    def counts(self) -> dict[str, Any]:
+        """dict of kind to number"""
+    @property
+    def deepest(self) -> float:
+        """the smallest distance, metres"""
+    @property
+    def part(self) -> list[int[2]] | None:
+        """model and part that all clashes share; else None"""
+    @property
+    def change(self) -> GroupChange | None:
+        """GroupChange, of a store; else None"""
 
 class ClashKind(IntEnum):
     """docs/clash.md defines each kind."""
@@ -350,11 +776,58 @@ class ClashKind(IntEnum):
     duplicate = 3
     clearance = 4
 
+class ClashMatrix:
+    """Groups of parts, and for pairs of groups whether and how their parts are examined."""
+    @property
+    def groups(self) -> list[tuple[str, PartQuery]]:
+        """pairs of name and PartQuery"""
+    @property
+    def cells(self) -> list[tuple[int, int, bool, ClashRule]]:
+        """tuples of two groups, whether their pairs are examined, and a ClashRule"""
+
+class ClashOrder(IntEnum):
+    """The order of clashes."""
+    part = 0
+    volume = 1
+
+class ClashQuery:
+    """A condition on clashes and their parts: 'hard and storey = L2'. Raises Error: bad_argument."""
+    def __init__(self, text: str = ...) -> None: ...
+    @property
+    def text(self) -> str:
+        """in a canonical form"""
+    def matches(self, report: ClashReport, clash: int) -> bool:
+        """Whether a clash of a ClashReport matches."""
+    def empty(self) -> bool:
+        """Whether there is no condition."""
+    def names(self) -> list[str]:
+        """The names that it asks for."""
+    def asks_status(self) -> bool:
+        """Whether it asks for a status."""
+
 class ClashReport:
     """Returned by find_clashes. Its length is the number of clashes."""
     @property
+    def resolved(self) -> list[ListedClash]:
+        """list of ListedClash, of a store"""
+    @property
+    def grouping(self) -> list[GroupBy]:
+        """list of GroupBy; empty: not grouped"""
+    @property
+    def groups(self) -> list[ClashGroup]:
+        """list of ClashGroup, once group_clashes was called"""
+    @property
+    def history(self) -> list[JobCounts]:
+        """list of JobCounts, of a store that was grouped"""
+    @property
+    def topics(self) -> list[Topic]:
+        """list of Topic, of a store that was grouped"""
+    @property
+    def topics_revision(self) -> int:
+        """number of their last change"""
+    @property
     def clashes(self) -> list[Clash]:
-        """list of Clash, sorted by model, part of a, then of b"""
+        """list of Clash, in the order that `sort` asks for"""
     @property
     def counts(self) -> dict[str, int]:
         """dict of kind to number"""
@@ -377,11 +850,17 @@ class ClashReport:
     def candidates(self) -> int:
         """pairs of parts whose boxes are near"""
     @property
+    def left_out(self) -> dict[str, Any]:
+        """dict of LeftOut to number of pairs"""
+    @property
+    def neighbours(self) -> dict[str, Any]:
+        """dict of Neighbours to number of clashes"""
+    @property
+    def matrix(self) -> Matrix:
+        """Matrix: the clashes cell by cell; None without a matrix"""
+    @property
     def statuses(self) -> dict[str, int] | None:
         """dict of status to number, of a store; else None"""
-    @property
-    def resolved(self) -> list[ListedClash]:
-        """list of ListedClash, of a store"""
     @property
     def counters(self) -> OutOfCoreCounters | None:
         """OutOfCoreCounters, of a store; else None"""
@@ -417,11 +896,11 @@ class ClashReview:
         """list of ListedClash, resolved ones too"""
 
 class ClashRule:
-    """ignore=IgnoreRule())
+    """ignore=IgnoreRule(), tolerated_depth=None, kinds=[], severity='')
 
     Selects pairs of parts, one side each, in either order. Lengths in metres; None: those of the query.
     """
-    def __init__(self, name: str = ..., a: PartSelector = ..., b: PartSelector = ..., *, clearance: float | None = ..., touch_tolerance: float | None = ..., ignore: IgnoreRule = ...) -> None: ...
+    def __init__(self, name: str = ..., a: PartSelector = ..., b: PartSelector = ..., *, clearance: float | None = ..., touch_tolerance: float | None = ..., ignore: IgnoreRule = ..., tolerated_depth: float | None = ..., kinds: Sequence[ClashKind | str] = ..., severity: str = ...) -> None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -439,6 +918,14 @@ class ClashRule:
     @property
     def ignore(self) -> IgnoreRule:
         """IgnoreRule"""
+    @property
+    def tolerated_depth(self) -> float | None:
+        """metres; parts that meet no deeper are left out"""
+    @property
+    def kinds(self) -> list[ClashKind]:
+        """list of ClashKind that are reported; empty: all"""
+    @property
+    def severity(self) -> str: ...
 
 class ClashStatus(IntEnum):
     """What has become of a clash between the jobs of a store."""
@@ -447,6 +934,16 @@ class ClashStatus(IntEnum):
     reviewed = 2
     approved = 3
     resolved = 4
+
+class ClashTopic:
+    """A topic and the clashes that it is about."""
+    def __init__(self, topic: BcfTopic, clashes: list[int]) -> None: ...
+    @property
+    def topic(self) -> BcfTopic:
+        """BcfTopic"""
+    @property
+    def clashes(self) -> list[int]:
+        """indices in ClashReport.clashes"""
 
 class ClashViewpoint:
     """A camera that shows one clash or several. Lengths in metres."""
@@ -1070,6 +1567,65 @@ class GraphReport:
     @property
     def seconds(self) -> float: ...
 
+class GroupBy(IntEnum):
+    """A criterion by which clashes are grouped."""
+    part = 0
+    place = 1
+    storey = 2
+    system = 3
+    types = 4
+    discipline = 5
+
+class GroupChange(IntEnum):
+    """What has become of a group between two jobs of a store."""
+    fresh = 0
+    active = 1
+    moved = 2
+    reopened = 3
+    resolved = 4
+
+class GroupKind(IntEnum):
+    """What the clashes of a group share."""
+    part = 0
+    copies = 1
+    place = 2
+    storey = 3
+    system = 4
+    types = 5
+    discipline = 6
+
+class GroupReview:
+    """The groups of one question by one grouping, and their changes."""
+    @property
+    def clearance(self) -> float:
+        """metres"""
+    @property
+    def touch_tolerance(self) -> float:
+        """metres"""
+    @property
+    def self(self) -> bool: ...
+    @property
+    def rules(self) -> int:
+        """how many"""
+    @property
+    def by(self) -> list[GroupBy]:
+        """list of GroupBy"""
+    @property
+    def since(self) -> int:
+        """end of the job that changes are counted from"""
+    @property
+    def finished(self) -> int:
+        """end of the last job"""
+    @property
+    def changes(self) -> dict[str, Any]:
+        """dict of change to number"""
+    @property
+    def groups(self) -> list[ListedGroup]:
+        """list of ListedGroup"""
+    @property
+    def history(self) -> list[JobCounts]:
+        """list of JobCounts, the earliest first"""
+
 class HitPart:
     """Returned by Walk.first_hit. True if the ray meets a part."""
     @property
@@ -1115,7 +1671,7 @@ class HitSide(IntEnum):
 
 class IgnoreRule:
     """Pairs of parts that a rule leaves out."""
-    def __init__(self, *, same_file: bool = ..., same_type: bool = ..., same_name_prefix: int = ...) -> None: ...
+    def __init__(self, *, same_file: bool = ..., same_type: bool = ..., same_name_prefix: int = ..., neighbours: Sequence[Neighbours | str] = ...) -> None: ...
     @property
     def same_file(self) -> bool: ...
     @property
@@ -1123,6 +1679,9 @@ class IgnoreRule:
     @property
     def same_name_prefix(self) -> int:
         """names that agree in so many first characters"""
+    @property
+    def neighbours(self) -> list[Neighbours]:
+        """list of Neighbours"""
 
 class Impact:
     """Returned by time_of_impact. True if the models meet."""
@@ -1244,6 +1803,62 @@ class Intersection:
     def count(self) -> int:
         """corners: 1 a point, 2 a segment, 3 to 6 a polygon"""
 
+class JobCounts:
+    """The numbers of one job of a store."""
+    @property
+    def finished(self) -> int:
+        """seconds since 1970"""
+    @property
+    def kinds(self) -> dict[str, Any]:
+        """dict of kind to number"""
+    @property
+    def statuses(self) -> dict[str, Any]:
+        """dict of status to number"""
+    @property
+    def groups(self) -> dict[str, Any]:
+        """dict of change to number"""
+
+class JointLimits:
+    """Bounds of a joint's value."""
+    @property
+    def lower(self) -> float:
+        """radians or metres; -inf: none"""
+    @property
+    def upper(self) -> float:
+        """radians or metres; inf: none"""
+
+class JointMimic:
+    """A joint that follows another: multiplier * value + offset."""
+    @property
+    def joint(self) -> int:
+        """index of the joint that is followed"""
+    @property
+    def multiplier(self) -> float: ...
+    @property
+    def offset(self) -> float:
+        """radians or metres"""
+
+class JointType(IntEnum):
+    """How a joint moves its child link."""
+    fixed = 0
+    revolute = 1
+    continuous = 2
+    prismatic = 3
+    planar = 4
+    floating = 5
+
+class LeftOut(IntEnum):
+    """Why a pair is not in a report."""
+    not_selected = 0
+    ignored = 1
+    off = 2
+    fills = 3
+    connected = 4
+    covers = 5
+    same_assembly = 6
+    tolerated = 7
+    other_kind = 8
+
 class LevelReport:
     """Returned by build_levels."""
     @property
@@ -1293,6 +1908,72 @@ class ListedClash:
         """when it was found gone, in seconds since 1970; 0: it is there"""
     @property
     def note(self) -> str: ...
+
+class ListedGroup:
+    """A group as a store lists it."""
+    @property
+    def id(self) -> str: ...
+    @property
+    def path(self) -> str:
+        """names of the groups around it"""
+    @property
+    def name(self) -> str: ...
+    @property
+    def what(self) -> str: ...
+    @property
+    def kind(self) -> GroupKind:
+        """GroupKind"""
+    @property
+    def change(self) -> GroupChange:
+        """GroupChange"""
+    @property
+    def size(self) -> int:
+        """clashes that it has now"""
+    @property
+    def centre(self) -> NDArray[Any]: ...
+    @property
+    def appeared(self) -> int:
+        """seconds since 1970; 0: never"""
+    @property
+    def reopened(self) -> int:
+        """seconds since 1970; 0: never"""
+    @property
+    def moved(self) -> int:
+        """seconds since 1970; 0: never"""
+    @property
+    def resolved(self) -> int:
+        """seconds since 1970; 0: never"""
+    @property
+    def topic(self) -> Topic:
+        """Topic; None if nobody has said anything"""
+
+class Matrix:
+    """The clashes of a ClashReport by groups of parts."""
+    @property
+    def groups(self) -> list[str]:
+        """names"""
+    @property
+    def cells(self) -> list[MatrixCell]:
+        """list of MatrixCell"""
+
+class MatrixCell:
+    """A cell of a report's Matrix."""
+    @property
+    def a(self) -> int:
+        """index of a group"""
+    @property
+    def b(self) -> int:
+        """index of a group"""
+    @property
+    def examined(self) -> bool: ...
+    @property
+    def clearance(self) -> float:
+        """metres"""
+    @property
+    def severity(self) -> str: ...
+    @property
+    def counts(self) -> dict[str, Any]:
+        """dict of kind to number"""
 
 class Mesh:
     """Indexed triangles: vertices of shape (n, 3), faces of shape (m, 3) with indices from 0.
@@ -1441,6 +2122,16 @@ class NamedPart:
     @property
     def id(self) -> str: ...
 
+class NamedState:
+    """Values of some joints under a name."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def group(self) -> str: ...
+    @property
+    def joints(self) -> list[tuple[str, list[float]]]:
+        """list of (name, values)"""
+
 class NamedView(IntEnum):
     """Directions from which a whole model is seen."""
     iso = 0
@@ -1511,6 +2202,13 @@ class NearestPart:
     @property
     def misses(self) -> int:
         """of these, those that were not in memory"""
+
+class Neighbours(IntEnum):
+    """How two parts belong together (docs/selecting.md)."""
+    fills = 0
+    connected = 1
+    covers = 2
+    same_assembly = 3
 
 class NoteKind(IntEnum):
     """What became of something that a scene does not have as its file means it."""
@@ -1644,15 +2342,45 @@ class PartImpact:
     def status(self) -> Status:
         """Status"""
 
+class PartQuery:
+    """A condition on parts (docs/selecting.md): 'type = IfcWall* and storey = L2'. Without text it matches
+    every part. Raises Error: bad_argument.
+    """
+    def __init__(self, text: str = ...) -> None: ...
+    @property
+    def text(self) -> str:
+        """in a canonical form"""
+    def matches(self, scene: Scene, part: int) -> bool:
+        """Whether a part of a Scene matches."""
+    def empty(self) -> bool:
+        """Whether there is no condition."""
+    def names(self) -> list[str]:
+        """The names that it asks for."""
+
+class PartRelation:
+    """Two parts of a Scene that belong together: a fills b, a is a part of b."""
+    @property
+    def a(self) -> int:
+        """index in Scene.parts"""
+    @property
+    def b(self) -> int:
+        """index in Scene.parts"""
+    @property
+    def kind(self) -> RelationKind:
+        """RelationKind"""
+
 class PartSelector:
-    """Which parts a rule means: all globs that are given must match (* and ?), one of each list."""
-    def __init__(self, *, file: Sequence[str] = ..., name: Sequence[str] = ..., type: Sequence[str] = ...) -> None: ...
+    """Which parts a rule means: all globs that are given must match (* and ?), one of each list, and the PartQuery."""
+    def __init__(self, *, file: Sequence[str] = ..., name: Sequence[str] = ..., type: Sequence[str] = ..., query: str | PartQuery = ...) -> None: ...
     @property
     def file(self) -> list[str]: ...
     @property
     def name(self) -> list[str]: ...
     @property
     def type(self) -> list[str]: ...
+    @property
+    def query(self) -> PartQuery:
+        """PartQuery"""
 
 class PartsInWay:
     """Returned by Walk.parts_in_way."""
@@ -1869,6 +2597,19 @@ class Probe:
     """A Model, Convex, Sphere, Capsule or Box3 that is moved about in a walk. Make it once."""
     def __init__(self, shape: Model | Convex | Sphere | Capsule | Box3) -> None: ...
 
+class Properties:
+    """What the parts of a Scene are known to be, as names and texts: 'storey', 'system', 'Pset_WallCommon.FireRating'."""
+    @property
+    def names(self) -> list[str]:
+        """list of str, ascending"""
+    @property
+    def values(self) -> list[str]:
+        """list of str: different values"""
+    def of(self, part: int) -> dict[str, Any]:
+        """The properties of a part by its index: a dict of names and lists of values."""
+    def value(self, part: int, name: str) -> str:
+        """The first value of that name; empty if the part has none."""
+
 class Ray:
     """The points origin + t direction."""
     def __init__(self, origin: ArrayLike, direction: ArrayLike | None, t_min: float = ..., t_max: float = ...) -> None: ...
@@ -1908,6 +2649,13 @@ class RayHit:
         """HitSide"""
     def __bool__(self) -> bool: ...
 
+class RelationKind(IntEnum):
+    """How two parts of a Scene belong together."""
+    fills = 0
+    connected = 1
+    covers = 2
+    part_of = 3
+
 class RemovalReport:
     """Returned by remove_models."""
     @property
@@ -1931,11 +2679,208 @@ class ReportPart:
     @property
     def part(self) -> int: ...
 
+class Robot:
+    """A robot that is ready for queries.
+
+    description     RobotDescription
+    allowed         AllowedPair of links that are not tested
+    allow_adjacent  whether links that a joint connects are left out, too
+    """
+    def __init__(self, description: RobotDescription, *, allowed: list[AllowedPair] = ..., allow_adjacent: bool = ...) -> None: ...
+    @property
+    def description(self) -> RobotDescription:
+        """RobotDescription"""
+    @property
+    def variables(self) -> list[RobotVariable]:
+        """list of RobotVariable"""
+    @property
+    def pairs(self) -> list[tuple[int, int]]:
+        """list of the pairs of links that are tested"""
+    def default_configuration(self) -> NDArray[Any]:
+        """Every variable is 0, or the limit that is nearest to 0."""
+    def link_transforms(self, configuration: ArrayLike) -> list[NDArray[Any]]:
+        """Returns the matrix of every link."""
+    def beyond_limits(self, configuration: ArrayLike) -> list[int]:
+        """Returns the indices of the variables beyond their limits."""
+
+class RobotDescription:
+    """A tree of links, as read_robot returns it."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def file(self) -> str:
+        """path as given"""
+    @property
+    def links(self) -> list[RobotLink]:
+        """list of RobotLink"""
+    @property
+    def joints(self) -> list[RobotJoint]:
+        """list of RobotJoint, parents first"""
+    @property
+    def root(self) -> int:
+        """index of the link that no joint moves"""
+    @property
+    def warnings(self) -> list[str]:
+        """list of str"""
+
+class RobotGap:
+    """The nearest pair of a robot."""
+    dtype: np.dtype[Any]
+    @property
+    def distance(self) -> float:
+        """metres; 0: a pair meets; inf: there is none"""
+    @property
+    def pair(self) -> RobotPair:
+        """RobotPair"""
+    @property
+    def point_a(self) -> NDArray[np.float64]:
+        """on the link, world frame"""
+    @property
+    def point_b(self) -> NDArray[np.float64]:
+        """on the other, world frame"""
+    @property
+    def status(self) -> Status:
+        """Status"""
+
+class RobotImpact:
+    """The first contact on the way between two configurations."""
+    dtype: np.dtype[Any]
+    @property
+    def meet(self) -> bool:
+        """whether a pair meets, or may meet"""
+    @property
+    def time(self) -> float:
+        """in [0, 1]; the way is free up to it"""
+    @property
+    def contact_time(self) -> float:
+        """a time at which the pair is in contact; inf if none was found"""
+    @property
+    def pair(self) -> RobotPair:
+        """RobotPair"""
+    @property
+    def gap(self) -> float:
+        """metres: of the pair at `time`"""
+    @property
+    def status(self) -> Status:
+        """Status; bound_only: contact was not decided"""
+    @property
+    def steps(self) -> int:
+        """steps of the search"""
+    def __bool__(self) -> bool: ...
+
+class RobotJoint:
+    """A joint between two links."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def type(self) -> JointType:
+        """JointType"""
+    @property
+    def parent(self) -> int:
+        """index of a link"""
+    @property
+    def child(self) -> int:
+        """index of a link"""
+    @property
+    def parent_from_joint(self) -> NDArray[Any]:
+        """matrix of shape (4, 4): the child's frame where all values are 0"""
+    @property
+    def axis(self) -> NDArray[Any]:
+        """unit vector in the joint's frame"""
+    @property
+    def limits(self) -> JointLimits:
+        """JointLimits"""
+    @property
+    def mimic(self) -> JointMimic:
+        """JointMimic, or None"""
+
+class RobotLink:
+    """A link of a robot."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def shapes(self) -> list[RobotShape]:
+        """list of RobotShape"""
+
+class RobotObstacle:
+    """Something that stands still around a robot."""
+    def __init__(self, name: str, model: Model, pose: _OnePose | ArrayLike = ...) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def model(self) -> Model:
+        """Model"""
+    @property
+    def world_from_model(self) -> NDArray[Any]:
+        """matrix of shape (4, 4)"""
+
+class RobotObstacles:
+    """Obstacles that are ready for queries: made of RobotObstacle."""
+    def __init__(self, obstacles: list[RobotObstacle]) -> None: ...
+    @property
+    def list(self) -> list[RobotObstacle]:
+        """list of RobotObstacle"""
+
+class RobotPair:
+    """A link, and another link or an obstacle."""
+    dtype: np.dtype[Any]
+    @property
+    def link(self) -> int:
+        """index of a link"""
+    @property
+    def other(self) -> int:
+        """index of a link, or of an obstacle"""
+    @property
+    def is_obstacle(self) -> bool:
+        """whether `other` is an obstacle"""
+
+class RobotSemantics:
+    """The content of an SRDF file."""
+    @property
+    def allowed(self) -> list[AllowedPair]:
+        """list of AllowedPair"""
+    @property
+    def states(self) -> list[NamedState]:
+        """list of NamedState"""
+    @property
+    def warnings(self) -> list[str]:
+        """list of str"""
+
+class RobotShape:
+    """A collision shape of a link."""
+    @property
+    def name(self) -> str:
+        """path of its mesh, or 'box', 'cylinder', 'sphere'"""
+    @property
+    def mesh(self) -> Mesh:
+        """Mesh in the shape's frame, in metres"""
+    @property
+    def link_from_shape(self) -> NDArray[Any]:
+        """matrix of shape (4, 4)"""
+    @property
+    def excess(self) -> float:
+        """metres: how far the mesh reaches out of the shape, at most"""
+
+class RobotVariable:
+    """A number that places a joint."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def joint(self) -> int:
+        """index of its joint"""
+    @property
+    def limits(self) -> JointLimits:
+        """JointLimits"""
+    @property
+    def is_angle(self) -> bool:
+        """radians, else metres"""
+
 class Scene:
     """A file's parts, in metres. Parts may share a mesh. From Python: meshes are what Model takes, parts are
-    Part. Raises IndexError if a part's mesh is not there.
+    Part, properties a list with a dict for each part. Raises IndexError if a part's mesh is not there,
+    ValueError if there are more or fewer dicts than parts.
     """
-    def __init__(self, meshes: Sequence[_Mesh], parts: list[Part], *, file: str = ..., up: UpAxis | str = ...) -> None: ...
+    def __init__(self, meshes: Sequence[_Mesh], parts: list[Part], *, file: str = ..., up: UpAxis | str = ..., properties: Properties | None = ...) -> None: ...
     @property
     def file(self) -> str:
         """path as given"""
@@ -1954,6 +2899,18 @@ class Scene:
     @property
     def notes(self) -> list[SceneNote]:
         """list of SceneNote"""
+    @property
+    def properties(self) -> Properties:
+        """Properties of the parts"""
+    @property
+    def relations(self) -> list[PartRelation]:
+        """list of PartRelation"""
+    @property
+    def project(self) -> str:
+        """GlobalId of an IFC file's project; else empty"""
+    @property
+    def map_from_project(self) -> Any:
+        """matrix of shape (4, 4): from an IFC project to the map that its file names"""
 
 class SceneNote:
     """Something that a scene does not have as its file means it."""
@@ -2109,6 +3066,12 @@ class StoreSummary:
     @property
     def bounds(self) -> Box3:
         """Box3 of all parts in the world"""
+    @property
+    def properties(self) -> list[StoredProperty]:
+        """list of StoredProperty"""
+    @property
+    def relations(self) -> int:
+        """how many; see PartRelation"""
 
 class StoredModel:
     """A model of a StoreSummary."""
@@ -2133,6 +3096,23 @@ class StoredModel:
     @property
     def notes(self) -> list[SceneNote]:
         """list of SceneNote"""
+    @property
+    def project(self) -> str:
+        """as Scene.project"""
+    @property
+    def map_from_project(self) -> NDArray[Any]:
+        """as Scene.map_from_project"""
+
+class StoredProperty:
+    """A property that parts of a store have."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def parts(self) -> int:
+        """that have it"""
+    @property
+    def values(self) -> int:
+        """how many different ones"""
 
 class TestCounts:
     """A number for each kind of test."""
@@ -2141,6 +3121,106 @@ class TestCounts:
     def vertex_face(self) -> int: ...
     @property
     def edge_edge(self) -> int: ...
+
+class Topic:
+    """An issue to be settled by people."""
+    def __init__(self) -> None: ...
+    @property
+    def guid(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def status(self) -> str: ...
+    @property
+    def type(self) -> str: ...
+    @property
+    def priority(self) -> str: ...
+    @property
+    def stage(self) -> str: ...
+    @property
+    def assignee(self) -> str: ...
+    @property
+    def due(self) -> str:
+        """YYYY-MM-DD; empty: none"""
+    @property
+    def labels(self) -> list[str]: ...
+    @property
+    def reference_links(self) -> list[str]: ...
+    @property
+    def group(self) -> str:
+        """id of the group; may be empty"""
+    @property
+    def clashes(self) -> list[str]:
+        """ids"""
+    @property
+    def created_by(self) -> str: ...
+    @property
+    def modified_by(self) -> str: ...
+    @property
+    def created(self) -> int:
+        """seconds since 1970"""
+    @property
+    def modified(self) -> int:
+        """seconds since 1970"""
+    @property
+    def comments(self) -> list[TopicComment]:
+        """list of TopicComment, by time"""
+
+class TopicComment:
+    """What someone said of a topic."""
+    def __init__(self, text: str = ..., *, author: str = ..., time: int = ..., guid: str = ..., viewpoint: str = ...) -> None: ...
+    @property
+    def guid(self) -> str: ...
+    @property
+    def author(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def time(self) -> int:
+        """seconds since 1970"""
+    @property
+    def viewpoint(self) -> str:
+        """GUID; may be empty"""
+
+class TopicConflict:
+    """A field that two people have changed."""
+    @property
+    def guid(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def field(self) -> str: ...
+    @property
+    def base(self) -> str: ...
+    @property
+    def stored(self) -> str:
+        """the value that stays"""
+    @property
+    def edited(self) -> str:
+        """the value that is kept in a comment"""
+
+class TopicMerge:
+    """Returned by merge_topics and apply_review."""
+    @property
+    def revision(self) -> int:
+        """of the store after the merge"""
+    @property
+    def added(self) -> list[str]:
+        """GUIDs"""
+    @property
+    def changed(self) -> list[str]:
+        """GUIDs"""
+    @property
+    def comments(self) -> int:
+        """new ones"""
+    @property
+    def marked(self) -> int:
+        """clashes whose mark has changed"""
+    @property
+    def conflicts(self) -> list[TopicConflict]:
+        """list of TopicConflict"""
 
 class TouchedParts:
     """Returned by Walk.collide."""
@@ -2707,6 +3787,8 @@ class World:
         """For so long from the last `advance` on, no pair that does not touch now can begin to."""
     def schedule_counters(self) -> ScheduleCounters: ...
 
+COMMON_PROPERTIES: tuple[str, ...]
+
 @overload
 def all_hits(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress: _Progress = ...) -> np.recarray[Any, Any]:
     """Every triangle that each ray meets, sorted by t, then by index.
@@ -2723,8 +3805,12 @@ def all_hits(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress:
     """
 @overload
 def all_hits(model: Model, pose: _OnePose | ArrayLike, origin: ArrayLike, direction: ArrayLike, t_min: ArrayLike = ..., t_max: ArrayLike = ..., *, progress: _Progress = ...) -> Any: ...
+def apply_review(store: Store, path: _Path, *, base: int | None = ..., author: str = ..., now: int = ...) -> TopicMerge:
+    """Merges a file of edits, as the report page saves it. Otherwise as merge_topics."""
 def at(motion: Motion, t: float) -> NDArray[Any]:
     """The matrix of shape (4, 4) to which the motion has taken the body at time t."""
+def bcf_bytes(file: BcfFile, version: BcfVersion | str = ...) -> bytes:
+    """The bytes of a BCF file. Raises Error (bad_argument)."""
 def build_levels(store: _Path, *, memory: int = ..., progress: _Progress = ...) -> LevelReport:
     """Builds the levels of detail of a store, a path, if they are missing or outdated. Work that
     was interrupted is continued.
@@ -2758,6 +3844,21 @@ def check_path(walk: Walk, probe: int | Probe | Model | Convex | Sphere | Capsul
 
     Returns a PathReport. Raises Error (bad_argument); KeyboardInterrupt at Ctrl-C.
     """
+def clash_bcf(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, topics: list[ClashTopic] = ..., author: str = ..., time: int = ..., project: str = ..., clip: bool = ..., snapshot: Callable[[ClashViewpoint], bytes] | None = ..., progress: _Progress = ...) -> BcfFile:
+    """The clashes of a report as topics of BCF, with viewpoints in metres, z up.
+
+    models    what the report is about: list of Scene or paths, or a Store
+    topics    list of ClashTopic; if empty, one for each clash
+    author    who creates the topics
+    time      when, in seconds since 1970; 0: now
+    project   name of the project
+    clip      whether planes cut away what lies outside of section boxes
+    snapshot  function of a ClashViewpoint that returns the bytes of a PNG file
+
+    Returns a BcfFile. Raises Error: bad_argument, those of the store.
+    """
+def clash_topic_guid(clash: str) -> str:
+    """The GUID of the topic of a clash, by its id."""
 def clash_viewpoint(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clash: int, *, fov: float = ..., aspect: float = ..., near: bool = ...) -> ClashViewpoint:
     """As clash_viewpoints, for one clash."""
 def clash_viewpoints(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clashes: list[list[int]], *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> list[ClashViewpoint]:
@@ -2796,6 +3897,8 @@ def collide(a: Model, pose_a: _Poses, b: Model, pose_b: _Poses, *, mode: Contact
 def collide(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, mode: ContactMode | str = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ..., triangles: bool = ...) -> PiecesContacts: ...
 @overload
 def collide(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, mode: ContactMode | str = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ..., triangles: bool = ...) -> Any: ...
+@overload
+def collide(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., progress: _Progress = ...) -> Any: ...
 @overload
 def contains(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, progress: _Progress = ...) -> Containment:
     """Whether each point lies inside the model, outside or on its surface.
@@ -2841,6 +3944,8 @@ def distance(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePos
 @overload
 def distance(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, upper_bound: float = ..., absolute_error: float = ..., warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> Any: ...
 @overload
+def distance(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., upper_bound: float = ..., progress: _Progress = ...) -> Any: ...
+@overload
 def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
 def duration(tour: Tour) -> float:
     """The time of the last point; 0 if none."""
@@ -2860,7 +3965,7 @@ def elementary_impacts(kinds: ElementaryKind | str | ArrayLike, start: ArrayLike
     Returns a record array of shape (n,) with the fields of ElementaryImpact.
     """
 @overload
-def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ...) -> ClashReport:
+def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., memory: int = ..., order: WorkOrder | str = ..., keep: bool = ..., keep_hierarchies: bool = ..., crew: Crew | None = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport:
     """All clashes and clearances between the parts of different models; of one model, between its parts.
 
     models            list of Scene or paths, or one of them
@@ -2868,19 +3973,24 @@ def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float
     clearance         metres; pairs without contact that are nearer are reported
     touch_tolerance   metres; surfaces that meet no deeper than this are of kind touch
     self              also the pairs within each model
-    rules             list of ClashRule, or the path of a JSON file
+    rules             list of ClashRule, or the path of a JSON or TOML file
     progress          function of (stage, fraction)
     memory            bytes for geometry, hierarchies and tables
     order             a WorkOrder
     keep              whether what is done is kept in the store, if that can be written to
     keep_hierarchies  whether hierarchies are kept with it
     crew              a Crew: the processes that do the job together, this one as their leader
+    only              a condition, as text or PartQuery: both parts match it
+    a, b              conditions: one part matches a, the other one b
+    matrix            a ClashMatrix, the path of its file, or the name of a preset
+    leave_out         list of Neighbours that are not tested
+    sort              a ClashOrder: the order of the clashes
 
     Returns a ClashReport. Raises Error: bad_argument for a negative length, those of read_scene and of the store;
     KeyboardInterrupt at Ctrl-C.
     """
 @overload
-def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ...) -> ClashReport: ...
+def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ...
 @overload
 def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress: _Progress = ...) -> RayHit:
     """The first triangle that each ray meets.
@@ -2900,6 +4010,21 @@ def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress
 def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: ArrayLike, direction: ArrayLike, t_min: ArrayLike = ..., t_max: ArrayLike = ..., *, progress: _Progress = ...) -> Any: ...
 def forget_resolved_clashes(store: Store) -> int:
     """Removes resolved clashes and their marks. Returns how many."""
+def group_clashes(report: ClashReport, *, store: Store | None = ..., by: ColourBy | str = ..., least: int = ..., reach: float = ..., progress: _Progress = ...) -> None:
+    """Groups the clashes of a report: sets report.groups.
+
+    store     the store of the report: clashes stay in their earlier groups, which keep their ids and names
+    by        criteria, outermost first: 'storey,part', or a list of GroupBy; default 'part,place'
+    least     clashes that must share a part to be a group of it
+    reach     metres; the largest distance of a clash from the centre of its place
+    progress  function of (stage, fraction)
+
+    Raises Error (bad_argument), those of the store.
+    """
+def group_topic_guid(group: str) -> str:
+    """The GUID of the topic of a group, by its id."""
+def groups_of_clashes(report: ClashReport) -> list[str] | None:
+    """The id of the innermost group of each clash; None: not grouped."""
 def has_levels(store: Store) -> bool:
     """Whether a Store has levels for all its parts as they are now."""
 def help_find_clashes(store: _Path, crew: Crew, *, progress: _Progress = ...) -> None:
@@ -2929,6 +4054,8 @@ def import_models(files: Iterable[_ModelPath] | _ModelPath, store: _Path, *, mem
     Returns an ImportReport. Raises Error as read_scene and open_store; after one, and after Ctrl-C, the store
     holds each model as it was before or as it is now.
     """
+def innermost_groups(groups: list[ClashGroup]) -> list[ClashGroup]:
+    """The groups that hold no other group: a list of ClashGroup."""
 def inspect(mesh: ArrayLike | _Mesh) -> MeshReport:
     """Counts what a mesh has that may be wrong with it. Takes what Model takes.
 
@@ -2971,6 +4098,20 @@ def mark_clashes(store: Store, *, reviewed: list[str] = ..., approved: list[str]
     """Marks clashes by their ids, all of them or, after an error, none. The store is opened with read_only=False.
 
     Raises Error: bad_argument, naming the clash, cannot_write.
+    """
+def matrix_preset(name: str) -> ClashMatrix:
+    """A ClashMatrix that Abut brings along. Raises Error: bad_argument."""
+def matrix_preset_text(name: str) -> str:
+    """The TOML file of such a matrix. Raises Error: bad_argument."""
+def merge_topics(store: Store, edited: list[Topic], *, base: int | None = ..., author: str = ..., now: int = ...) -> TopicMerge:
+    """Merges edited topics into a store that was opened with read_only=False.
+
+    edited  list of Topic
+    base    the revision that they were made from; None: the last one
+    author  who made the changes
+    now     seconds since 1970; 0: the clock
+
+    Returns a TopicMerge. Raises Error: bad_argument, cannot_write.
     """
 @overload
 def nearest(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, upper_bound: float = ..., signed_distance: bool = ..., progress: _Progress = ...) -> Nearest:
@@ -3028,6 +4169,10 @@ def overlaps(model: Model, pose: _OnePose | ArrayLike, shape: Sphere | Box3 | Or
 def overlaps(model: Model, pose: _OnePose | ArrayLike, lower: _Point, upper: _Point, *, progress: _Progress = ...) -> bool: ...
 @overload
 def overlaps(model: Model, pose: _OnePose | ArrayLike, lower: ArrayLike, upper: ArrayLike, *, progress: _Progress = ...) -> Any: ...
+def parse_bcf(bytes: bytes, name: str, limits: BcfLimits = ...) -> BcfFile:
+    """As read_bcf, for the bytes of a file; `name` stands in errors."""
+def parse_grouping(text: str) -> list[enum]:
+    """Criteria of a text such as 'storey,part': a list of GroupBy."""
 def parse_model_path(text: _Path) -> ModelPath:
     """The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument)."""
 def part_colours(store: Store, by: ColourBy | str = ...) -> list[Colour]:
@@ -3079,8 +4224,14 @@ def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, a
     Raises Error: unsupported if EGL or OpenGL 3.3 is not available; bad_argument if no part or
     several have the id; those of the files. KeyboardInterrupt at Ctrl-C.
     """
+def propose_allowed_pairs(robot: Robot, *, samples: int = ..., seed: int = ..., progress: _Progress = ...) -> list[AllowedPair]:
+    """Proposes the pairs of links that need no test. Returns a list of AllowedPair."""
+def ranked_clashes(report: ClashReport) -> list[int]:
+    """Indices of a ClashReport's clashes, the worst first: hard ones by volume, then by depth."""
 def ray_through(camera: Camera, x: float, y: float) -> Ray:
     """The Ray from the eye through a pixel; (0, 0) is the top left corner of the picture."""
+def read_bcf(path: _Path, limits: BcfLimits = ...) -> BcfFile:
+    """Reads a BCF file of version 2.0, 2.1 or 3.0. Returns a BcfFile. Raises Error: file_not_found, unreadable, malformed, unsupported."""
 def read_elementary_queries(file: str, kind: ElementaryKind | str | None = ...) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Reads pairs from comma-separated text. Returns (kinds, start, end, truth): arrays of shapes (n,),
     (n, 4, 3), (n, 4, 3) and (n,), the last empty if the file does not tell.
@@ -3096,6 +4247,8 @@ def read_frame_positions(path: _Path, vertex_count: int, faces: ArrayLike | None
     """The positions of a frame that has so many vertices and these faces, an array of shape (n, 3); None if it has
     others. Errors as read_frame.
     """
+def read_matrix(path: _Path) -> ClashMatrix:
+    """Reads a ClashMatrix from JSON or TOML. Raises Error: file_not_found, malformed."""
 def read_mesh(path: _ModelPath, *, unit: float = ..., up: UpAxis | str = ..., spaces: bool = ..., map: bool = ..., time_limit: float = ..., memory_limit: int = ..., allow_outside_files: bool = ..., progress: _Progress = ...) -> Mesh:
     """Reads a model file as one mesh.
 
@@ -3112,8 +4265,22 @@ def read_mesh(path: _ModelPath, *, unit: float = ..., up: UpAxis | str = ..., sp
     The path may end with a unit and axis: 'pump.stl:mm', 'part.obj:mm:y-up'.
     Raises Error: file_not_found, unreadable, malformed, unsupported, bad_mesh, reader_failed.
     """
+def read_parts(store: Store, model: int = ...) -> Scene:
+    """The parts of a model of a store as a Scene without meshes, with their properties and relations. model is an index in
+    StoreSummary.models. Raises Error: bad_argument, malformed.
+    """
+def read_robot(path: _Path, *, package_folders: list[str] = ..., visual: bool = ..., allow_outside_files: bool = ..., progress: _Progress = ...) -> RobotDescription:
+    """Reads a URDF file with its meshes.
+
+    package_folders      folders that hold the packages of package://NAME/…
+    visual               whether to read the visual shapes in place of the collision shapes
+    allow_outside_files  whether meshes outside of their package may be read
+    progress             function of (stage, fraction)
+
+    Returns RobotDescription. Raises Error, naming the file and the line.
+    """
 def read_rules(path: _Path) -> list[ClashRule]:
-    """Reads rules from JSON: a list of ClashRule. Raises Error: file_not_found, malformed."""
+    """Reads rules from JSON or TOML: a list of ClashRule. Raises Error: file_not_found, malformed."""
 def read_scene(path: _ModelPath, *, unit: float = ..., up: UpAxis | str = ..., spaces: bool = ..., map: bool = ..., time_limit: float = ..., memory_limit: int = ..., allow_outside_files: bool = ..., progress: _Progress = ...) -> Scene:
     """Reads a model file: glTF, GLB, OBJ, PLY, STL, OFF, FBX, COLLADA, 3MF, IFC.
 
@@ -3134,6 +4301,10 @@ def read_scenes(paths: Iterable[_ModelPath] | _ModelPath, *, progress: _Progress
     """Reads several model files in parallel, with the options' defaults. Returns a list of Scene. Errors as
     read_scene.
     """
+def read_srdf(path: _Path, robot: RobotDescription) -> RobotSemantics:
+    """Reads the allowed pairs and the named states of an SRDF file. Returns RobotSemantics."""
+def read_topics(store: Store) -> list[Topic]:
+    """The topics of a store. Raises Error (malformed)."""
 def read_tour(path: _Path) -> Tour:
     """Reads a Tour from JSON. Raises Error: file_not_found, unreadable, malformed, unsupported."""
 def record(tour: Tour, seconds: float, camera: Camera, name: str = ...) -> None:
@@ -3146,6 +4317,10 @@ def remove_models(files: Iterable[_Path], store: _Path) -> RemovalReport:
     """
 def review_clashes(store: Store) -> list[ClashReview]:
     """One ClashReview for each question that the store has been asked. Raises Error (malformed)."""
+def review_groups(store: Store, since: int | None = ...) -> list[GroupReview]:
+    """One GroupReview for each question and grouping of a store: what has become of the groups since the last job that
+    ended before a time (seconds since 1970); None: since the job before the last one.
+    """
 def self_impacts(surface: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> Impacts:
     """Every vertex and face, and every two edges, of a Deformable that meet during its step.
 
@@ -3176,7 +4351,7 @@ def set_threads(count: int) -> None:
 def summary(store: Store) -> StoreSummary:
     """A StoreSummary. Raises Error (malformed) if the store is damaged."""
 @overload
-def time_of_impact(a: Deformable, b: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> FeatureImpact | None:
+def time_of_impact(robot: Robot, start: ArrayLike, end: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., absolute_error: float = ..., max_steps: int | None = ..., progress: _Progress = ...) -> RobotImpact:
     """The first time in [0, 1] at which two moving models, or two Deformable, share a point.
 
     a, b                two Model
@@ -3191,6 +4366,8 @@ def time_of_impact(a: Deformable, b: Deformable, *, absolute_error: float = ...,
     finite; KeyboardInterrupt at Ctrl-C.
     """
 @overload
+def time_of_impact(a: Deformable, b: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> FeatureImpact | None: ...
+@overload
 def time_of_impact(a: Model, motion_a: Motion | _OnePose, b: Model, motion_b: Motion | _OnePose, *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Impact: ...
 @overload
 def time_of_impact(a: Model, motion_a: Motion | Sequence[Motion] | _Poses, b: Model, motion_b: Motion | Sequence[Motion] | _Poses, *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
@@ -3200,6 +4377,10 @@ def to_json(report: ClashReport) -> str:
     of their store.
     """
 @overload
+def to_json(merge: TopicMerge) -> str: ...
+@overload
+def to_json(review: GroupReview) -> str: ...
+@overload
 def to_json(review: ClashReview) -> str: ...
 @overload
 def to_json(reviews: list[ClashReview], store: str) -> str: ...
@@ -3207,8 +4388,16 @@ def to_json(reviews: list[ClashReview], store: str) -> str: ...
 def to_json(report: PathReport, walk: Walk) -> str: ...
 def to_mesh(scene: Scene) -> Mesh:
     """All parts of a scene as one Mesh in the world. Raises Error (bad_mesh) if there are too many vertices."""
+def topics_of_groups(report: ClashReport) -> list[Topic]:
+    """One Topic for each innermost group of a report; then the others."""
+def topics_revision(store: Store) -> int:
+    """The number of the last change of topics."""
 def turn_up(scene: Scene, up: UpAxis | str) -> None:
     """Turns a scene by quarter turns, so that this axis points up."""
+def update_bcf(earlier: BcfFile, later: BcfFile) -> BcfFile:
+    """Updates a BcfFile by a later export; what people have changed in it stays."""
+def variables_of(type: str) -> int:
+    """The number of values that place a joint of this type."""
 def verify(store: Store, *, progress: _Progress = ...) -> None:
     """Reads all of a store and checks it against its checksums. Raises Error (malformed)."""
 def verify_jobs(store: Store) -> None:
@@ -3232,10 +4421,18 @@ def within(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose,
 def within(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, tolerance: float, *, warm_start: PiecesWarmStart | None = ..., progress: _Progress = ...) -> Any: ...
 @overload
 def within(a: Deformable, b: Deformable, distance: float, *, progress: _Progress = ...) -> Any: ...
+def write_bcf(file: BcfFile, path: _Path, version: BcfVersion | str = ...) -> None:
+    """Writes a BCF file of version 2.1 or 3.0. Raises Error: bad_argument, cannot_write."""
 def write_clash_csv(report: ClashReport, path: _Path) -> None:
     """Writes a report as comma-separated text. Raises Error (cannot_write)."""
-def write_clash_html(report: ClashReport, path: _Path) -> None:
-    """Writes a report as one page of HTML. Raises Error (cannot_write)."""
+def write_clash_html(report: ClashReport, path: _Path, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath = ..., *, building_bytes: int = ..., progress: _Progress = ...) -> None:
+    """Writes a report as one page of HTML, with the building in 3D if the models are given.
+
+    models           what the report is about: list of Scene or paths, or a Store
+    building_bytes   of the page for the 3D view, approximately; 0: no 3D view
+
+    Raises Error: cannot_write, bad_argument, those of the store.
+    """
 def write_clash_json(report: ClashReport, path: _Path) -> None:
     """Writes a report as JSON. Raises Error (cannot_write)."""
 def write_frame(mesh: _Mesh, path: _Path) -> None:
@@ -3244,5 +4441,7 @@ def write_glb(scene: Scene, path: _Path) -> None:
     """Writes a scene as binary glTF. Raises Error (cannot_write)."""
 def write_png(picture: NDArray[Any], path: _Path) -> None:
     """Writes an array of shape (height, width, 3), uint8, as PNG, atomically. Raises Error (cannot_write)."""
+def write_srdf(robot: RobotDescription, allowed: list[AllowedPair], path: _Path, base: _Path | None = ...) -> None:
+    """Writes allowed pairs as an SRDF file; all else is taken from `base`, if it is given."""
 def write_tour(tour: Tour, path: _Path) -> None:
     """Writes a Tour as JSON, atomically. Raises Error: bad_argument, cannot_write."""

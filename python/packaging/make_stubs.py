@@ -73,6 +73,8 @@ PARAMETERS = {
     "meshes": "Sequence[_Mesh]", "id": "str", "type": "str", "eye": "ArrayLike", "forward": "ArrayLike",
     "towards": "ArrayLike", "velocity": "ArrayLike", "aim": "NamedView | str | Camera | PartAim | PairAim | Clash",
     "colour_by": "ColourBy | str", "by": "ColourBy | str", "picture": "NDArray[Any]", "normal": "ArrayLike",
+    "reason": "AllowReason | str", "configuration": "ArrayLike", "properties": "Properties | None",
+    "relations": "Sequence[PartRelation]", "version": "BcfVersion | str",
 }
 # The same for one function or class.
 OWN_PARAMETERS = {
@@ -105,6 +107,8 @@ OWN_PARAMETERS = {
     "remove_models": {"files": "Iterable[_Path]", "store": "_Path"}, "help_find_clashes": {"store": "_Path", "crew": "Crew"},
     "time_of_impact": {"absolute_error": "float | None"}, "World.time_of_impact": {"absolute_error": "float | None"},
     "read_scene": {"path": "_ModelPath"}, "read_mesh": {"path": "_ModelPath"}, "inspect": {"mesh": "ArrayLike | _Mesh"},
+    "clash_bcf": {"snapshot": "Callable[[ClashViewpoint], bytes] | None"}, "group_clashes": {"store": "Store | None"},
+    "RobotObstacle": {"name": "str", "pose": "_OnePose | ArrayLike"}, "write_srdf": {"base": "_Path | None"},
     "Segment": {"a": "ArrayLike", "b": "ArrayLike"}, "ModelPath": {"up": "UpAxis | str | None"}, "to_json": {"store": "str"},
 }
 # The meanings of verbs: the first argument, the keywords, and what one question returns. A matrix may be one pose or
@@ -125,11 +129,19 @@ VERBS = {
 WARM_STARTS = {"Model": "WarmStart", "Convex": "ConvexWarmStart", "ConvexPieces": "PiecesWarmStart"}
 # Whole lines, for what the tables above cannot say.
 OTHER_OVERLOADS = {
-    "distance": ["def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., "
+    "collide": ["def collide(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., "
+                "obstacles: RobotObstacles | None = ..., root: bool = ..., progress: _Progress = ...) -> Any: ..."],
+    "distance": ["def distance(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., "
+                 "obstacles: RobotObstacles | None = ..., root: bool = ..., upper_bound: float = ..., "
+                 "progress: _Progress = ...) -> Any: ...",
+                 "def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., "
                  "absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., "
                  "progress: _Progress = ...) -> Any: ..."],
     "within": ["def within(a: Deformable, b: Deformable, distance: float, *, progress: _Progress = ...) -> Any: ..."],
     "time_of_impact": [
+        "def time_of_impact(robot: Robot, start: ArrayLike, end: ArrayLike, *, self_pairs: bool = ..., "
+        "obstacles: RobotObstacles | None = ..., root: bool = ..., absolute_error: float = ..., "
+        "max_steps: int | None = ..., progress: _Progress = ...) -> RobotImpact: ...",
         "def time_of_impact(a: Deformable, b: Deformable, *, absolute_error: float = ..., thickness: float = ..., "
         "progress: _Progress = ...) -> FeatureImpact | None: ...",
         "def time_of_impact(a: Model, motion_a: Motion | _OnePose, b: Model, motion_b: Motion | _OnePose, *, "
@@ -382,6 +394,9 @@ def stubs():
     for name in sorted(classes):
         lines += [*class_lines(name, getattr(abut, name)), ""]
     for name in sorted(set(abut.__all__) - set(classes)):
+        if isinstance(getattr(abut, name), tuple):
+            lines += [f"{name}: tuple[str, ...]", ""]
+            continue
         lines += with_doc(function_lines(name, name, getattr(abut, name)), getattr(abut, name), name)
     return "\n".join(lines) + "\n"
 
