@@ -8,6 +8,7 @@
 #include <array>
 #include <climits>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -112,6 +113,11 @@ public:
     }
     [[nodiscard]] std::size_t vertices() const { return positions_.size(); }
     [[nodiscard]] const Vec3& position(std::uint32_t vertex) const { return positions_[vertex]; }
+    /// The corners at a vertex: three times the index of the face, plus the corner's number.
+    [[nodiscard]] std::span<const std::uint32_t> corners_at(std::uint32_t vertex) const {
+        return std::span(corners_).subspan(first_corner_[vertex],
+                                           first_corner_[vertex + 1] - first_corner_[vertex]);
+    }
 
 private:
     /// Gives corners at equal positions one number.
@@ -119,24 +125,30 @@ private:
         const auto corner = [&](std::uint32_t c) -> const Vec3& {
             return faces_[c / 3].corners[c % 3];
         };
-        std::vector<std::uint32_t> order;
-        order.reserve(3 * faces_.size());
+        corners_.reserve(3 * faces_.size());
         for (std::uint32_t c = 0; c < 3 * faces_.size(); ++c)
-            order.push_back(c);
-        std::sort(order.begin(), order.end(), [&](std::uint32_t c, std::uint32_t d) {
+            corners_.push_back(c);
+        std::sort(corners_.begin(), corners_.end(), [&](std::uint32_t c, std::uint32_t d) {
             return is_before(corner(c), corner(d));
         });
-        for (const std::uint32_t c : order) {
-            if (positions_.empty() || positions_.back() != corner(c))
+        for (std::uint32_t at = 0; at < corners_.size(); ++at) {
+            const std::uint32_t c = corners_[at];
+            if (positions_.empty() || positions_.back() != corner(c)) {
                 positions_.push_back(corner(c));
+                first_corner_.push_back(at);
+            }
             faces_[c / 3].vertices[c % 3] = static_cast<std::uint32_t>(positions_.size() - 1);
         }
+        first_corner_.push_back(static_cast<std::uint32_t>(corners_.size()));
     }
 
     const WorldSolid& solid_;
     Vec3 origin_, shift_;
     std::vector<NearFace> faces_;
-    std::vector<Vec3> positions_; ///< of the vertices, sorted
+    std::vector<Vec3> positions_;        ///< of the vertices, sorted
+    std::vector<std::uint32_t> corners_; ///< sorted by vertex
+    std::vector<std::uint32_t>
+        first_corner_; ///< by vertex: where its corners begin; then their end
 };
 
 /// How often a solid winds around a local point: none if that cannot be decided.
@@ -281,19 +293,23 @@ private:
         const Box3 world = other.solid().world_box();
         const Box3 box = widened({other.to_local(world.lower), other.to_local(world.upper)},
                                  0x1p-40 * (max_abs(world.lower) + max_abs(world.upper)));
+        std::vector<std::uint32_t> known_vertices;
         for (std::uint32_t v = 0; v < winding.size(); ++v)
-            if (!contains_point(box, surface.position(v)))
+            if (!contains_point(box, surface.position(v))) {
                 winding[v] = 0;
-        if (!spread(surface, winding))
+                known_vertices.push_back(v);
+            }
+        if (!spread(surface, std::move(known_vertices), winding))
             return false;
         for (const NearFace& face : surface.faces()) {
+            poll_stop();
             if (face.is_flat || winding[face.vertices[0]] != kUnknown)
                 continue;
             const auto known = winding_around(other, face.corners[0]);
             if (!known)
                 return false;
             winding[face.vertices[0]] = *known;
-            if (!spread(surface, winding))
+            if (!spread(surface, {face.vertices[0]}, winding))
                 return false;
         }
         for (const NearFace& face : surface.faces())
@@ -309,29 +325,31 @@ private:
         volume_ += dot(base, (winding_at_2 + face.inside[1]) * whole + face.doubled_area);
     }
 
-    /// Carries the known winding numbers along the edges of faces, until none is new. Returns false
-    /// if two ways to a vertex disagree.
-    static bool spread(const NearSurface& surface, std::vector<int>& winding) {
-        for (bool changed = true; changed;) {
-            changed = false;
-            // Forth and back: the numbers of neighbouring faces are near each other.
-            const auto visit = [&](const NearFace& face) {
-                for (std::size_t i = 0; i < 3 && !face.is_flat; ++i) {
-                    int &from = winding[face.vertices.at(i)],
-                        &to = winding[face.vertices.at((i + 1) % 3)];
-                    if (from != INT_MAX && to == INT_MAX)
-                        to = from + face.entered.at(i), changed = true;
-                    else if (from == INT_MAX && to != INT_MAX)
-                        from = to - face.entered.at(i), changed = true;
-                    else if (from != INT_MAX && to != from + face.entered.at(i))
+    /// Carries winding numbers from the vertices `reached` along the edges of faces to all vertices
+    /// that these connect. Returns false if two ways to a vertex disagree.
+    static bool spread(const NearSurface& surface, std::vector<std::uint32_t> reached,
+                       std::vector<int>& winding) {
+        while (!reached.empty()) {
+            const std::uint32_t vertex = reached.back();
+            reached.pop_back();
+            for (const std::uint32_t corner : surface.corners_at(vertex)) {
+                const NearFace& face = surface.faces()[corner / 3];
+                if (face.is_flat)
+                    continue;
+                const std::size_t leaves = corner % 3, arrives = (leaves + 2) % 3;
+                const std::uint32_t next = face.vertices.at((leaves + 1) % 3);
+                const std::uint32_t last = face.vertices.at(arrives);
+                for (const auto& [other, value] :
+                     {std::pair(next, winding[vertex] + face.entered.at(leaves)),
+                      std::pair(last, winding[vertex] - face.entered.at(arrives))}) {
+                    if (winding[other] == INT_MAX) {
+                        winding[other] = value;
+                        reached.push_back(other);
+                    } else if (winding[other] != value) {
                         return false;
+                    }
                 }
-                return true;
-            };
-            const std::vector<NearFace>& faces = surface.faces();
-            if (!std::all_of(faces.begin(), faces.end(), visit) ||
-                !std::all_of(faces.rbegin(), faces.rend(), visit))
-                return false;
+            }
         }
         return true;
     }
@@ -352,6 +370,13 @@ double volume_error(const NearSurface& surface, double diagonal, double shift) {
     }
     const double gaps = surface.solid().closed() ? 0 : kJunctions * diagonal;
     return in_box * (shift + gaps) + rounding * diagonal;
+}
+
+/// None if the coordinates are so large that a product is beyond the range of numbers.
+std::optional<OverlapVolume> finite_volume(double volume, double error) {
+    if (!std::isfinite(volume) || !std::isfinite(error))
+        return std::nullopt;
+    return OverlapVolume{std::max(volume, 0.0), error};
 }
 
 bool is_oriented_solid(const WorldSolid& solid) {
@@ -381,9 +406,8 @@ std::optional<OverlapVolume> overlap_volume(const WorldSolid& a, const WorldSoli
         if (outcome == CommonSolid::Outcome::too_large)
             break;
         if (outcome == CommonSolid::Outcome::done)
-            return OverlapVolume{std::max(solid.volume(), 0.0),
-                                 volume_error(solid.a(), diagonal, shift) +
-                                     volume_error(solid.b(), diagonal, shift)};
+            return finite_volume(solid.volume(), volume_error(solid.a(), diagonal, shift) +
+                                                     volume_error(solid.b(), diagonal, shift));
         shift *= 64;
     }
     return std::nullopt;
@@ -401,7 +425,7 @@ std::optional<OverlapVolume> solid_volume(const WorldSolid& solid) {
     double volume = 0;
     for (const NearFace& face : surface.faces())
         volume += dot(face.corners[0], cross(face.corners[1], face.corners[2])) / 6;
-    return OverlapVolume{std::max(volume, 0.0), volume_error(surface, diagonal, 0)};
+    return finite_volume(volume, volume_error(surface, diagonal, 0));
 }
 
 } // namespace abut

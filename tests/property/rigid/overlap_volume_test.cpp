@@ -77,6 +77,18 @@ TEST(OverlapVolume, OfBoxesIsTheProductOfTheCommonEdges) {
 }
 
 /// A rotated pair has the volume of the pair before.
+TEST(OverlapVolume, OfManyComponentsIsTheSumOfTheirs) {
+    Mesh crates;
+    for (int i = 0; i < 216; ++i) {
+        const Vec3 corner{static_cast<double>(i % 6), static_cast<double>(i / 6 % 6),
+                          static_cast<double>(i / 36)};
+        crates = joined(crates, box_mesh(corner, corner + Vec3{0.5, 0.5, 0.5}));
+    }
+    // The last of six layers is cut in the middle.
+    const OverlapVolume found = common(box_body({-1, -1, -1}, {5.25, 7, 7}), {}, Body(crates), {});
+    EXPECT_NEAR(found.volume, 5.5 * 36 * 0.125, found.error);
+}
+
 TEST(OverlapVolume, OfRotatedBoxesIsThatOfTheBoxes) {
     Random random(7302);
     for (int round = 0; round < many(200); ++round) {
