@@ -22,6 +22,10 @@ public:
     [[nodiscard]] bool is_problem(const ClashReport& report,
                                   const std::vector<Scene>& models) const;
 
+    /// Returns a warning for each property that the condition asks for, but no part of a
+    /// clash has. models: as in is_problem().
+    [[nodiscard]] std::vector<std::string> warnings(const std::vector<Scene>& models) const;
+
 private:
     void parse_list(const std::string& words, const std::vector<std::string>& known,
                     bool from_store);

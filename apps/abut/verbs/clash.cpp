@@ -141,6 +141,15 @@ void group(StoreClashReport& found, const std::string& store, const GroupOptions
     found.report.grouping = options.by;
 }
 
+/// Warns of properties that no part has. A store lists only the parts of clashes, so it tells nothing
+/// if there are none.
+void warn_of_names(const FailOn& fail_on, bool from_store, StoreClashReport& found) {
+    if (from_store && found.report.clashes.empty())
+        return;
+    for (const std::string& warning : fail_on.warnings(found.models))
+        found.report.warnings.push_back(warning);
+}
+
 OutOfCoreOptions limits_of(const ClashArguments& arguments, Crew* crew) {
     OutOfCoreOptions limits;
     if (arguments.memory)
@@ -212,6 +221,7 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
             report.seconds.import = seconds_import;
         }
         group(found, from_store ? arguments.files.front() : "", grouping);
+        warn_of_names(fail_on, from_store, found);
         report.seconds.total = watch.seconds();
     }
     if (bcf)

@@ -92,7 +92,8 @@ private:
             return clash_.distance;
         if (name == "volume")
             return clash_.volume;
-        if ((clash_.kind == ClashKind::clearance) != (name == "gap"))
+        if (clash_.kind == ClashKind::duplicate ||
+            (clash_.kind == ClashKind::clearance) != (name == "gap"))
             return std::nullopt;
         return std::abs(clash_.distance);
     }

@@ -39,8 +39,11 @@ private:
             reader_.fail("groups", "must be at most " + std::to_string(kMostGroups));
         ClashMatrix::Group group;
         group.name = reader_.read_text(value, "name", where);
-        if (group.name.empty() || group.name == "*" || group.name.find(" / ") != std::string::npos)
-            reader_.fail(where + ".name", "must not be empty or *, and not contain \" / \"");
+        // So that the name "A / B" of a cell is that of no other two groups.
+        if (group.name.empty() || group.name == "*" ||
+            (' ' + group.name + ' ').find(" / ") != std::string::npos)
+            reader_.fail(where + ".name",
+                         "must not be empty or *, and have no / that stands alone");
         if (find(group.name))
             reader_.fail(where + ".name", "is the name of an earlier group, too");
         if (!value.contains("select") || !value["select"].is_string())

@@ -78,6 +78,8 @@ TEST_F(SelectionTest, ConditionsSelectPairs) {
               (Texts{"hard", "touch", "contained", "duplicate", "clearance"}));
     EXPECT_EQ(clash({"--only", "stroey = L2"})["warnings"],
               json({"no part has the property \"stroey\", which --only asks for"}));
+    EXPECT_EQ(clash({"--fail-on", "stroey = L2"})["warnings"],
+              json({"no part of a clash has the property \"stroey\", which --fail-on asks for"}));
 }
 
 TEST_F(SelectionTest, ASyntaxErrorSaysWhere) {
