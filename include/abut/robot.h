@@ -44,9 +44,9 @@ class Robot {
 public:
     /// Builds the hierarchies of its meshes.
     ///
-    /// Errors      Error{bad_argument} if an index of the description is out of range or its joints
-    ///             are no tree in the order that RobotDescription states; Error{bad_mesh}, naming
-    ///             the link.
+    /// Errors      Error{bad_argument} if an index of the description is out of range, a number is
+    ///             not finite, limits leave no value, or its joints are no tree in the order that
+    ///             RobotDescription states; Error{bad_mesh}, naming the link.
     explicit Robot(RobotDescription description, const RobotOptions& options = {});
 
     [[nodiscard]] const RobotDescription& description() const noexcept;
@@ -60,7 +60,8 @@ public:
     /// Returns the place of every link.
     ///
     /// Errors      of this function and all queries: Error{bad_argument} if a configuration has the
-    ///             wrong length, or a value that is not finite or is beyond 1e9.
+    ///             wrong length, or if one of its values, or the value that a joint which follows
+    ///             another one gets, is not finite or is beyond 1e9.
     [[nodiscard]] std::vector<Transform>
     link_transforms(std::span<const double> configuration) const;
     /// Returns the indices of the variables that are beyond their limits by more than 1e-9.

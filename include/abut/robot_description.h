@@ -143,7 +143,8 @@ RobotSemantics read_srdf(const std::string& path, const RobotDescription& robot)
 /// Writes the allowed pairs as an SRDF file, atomically. If `base` names an SRDF file, all else of
 /// it is kept, and its pairs are replaced.
 ///
-/// Errors      Error{cannot_write}, naming the file; those of `base` as read_srdf.
+/// Errors      Error{cannot_write}, naming the file; those of `base` as read_srdf;
+///             Error{bad_argument} if a pair names a link that is out of range.
 void write_srdf(const RobotDescription& robot, const std::vector<AllowedPair>& allowed,
                 const std::string& path, const std::string& base = {});
 

@@ -6,6 +6,7 @@
 #include "core/progress.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -47,23 +48,24 @@ std::vector<double> random_configuration(const Robot& robot, std::uint64_t seed,
     std::vector<double> values;
     for (const RobotVariable& variable : robot.variables()) {
         const double half = variable.is_angle ? std::numbers::pi : kSlide;
-        const bool is_limited =
-            std::isfinite(variable.limits.lower) && std::isfinite(variable.limits.upper);
-        values.push_back(is_limited ? random.between(variable.limits.lower, variable.limits.upper)
-                                    : random.between(-half, half));
+        // A limit beyond the values that queries accept is none.
+        const auto& [lower, upper] = variable.limits;
+        const bool has_lower = lower >= -kLargestValue;
+        const bool has_upper = upper <= kLargestValue;
+        const double low = has_lower ? lower : has_upper ? std::min(-half, upper - half) : -half;
+        const double high = has_upper ? upper : has_lower ? std::max(half, lower + half) : half;
+        values.push_back(random.between(low, high));
     }
     return values;
 }
 
-/// How often each tested pair meets. `counts` are in the order of Robot::pairs().
+/// How often each tested pair meets. The counts are in the order of Robot::pairs().
 class MeetingCounts {
 public:
-    MeetingCounts(const Robot& robot, std::uint64_t chunks)
-        : robot_(robot), bodies_(robot.data(), {}), counts_(chunks) {}
+    explicit MeetingCounts(const Robot& robot)
+        : robot_(robot), bodies_(robot.data(), {}), counts_(robot.pairs().size()) {}
 
-    void add(std::uint64_t chunk, std::span<const double> configuration, PlacedBodies& placed) {
-        std::vector<std::uint64_t>& counts = counts_[chunk];
-        counts.resize(robot_.pairs().size());
+    void add(std::span<const double> configuration, PlacedBodies& placed) {
         placed.place(configuration);
         // Tests are sorted by pairs, so one walk over both finds the pair of each test.
         std::size_t pair = 0;
@@ -74,22 +76,17 @@ public:
                 ++pair, is_counted = false;
             if (!is_counted && placed.ball_gap(test) <= 0 && placed.meet(test)) {
                 is_counted = true;
-                ++counts[pair];
+                counts_[pair].fetch_add(1, std::memory_order_relaxed);
             }
         }
     }
     [[nodiscard]] const QueryBodies& bodies() const { return bodies_; }
-    [[nodiscard]] std::uint64_t sum(std::size_t pair) const {
-        std::uint64_t sum = 0;
-        for (const auto& counts : counts_)
-            sum += counts[pair];
-        return sum;
-    }
+    [[nodiscard]] std::uint64_t of(std::size_t pair) const { return counts_[pair].load(); }
 
 private:
     const Robot& robot_;
     QueryBodies bodies_;
-    std::vector<std::vector<std::uint64_t>> counts_; ///< of each chunk
+    std::vector<std::atomic<std::uint64_t>> counts_;
 };
 
 /// The pairs that only their adjacency leaves out.
@@ -97,7 +94,8 @@ std::vector<AllowedPair> adjacent_pairs(const RobotData& robot) {
     RobotDescription bare = robot.description;
     for (RobotLink& link : bare.links)
         for (RobotShape& shape : link.shapes)
-            shape.mesh = {{{}}, {{0, 0, 0}}}; // a point: hierarchies cost nothing
+            if (!shape.mesh.triangles.empty())
+                shape.mesh = {{{}}, {{0, 0, 0}}}; // a point: hierarchies cost nothing
     const Robot all(std::move(bare), {.allowed = robot.allowed, .allow_adjacent = false});
     std::vector<AllowedPair> adjacent;
     for (const auto& [a, b] : all.pairs())
@@ -113,23 +111,26 @@ std::vector<AllowedPair> propose_allowed_pairs(const Robot& robot,
     require(options.samples > 0, "the number of samples must be positive");
     constexpr std::uint64_t kChunk = 64;
     const StopScope stopping(options.progress);
-    const std::uint64_t chunks = (options.samples + kChunk - 1) / kChunk;
+    const std::uint64_t chunks = (options.samples - 1) / kChunk + 1;
     ProgressMeter meter(options.progress, "configurations", options.samples);
-    MeetingCounts counts(robot, chunks);
+    MeetingCounts counts(robot);
     parallel_for(chunks, 1, [&](std::size_t chunk) {
         PlacedBodies placed(counts.bodies());
-        const std::uint64_t end = std::min(options.samples, (chunk + 1) * kChunk);
-        for (std::uint64_t i = chunk * kChunk; i < end; ++i) {
+        const std::uint64_t begin = chunk * kChunk;
+        const std::uint64_t end = begin + std::min(kChunk, options.samples - begin);
+        for (std::uint64_t i = begin; i < end; ++i) {
             poll_stop();
-            counts.add(chunk, random_configuration(robot, options.seed, i), placed);
+            const std::vector<double> configuration = random_configuration(robot, options.seed, i);
+            robot.data().require_valid(configuration);
+            counts.add(configuration, placed);
         }
-        meter.advance(end - chunk * kChunk);
+        meter.advance(end - begin);
     });
     std::vector<AllowedPair> allowed = adjacent_pairs(robot.data());
     const std::vector<RobotPair> at_rest = collide(robot, robot.default_configuration());
     for (std::size_t i = 0; i < robot.pairs().size(); ++i) {
         const auto& [a, b] = robot.pairs()[i];
-        const std::uint64_t meetings = counts.sum(i);
+        const std::uint64_t meetings = counts.of(i);
         if (std::ranges::find(at_rest, RobotPair{a, b, false}) != at_rest.end())
             allowed.push_back({a, b, AllowReason::at_rest});
         else if (meetings == options.samples)

@@ -124,6 +124,13 @@ JointVariables number_variables(const RobotDescription& robot) {
     return result;
 }
 
+double mimic_size(const RobotJoint& joint, std::uint32_t first,
+                  std::span<const double> configuration) {
+    if (!joint.mimic)
+        return 0;
+    return std::abs(joint.mimic->multiplier * configuration[first]) + std::abs(joint.mimic->offset);
+}
+
 void forward_kinematics(const RobotDescription& robot, const JointVariables& variables,
                         std::span<const double> configuration, std::vector<Transform>& links) {
     links.resize(robot.links.size());

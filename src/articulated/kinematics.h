@@ -15,6 +15,16 @@ struct JointVariables {
 
 JointVariables number_variables(const RobotDescription& robot);
 
+/// Bounds of the motion assume values no larger than this, in radians or metres.
+inline constexpr double kLargestValue = 1e9;
+
+/// The sum of the sizes of both terms of a value that follows another joint, which bounds its
+/// rounding. 0 for a joint that follows none.
+///
+/// In          first: of the joint, as in JointVariables.
+double mimic_size(const RobotJoint& joint, std::uint32_t first,
+                  std::span<const double> configuration);
+
 /// Computes the place of every link, parents first. Positions follow from these transforms as
 /// abut/types.h states.
 ///

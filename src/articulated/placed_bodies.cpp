@@ -6,7 +6,7 @@
 #include "math/transform.h"
 #include "math/vector.h"
 
-#include <string>
+#include <algorithm>
 
 namespace abut {
 
@@ -81,12 +81,13 @@ bool PlacedBodies::is_inside(std::uint32_t inner, std::uint32_t outer) const {
     const RobotBody& solid = bodies_[outer];
     if (!solid.is_solid)
         return false;
-    const Vec3 point = apply(places_[inner], bodies_[inner].vertex);
-    // The surfaces do not meet, so one vertex decides. A point outside of the solid's ball is not
-    // inside of the solid.
-    if (length(point - centres_[outer]) > solid.radius)
-        return false;
-    return contains(solid.model, places_[outer], point).side == Side::inside;
+    // The surfaces do not meet, so one vertex decides for its component. A point outside of the
+    // solid's ball is not inside of the solid.
+    return std::ranges::any_of(bodies_[inner].vertices, [&](const Vec3& vertex) {
+        const Vec3 point = apply(places_[inner], vertex);
+        return length(point - centres_[outer]) <= solid.radius &&
+               contains(solid.model, places_[outer], point).side == Side::inside;
+    });
 }
 
 } // namespace abut

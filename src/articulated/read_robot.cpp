@@ -76,7 +76,8 @@ private:
 
     void read_shape(pugi::xml_node node, RobotLink& link) {
         const pugi::xml_node geometry = node.child("geometry");
-        const pugi::xml_node form = geometry.first_child();
+        const pugi::xml_node form = geometry.find_child(
+            [](pugi::xml_node child) { return child.type() == pugi::node_element; });
         const std::string kind = form.name();
         RobotShape shape{kind, {}, origin_transform(file_, node), 0};
         if (kind == "mesh") {

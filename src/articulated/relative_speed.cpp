@@ -9,8 +9,9 @@ namespace abut {
 
 namespace {
 
-/// Bounds are enlarged by this share, which exceeds the rounding of their few sums.
-constexpr double kSpeedShare = 1e-9;
+/// Bounds are enlarged by this share for each joint of the robot. It exceeds the rounding of their
+/// sums, and by how much a frame and an axis that a robot may have stretch lengths.
+constexpr double kSpeedShare = 2e-8;
 /// Rounding of a link's place, as a share of the lengths from the root to it: some products and
 /// sums for each joint, each to 2^-53.
 constexpr double kPlaceShare = 1e-13;
@@ -35,6 +36,11 @@ RelativeSpeed::RelativeSpeed(const RobotData& robot, std::span<const double> fro
     double largest = 0;
     for (std::size_t i = 0; i < from.size(); ++i)
         largest = std::max({largest, std::abs(from[i]), std::abs(to[i])});
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+        const RobotJoint& joint = robot.description.joints[i];
+        const std::uint32_t first = robot.joints.first[i];
+        largest = std::max({largest, mimic_size(joint, first, from), mimic_size(joint, first, to)});
+    }
     rounding_ = (kPlaceShare + kVariableShare * largest) *
                 (1 + static_cast<double>(motions_.size())) * (reach + size);
 }
@@ -61,7 +67,7 @@ double RelativeSpeed::seen_from(const RobotBody& body, std::uint32_t other) cons
         arm += motions_[*joint].reach;
         speed += motions_[*joint].speed + motions_[*joint].turn * arm;
     }
-    return speed * (1 + kSpeedShare);
+    return speed * (1 + kSpeedShare * static_cast<double>(1 + motions_.size()));
 }
 
 double RelativeSpeed::bound(const QueryBodies& bodies, const BodyTest& test) const {

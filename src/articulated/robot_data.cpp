@@ -7,10 +7,12 @@
 #include "core/parallel.h"
 #include "math/transform.h"
 #include "math/vector.h"
+#include "mesh/topology.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -18,8 +20,6 @@ namespace abut {
 
 namespace {
 
-/// Bounds of the motion assume values no larger than this, in radians or metres.
-constexpr double kLargestValue = 1e9;
 /// By how much the columns of a joint's frame may differ from orthogonal unit vectors.
 constexpr double kRigidError = 1e-9;
 /// A radius is rounded up by this share: far more than the rounding of a few products.
@@ -51,6 +51,10 @@ void require_tree(const RobotDescription& robot) {
         require(joint.type == JointType::fixed || joint.type == JointType::floating ||
                     std::abs(length(joint.axis) - 1) <= kRigidError,
                 "the axis of joint '" + joint.name + "' is not of unit length");
+        require(joint.limits.lower <= joint.limits.upper &&
+                    joint.limits.lower < std::numeric_limits<double>::infinity() &&
+                    joint.limits.upper > -std::numeric_limits<double>::infinity(),
+                "the limits of joint '" + joint.name + "' leave no value");
         require(!joint.mimic ||
                     (joint.mimic->joint < robot.joints.size() &&
                      !robot.joints[joint.mimic->joint].mimic &&
@@ -59,6 +63,11 @@ void require_tree(const RobotDescription& robot) {
                      std::isfinite(joint.mimic->offset)),
                 "joint '" + joint.name + "' cannot follow the joint that it names");
     }
+    for (const RobotLink& link : robot.links)
+        for (const RobotShape& shape : link.shapes) {
+            const std::string what = "the transform of a shape of link '" + link.name + "'";
+            require_finite(shape.link_from_shape, what.c_str());
+        }
     for (std::size_t i = 0; i < placed.size(); ++i)
         require(placed[i], "no joint moves link '" + robot.links[i].name + "'");
 }
@@ -108,9 +117,12 @@ std::vector<RobotBody> make_body(std::uint32_t owner, const Model& model,
     for (const auto& triangle : model.mesh().triangles)
         for (const std::uint32_t corner : triangle)
             points.push_back(model.mesh().positions[corner]);
-    const Vec3 vertex = points.front();
+    std::vector<Vec3> vertices;
+    for (const std::uint32_t triangle :
+         component_representatives(model.mesh(), make_topology(model.mesh())))
+        vertices.push_back(model.mesh().positions[model.mesh().triangles[triangle][0]]);
     return {{owner, model, owner_from_model, centre, radius + rounding, report.closed,
-             report.bounds, vertex, Convex(points)}};
+             report.bounds, std::move(vertices), Convex(points)}};
 }
 
 RobotData::RobotData(RobotDescription robot, const RobotOptions& options)
@@ -155,6 +167,11 @@ void RobotData::require_valid(std::span<const double> configuration) const {
         if (!(std::abs(configuration[i]) <= kLargestValue))
             throw Error(ErrorCode::bad_argument, "the value of '" + joints.variables[i].name +
                                                      "' is not finite or is beyond 1e9");
+    for (std::size_t i = 0; i < description.joints.size(); ++i)
+        if (!(mimic_size(description.joints[i], joints.first[i], configuration) <= kLargestValue))
+            throw Error(ErrorCode::bad_argument,
+                        "the value of '" + description.joints[i].name +
+                            "', which follows another joint, is beyond 1e9");
 }
 
 ObstacleData::ObstacleData(std::vector<RobotObstacle> obstacles) : list(std::move(obstacles)) {

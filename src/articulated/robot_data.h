@@ -16,12 +16,12 @@ struct RobotBody {
     std::uint32_t owner = 0; ///< index of the link or the obstacle
     Model model;
     Transform owner_from_model;
-    Vec3 centre;           ///< of a ball that encloses the shape, in the owner's frame
-    double radius = 0;     ///< of that ball, rounded up
-    bool is_solid = false; ///< its surface is closed
-    Box3 box;              ///< of the model, in its own frame
-    Vec3 vertex;           ///< one point of the surface, in the model's frame
-    Convex hull;           ///< of the surface, in the model's frame
+    Vec3 centre;                ///< of a ball that encloses the shape, in the owner's frame
+    double radius = 0;          ///< of that ball, rounded up
+    bool is_solid = false;      ///< its surface is closed
+    Box3 box;                   ///< of the model, in its own frame
+    std::vector<Vec3> vertices; ///< one of each connected component, in the model's frame
+    Convex hull;                ///< of the surface, in the model's frame
 };
 
 /// Returns nothing for a mesh without triangles.

@@ -72,6 +72,8 @@ RobotGap nearest_pair(const QueryBodies& bodies, std::span<const double> configu
         if (best.distance == 0)
             break;
     }
+    if (best.status == Status::bound_only)
+        best.distance = std::numeric_limits<double>::infinity();
     return best;
 }
 

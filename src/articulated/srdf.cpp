@@ -2,6 +2,7 @@
 #include <abut/robot_description.h>
 
 #include "articulated/xml_file.h"
+#include "core/arguments.h"
 #include "core/atomic_file.h"
 
 #include <algorithm>
@@ -20,6 +21,29 @@ AllowReason reason_named(const std::string& text) {
     return AllowReason::user;
 }
 
+void require_robot(const XmlFile& file) {
+    const pugi::xml_node root = file.root();
+    if (root.name() != std::string("robot"))
+        file.fail(root, "the root element is <" + std::string(root.name()) + ">, not <robot>");
+}
+
+/// Copies a document except its allowed pairs. Nothing is removed from a copy, because pugixml removes
+/// nodes recursively, which a deep file would turn into a stack overflow.
+void copy_without_pairs(pugi::xml_node from, pugi::xml_document& to) {
+    for (const pugi::xml_node node : from.children()) {
+        if (node.type() != pugi::node_element) {
+            to.append_copy(node);
+            continue;
+        }
+        pugi::xml_node root = to.append_child(node.name());
+        for (const pugi::xml_attribute attribute : node.attributes())
+            root.append_copy(attribute);
+        for (const pugi::xml_node child : node.children())
+            if (child.name() != std::string("disable_collisions"))
+                root.append_copy(child);
+    }
+}
+
 class SrdfReader {
 public:
     SrdfReader(const std::string& path, const RobotDescription& robot) : file_(path) {
@@ -30,9 +54,8 @@ public:
     }
 
     RobotSemantics read() {
+        require_robot(file_);
         const pugi::xml_node root = file_.root();
-        if (root.name() != std::string("robot"))
-            file_.fail(root, "the root element is <" + std::string(root.name()) + ">, not <robot>");
         for (const pugi::xml_node node : root.children("disable_collisions"))
             read_pair(node);
         for (const pugi::xml_node node : root.children("group_state"))
@@ -74,6 +97,11 @@ private:
                      "' names");
                 continue;
             }
+            if (found->second == 0) {
+                warn("the joint '" + name + "' is fixed and takes no value, but state '" +
+                     state.name + "' gives one");
+                continue;
+            }
             state.joints.emplace_back(name, file_.numbers(joint, "value", found->second));
         }
         semantics_.states.push_back(std::move(state));
@@ -100,19 +128,19 @@ void write_srdf(const RobotDescription& robot, const std::vector<AllowedPair>& a
                 const std::string& path, const std::string& base) {
     pugi::xml_document document;
     if (!base.empty()) {
-        XmlFile file(base);
-        document.reset(file.document());
-        pugi::xml_node root = document.document_element();
-        while (root.remove_child("disable_collisions")) {
-        }
+        const XmlFile file(base);
+        require_robot(file);
+        copy_without_pairs(file.root().parent(), document);
     } else {
         document.append_child("robot").append_attribute("name") = robot.name.c_str();
     }
     pugi::xml_node root = document.document_element();
     for (const AllowedPair& pair : allowed) {
+        require(pair.a < robot.links.size() && pair.b < robot.links.size(),
+                "an allowed pair names a link that is out of range");
         pugi::xml_node node = root.append_child("disable_collisions");
-        node.append_attribute("link1") = robot.links.at(pair.a).name.c_str();
-        node.append_attribute("link2") = robot.links.at(pair.b).name.c_str();
+        node.append_attribute("link1") = robot.links[pair.a].name.c_str();
+        node.append_attribute("link2") = robot.links[pair.b].name.c_str();
         node.append_attribute("reason") = to_string(pair.reason);
     }
     std::ostringstream text;

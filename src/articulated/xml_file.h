@@ -39,9 +39,6 @@ public:
     [[nodiscard]] Vec3 vector(pugi::xml_node node, const char* attribute,
                               const Vec3& missing) const;
 
-    /// The document, for writing a changed copy.
-    [[nodiscard]] pugi::xml_document& document() { return document_; }
-
 private:
     [[nodiscard]] std::size_t line_at(std::ptrdiff_t offset) const;
 

@@ -46,7 +46,8 @@ std::vector<Checked> check_all(const RobotArguments& arguments, const RobotCell&
     std::vector<bool> meets(count, true); // a robot without variables has one configuration
     if (!cell.robot.variables().empty())
         meets = collide(cell.robot, Configurations{values}, query);
-    const RobotQuery of_each{.obstacles = cell.obstacles};
+    const RobotQuery of_each{.obstacles = cell.obstacles,
+                             .progress = {.report = {}, .stop = progress.stop}};
     for (std::size_t i = 0; i < count; ++i) {
         throw_if_interrupted();
         const auto q = configuration_at(values, i, cell.robot);

@@ -63,7 +63,7 @@ TEST_F(ReadRobotTest, ShapesAreScaledAndPlaced) {
     const RobotDescription robot = read(R"(<link name="base">
       <collision><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/>
         <geometry><mesh filename="meshes/t.obj" scale="1 -2 1"/></geometry></collision>
-      <collision><geometry><box size="1 2 3"/></geometry></collision>
+      <collision><geometry><!-- was: <sphere/> --><box size="1 2 3"/></geometry></collision>
       <collision><geometry><cylinder radius="1" length="4"/></geometry></collision>
       <collision><geometry><sphere radius="2"/></geometry></collision></link>)");
     ASSERT_EQ(robot.links[0].shapes.size(), 4);

@@ -112,6 +112,29 @@ TEST(RobotTest, ALinkInsideAnotherMeetsIt) {
     EXPECT_EQ(time_of_impact(robot, std::array{0.0}, std::array{3.0}).time, 0);
 }
 
+TEST(RobotTest, AComponentInsideALinkMeetsIt) {
+    const Mesh two =
+        joined(box_mesh({5, 5, 5}, {6, 6, 6}), box_mesh({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}));
+    RobotDescription description;
+    description.links = {box_link("hull", {-1, -1, -1}, {1, 1, 1}), {"two", {{"two", two, {}, 0}}}};
+    description.joints = {joint("s", JointType::prismatic, 0, 1, {}, {1, 0, 0})};
+    const Robot robot(description, {.allow_adjacent = false});
+    EXPECT_EQ(collide(robot, std::array{0.0}).size(), 1);
+    EXPECT_EQ(distance(robot, std::array{0.0}).distance, 0);
+    EXPECT_EQ(collide(robot, std::array{3.0}).size(), 0);
+}
+
+TEST(RobotTest, NoPairNearerThanTheBoundIsInfinitelyFar) {
+    const Robot robot(planar_arm());
+    RobotDistanceOptions options;
+    for (const double bound : {0.0, 0.5}) {
+        options.upper_bound = bound;
+        const RobotGap gap = distance(robot, std::array{kQuarter, kQuarter}, options);
+        EXPECT_TRUE(std::isinf(gap.distance));
+        EXPECT_EQ(gap.status, Status::bound_only);
+    }
+}
+
 TEST(RobotTest, ObstaclesAreTestedWithEveryLinkThatMoves) {
     const Robot robot(planar_arm());
     const RobotObstacles obstacles(std::vector<RobotObstacle>{
@@ -158,6 +181,16 @@ TEST(RobotTest, BadInputIsAnError) {
     RobotDescription scaled = planar_arm();
     scaled.joints[0].parent_from_joint.m[0] = 2;
     EXPECT_THROW(Robot{scaled}, Error);
+    RobotDescription nowhere = planar_arm();
+    nowhere.links[1].shapes[0].link_from_shape.m[9] = std::nan("");
+    EXPECT_THROW(Robot{nowhere}, Error);
+    RobotDescription narrow = planar_arm();
+    narrow.joints[0].limits = {1, -1};
+    EXPECT_THROW(Robot{narrow}, Error);
+    RobotDescription fast = planar_arm();
+    fast.joints[1].mimic = JointMimic{0, 1e308, 0};
+    EXPECT_NO_THROW(collide(Robot(fast), std::array{0.0}));
+    EXPECT_THROW(collide(Robot(fast), std::array{100.0}), Error);
     RobotDescription cyclic = planar_arm();
     cyclic.joints[1].child = 1;
     EXPECT_THROW(Robot{cyclic}, Error);
