@@ -23,7 +23,11 @@ bool glob_match(std::string_view glob, std::string_view text) {
         if (g < glob.size() && glob[g] == '*') {
             after_star = ++g;
             retry = t;
-        } else if (g < glob.size() && (glob[g] == '?' || glob[g] == text[t])) {
+        } else if (g < glob.size() && glob[g] == '?') {
+            ++g, ++t;
+            while (t < text.size() && continues_character(text[t]))
+                ++t;
+        } else if (g < glob.size() && glob[g] == text[t]) {
             ++g, ++t;
         } else if (after_star != std::string_view::npos) {
             g = after_star;

@@ -2,6 +2,7 @@
 #include <abut/part_query.h>
 
 #include "clash/query/condition.h"
+#include "clash/query/glob.h"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +57,8 @@ public:
     [[noreturn]] void fail(std::size_t at, const std::string& fault) const {
         // Characters are counted, not bytes.
         const auto before = text_.substr(0, at);
-        const auto character = std::ranges::count_if(
-            before, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+        const auto character =
+            std::ranges::count_if(before, [](char c) { return !continues_character(c); });
         throw Error(ErrorCode::bad_argument,
                     "at character " + std::to_string(character + 1) + ": " + fault);
     }

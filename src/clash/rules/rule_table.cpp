@@ -38,6 +38,19 @@ LeftOut reason_of(Neighbours neighbours) {
                                 static_cast<unsigned>(neighbours));
 }
 
+/// Returns the first characters of a UTF-8 text; none if it has fewer.
+std::optional<std::string_view> first_characters(std::string_view text, std::size_t count) {
+    std::size_t end = 0;
+    for (; count > 0 && end < text.size(); --count) {
+        ++end;
+        while (end < text.size() && continues_character(text[end]))
+            ++end;
+    }
+    if (count > 0)
+        return std::nullopt;
+    return text.substr(0, end);
+}
+
 bool is_among(const std::vector<Neighbours>& list, Neighbours neighbours) {
     return std::ranges::find(list, neighbours) != list.end();
 }
@@ -119,10 +132,10 @@ void RuleTable::add(const PartFacts& part) {
     if (is_new)
         kinds_.push_back(&at->first);
     parts_.push_back(at->second);
-    for (const std::size_t length : lengths_)
-        prefixes_.push_back(part.name.size() < length
-                                ? Hash128{}
-                                : hash_128(std::as_bytes(std::span(part.name).first(length))));
+    for (const std::size_t length : lengths_) {
+        const auto first = first_characters(part.name, length);
+        prefixes_.push_back(first ? hash_128(std::as_bytes(std::span(*first))) : Hash128{});
+    }
 }
 
 const Hash128* RuleTable::prefix(std::size_t part, std::size_t length) const {

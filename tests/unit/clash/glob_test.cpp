@@ -12,6 +12,10 @@ TEST(GlobMatch, ByHand) {
     EXPECT_TRUE(glob_match("**", "abc"));
     EXPECT_TRUE(glob_match("a?c", "abc"));
     EXPECT_FALSE(glob_match("a?c", "ac"));
+    EXPECT_TRUE(glob_match("T?r", "T\xC3\xBCr")); // one character of two bytes
+    EXPECT_TRUE(glob_match("*?r", "T\xC3\xBCr"));
+    EXPECT_FALSE(glob_match("T??r", "T\xC3\xBCr"));
+    EXPECT_FALSE(glob_match("*T??r", "T\xC3\xBCr"));
     EXPECT_TRUE(glob_match("*.glb", "dir/a.glb"));
     EXPECT_FALSE(glob_match("*.glb", "a.glbx"));
     EXPECT_TRUE(glob_match("*ab*ab", "xababab"));
