@@ -97,12 +97,14 @@ std::optional<std::int64_t> parse_since(const std::string& text) {
     std::tm time{};
     std::istringstream in(text);
     in >> std::get_time(&time, text.size() > 10 ? "%Y-%m-%dT%H:%M:%SZ" : "%Y-%m-%d");
-    if (in.fail() || in.peek() != std::istringstream::traits_type::eof())
+    const int day = time.tm_mday;
+    const std::time_t seconds = timegm(&time); // carries a day that the month does not have
+    if (in.fail() || in.peek() != std::istringstream::traits_type::eof() || time.tm_mday != day)
         throw Error(ErrorCode::bad_argument, "--since",
                     "'" + text +
                         "' is not a date: YYYY-MM-DD, or with a time, as in "
                         "2026-11-22T10:00:00Z");
-    return timegm(&time);
+    return seconds;
 }
 
 void print_list(const ReviewArguments& arguments, const std::vector<ClashStatus>& wanted,

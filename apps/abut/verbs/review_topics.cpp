@@ -104,10 +104,13 @@ TopicMerge change_topics(const Store& store, const TopicArguments& a) {
         throw Error(ErrorCode::bad_argument, "--topic",
                     "needs a change: --assign, --due, --comment, --set-status, --priority, "
                     "--title or --label");
+    // Named, so that what others change from here on is not taken back.
+    const std::int64_t base = topics_revision(store);
     const std::map<std::string, Topic> known = known_topics(store);
     std::vector<Topic> edited;
     for (const std::string& id : a.topics) {
         Topic topic = find_topic(known, id);
+        topic.modified_by = a.author; // not who changed it before
         topic.assignee = a.assignee.value_or(topic.assignee);
         topic.due = a.due.value_or(topic.due);
         topic.status = a.status.value_or(topic.status);
@@ -122,7 +125,7 @@ TopicMerge change_topics(const Store& store, const TopicArguments& a) {
             topic.comments.push_back({{}, a.author, *a.comment, 0, {}});
         edited.push_back(std::move(topic));
     }
-    return merge_topics(store, edited, {.base = {}, .author = a.author, .now = 0});
+    return merge_topics(store, edited, {.base = base, .author = a.author, .now = 0});
 }
 
 std::string merge_text(const TopicMerge& merge) {

@@ -51,6 +51,9 @@ ordered_json json_of(const ClashGroup& group, const ClashReport& report,
     return row;
 }
 
+/// The times whose years have four digits: from the first, before the second.
+constexpr std::int64_t kYear0 = -62'167'219'200, kYear10000 = 253'402'300'800;
+
 /// Removes `count` digits from the beginning of the text; none if there are fewer.
 std::optional<int> take_number(std::string_view& text, std::size_t count) {
     int value = 0;
@@ -75,7 +78,8 @@ std::optional<std::int64_t> parse_offset(std::string_view text) {
     if (text.empty() || text == "Z")
         return 0;
     const bool is_west = text.front() == '-';
-    text.remove_prefix(1);
+    if (!take_char(text, '-') && !take_char(text, '+'))
+        return std::nullopt;
     const auto hours = take_number(text, 2);
     (void)take_char(text, ':');
     const auto minutes = text.empty() ? std::optional(0) : take_number(text, 2);
@@ -201,8 +205,12 @@ std::optional<std::int64_t> parse_time(std::string_view text) {
     const auto offset = parse_offset(text);
     if (!offset)
         return std::nullopt;
-    return seconds + std::int64_t{clock[0]} * 3600 + std::int64_t{clock[1]} * 60 + clock[2] -
-           *offset;
+    const std::int64_t time =
+        seconds + std::int64_t{clock[0]} * 3600 + std::int64_t{clock[1]} * 60 + clock[2] - *offset;
+    // 24:00 is the end of a day, 23:59:60 a leap second.
+    if (clock[0] > 24 || clock[1] > 59 || clock[2] > 60 || time < kYear0 || time >= kYear10000)
+        return std::nullopt;
+    return time;
 }
 
 ordered_json json_of(const Topic& topic) {

@@ -60,6 +60,8 @@ MergeOptions read_head(const json& file, const std::string& path, MergeOptions o
 /// The GUID of the topic that an object of the file is about. Removes "clash", which stands for
 /// the GUID.
 std::string guid_of_entry(json& entry) {
+    if (!entry.is_object())
+        throw Error(ErrorCode::malformed, "is not an object");
     const auto text = [&](const char* key) {
         const auto found = entry.find(key);
         if (found == entry.end())
@@ -83,39 +85,51 @@ std::string guid_of_entry(json& entry) {
     return clash_topic_guid(*id);
 }
 
+/// Sets the fields that an object of the file has. Its comments are added: the page saves only the
+/// new ones.
+void edit_topic(const json& entry, Topic& topic) {
+    const std::string guid = topic.guid;
+    const std::vector<TopicComment> before = std::exchange(topic.comments, {});
+    topic.modified_by.clear(); // not who changed it before
+    read_topic_fields(entry, topic);
+    topic.guid = guid;
+    for (const TopicComment& comment : before)
+        if (comment.guid.empty() || std::ranges::find(topic.comments, comment.guid,
+                                                      &TopicComment::guid) == topic.comments.end())
+            topic.comments.push_back(comment);
+}
+
+/// Runs work(), and adds the file and the place to its errors that name no file.
+template <typename Work>
+void at_entry(const std::string& path, std::size_t entry, const Work& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::malformed || !error.file().empty())
+            throw;
+        refuse_review(path, "topics[" + std::to_string(entry) + "]: " + error.what());
+    }
+}
+
 } // namespace
 
 TopicMerge apply_review(const Store& store, const std::string& path, const MergeOptions& given) {
     json file = read_review_file(path);
     if (!file.is_object() || !file.contains("abut_review"))
         refuse_review(path, "is not a review: 'abut_review' is missing");
-    const MergeOptions options = read_head(file, path, given);
+    MergeOptions options = read_head(file, path, given);
     if (!file.contains("topics") || !file["topics"].is_array())
         refuse_review(path, "'topics' must be a list");
-    std::vector<Topic> edited;
-    for (json& entry : file["topics"]) {
-        const std::string where = "topics[" + std::to_string(edited.size()) + "]";
-        if (!entry.is_object())
-            refuse_review(path, where + " must be an object");
-        try {
-            const std::string guid = guid_of_entry(entry);
-            Topic topic = topic_before_edit(store, guid, options.base);
-            // Comments of a file are added: the page saves only the new ones.
-            const std::vector<TopicComment> before = std::exchange(topic.comments, {});
-            read_topic_fields(entry, topic);
-            topic.guid = guid;
-            for (const TopicComment& comment : before)
-                if (comment.guid.empty() ||
-                    std::ranges::find(topic.comments, comment.guid, &TopicComment::guid) ==
-                        topic.comments.end())
-                    topic.comments.push_back(comment);
-            edited.push_back(std::move(topic));
-        } catch (const Error& error) {
-            if (error.code() != ErrorCode::malformed || !error.file().empty())
-                throw;
-            refuse_review(path, where + ": " + error.what());
-        }
-    }
+    json& entries = file["topics"];
+    std::vector<std::string> guids;
+    for (json& entry : entries)
+        at_entry(path, guids.size(), [&] { guids.push_back(guid_of_entry(entry)); });
+    // Named, so that what others change from here on is not taken back.
+    const std::int64_t base = options.base.value_or(topics_revision(store));
+    options.base = base;
+    std::vector<Topic> edited = topics_before_edit(store, guids, base);
+    for (std::size_t i = 0; i < edited.size(); ++i)
+        at_entry(path, i, [&] { edit_topic(entries[i], edited[i]); });
     return merge_topics(store, edited, options);
 }
 

@@ -3,14 +3,14 @@
 #include <abut/topics.h>
 
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace abut {
 
-/// Returns a topic as a store had it after revision `base` (none: the last one): as stored, or of a
-/// group of which nobody had said anything, or empty but for its GUID.
-Topic topic_before_edit(const Store& store, const std::string& guid,
-                        std::optional<std::int64_t> base);
+/// Returns topics as a store had them after revision `base`: each as stored, or of a group of which
+/// nobody had said anything, or empty but for its GUID.
+std::vector<Topic> topics_before_edit(const Store& store, const std::vector<std::string>& guids,
+                                      std::int64_t base);
 
 } // namespace abut

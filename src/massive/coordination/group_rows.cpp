@@ -166,7 +166,9 @@ std::optional<GroupChange> GroupRow::change_since(std::int64_t base) const {
 
 std::vector<GroupingKey> read_groupings(Database& database) {
     std::vector<GroupingKey> result;
-    Statement rows(database, "SELECT DISTINCT question, grouping FROM clash_grouping "
+    // Also those that have lost rows: read_memory reports them.
+    Statement rows(database, "SELECT question, grouping FROM clash_grouping "
+                             "UNION SELECT question, grouping FROM clash_group "
                              "ORDER BY question, grouping");
     while (rows.step())
         result.push_back({rows.integer(0), rows.text(1)});

@@ -51,12 +51,20 @@ std::map<std::string, Topic> topics_nobody_touched(Database& database) {
     return topics;
 }
 
+/// The topic with U+FFFD in place of bytes that are not UTF-8, as its revisions have it.
+Topic as_kept(Topic topic) {
+    Topic kept = topic_of_document(document_of(topic));
+    kept.guid = std::move(topic.guid);
+    kept.comments = std::move(topic.comments);
+    return kept;
+}
+
 /// Merges topics one by one within a transaction.
 class Merger {
 public:
     Merger(Database& database, const MergeOptions& options)
         : database_(database), options_(options),
-          now_(options.now != 0 ? options.now : abut::now()),
+          now_(options.now != 0 ? options.now : abut::now()), marks_(database),
           fresh_(topics_nobody_touched(database)) {
         for (Topic& topic : read_topic_rows(database)) {
             const std::string guid = topic.guid;
@@ -86,7 +94,7 @@ public:
         complete_comments(edited);
         const std::size_t conflicts = result_.conflicts.size();
         Topic merged = merge_topic(base_of(before), before, edited, result_.conflicts);
-        keep_what_lost(merged, conflicts);
+        keep_what_lost(merged, conflicts, author_of(edited));
         write(known != stored_.end() ? &before : nullptr, before, std::move(merged), edited);
     }
 
@@ -126,11 +134,11 @@ private:
     }
 
     /// Adds a comment with the edited value of each conflict since `first`.
-    void keep_what_lost(Topic& merged, std::size_t first) const {
+    void keep_what_lost(Topic& merged, std::size_t first, const std::string& author) const {
         for (std::size_t i = first; i < result_.conflicts.size(); ++i) {
             const TopicConflict& conflict = result_.conflicts[i];
             TopicComment comment;
-            comment.author = options_.author;
+            comment.author = author;
             comment.time = now_;
             comment.text = fmt::format("Conflict: {} stays \"{}\"; not taken: \"{}\"",
                                        conflict.field, conflict.stored, conflict.edited);
@@ -153,39 +161,39 @@ private:
         }
         merged.modified = now_;
         merged.modified_by = author_of(edited);
+        merged = as_kept(std::move(merged));
         (stored == nullptr ? result_.added : result_.changed).push_back(merged.guid);
         for (const TopicComment& comment : merged.comments)
             if (std::ranges::find(before.comments, comment.guid, &TopicComment::guid) ==
                 before.comments.end())
                 ++result_.comments;
         write_topic(database_, stored, merged, result_.revision);
-        result_.marked += mark_by_topic(database_, before, merged, now_);
+        result_.marked += marks_.change(before, merged, now_);
     }
 
     Database& database_;
     const MergeOptions& options_;
     std::int64_t now_;
+    TopicMarks marks_;
     std::map<std::string, Topic> stored_, fresh_;
     std::set<std::string> seen_;
     TopicMerge result_;
 };
 
-/// The topic that a file's edits refer to, as it was when they were made.
-Topic edited_at(Database& database, const std::string& guid, std::optional<std::int64_t> base) {
-    if (base)
-        if (auto at = topic_at_revision(database, guid, *base))
-            return *std::move(at);
-    if (!base)
-        for (Topic& topic : read_topic_rows(database))
-            if (topic.guid == guid)
-                return std::move(topic);
-    const auto fresh = topics_nobody_touched(database);
-    const auto found = fresh.find(guid);
-    if (found != fresh.end())
-        return found->second;
-    Topic empty;
-    empty.guid = guid;
-    return empty;
+/// The topics that a file's edits refer to, as they were when the edits were made.
+std::vector<Topic> edited_at(Database& database, const std::vector<std::string>& guids,
+                             std::int64_t base) {
+    const std::map<std::string, Topic> fresh = topics_nobody_touched(database);
+    std::vector<Topic> topics;
+    topics.reserve(guids.size());
+    for (const std::string& guid : guids) {
+        const auto found = fresh.find(guid);
+        Topic& topic = topics.emplace_back(found != fresh.end() ? found->second : Topic());
+        if (auto at = topic_at_revision(database, guid, base))
+            topic = *std::move(at);
+        topic.guid = guid;
+    }
+    return topics;
 }
 
 } // namespace
@@ -215,14 +223,15 @@ TopicMerge merge_topics(const Store& store, const std::vector<Topic>& edited,
     });
 }
 
-Topic topic_before_edit(const Store& store, const std::string& guid,
-                        std::optional<std::int64_t> base) {
+std::vector<Topic> topics_before_edit(const Store& store, const std::vector<std::string>& guids,
+                                      std::int64_t base) {
     return store.file().with_connection([&](Database& database) {
         if (has_coordination_tables(database))
-            return edited_at(database, guid, base);
-        Topic empty;
-        empty.guid = guid;
-        return empty;
+            return edited_at(database, guids, base);
+        std::vector<Topic> topics(guids.size());
+        for (std::size_t i = 0; i < guids.size(); ++i)
+            topics[i].guid = guids[i];
+        return topics;
     });
 }
 

@@ -2,15 +2,11 @@
 
 #include <abut/clash.h>
 
-#include "massive/coordination/group_rows.h"
 #include "massive/record/clash_history.h"
-#include "massive/record/clash_marks.h"
 #include "massive/record/job_rows.h"
 
-#include <map>
+#include <algorithm>
 #include <optional>
-#include <set>
-#include <string>
 
 namespace abut {
 
@@ -29,50 +25,66 @@ std::string note_of_topic(const Topic& topic) {
     return "topic: " + topic.title;
 }
 
-/// The clashes that a topic names and those that its group has now.
-std::set<std::uint64_t> clashes_of_topic(Database& database, const Topic& topic) {
-    std::set<std::uint64_t> clashes(topic.clashes.begin(), topic.clashes.end());
-    if (topic.group.empty())
-        return clashes;
-    Statement rows(database, "SELECT clash FROM clash_group_member WHERE id = ? AND gone = 0");
-    rows.bind(topic.group);
+} // namespace
+
+void TopicMarks::read_once() {
+    if (is_read_)
+        return;
+    is_read_ = true;
+    marks_ = read_marks(database_);
+    for (const QuestionRow& question : read_questions(database_))
+        for_each_in_history(database_, question.question, [&](const HistoryRow& row) {
+            if (row.clash.resolved != 0)
+                return;
+            const auto there =
+                present_.try_emplace(row.clash.id, Returned{row.returned, row.returned}).first;
+            there->second.largest = std::max(there->second.largest, row.returned);
+        });
+    Statement rows(database_, "SELECT id, clash FROM clash_group_member WHERE gone = 0");
     while (rows.step())
-        if (const auto id = parse_clash_id(rows.text(0)))
-            clashes.insert(*id);
+        if (const auto clash = parse_clash_id(rows.text(1)))
+            members_[rows.text(0)].push_back(*clash);
+}
+
+/// The clashes that a topic names and those that its group has now, each once, ascending.
+std::vector<std::uint64_t> TopicMarks::clashes_of(const Topic& topic) const {
+    std::vector<std::uint64_t> clashes = topic.clashes;
+    const auto members = members_.find(topic.group);
+    if (members != members_.end())
+        clashes.insert(clashes.end(), members->second.begin(), members->second.end());
+    std::ranges::sort(clashes);
+    const auto repeated = std::ranges::unique(clashes);
+    clashes.erase(repeated.begin(), repeated.end());
     return clashes;
 }
 
-/// The clashes that exist, and the serial number of the last mark before each came back.
-std::map<std::uint64_t, std::int64_t> present_clashes(Database& database) {
-    std::map<std::uint64_t, std::int64_t> present;
-    for (const QuestionRow& question : read_questions(database))
-        for_each_in_history(database, question.question, [&](const HistoryRow& row) {
-            if (row.clash.resolved == 0)
-                present.emplace(row.clash.id, row.returned);
-        });
-    return present;
-}
-
-} // namespace
-
-std::uint64_t mark_by_topic(Database& database, const Topic& before, const Topic& after,
-                            std::int64_t now) {
-    if (before.status == after.status)
-        return 0;
+std::uint64_t TopicMarks::change(const Topic& before, const Topic& after, std::int64_t now) {
     const std::optional<ClashStatus> mark = mark_of_status(after.status);
-    Marks marks = read_marks(database);
-    const auto present = present_clashes(database);
+    // A mark is recognized by its note, which therefore follows the title.
+    const bool is_renamed_only = before.status == after.status;
+    if (is_renamed_only && (before.title == after.title || !mark))
+        return 0;
+    read_once();
     std::uint64_t marked = 0;
-    for (const std::uint64_t clash : clashes_of_topic(database, after)) {
-        const auto there = present.find(clash);
-        if (there == present.end())
+    for (const std::uint64_t clash : clashes_of(after)) {
+        const auto there = present_.find(clash);
+        if (there == present_.end())
             continue;
-        const auto found = marks.find(clash);
-        const bool has_mark = found != marks.end() && found->second.serial > there->second;
+        const auto found = marks_.find(clash);
+        const bool has_mark = found != marks_.end() && found->second.serial > there->second.first;
         const bool is_ours = has_mark && found->second.note == note_of_topic(before);
+        if (is_renamed_only) {
+            // The mark gets a new serial number. That must not renew it where it is void.
+            if (is_ours && found->second.serial > there->second.largest) {
+                MarkRow row = found->second;
+                row.note = note_of_topic(after);
+                put_mark(database_, marks_, row);
+            }
+            continue;
+        }
         if (!mark) {
             if (is_ours)
-                remove_mark(database, marks, clash), ++marked;
+                remove_mark(database_, marks_, clash), ++marked;
             continue;
         }
         // What a person said of a single clash is more particular, except that approval of the
@@ -84,7 +96,7 @@ std::uint64_t mark_by_topic(Database& database, const Topic& before, const Topic
         row.mark = *mark;
         row.note = note_of_topic(after);
         row.marked = now;
-        put_mark(database, marks, row);
+        put_mark(database_, marks_, row);
         ++marked;
     }
     return marked;

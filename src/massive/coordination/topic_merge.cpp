@@ -73,7 +73,8 @@ void merge_comments(const Topic& base, Topic& stored, const Topic& edited,
         if (merge_text(was, mine->text, comment.text))
             conflicts.push_back(
                 {stored.guid, stored.title, "comment", was, mine->text, comment.text});
-        if (!comment.viewpoint.empty())
+        const std::string& seen = before == nullptr ? mine->viewpoint : before->viewpoint;
+        if (!comment.viewpoint.empty() && comment.viewpoint != seen)
             mine->viewpoint = comment.viewpoint;
     }
     std::ranges::stable_sort(stored.comments, {}, [](const TopicComment& comment) {

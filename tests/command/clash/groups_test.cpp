@@ -168,9 +168,15 @@ TEST_F(Groups, TopicsAreKeptAndMarkClashes) {
     EXPECT_EQ(approved["marked"], 5);
     EXPECT_EQ(report(store_)["statuses"]["approved"], 5);
     EXPECT_EQ(run_abut({"clash", store_, "--quiet", "--fail-on", "hard"}).status, 1) << "walls";
+    // The marks of a renamed topic are still its marks.
+    EXPECT_EQ(review({"--topic", slab, "--title", "Sleeves", "--json"}).json()["marked"], 0);
+    EXPECT_EQ(report(store_)["statuses"]["approved"], 5);
+    EXPECT_EQ(report(store_)["topics"][0]["modified_by"], "") << "nobody was named";
     EXPECT_EQ(review({"--topic", slab, "--set-status", "open", "--json"}).json()["marked"], 5);
     EXPECT_EQ(report(store_)["statuses"]["approved"], 0);
+    (void)review({"--topic", slab, "--label", "\xff"}); // not UTF-8
     EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
+    expect_refused(review({"--groups", "--since", "2026-02-30"}), {"--since"});
     expect_refused(review({"--topic", "0123456789abcdef", "--assign", "x"}),
                    {"--topic", "0123456789abcdef"});
     expect_refused(review({"--assign", "x"}), {"--topic"});
@@ -235,9 +241,10 @@ TEST_F(Groups, DamageIsNoticed) {
     const std::string whole = read_file(store_);
     for (const char* const damage :
          {"UPDATE clash_group SET name = 'x'", "DELETE FROM clash_group_member WHERE gone = 0",
-          "UPDATE clash_grouping SET new = 0", "UPDATE topic SET assignee = ''",
-          "DELETE FROM topic_comment", "UPDATE topic_revision SET document = '{}'",
-          "UPDATE job_counts SET hard = 0", "DELETE FROM topic"}) {
+          "UPDATE clash_grouping SET new = 0", "DELETE FROM clash_grouping",
+          "UPDATE topic SET assignee = ''", "DELETE FROM topic_comment",
+          "UPDATE topic_revision SET document = '{}'", "UPDATE job_counts SET hard = 0",
+          "DELETE FROM topic"}) {
         {
             std::ofstream out(store_, std::ios::binary);
             out << whole;
