@@ -29,7 +29,7 @@ class Numbers {
 
     push(...numbers) {
         if (this.size + numbers.length > this.#array.length) {
-            const larger = new Uint32Array(2 * this.#array.length);
+            const larger = new Uint32Array(Math.max(2 * this.#array.length, this.size + numbers.length));
             larger.set(this.#array);
             this.#array = larger;
         }
@@ -225,9 +225,10 @@ export class Knowledge {
         const known = new Set();
         for (const id of this.relations.sets.of(expressID)) {
             const set = this.sets.of(id);
-            for (let i = 0; i < set.length; i += 2)
+            for (let i = 0; i < set.length; i += 2) {
                 known.add(set[i]);
-            this.#entries.push(...set);
+                this.#entries.push(set[i], set[i + 1]);
+            }
         }
         for (const id of types.flatMap(type => type.sets)) {
             const set = this.sets.of(id);

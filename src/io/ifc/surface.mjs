@@ -1,9 +1,12 @@
 // The edges of a triangle mesh, and the closing of holes without width.
 
-// The edges of a larger mesh are not examined, because a Map holds at most 2^24 entries.
+// The edges of a larger mesh are not examined, because a Map holds at most 2^24 entries. Most edges
+// have two triangles, but all may have one.
 const MOST_TRIANGLES = 2 ** 23;
+const MOST_EDGES = 2 ** 24;
 
-/** Uses of edges by edgeKey: [uses, uses as low -> high minus uses as high -> low]. */
+/** Uses of edges by edgeKey: [uses, uses as low -> high minus uses as high -> low]. None if the mesh
+ * is too large. */
 function edgesOf(triangles) {
     const edges = new Map();
     if (triangles.length > 3 * MOST_TRIANGLES)
@@ -16,8 +19,11 @@ function edgesOf(triangles) {
                 continue;
             const key = edgeKey(a, b);
             let edge = edges.get(key);
-            if (edge === undefined)
+            if (edge === undefined) {
+                if (edges.size === MOST_EDGES)
+                    return new Map();
                 edges.set(key, edge = [0, 0]);
+            }
             ++edge[0];
             edge[1] += a < b ? 1 : -1;
         }
@@ -55,8 +61,13 @@ function openHalfEdges(edges) {
 /** Returns simple loops [v0, v1, ...] of half-edges; other half-edges are left out. */
 function loopsOf(edges) {
     const next = new Map(); // vertex: ends of the half-edges from it
-    for (let i = 0; i < edges.length; i += 2)
-        next.set(edges[i], [...next.get(edges[i]) ?? [], edges[i + 1]]);
+    for (let i = 0; i < edges.length; i += 2) {
+        const ways = next.get(edges[i]);
+        if (ways === undefined)
+            next.set(edges[i], [edges[i + 1]]);
+        else
+            ways.push(edges[i + 1]);
+    }
     const loops = [];
     for (const [start, ways] of next)
         while (ways.length > 0) {

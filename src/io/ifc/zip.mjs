@@ -39,7 +39,7 @@ function fileOf(bytes) {
 
 function directoryOf(archive, fail) {
     const tail = archive.read(END_BYTES + LARGEST_COMMENT, Math.max(0, archive.size - END_BYTES - LARGEST_COMMENT));
-    const end = tail.lastIndexOf('PK\u0005\u0006', tail.length - END_BYTES, 'latin1');
+    const end = tail.length < END_BYTES ? -1 : tail.lastIndexOf('PK\u0005\u0006', tail.length - END_BYTES, 'latin1');
     if (end < 0)
         fail('is not a ZIP archive, or is truncated');
     const count = tail.readUInt16LE(end + 10);
