@@ -385,7 +385,9 @@ std::vector<ClashUnit> ClashGrouper::join_earlier_places(std::vector<ClashUnit>&
                                                          const std::string& parent) {
     const std::size_t earlier = drafts.size();
     std::vector<ClashUnit> left;
+    SearchSteps steps;
     for (ClashUnit& unit : units) {
+        (void)steps.take();
         const EarlierGroup* group = earlier_group(unit, parent);
         Draft* best = group != nullptr && group->kind == GroupKind::place
                           ? find_draft(drafts, earlier, group->id)
