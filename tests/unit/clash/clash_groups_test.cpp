@@ -122,7 +122,8 @@ TEST(Topics, TimesAreParsed) {
     EXPECT_EQ(time_text(parse_time("2026-11-22T10:00:05Z").value()), "2026-11-22T10:00:05Z");
     EXPECT_EQ(parse_time("2026-11-22T10:00Z"), parse_time("2026-11-22T10:00:00Z"));
     for (const char* const text : {"", "2026", "2026-13-01", "2026-02-30", "2026-01-01Tx", "today",
-                                   "2026-01-01T10", "2026-01-01T10:00:00+x"})
+                                   "2026-01-01T10", "2026-01-01T10:00:00+x", "2026-01-01T25:00Z",
+                                   "2026-01-01T10:00:00X01:00", "9999-12-31T23:00-02:00"})
         EXPECT_FALSE(parse_time(text)) << text;
 }
 
