@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -114,6 +115,27 @@ Picture picture(const std::vector<Scene>& models, const PictureOptions& options 
 ///
 /// Errors      as above; those of the store.
 Picture picture(const Store& store, const PictureOptions& options = {});
+
+struct PictureStudio;
+
+/// Makes several pictures of the same models. The context, the shaders and the list of parts are
+/// made once, which is most of the time of a small picture.
+class PictureMaker {
+public:
+    /// In          models: must outlive the maker.
+    /// Errors      Error{unsupported} if EGL or OpenGL 3.3 is not available; those of the store.
+    explicit PictureMaker(const std::vector<Scene>& models);
+    explicit PictureMaker(const Store& store);
+    ~PictureMaker();
+    PictureMaker(const PictureMaker&) = delete;
+    PictureMaker& operator=(const PictureMaker&) = delete;
+
+    /// As `picture`, with the same result.
+    Picture make(const PictureOptions& options = {});
+
+private:
+    std::unique_ptr<PictureStudio> studio_;
+};
 
 /// Returns a picture as the bytes of a PNG file.
 ///

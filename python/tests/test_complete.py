@@ -18,7 +18,7 @@ OTHER_TYPES = {
     "BodyPair": "array", "PiecePair": "array", "VertexPair": "array", "Placement": "poses", "MotionPair": "motions",
     "BodyMotion": "dict", "SpeedBounds": "keywords", "MarkChanges": "keywords", "EarlierGroup": "within a store", "WalkQuery": "keywords", "Progress": "function",
     "ElementaryPair": "arrays", "ElementaryQueries": "arrays", "StoreClashReport": "ClashReport", "WalkAnswer": "its members",
-    "SidesAim": "missing", "PartColouring": "missing", "PartDistances": "missing", "ChunkVertex": "arrays of ViewChunk", "ChunkUpload": "dict of ViewFrame", "DifferencePolytope": "within ConvexWarmStart",
+    "SidesAim": "missing", "PictureMaker": "missing", "PartColouring": "missing", "PartDistances": "missing", "ChunkVertex": "arrays of ViewChunk", "ChunkUpload": "dict of ViewFrame", "DifferencePolytope": "within ConvexWarmStart",
     "PropertiesBuilder": "Scene(properties=)",
 }
 OTHER_FUNCTIONS = {

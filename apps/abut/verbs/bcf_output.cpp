@@ -5,35 +5,32 @@
 
 #include "arguments/interrupt.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <map>
 
 namespace abut::command {
 
 namespace {
 
 /// Pixels of a snapshot; the ratio is that of ViewpointOptions.
-constexpr std::uint32_t kSnapshotWidth = 800, kSnapshotHeight = 500;
+constexpr std::uint32_t kSnapshotWidth = 640, kSnapshotHeight = 400;
 
 /// Draws the snapshots of viewpoints, as long as OpenGL is available.
 class SnapshotMaker {
 public:
     SnapshotMaker(const StoreClashReport& found, const std::optional<Store>& store,
                   std::vector<std::string>& warnings)
-        : found_(found), store_(store), warnings_(warnings) {
-        for (std::uint32_t m = 0; m < found.models.size(); ++m)
-            models_.emplace(found.models[m].file, m);
-    }
+        : found_(found), store_(store), warnings_(warnings) {}
 
     std::string png_of(const ClashViewpoint& view) {
         if (!is_possible_)
             return "";
         throw_if_interrupted();
-        PictureOptions options = options_of(view);
         try {
-            return png_bytes(store_ ? picture(*store_, options)
-                                    : picture(models_near(view), options));
+            if (!maker_ && store_)
+                maker_.emplace(*store_);
+            else if (!maker_)
+                maker_.emplace(found_.models);
+            return png_bytes(maker_->make(options_of(view)));
         } catch (const Error& error) {
             if (error.code() != ErrorCode::unsupported)
                 throw;
@@ -68,39 +65,10 @@ private:
         return options;
     }
 
-    /// The parts that the picture shows alone, so that it does not take the time of all.
-    [[nodiscard]] std::vector<Scene> models_near(const ClashViewpoint& view) const {
-        std::vector<ReportPart> wanted = view.side_a;
-        wanted.insert(wanted.end(), view.side_b.begin(), view.side_b.end());
-        std::map<std::pair<std::uint32_t, std::string>, bool> near;
-        for (const NamedPart& part : view.near)
-            near[{models_.at(part.file), part.id}] = true;
-        for (std::uint32_t m = 0; m < found_.models.size(); ++m)
-            for (std::uint32_t i = 0; i < found_.models[m].parts.size(); ++i)
-                if (near.contains({m, found_.models[m].parts[i].id}))
-                    wanted.push_back({m, i});
-        std::ranges::sort(wanted);
-        std::vector<Scene> scenes;
-        for (const Scene& scene : found_.models) {
-            Scene& few = scenes.emplace_back();
-            few.file = scene.file;
-            few.unit = scene.unit;
-            few.up = scene.up;
-        }
-        for (const ReportPart& part : wanted) {
-            const Scene& scene = found_.models[part.model];
-            Scene& few = scenes[part.model];
-            few.parts.push_back(scene.parts[part.part]);
-            few.parts.back().mesh = static_cast<std::uint32_t>(few.meshes.size());
-            few.meshes.push_back(scene.meshes[scene.parts[part.part].mesh]);
-        }
-        return scenes;
-    }
-
     const StoreClashReport& found_;
     const std::optional<Store>& store_;
     std::vector<std::string>& warnings_;
-    std::map<std::string, std::uint32_t> models_; ///< by file
+    std::optional<PictureMaker> maker_; ///< made for the first picture
     bool is_possible_ = true;
 };
 
@@ -114,10 +82,9 @@ BcfVersion parse_bcf_version(const std::string& text) {
 } // namespace
 
 void add_bcf_options(CLI::App& app, const char* option, BcfArguments& arguments) {
-    app.add_option(
-           option, arguments.out,
-           "Write the clashes as topics of a BCF file (docs/bcf.md); topics of an earlier file "
-           "are updated")
+    app.add_option(option, arguments.out,
+                   "Write the groups of clashes as topics of a BCF file (docs/bcf.md); topics of "
+                   "an earlier file are updated")
         ->check(not_empty("FILE"));
     app.add_option("--bcf-version", arguments.version, "Version of the BCF file: 2.1 or 3.0")
         ->check(not_empty("VERSION"))

@@ -228,7 +228,6 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
         write_bcf_of(*bcf, arguments, from_store, found, options.progress);
     bar.finish();
     throw_if_interrupted();
-
     if (outputs)
         write_reports(*outputs, found, from_store ? arguments.files.front() : "", page);
     if (common.json)

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "text/group_list.h"
+#include "verbs/review_bcf.h"
 #include "verbs/review_topics.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ struct ReviewArguments {
     bool list = false, forget = false, groups = false;
     std::string since;
     TopicArguments topics;
+    ReviewBcfArguments bcf;
 };
 
 std::vector<std::uint64_t> parse_ids(const std::string& option,
@@ -134,6 +136,35 @@ void print_list(const ReviewArguments& arguments, const std::vector<ClashStatus>
         print_text(text.empty() ? shown(path) + ": no clash job has finished\n" : text);
 }
 
+/// Reads and writes BCF files.
+int exchange(const ReviewArguments& arguments, const CommonOptions& common) {
+    std::vector<std::string> warnings;
+    std::string text, json;
+    if (!arguments.bcf.in.empty()) {
+        const TopicMerge merge =
+            merge_bcf_file(open_store(arguments.store, {.read_only = false}), arguments.bcf.in,
+                           arguments.topics.author, warnings);
+        text += merge_text(merge);
+        json = abut::to_json(merge);
+    }
+    if (!arguments.bcf.out.out.empty()) {
+        ProgressBar bar(common.progress_style());
+        const std::size_t topics =
+            write_review_bcf(arguments.store, arguments.bcf.out, bar.progress(), warnings);
+        bar.finish();
+        text += fmt::format("{} topics in {}\n", topics, shown(arguments.bcf.out.out));
+        if (json.empty())
+            json = dump({{"bcf", arguments.bcf.out.out}, {"topics", topics}});
+    }
+    for (const std::string& warning : warnings)
+        text += fmt::format("warning: {}\n", shown(warning));
+    if (common.json)
+        print_json(json);
+    else if (!common.quiet)
+        print_text(text);
+    return kExitDone;
+}
+
 int run(const ReviewArguments& arguments, const CommonOptions& common) {
     const std::vector<ClashStatus> wanted = parse_statuses(arguments.status);
     MarkChanges changes{parse_ids("--reviewed", arguments.reviewed),
@@ -144,6 +175,12 @@ int run(const ReviewArguments& arguments, const CommonOptions& common) {
     const bool is_change = marked + changes.cleared.size() > 0 || arguments.forget;
     if (!arguments.note.empty() && marked == 0)
         throw Error(ErrorCode::bad_argument, "--note", "needs --approve or --reviewed");
+    if (!arguments.bcf.in.empty() || !arguments.bcf.out.out.empty()) {
+        if (is_change || arguments.topics.is_change())
+            throw Error(ErrorCode::bad_argument, "abut review",
+                        "reads and writes BCF files by themselves: --by alone goes with --bcf-in");
+        return exchange(arguments, common);
+    }
     if (arguments.topics.is_change()) {
         if (is_change)
             throw Error(ErrorCode::bad_argument, "abut review",
@@ -194,7 +231,9 @@ Subcommand add_review(CLI::App& root, CommonOptions& common) {
                           "what has become of the groups since that day"},
                          {"abut review site.abut --topic 0123456789abcdef --assign Hydra --due "
                           "2026-12-01",
-                          "assigns a group, by its id in a report"}},
+                          "assigns a group, by its id in a report"},
+                         {"abut review site.abut --bcf-in meeting.bcf --bcf-out meeting.bcf",
+                          "merges what others have changed in a BCF file, and updates the file"}},
                         ""});
     app->add_option("STORE", arguments->store, "A store (abut import)")
         ->required()
@@ -219,6 +258,7 @@ Subcommand add_review(CLI::App& root, CommonOptions& common) {
                     "before the last)")
         ->check(not_empty("DATE"));
     add_topic_options(*app, arguments->topics);
+    add_review_bcf_options(*app, arguments->bcf);
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

@@ -33,22 +33,11 @@ BcfFile run_clash_bcf(const Report& report, const py::object& models, ClashBcfOp
 } // namespace
 
 void bind_clash_bcf(py::module_& module) {
-    py::class_<ClashTopic>(module, "ClashTopic", "A topic and the clashes that it is about.")
-        .def(py::init([](BcfTopic topic, std::vector<std::uint32_t> clashes) {
-                 return ClashTopic{std::move(topic), std::move(clashes)};
-             }),
-             py::arg("topic"), py::arg("clashes"))
-        .def_property(
-            "topic", [](const ClashTopic& self) -> BcfTopic { return self.topic; },
-            [](ClashTopic& self, const BcfTopic& topic) { self.topic = topic; }, "BcfTopic")
-        .def_readwrite("clashes", &ClashTopic::clashes, "indices in ClashReport.clashes");
     module.def(
         "clash_bcf",
-        [](const Report& report, const py::object& models, std::vector<ClashTopic> topics,
-           std::string author, std::int64_t time, std::string project, bool clip,
-           const py::object& snapshot, const py::object& progress) {
+        [](const Report& report, const py::object& models, std::string author, std::int64_t time,
+           std::string project, bool clip, const py::object& snapshot, const py::object& progress) {
             ClashBcfOptions options;
-            options.topics = std::move(topics);
             options.author = std::move(author);
             options.time = time;
             options.project = std::move(project);
@@ -60,13 +49,12 @@ void bind_clash_bcf(py::module_& module) {
                 };
             return run_clash_bcf(report, models, std::move(options), progress);
         },
-        py::arg("report"), py::arg("models"), py::kw_only(),
-        py::arg("topics") = std::vector<ClashTopic>{}, py::arg("author") = "Abut",
+        py::arg("report"), py::arg("models"), py::kw_only(), py::arg("author") = "Abut",
         py::arg("time") = std::int64_t{0}, py::arg("project") = "", py::arg("clip") = true,
         py::arg("snapshot") = py::none(), py::arg("progress") = py::none(),
-        "The clashes of a report as topics of BCF, with viewpoints in metres, z up.\n\n"
+        "The groups of a report as topics of BCF, with viewpoints in metres, z up. Without groups, "
+        "each clash is a topic.\n\n"
         "models    what the report is about: list of Scene or paths, or a Store\n"
-        "topics    list of ClashTopic; if empty, one for each clash\n"
         "author    who creates the topics\n"
         "time      when, in seconds since 1970; 0: now\n"
         "project   name of the project\n"
@@ -75,6 +63,21 @@ void bind_clash_bcf(py::module_& module) {
         "Returns a BcfFile. Raises Error: bad_argument, those of the store.");
     module.def("update_bcf", &update_bcf, py::arg("earlier"), py::arg("later"),
                "Updates a BcfFile by a later export; what people have changed in it stays.");
+    module.def("bcf_revision", &bcf_revision, py::arg("file"),
+               "The revision of a store's topics that a BcfFile was exported from, or None.");
+    module.def(
+        "merge_bcf",
+        [](const OpenStore& store, const BcfFile& file, std::optional<std::int64_t> base,
+           std::string author, std::int64_t now) {
+            return merge_bcf(store.get(), file, {base, std::move(author), now});
+        },
+        py::arg("store"), py::arg("file"), py::kw_only(), py::arg("base") = py::none(),
+        py::arg("author") = "", py::arg("now") = 0,
+        "Merges the topics of a BcfFile into a store.\n\n"
+        "base    revision that the file was exported from; None: what the file says\n"
+        "author  who made the changes; empty: whom the file names\n"
+        "now     the time of the change, in seconds since 1970; 0: the clock\n\n"
+        "Returns a TopicMerge. Raises Error as merge_topics does.");
 }
 
 } // namespace abut::python

@@ -1,11 +1,10 @@
 #include <abut/clash_bcf.h>
+#include <abut/clash_groups.h>
 
 #include "bcf/bcf_parts.h"
 #include "clash/bcf/topic_fields.h"
 #include "clash/bcf/topic_viewpoint.h"
-#include "core/arguments.h"
 #include "core/stop.h"
-#include "core/uuid.h"
 
 #include <algorithm>
 #include <ctime>
@@ -19,9 +18,6 @@
 namespace abut {
 
 namespace {
-
-/// The name space of the GUIDs of topics. It must never change.
-constexpr std::string_view kTopicSpace = "7b0a6a52-6c1e-5f0d-9a83-2f4f6a1f5c20";
 
 using ClashLists = std::vector<std::vector<std::uint32_t>>;
 using MakeViewpoints = std::function<std::vector<ClashViewpoint>(const ClashLists&)>;
@@ -39,6 +35,8 @@ public:
                const ClashBcfOptions& options)
         : report_(report), models_(models), options_(options),
           time_(options.time != 0 ? options.time : std::time(nullptr)) {
+        for (std::uint32_t i = 0; i < report.clashes.size(); ++i)
+            indices_[report.clashes[i].id].push_back(i);
         for (const Scene& scene : models)
             files_.push_back({scene.project,
                               "",
@@ -49,104 +47,115 @@ public:
                               {}});
     }
 
-    BcfFile make(const MakeViewpoints& make_viewpoints) {
-        const std::vector<ClashTopic> topics =
-            options_.topics.empty() ? topics_of_clashes() : options_.topics;
+    /// In          revision: of the store's topics; none: the report is not that of a store.
+    BcfFile make(const MakeViewpoints& make_viewpoints,
+                 std::optional<std::int64_t> revision = std::nullopt) {
+        const std::vector<Topic> topics =
+            report_.groups.empty() ? topics_of_clashes() : topics_of_groups(report_);
         ClashLists lists;
-        for (const ClashTopic& topic : topics) {
-            lists.push_back(topic.clashes);
-            for (const std::uint32_t clash : topic.clashes)
-                require(clash < report_.clashes.size(), "the report has no clash of this index");
-        }
+        for (const Topic& topic : topics)
+            lists.push_back(clashes_of(topic));
         const std::vector<ClashViewpoint> views = make_viewpoints(lists);
         BcfFile file;
         for (std::size_t i = 0; i < topics.size(); ++i) {
             poll_stop();
-            file.topics.push_back(topic_of(topics[i], views[i]));
+            file.topics.push_back(topic_of(topics[i], lists[i], views[i]));
         }
         std::ranges::sort(file.topics, {}, &BcfTopic::folder);
         if (!options_.project.empty()) {
             file.project_name = options_.project;
             file.project_id = missing_guid("project " + options_.project);
         }
+        if (revision)
+            file.entries.push_back(
+                {kRevisionEntry, kRevisionWord + std::to_string(*revision) + "\n"});
         state_words(file);
         return file;
     }
 
 private:
-    /// One topic for each id: a clash that is found twice is one clash.
-    [[nodiscard]] std::vector<ClashTopic> topics_of_clashes() const {
-        std::vector<ClashTopic> topics;
-        std::unordered_map<std::uint64_t, std::size_t> known;
-        for (std::uint32_t i = 0; i < report_.clashes.size(); ++i) {
-            const auto [at, is_new] = known.emplace(report_.clashes[i].id, topics.size());
-            if (is_new)
-                topics.push_back({});
-            topics[at->second].clashes.push_back(i);
+    [[nodiscard]] std::vector<Topic> topics_of_clashes() const {
+        std::unordered_map<std::string, const Topic*> known;
+        for (const Topic& topic : report_.topics)
+            known.emplace(topic.guid, &topic);
+        std::vector<Topic> topics;
+        std::set<std::string> made;
+        for (const Clash& clash : report_.clashes) {
+            Topic topic = fresh_topic_of(clash);
+            if (!made.insert(topic.guid).second)
+                continue;
+            if (const auto found = known.find(topic.guid); found != known.end())
+                topic = *found->second;
+            topics.push_back(std::move(topic));
         }
+        for (const Topic& topic : report_.topics)
+            if (!made.contains(topic.guid))
+                topics.push_back(topic);
         return topics;
     }
 
-    [[nodiscard]] std::string title_of(const std::vector<std::uint32_t>& clashes) const {
-        if (clashes.empty())
-            return "";
-        const Clash& clash = report_.clashes[clashes.front()];
+    [[nodiscard]] Topic fresh_topic_of(const Clash& clash) const {
         const auto name = [&](std::size_t side) {
             const Part& part = models_.at(clash.model.at(side)).parts.at(clash.part.at(side));
             return part.name.empty() ? part.id : part.name;
         };
-        return name(0) + " \u00D7 " + name(1);
+        return fresh_topic_of_clash(clash.id, name(0), name(1));
     }
 
-    [[nodiscard]] BcfTopic topic_of(const ClashTopic& given, const ClashViewpoint& view) const {
-        BcfTopic topic = given.topic;
-        const auto state = [](std::string& text, const std::string& otherwise) {
-            if (text.empty())
-                text = otherwise;
-        };
-        std::string ids;
-        for (const std::uint32_t index : given.clashes)
-            ids += (ids.empty() ? "clash " : " ") + clash_id_text(report_.clashes[index].id);
-        if (given.clashes.size() > 1 &&
-            report_.clashes[given.clashes[0]].id == report_.clashes[given.clashes[1]].id)
-            ids = "clash " + clash_id_text(report_.clashes[given.clashes[0]].id);
-        state(topic.guid, uuid_of_name(kTopicSpace, ids));
-        state(topic.folder, topic.guid);
-        state(topic.title, title_of(given.clashes));
-        state(topic.type, "Clash");
-        state(topic.status, status_of(given.clashes));
-        for (const std::uint32_t index : given.clashes)
-            state(topic.priority, report_.clashes[index].severity);
-        state(topic.creation_author, options_.author);
-        state(topic.creation_date, bcf_time(time_));
-        if (given.clashes.empty())
-            return topic;
-        describe(topic, given.clashes);
+    [[nodiscard]] std::vector<std::uint32_t> clashes_of(const Topic& topic) const {
+        std::vector<std::uint32_t> list;
+        for (const std::uint64_t id : topic.clashes)
+            if (const auto found = indices_.find(id); found != indices_.end())
+                list.insert(list.end(), found->second.begin(), found->second.end());
+        std::ranges::sort(list);
+        return list;
+    }
+
+    [[nodiscard]] BcfTopic topic_of(const Topic& topic, const std::vector<std::uint32_t>& clashes,
+                                    const ClashViewpoint& view) const {
+        BcfTopic result = bcf_topic(topic, options_.author, time_);
+        if (clashes.empty()) {
+            result.description = topic.description;
+            return result;
+        }
+        describe(result, topic, clashes);
         std::set<std::uint32_t> models;
-        for (const std::uint32_t index : given.clashes)
+        for (const std::uint32_t index : clashes)
             models.insert(report_.clashes[index].model.begin(), report_.clashes[index].model.end());
         for (const std::uint32_t model : models)
-            topic.files.push_back(files_.at(model));
+            result.files.push_back(files_.at(model));
         BcfViewpoint viewpoint =
-            topic_viewpoint(view, report_.frame.up, models_, topic.guid, options_.clip);
+            topic_viewpoint(view, report_.frame.up, models_, result.guid, options_.clip);
         if (options_.snapshot)
             viewpoint.snapshot = options_.snapshot(view);
         if (!viewpoint.snapshot.empty())
             viewpoint.snapshot_file = "snapshot.png";
-        topic.viewpoints.insert(topic.viewpoints.begin(), std::move(viewpoint));
-        return topic;
+        result.viewpoints.push_back(std::move(viewpoint));
+        return result;
     }
 
-    /// Approved if all clashes are, which only a store knows.
-    [[nodiscard]] std::string status_of(const std::vector<std::uint32_t>& clashes) const {
-        const bool is_approved = std::ranges::all_of(clashes, [&](std::uint32_t index) {
-            return report_.clashes[index].status == ClashStatus::approved;
-        });
-        return is_approved && !clashes.empty() ? "Approved" : "Open";
-    }
+    struct DerivedWords {
+        std::string line;
+        std::vector<std::string> labels;
+    };
 
     /// Adds the words that follow from the clashes. An import takes them away again.
-    void describe(BcfTopic& topic, const std::vector<std::uint32_t>& clashes) const {
+    void describe(BcfTopic& result, const Topic& topic,
+                  const std::vector<std::uint32_t>& clashes) const {
+        DerivedWords words = derived_words(clashes);
+        result.labels.insert(result.labels.end(), words.labels.begin(), words.labels.end());
+        if (topic.created == 0 && !topic.description.empty())
+            words.line += "; " + topic.description;
+        if (result.priority.empty())
+            for (const std::uint32_t index : clashes)
+                if (result.priority.empty())
+                    result.priority = report_.clashes[index].severity;
+        if (topic.priority.empty() && !result.priority.empty())
+            words.line += std::string(kDerivedPriority) + result.priority;
+        result.description += (result.description.empty() ? "" : "\n") + words.line;
+    }
+
+    [[nodiscard]] DerivedWords derived_words(const std::vector<std::uint32_t>& clashes) const {
         std::array<std::uint64_t, 5> counts{};
         std::set<std::string> labels;
         double deepest = 0;
@@ -163,7 +172,6 @@ private:
                         !value.empty())
                         labels.insert(name + std::string(": ") + std::string(value));
         }
-        topic.labels.insert(topic.labels.end(), labels.begin(), labels.end());
         std::string words(kDerivedLine);
         const char* comma = "";
         for (const ClashKind kind : kClashKinds)
@@ -173,7 +181,7 @@ private:
             }
         if (deepest < 0)
             words += fmt::format("; at most {:.3f} m deep", -deepest);
-        topic.description += (topic.description.empty() ? "" : "\n") + words;
+        return {std::move(words), {labels.begin(), labels.end()}};
     }
 
     /// BCF wants a list of all words that topics use.
@@ -207,7 +215,8 @@ private:
     const std::vector<Scene>& models_;
     const ClashBcfOptions& options_;
     std::int64_t time_;
-    std::vector<BcfHeaderFile> files_; ///< by model
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> indices_; ///< by clash id
+    std::vector<BcfHeaderFile> files_;                                      ///< by model
 };
 
 ViewpointOptions viewpoint_options(const ClashBcfOptions& options) {
@@ -230,9 +239,12 @@ BcfFile clash_bcf(const ClashReport& report, const std::vector<Scene>& models,
 BcfFile clash_bcf(const StoreClashReport& found, const Store& store,
                   const ClashBcfOptions& options) {
     const StopScope stop(options.progress);
-    return TopicMaker(found.report, found.models, options).make([&](const ClashLists& lists) {
-        return clash_viewpoints(found, store, lists, viewpoint_options(options));
-    });
+    return TopicMaker(found.report, found.models, options)
+        .make(
+            [&](const ClashLists& lists) {
+                return clash_viewpoints(found, store, lists, viewpoint_options(options));
+            },
+            found.report.topics_revision);
 }
 
 } // namespace abut

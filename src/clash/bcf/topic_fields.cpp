@@ -11,6 +11,13 @@ namespace abut {
 
 namespace {
 
+constexpr std::array<std::string_view, 5> kKnownStatuses{"open", "assigned", "resolved", "closed",
+                                                         "approved"};
+
+char lower_letter(char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
 /// Reads a number of exactly that many digits and moves past it; -1 if there is none.
 int take_digits(std::string_view& text, std::size_t count) {
     int value = 0;
@@ -87,6 +94,35 @@ std::optional<std::int64_t> parse_bcf_time(std::string_view text) {
     return start + 3600 * hour + 60 * minute + second - *zone;
 }
 
+std::string topic_status(const std::string& status) {
+    std::string lower = status;
+    for (char& c : lower)
+        c = lower_letter(c);
+    for (const std::string_view known : kKnownStatuses)
+        if (lower == known)
+            return lower;
+    return status;
+}
+
+std::string bcf_status(const std::string& status) {
+    for (const std::string_view known : kKnownStatuses)
+        if (status == known) {
+            std::string capital = status;
+            capital.front() = static_cast<char>(capital.front() - 'a' + 'A');
+            return capital;
+        }
+    return status;
+}
+
+std::string derived_priority(const std::string& description) {
+    const std::size_t line = description.find(kDerivedLine);
+    const std::size_t at = description.find(kDerivedPriority, std::min(line, description.size()));
+    if (line == std::string::npos || at == std::string::npos || description.find('\n', line) < at)
+        return "";
+    const std::size_t first = at + kDerivedPriority.size();
+    return description.substr(first, description.find('\n', first) - first);
+}
+
 std::string without_derived_line(const std::string& description) {
     std::string rest = description;
     const std::size_t at =
@@ -103,6 +139,50 @@ std::string without_derived_line(const std::string& description) {
 bool is_derived_label(std::string_view label) {
     return std::ranges::any_of(
         kDerivedLabels, [&](std::string_view beginning) { return label.starts_with(beginning); });
+}
+
+Topic fresh_topic_of_clash(std::uint64_t clash, const std::string& a, const std::string& b) {
+    Topic topic;
+    topic.guid = clash_topic_guid(clash);
+    topic.title = a + " \u00D7 " + b;
+    topic.status = "open";
+    topic.type = "Clash";
+    topic.clashes = {clash};
+    return topic;
+}
+
+BcfTopic bcf_topic(const Topic& topic, const std::string& author, std::int64_t time) {
+    const bool is_new = topic.created == 0;
+    BcfTopic result;
+    result.guid = result.folder = topic.guid;
+    result.title = topic.title;
+    if (!is_new)
+        result.description = topic.description;
+    result.type = topic.type;
+    result.status = bcf_status(topic.status);
+    result.priority = topic.priority;
+    result.stage = topic.stage;
+    result.assigned_to = topic.assignee;
+    result.labels = topic.labels;
+    result.reference_links = topic.reference_links;
+    if (!topic.due.empty())
+        result.due_date = topic.due + "T00:00:00Z";
+    result.creation_author = topic.created_by.empty() ? author : topic.created_by;
+    result.creation_date = bcf_time(is_new ? time : topic.created);
+    if (!is_new) {
+        result.modified_date = bcf_time(std::max(topic.modified, topic.created));
+        result.modified_author = topic.modified_by;
+    }
+    for (const TopicComment& comment : topic.comments)
+        result.comments.push_back({comment.guid,
+                                   bcf_time(comment.time),
+                                   comment.author,
+                                   comment.text,
+                                   comment.viewpoint,
+                                   {},
+                                   {},
+                                   {}});
+    return result;
 }
 
 } // namespace abut

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace abut {
 
@@ -23,25 +24,44 @@ void keep_others(const std::vector<Element>& earlier, std::vector<Element>& late
             later.push_back(element);
 }
 
-BcfTopic updated(const BcfTopic& earlier, BcfTopic later) {
-    later.folder = earlier.folder;
-    later.server_assigned_id = earlier.server_assigned_id;
-    later.index = earlier.index;
+/// Whether a store has changed a topic after the file's last change.
+bool is_changed_since(const BcfTopic& earlier, const BcfTopic& later) {
+    const std::optional<std::int64_t> changed = parse_bcf_time(later.modified_date);
+    const std::optional<std::int64_t> before = parse_bcf_time(
+        earlier.modified_date.empty() ? earlier.creation_date : earlier.modified_date);
+    return changed && (!before || *changed >= *before);
+}
+
+/// Keeps what people have written.
+void keep_fields(const BcfTopic& earlier, BcfTopic& later) {
     for (std::string BcfTopic::*const field :
-         {&BcfTopic::title, &BcfTopic::type, &BcfTopic::status, &BcfTopic::priority,
-          &BcfTopic::creation_date, &BcfTopic::creation_author, &BcfTopic::modified_date,
+         {&BcfTopic::title, &BcfTopic::type, &BcfTopic::status, &BcfTopic::modified_date,
           &BcfTopic::modified_author, &BcfTopic::due_date, &BcfTopic::assigned_to,
           &BcfTopic::stage})
         if (!(earlier.*field).empty())
             later.*field = earlier.*field;
-    const std::string written = without_derived_line(earlier.description);
-    if (!written.empty() && without_derived_line(later.description).empty())
-        later.description = written + "\n" + later.description;
+    if (earlier.priority != derived_priority(earlier.description))
+        later.priority = earlier.priority;
+    if (const std::string written = without_derived_line(earlier.description); !written.empty()) {
+        const std::size_t line = later.description.find(kDerivedLine);
+        later.description =
+            written + (line == std::string::npos ? "" : "\n" + later.description.substr(line));
+    }
     for (const std::string& label : earlier.labels)
         if (!is_derived_label(label) &&
             std::ranges::find(later.labels, label) == later.labels.end())
             later.labels.push_back(label);
     later.reference_links = earlier.reference_links;
+}
+
+BcfTopic updated(const BcfTopic& earlier, BcfTopic later) {
+    later.folder = earlier.folder;
+    later.server_assigned_id = earlier.server_assigned_id;
+    later.index = earlier.index;
+    later.creation_date = earlier.creation_date;
+    later.creation_author = earlier.creation_author;
+    if (!is_changed_since(earlier, later))
+        keep_fields(earlier, later);
     later.snippet = earlier.snippet;
     later.documents = earlier.documents;
     later.related_topics = earlier.related_topics;

@@ -45,13 +45,17 @@ const PictureOptions& checked(const PictureOptions& options) {
 
 } // namespace
 
-PictureJob::PictureJob(const PictureModel& model, const PictureOptions& options)
-    : model_(model), options_(checked(options)),
-      renderer_(model.parts.size(), middle_of(model.bounds)),
-      stream_(model, middle_of(model.bounds)), opaque_(model.parts.size(), true) {
-    const std::vector<Colour> colours = model.colours(options.colour_by);
-    for (std::uint32_t i = 0; i < colours.size(); ++i)
-        renderer_.set_state(i, {.colour = colours[i]});
+PictureStudio::PictureStudio(std::unique_ptr<PictureModel> shown)
+    : model(std::move(shown)), renderer(model->parts.size(), middle_of(model->bounds)),
+      stream(*model, middle_of(model->bounds)) {}
+
+PictureJob::PictureJob(PictureStudio& studio, const PictureOptions& options)
+    : model_(*studio.model), options_(checked(options)), renderer_(studio.renderer),
+      stream_(studio.stream), opaque_(model_.parts.size(), true) {
+    studio.context.make_current();
+    const std::vector<Colour> colours = model_.colours(options.colour_by);
+    for (std::uint32_t i = 0; i < model_.parts.size(); ++i)
+        renderer_.set_state(i, {.colour = i < colours.size() ? colours[i] : Colour{200, 200, 200}});
 }
 
 RenderStyle PictureJob::style(bool with_ground) const {
@@ -189,14 +193,23 @@ Picture PictureJob::run() {
     return picture;
 }
 
-Picture picture(const std::vector<Scene>& models, const PictureOptions& options) {
+PictureMaker::PictureMaker(const std::vector<Scene>& models)
+    : studio_(std::make_unique<PictureStudio>(picture_model(models))) {}
+PictureMaker::PictureMaker(const Store& store)
+    : studio_(std::make_unique<PictureStudio>(picture_model(store))) {}
+PictureMaker::~PictureMaker() = default;
+
+Picture PictureMaker::make(const PictureOptions& options) {
     const StopScope stop(options.progress);
-    return PictureJob(*picture_model(models), options).run();
+    return PictureJob(*studio_, options).run();
+}
+
+Picture picture(const std::vector<Scene>& models, const PictureOptions& options) {
+    return PictureMaker(models).make(options);
 }
 
 Picture picture(const Store& store, const PictureOptions& options) {
-    const StopScope stop(options.progress);
-    return PictureJob(*picture_model(store), options).run();
+    return PictureMaker(store).make(options);
 }
 
 } // namespace abut

@@ -20,10 +20,20 @@ struct PictureScene {
     std::vector<Mark> marks;
 };
 
-/// Makes pictures of one model off screen.
+/// What the pictures of one model share: the context, its compiled shaders and its buffers.
+struct PictureStudio {
+    explicit PictureStudio(std::unique_ptr<PictureModel> shown);
+
+    std::unique_ptr<PictureModel> model;
+    OffscreenContext context;
+    Renderer renderer;
+    GeometryStream stream;
+};
+
+/// Makes one picture off screen.
 class PictureJob {
 public:
-    PictureJob(const PictureModel& model, const PictureOptions& options);
+    PictureJob(PictureStudio& studio, const PictureOptions& options);
 
     Picture run();
 
@@ -44,9 +54,8 @@ private:
 
     const PictureModel& model_;
     const PictureOptions& options_;
-    OffscreenContext context_;
-    Renderer renderer_;
-    GeometryStream stream_;
+    Renderer& renderer_;
+    GeometryStream& stream_;
     std::vector<bool> opaque_; ///< by part
     std::vector<bool> ghosts_; ///< by part; empty: all that are not opaque
 };
