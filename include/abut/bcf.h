@@ -178,8 +178,8 @@ struct BcfFile {
 /// Limits of untrusted files. A file that exceeds one is an Error.
 struct BcfLimits {
     std::uint64_t entries = 100'000;
-    std::uint64_t bytes = std::uint64_t{1} << 30;      ///< of all entries, unpacked
-    std::uint64_t xml_bytes = std::uint64_t{64} << 20; ///< of one XML entry, unpacked
+    std::uint64_t bytes = 1'073'741'824;  ///< of all entries, unpacked
+    std::uint64_t xml_bytes = 67'108'864; ///< of one XML entry, unpacked
 };
 
 /// Reads a BCF file. Archives and XML are checked: names that lead out of the archive, two entries

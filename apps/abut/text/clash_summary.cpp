@@ -38,15 +38,18 @@ std::string kind_column(ClashKind kind) {
     return coloured(is_bad ? Colour::bad : Colour::doubtful, kind_text(kind));
 }
 
-/// Formats a clash in one line, or in two if the terminal is narrower than the line.
-std::string row(const std::vector<Scene>& models, const Clash& clash) {
+/// Formats the parts of a clash in one line, or in two if the terminal is narrower than the line.
+std::string names(const std::vector<Scene>& models, const Clash& clash) {
     constexpr std::size_t kNames = 27; ///< the column where the names begin
     const std::string a = label(models, clash, 0), b = label(models, clash, 1);
     const auto columns = static_cast<std::size_t>(columns_of(stdout));
     const bool is_narrow = columns > 0 && columns < kNames + a.size() + 5 + b.size();
-    const std::string between = is_narrow ? "\n" + std::string(kNames, ' ') : "  |  ";
-    return fmt::format("  {} {:>10} m  {}{}{}\n", kind_column(clash.kind),
-                       number(clash.distance, 4), a, between, b);
+    return a + (is_narrow ? "\n" + std::string(kNames, ' ') : "  |  ") + b;
+}
+
+std::string row(const std::vector<Scene>& models, const Clash& clash) {
+    return fmt::format("  {} {:>10} m  {}\n", kind_column(clash.kind), number(clash.distance, 4),
+                       names(models, clash));
 }
 
 /// Lists the first few clashes of the wanted kinds in the order of `before`.
@@ -79,8 +82,7 @@ std::string largest(const ClashReport& report, const std::vector<Scene>& models)
         const Clash& clash = report.clashes[i];
         if (clash.kind != ClashKind::hard || clash.volume == 0 || rows++ == kRows)
             break;
-        text += fmt::format("  {:>18} m3  {}  |  {}\n", number(clash.volume, 4),
-                            label(models, clash, 0), label(models, clash, 1));
+        text += fmt::format("  {:>19} m3  {}\n", number(clash.volume, 4), names(models, clash));
     }
     return text.empty() ? text : "\nlargest common volumes\n" + text;
 }

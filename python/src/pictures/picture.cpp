@@ -52,7 +52,7 @@ void bind_aims(py::module_& module) {
     bind_enum<NamedView>(module, "NamedView",
                          {"iso", "front", "back", "left", "right", "top", "bottom"},
                          "Directions from which a whole model is seen.");
-    bind_enum<ColourBy>(module, "ColourBy", {"material", "type", "file", "part", "clash"},
+    bind_enum<ColourBy>(module, "ColourBy", {"material", "type", "file", "part", "storey", "clash"},
                         "What parts take their colours from.");
     PlainBinder<PartAim>(module, "PartAim",
                          "PartAim(part)\n\nOne part, by its id or name, filling a picture; all "
@@ -123,7 +123,7 @@ void bind_picture(py::module_& module) {
         "aim                NamedView or its name, Camera, PartAim, PairAim, or a Clash of these "
         "models\n"
         "width, height      pixels, at most 8192\n"
-        "colour_by          ColourBy: 'material', 'type', 'file', 'part' or 'clash'\n"
+        "colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or 'clash'\n"
         "samples            along each side of a pixel: 1, 2 or 4\n"
         "edges              dark lines at silhouettes and creases\n"
         "ambient_occlusion  darker corners\n"

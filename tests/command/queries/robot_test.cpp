@@ -54,7 +54,7 @@ TEST_F(RobotCommandTest, CheckOfConfigurationsAndWays) {
     EXPECT_EQ(json["configurations"][1]["pairs"][0]["link"], "base");
     EXPECT_EQ(json["configurations"][1]["pairs"][0]["other"], "lower");
     EXPECT_EQ(json["configurations"][1]["way"]["meet"], true);
-    EXPECT_GT(json["configurations"][1]["way"]["time"], 0.5);
+    EXPECT_GT(json["configurations"][1]["way"]["time"], 0.3);
     EXPECT_EQ(json["configurations"][2]["way"]["time"], 0);
     EXPECT_EQ(ask("check", {"--configurations", file, "--fail-on", "contact"}).status, 1);
     EXPECT_EQ(ask("check", {"--configuration", "0,0", "--fail-on", "contact"}).status, 0);

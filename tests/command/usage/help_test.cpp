@@ -13,9 +13,9 @@ namespace abut::test {
 namespace {
 
 const std::vector<std::string> kVerbs{
-    "info",        "import",         "picture", "collide", "distance",  "within",
-    "penetration", "time-of-impact", "nearest", "ray",     "overlap",   "contains",
-    "clash",       "review",         "graph",   "ccd",     "ccd-query", "scene"};
+    "info",           "import",  "picture",   "collide", "distance", "within", "penetration",
+    "time-of-impact", "nearest", "ray",       "overlap", "contains", "clash",  "review",
+    "graph",          "ccd",     "ccd-query", "robot",   "scene"};
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::istringstream stream(text);
