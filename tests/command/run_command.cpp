@@ -239,7 +239,8 @@ std::string read_file(const std::string& path) {
 nlohmann::json clashes_of(const Outcome& outcome) {
     nlohmann::json clashes = outcome.json()["clashes"];
     for (auto& clash : clashes)
-        clash.erase("status"), clash.erase("note");
+        for (const char* key : {"status", "note", "group"})
+            clash.erase(key);
     return clashes;
 }
 

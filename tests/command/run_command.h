@@ -77,7 +77,8 @@ private:
 
 std::string read_file(const std::string& path);
 
-/// The clashes of a JSON report, without the keys that only a store adds.
+/// The clashes of a JSON report, without the keys that only a store adds, and without their groups:
+/// a store remembers the groups of earlier jobs.
 nlohmann::json clashes_of(const Outcome& outcome);
 
 /// Expects refused input: status 2, nothing on standard output, and one line on standard error that

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <abut/properties.h>
 #include <abut/scene.h>
 #include <abut/store.h>
 
@@ -12,6 +13,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -78,7 +80,22 @@ private:
         model.draft = some_scene(random_, random_.integer(parts_ / 2, parts_), 3);
         for (Part& part : model.draft.parts)
             part.id = part.id + "-" + std::to_string(random_.integer(0, 3));
+        set_levels(model.draft);
         models_.push_back(model);
+    }
+
+    /// Gives every part the property that rules ask for. It follows from the id, so that it stays with
+    /// the part when others come and go; now and then it changes.
+    void set_levels(Scene& draft) {
+        PropertiesBuilder properties;
+        for (const Part& part : draft.parts) {
+            std::size_t level = random_.chance(0.02) ? 1 : 0;
+            for (const char c : part.id)
+                level += static_cast<unsigned char>(c);
+            properties.add("extras.level", std::to_string(level % 4));
+            properties.next_part();
+        }
+        draft.properties = properties.finish(draft.parts.size());
     }
 
     void remove_model() {
@@ -131,6 +148,7 @@ private:
         }
         if (random_.chance(0.15))
             std::reverse(draft.parts.begin(), draft.parts.end());
+        set_levels(draft);
     }
 
     void import() {
@@ -166,8 +184,12 @@ private:
 
     static bool is_same(const Part& a, const Scene& in_a, const Part& b, const Scene& in_b) {
         return a.name == b.name && a.type == b.type && a.colour == b.colour &&
-               a.world_from_mesh == b.world_from_mesh &&
+               a.world_from_mesh == b.world_from_mesh && level(a, in_a) == level(b, in_b) &&
                same_bits(in_a.meshes.at(a.mesh), in_b.meshes.at(b.mesh));
+    }
+    static std::string_view level(const Part& part, const Scene& scene) {
+        return scene.properties.value(static_cast<std::uint32_t>(&part - scene.parts.data()),
+                                      "extras.level");
     }
 
     Random& random_;

@@ -258,7 +258,7 @@ Subcommand add_info(CLI::App& root, CommonOptions& common) {
                         kModels,
                         "The contents of models or stores: parts, triangles, bounds, defects",
                         {{"abut info model.glb --parts", "totals, and a row for each part"},
-                         {"abut info house.ifc --properties",
+                         {"abut info model.glb --properties",
                           "the storeys, systems and property sets of the parts"},
                          {"abut info site.abut --verify", "checks a whole store for damage"}},
                         ""});

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <sstream>
+#include <utility>
 
 namespace abut::test {
 namespace {
@@ -74,6 +75,24 @@ protected:
         const std::string rows = "1,4,1,4,1,1,1\n" + face + "1,4,1,4,-1,1,1\n" + face;
         (void)folder_.write("queries-vertex-face.csv", rows);
         (void)folder_.write("queries.csv", rows);
+        write_arm();
+    }
+
+    /// A robot of four bars, and what its examples need.
+    void write_arm() {
+        std::string urdf = "<robot name='arm'>";
+        for (const std::string link : {"0", "1", "2", "3"})
+            urdf += "<link name='" + link +
+                    "'><collision><origin xyz='0.5 0 0'/><geometry><box size='0.8 0.1 0.1'/>"
+                    "</geometry></collision></link>";
+        for (const auto& [parent, child] : {std::pair{"0", "1"}, {"1", "2"}, {"2", "3"}})
+            urdf += std::string("<joint name='to ") + child +
+                    "' type='continuous'><origin xyz='1 0 0'/><axis xyz='0 0 1'/><parent link='" +
+                    parent + "'/><child link='" + child + "'/></joint>";
+        (void)folder_.write("arm.urdf", urdf + "</robot>");
+        (void)folder_.write("arm.srdf", "<robot name='arm'/>");
+        (void)folder_.write("path.csv", "0,0,0\n0,0.5,0.5\n");
+        write_glb(one_of_each_kind(), folder_ / "cell.glb");
     }
 
     Outcome shell(const std::string& line) const {

@@ -143,8 +143,9 @@ TEST_F(ClashWriters, JsonHasTheKeysInOrder) {
     const Sample sample;
     const ordered_json root = ordered_json::parse(to_json(sample.report, sample.models));
     using Names = std::vector<std::string>;
-    EXPECT_EQ(keys(root), (Names{"models", "frame", "warnings", "clearance", "touch", "candidates",
-                                 "counts", "clashes", "seconds", "peak_rss_mib"}));
+    EXPECT_EQ(keys(root),
+              (Names{"models", "frame", "warnings", "clearance", "touch", "candidates", "counts",
+                     "neighbours", "left_out", "clashes", "seconds", "peak_rss_mib"}));
     EXPECT_EQ(keys(root["models"][0]), (Names{"file", "parts", "triangles", "unit", "up"}));
     EXPECT_EQ(keys(root["models"][1]),
               (Names{"file", "parts", "triangles", "unit", "up", "notes"}));
@@ -307,14 +308,32 @@ TEST_F(ClashWriters, CsvHasTheColumnsAndValues) {
     const auto rows = parse_csv(read("report.csv"));
     ASSERT_EQ(rows.size(), 6U);
     using Row = std::vector<std::string>;
-    EXPECT_EQ(rows[0], (Row{"id",          "kind",        "a",
-                            "b",           "a_name",      "b_name",
-                            "a_type",      "b_type",      "a_file",
-                            "b_file",      "distance",    "point_a_x",
-                            "point_a_y",   "point_a_z",   "point_b_x",
-                            "point_b_y",   "point_b_z",   "direction_x",
-                            "direction_y", "direction_z", "triangle_pairs",
-                            "rule"}));
+    EXPECT_EQ(rows[0], (Row{"id",
+                            "kind",
+                            "a",
+                            "b",
+                            "a_name",
+                            "b_name",
+                            "a_type",
+                            "b_type",
+                            "a_file",
+                            "b_file",
+                            "distance",
+                            "point_a_x",
+                            "point_a_y",
+                            "point_a_z",
+                            "point_b_x",
+                            "point_b_y",
+                            "point_b_z",
+                            "direction_x",
+                            "direction_y",
+                            "direction_z",
+                            "triangle_pairs",
+                            "rule",
+                            "severity",
+                            "volume",
+                            "volume_error",
+                            "neighbours"}));
     EXPECT_EQ(rows[1], (Row{"0000000000000abc",
                             "hard",
                             "1slab",
@@ -336,7 +355,11 @@ TEST_F(ClashWriters, CsvHasTheColumnsAndValues) {
                             "0",
                             "1",
                             "42",
-                            "a rule"}));
+                            "a rule",
+                            "",
+                            "0",
+                            "0",
+                            ""}));
     EXPECT_EQ(rows[5][1], "clearance");
     EXPECT_EQ(rows[5][10], "") << "a number that is not finite leaves its cell empty";
     EXPECT_EQ(rows[5][21], "");
@@ -383,7 +406,7 @@ TEST_F(ClashWriters, CsvQuotesAndDisarmsNames) {
         const auto rows = parse_csv(read("report.csv"));
         ASSERT_EQ(rows.size(), 6U) << name;
         EXPECT_EQ(rows[1][4], cell);
-        EXPECT_EQ(rows[1].size(), 22U);
+        EXPECT_EQ(rows[1].size(), 26U);
     }
 }
 
