@@ -69,7 +69,7 @@ TEST_P(RealRobots, AreReadAndChecked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, RealRobots, testing::ValuesIn(kRobots),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& each) { return std::string(each.param.name); });
 
 } // namespace
 } // namespace abut::test
