@@ -935,16 +935,6 @@ class ClashStatus(IntEnum):
     approved = 3
     resolved = 4
 
-class ClashTopic:
-    """A topic and the clashes that it is about."""
-    def __init__(self, topic: BcfTopic, clashes: list[int]) -> None: ...
-    @property
-    def topic(self) -> BcfTopic:
-        """BcfTopic"""
-    @property
-    def clashes(self) -> list[int]:
-        """indices in ClashReport.clashes"""
-
 class ClashViewpoint:
     """A camera that shows one clash or several. Lengths in metres."""
     @property
@@ -999,7 +989,8 @@ class ColourBy(IntEnum):
     type = 1
     file = 2
     part = 3
-    clash = 4
+    storey = 4
+    clash = 5
 
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
@@ -3811,6 +3802,8 @@ def at(motion: Motion, t: float) -> NDArray[Any]:
     """The matrix of shape (4, 4) to which the motion has taken the body at time t."""
 def bcf_bytes(file: BcfFile, version: BcfVersion | str = ...) -> bytes:
     """The bytes of a BCF file. Raises Error (bad_argument)."""
+def bcf_revision(file: BcfFile) -> int | None:
+    """The revision of a store's topics that a BcfFile was exported from, or None."""
 def build_levels(store: _Path, *, memory: int = ..., progress: _Progress = ...) -> LevelReport:
     """Builds the levels of detail of a store, a path, if they are missing or outdated. Work that
     was interrupted is continued.
@@ -3844,11 +3837,10 @@ def check_path(walk: Walk, probe: int | Probe | Model | Convex | Sphere | Capsul
 
     Returns a PathReport. Raises Error (bad_argument); KeyboardInterrupt at Ctrl-C.
     """
-def clash_bcf(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, topics: list[ClashTopic] = ..., author: str = ..., time: int = ..., project: str = ..., clip: bool = ..., snapshot: Callable[[ClashViewpoint], bytes] | None = ..., progress: _Progress = ...) -> BcfFile:
-    """The clashes of a report as topics of BCF, with viewpoints in metres, z up.
+def clash_bcf(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, author: str = ..., time: int = ..., project: str = ..., clip: bool = ..., snapshot: Callable[[ClashViewpoint], bytes] | None = ..., progress: _Progress = ...) -> BcfFile:
+    """The groups of a report as topics of BCF, with viewpoints in metres, z up. Without groups, each clash is a topic.
 
     models    what the report is about: list of Scene or paths, or a Store
-    topics    list of ClashTopic; if empty, one for each clash
     author    who creates the topics
     time      when, in seconds since 1970; 0: now
     project   name of the project
@@ -4103,6 +4095,15 @@ def matrix_preset(name: str) -> ClashMatrix:
     """A ClashMatrix that Abut brings along. Raises Error: bad_argument."""
 def matrix_preset_text(name: str) -> str:
     """The TOML file of such a matrix. Raises Error: bad_argument."""
+def merge_bcf(store: Store, file: BcfFile, *, base: int | None = ..., author: str = ..., now: int = ...) -> TopicMerge:
+    """Merges the topics of a BcfFile into a store.
+
+    base    revision that the file was exported from; None: what the file says
+    author  who made the changes; empty: whom the file names
+    now     the time of the change, in seconds since 1970; 0: the clock
+
+    Returns a TopicMerge. Raises Error as merge_topics does.
+    """
 def merge_topics(store: Store, edited: list[Topic], *, base: int | None = ..., author: str = ..., now: int = ...) -> TopicMerge:
     """Merges edited topics into a store that was opened with read_only=False.
 
@@ -4211,7 +4212,7 @@ def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, a
     models             a Store, or a Scene or path, or several
     aim                NamedView or its name, Camera, PartAim, PairAim, or a Clash of these models
     width, height      pixels, at most 8192
-    colour_by          ColourBy: 'material', 'type', 'file', 'part' or 'clash'
+    colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or 'clash'
     samples            along each side of a pixel: 1, 2 or 4
     edges              dark lines at silhouettes and creases
     ambient_occlusion  darker corners

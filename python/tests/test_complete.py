@@ -19,6 +19,7 @@ OTHER_TYPES = {
     "BodyMotion": "dict", "SpeedBounds": "keywords", "MarkChanges": "keywords", "EarlierGroup": "within a store", "WalkQuery": "keywords", "Progress": "function",
     "ElementaryPair": "arrays", "ElementaryQueries": "arrays", "StoreClashReport": "ClashReport", "WalkAnswer": "its members",
     "SidesAim": "missing", "PictureMaker": "missing", "PartColouring": "missing", "PartDistances": "missing", "ChunkVertex": "arrays of ViewChunk", "ChunkUpload": "dict of ViewFrame", "DifferencePolytope": "within ConvexWarmStart",
+    "RobotQuery": "keywords", "Configurations": "arrays",
     "PropertiesBuilder": "Scene(properties=)",
 }
 OTHER_FUNCTIONS = {
@@ -152,7 +153,9 @@ OPTIONS = {
     "SpeedBounds": "World.set_speed", "LevelOptions": "build_levels", "PathOptions": "check_path",
     "CarryOptions": "Carry.move_to", "ViewOptions": "View", "PictureOptions": "picture", "ViewpointOptions": "clash_viewpoints", "ClashBcfOptions": "clash_bcf",
     "WalkerOptions": "Walker", "MarkChanges": "mark_clashes",
-    "ClashPageOptions": "write_clash_html",
+    "ClashPageOptions": "write_clash_html", "RobotReadOptions": "read_robot", "RobotOptions": "Robot",
+    "RobotDistanceOptions": "distance", "RobotImpactOptions": "time_of_impact",
+    "AllowedPairsOptions": "propose_allowed_pairs",
 }
 
 
@@ -160,6 +163,7 @@ def test_options_are_keywords():
     found = {name: list(public_members(kind, body)) for kind, name, body in types()}
     assert {name for name in found if name.endswith("Options")} <= OPTIONS.keys()
     found["PictureOptions"].remove("distances")  # missing
+    found["RobotReadOptions"].remove("read")  # its members
     for name, owner in OPTIONS.items():
         ours = abut
         for word in owner.split("."):

@@ -19,6 +19,7 @@ def test_stubs_match_the_module():
 def test_stubs_name_everything():
     tree = ast.parse((PYTHON / "abut/__init__.pyi").read_text())
     names = {node.name for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+    names |= {node.target.id for node in tree.body if isinstance(node, ast.AnnAssign)}
     assert set(abut.__all__) <= names
 
 
