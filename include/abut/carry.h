@@ -24,7 +24,7 @@ struct CarryOptions {
     /// Most steps of all depths together, see WalkQuery::max_steps; none given: no limit. In deep
     /// overlaps a depth takes many; with 2,000 a step of a carried part stays below 16 ms.
     std::optional<std::uint64_t> depth_steps{};
-    double skin = 1e-3;     ///< gap that is kept to parts, as a length of way
+    double skin = 1e-3; ///< gap that is kept to parts, as a length of way
     /// skip: parts that are not in memory stop the part that is carried, and are left out of the
     /// lists.
     MissingParts missing = MissingParts::wait;

@@ -129,7 +129,8 @@ Subcommand add_graph(CLI::App& root, CommonOptions& common) {
                "Parts nearer than this have an edge (default 0)");
     app->add_flag("--self", arguments->options.self,
                   "With several models: also test the pairs within each");
-    app->add_option("--rules", arguments->rules, "JSON or TOML file that selects pairs (docs/selecting.md)")
+    app->add_option("--rules", arguments->rules,
+                    "JSON or TOML file that selects pairs (docs/selecting.md)")
         ->check(not_empty("FILE"));
     app->add_option("--memory", arguments->memory,
                     "Limit of a job's memory in bytes, with K, M or G (default 512M)")

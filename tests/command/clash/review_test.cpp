@@ -182,7 +182,9 @@ TEST_F(Review, StatusesAreInEveryReport) {
     ASSERT_EQ(clash(store_, {"--quiet", "--out", folder_ / "store"}).status, 0);
     ASSERT_EQ(clash(model_, {"--quiet", "--out", folder_ / "model"}).status, 0);
     const std::string csv = read_file(folder_ / "store/report.csv");
-    EXPECT_NE(csv.find(",rule,severity,volume,volume_error,neighbours,status,note,group,group_name\r\n"), std::string::npos);
+    EXPECT_NE(
+        csv.find(",rule,severity,volume,volume_error,neighbours,status,note,group,group_name\r\n"),
+        std::string::npos);
     EXPECT_NE(csv.find(",,approved,\"'=1+1, \"\"so\"\"\","), std::string::npos) << csv;
     EXPECT_NE(csv.find(",,new,,"), std::string::npos);
     EXPECT_NE(read_file(folder_ / "store/report.html").find("\"statuses\":{\"new\":4"),
