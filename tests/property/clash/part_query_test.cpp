@@ -105,8 +105,12 @@ bool globbed(const std::string& glob, const std::string& text) {
         return text.empty();
     if (glob[0] == '*')
         return globbed(glob.substr(1), text) || (!text.empty() && globbed(glob, text.substr(1)));
-    return !text.empty() && (glob[0] == '?' || glob[0] == text[0]) &&
-           globbed(glob.substr(1), text.substr(1));
+    if (text.empty() || (glob[0] != '?' && glob[0] != text[0]))
+        return false;
+    std::size_t taken = 1; // a question mark takes a whole character of UTF-8
+    while (glob[0] == '?' && taken < text.size() && (text[taken] & 0xC0) == 0x80)
+        ++taken;
+    return globbed(glob.substr(1), text.substr(taken));
 }
 
 std::string lower(std::string text) {

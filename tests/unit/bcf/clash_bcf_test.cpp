@@ -162,6 +162,9 @@ TEST(ClashBcf, UpdatesWhatPeopleHaveChanged) {
     const std::vector<Scene> models = two_pipes();
     const ClashReport report = find_clashes(models, {});
     BcfFile edited = clash_bcf(report, models, at_noon());
+    edited.topics.push_back({});
+    edited.topics.back().guid = edited.topics.back().folder =
+        "22222222-8f4e-4f0a-9f5e-0123456789ab";
     BcfTopic& topic = edited.topics[0];
     topic.status = "Closed";
     topic.assigned_to = "pipes@example.com";
@@ -174,9 +177,6 @@ TEST(ClashBcf, UpdatesWhatPeopleHaveChanged) {
                               {},
                               {},
                               {}});
-    edited.topics.push_back({});
-    edited.topics.back().guid = edited.topics.back().folder =
-        "22222222-8f4e-4f0a-9f5e-0123456789ab";
     edited.entries.push_back({"notes.txt", "of another program"});
     ClashBcfOptions later = at_noon();
     later.time += 86400;
