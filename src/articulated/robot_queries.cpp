@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -83,7 +82,7 @@ bool meets(const QueryBodies& bodies, std::span<const double> configuration,
     find_near(bodies, std::numeric_limits<double>::min(), scratch);
     // The pair that is nearest by its balls is the likeliest to meet.
     std::sort_heap(scratch.heap.begin(), scratch.heap.end());
-    return std::ranges::any_of(scratch.heap | std::views::reverse, [&](const BoundedTest& next) {
+    return std::any_of(scratch.heap.rbegin(), scratch.heap.rend(), [&](const BoundedTest& next) {
         return scratch.placed.meet(bodies.tests()[next.test]);
     });
 }

@@ -63,8 +63,10 @@ public:
         auto& pairs = semantics_.allowed;
         const auto key = [](const AllowedPair& pair) { return std::pair(pair.a, pair.b); };
         std::ranges::stable_sort(pairs, {}, key);
-        const auto repeated = std::ranges::unique(pairs, {}, key);
-        pairs.erase(repeated.begin(), repeated.end());
+        const auto end = std::unique(
+            pairs.begin(), pairs.end(),
+            [&](const AllowedPair& p, const AllowedPair& q) { return key(p) == key(q); });
+        pairs.erase(end, pairs.end());
         return std::move(semantics_);
     }
 

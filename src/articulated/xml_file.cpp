@@ -70,7 +70,7 @@ void XmlFile::fail(pugi::xml_node node, const std::string& what) const {
 }
 
 std::string XmlFile::text(pugi::xml_node node, const char* attribute) const {
-    const std::string value = node.attribute(attribute).as_string();
+    std::string value = node.attribute(attribute).as_string();
     if (value.empty())
         fail(node, std::string("<") + node.name() + "> needs the attribute '" + attribute + "'");
     return value;
