@@ -55,8 +55,8 @@ std::vector<Topic> topics_of_groups(const ClashReport& report) {
         for (const std::uint32_t clash : group->clashes)
             topic.clashes.push_back(report.clashes[clash].id);
         std::ranges::sort(topic.clashes);
-        const auto repeated = std::ranges::unique(topic.clashes);
-        topic.clashes.erase(repeated.begin(), repeated.end());
+        topic.clashes.erase(std::unique(topic.clashes.begin(), topic.clashes.end()),
+                            topic.clashes.end());
     }
     for (const Topic& topic : report.topics)
         if (known.contains(topic.guid))

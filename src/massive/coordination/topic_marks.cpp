@@ -53,8 +53,7 @@ std::vector<std::uint64_t> TopicMarks::clashes_of(const Topic& topic) const {
     if (members != members_.end())
         clashes.insert(clashes.end(), members->second.begin(), members->second.end());
     std::ranges::sort(clashes);
-    const auto repeated = std::ranges::unique(clashes);
-    clashes.erase(repeated.begin(), repeated.end());
+    clashes.erase(std::unique(clashes.begin(), clashes.end()), clashes.end());
     return clashes;
 }
 
