@@ -159,7 +159,7 @@ private:
         const auto find = [&](std::string& reference) -> std::optional<std::string> {
             if (reference.empty())
                 return std::nullopt;
-            const std::optional<std::string> name = entry_of(folder, reference);
+            std::optional<std::string> name = entry_of(folder, reference);
             if (name && has(*name)) {
                 charge(*name);
                 return name;

@@ -43,7 +43,7 @@ std::size_t rank_of(const std::string& name) {
 }
 
 std::string short_example(const std::string& value) {
-    const std::string text = shown(value);
+    std::string text = shown(value);
     if (text.size() <= kLongestExample)
         return text;
     std::size_t end = kLongestExample - 3;

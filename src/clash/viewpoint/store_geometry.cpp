@@ -83,7 +83,7 @@ private:
             if (const auto found = cache_.find(block); found != cache_.end())
                 return found->second;
         }
-        const auto read = std::make_shared<const BlockRuns>(store_.file().read_block(block).mesh);
+        auto read = std::make_shared<const BlockRuns>(store_.file().read_block(block).mesh);
         const std::scoped_lock lock(mutex_);
         if (cached_bytes_ + read->bytes() > kCacheBytes) {
             cache_.clear();

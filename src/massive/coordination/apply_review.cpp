@@ -70,7 +70,8 @@ std::string guid_of_entry(json& entry) {
             throw Error(ErrorCode::malformed, std::string("'") + key + "' must be a text");
         return found->get<std::string>();
     };
-    const std::string guid = text("guid"), group = text("group"), clash = text("clash");
+    std::string guid = text("guid");
+    const std::string group = text("group"), clash = text("clash");
     const auto id = parse_clash_id(clash);
     if (!clash.empty() && !id)
         throw Error(ErrorCode::malformed, "'clash' must be a clash id");

@@ -59,7 +59,7 @@ protected:
     }
     Outcome refused(Texts options) {
         options.insert(options.begin(), {"clash", file_});
-        const Outcome outcome = run_abut(options);
+        Outcome outcome = run_abut(options);
         EXPECT_EQ(outcome.status, 2);
         EXPECT_EQ(outcome.out, "");
         return outcome;
