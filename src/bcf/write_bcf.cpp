@@ -38,8 +38,8 @@ public:
 
 private:
     /// Two viewpoints may share a file, but two files may not share a name.
-    void add(const std::string& name, std::string bytes) {
-        const auto [at, is_new] = entries_.try_emplace(name, std::move(bytes));
+    void add(const std::string& name, const std::string& bytes) {
+        const auto [at, is_new] = entries_.try_emplace(name, bytes);
         if (!is_new && at->second != bytes && !bytes.empty())
             throw Error(ErrorCode::bad_argument, "two entries have the name '" + name + "'");
     }

@@ -25,9 +25,7 @@ std::string xml_escaped(std::string_view text) {
             escaped += "&quot;";
         else if (c == '\r')
             escaped += "&#13;";
-        else if (c == '\n' || c == '\t')
-            escaped += c;
-        else if (static_cast<unsigned char>(c) < 0x20)
+        else if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
             escaped += "\xEF\xBF\xBD";
         else if (rest == "\xEF\xBF\xBE" || rest == "\xEF\xBF\xBF") // U+FFFE, U+FFFF
             escaped += "\xEF\xBF\xBD", i += 2;
