@@ -91,7 +91,8 @@ std::optional<std::int64_t> parse_bcf_time(std::string_view text) {
     const std::optional<int> zone = parse_zone(text);
     if (!zone)
         return std::nullopt;
-    return start + 3600 * hour + 60 * minute + second - *zone;
+    const int of_day = 3600 * hour + 60 * minute + second - *zone;
+    return start + of_day;
 }
 
 std::string topic_status(const std::string& status) {
