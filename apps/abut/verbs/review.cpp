@@ -232,8 +232,10 @@ Subcommand add_review(CLI::App& root, CommonOptions& common) {
                          {"abut review site.abut --topic 0123456789abcdef --assign Hydra --due "
                           "2026-12-01",
                           "assigns a group, by its id in a report"},
-                         {"abut review site.abut --bcf-in meeting.bcf --bcf-out meeting.bcf",
-                          "merges what others have changed in a BCF file, and updates the file"}},
+                         {"abut review site.abut --bcf-out meeting.bcf",
+                          "writes the groups of the last job as a BCF file"},
+                         {"abut review site.abut --bcf-in meeting.bcf",
+                          "merges what others have changed in that file"}},
                         ""});
     app->add_option("STORE", arguments->store, "A store (abut import)")
         ->required()
