@@ -361,6 +361,7 @@ std::vector<ClashGroup> ClashGrouper::by_part(std::vector<ClashUnit> units, std:
     std::vector<ClashUnit> left = join_earlier_parts(units, drafts, parent, rest);
     add_copies(left, drafts, earlier, parent);
     std::vector<std::uint32_t> clashes;
+    clashes.reserve(left.size());
     for (const ClashUnit& unit : left)
         clashes.push_back(unit.clashes.front());
     for (const Cover& cover : cover_by_part(facts_, clashes, is_last ? 1 : options_.least)) {
