@@ -92,6 +92,7 @@ const char* to_string(RelationKind kind);
 struct PartRelation {
     std::uint32_t a = 0, b = 0; ///< indices of parts; connected: a < b
     RelationKind kind = RelationKind::fills;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of a comparison for a pointer
     friend auto operator<=>(const PartRelation&, const PartRelation&) = default;
 };
 

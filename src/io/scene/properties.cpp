@@ -45,8 +45,12 @@ std::span<const Properties::Entry> Properties::of(std::uint32_t part) const noex
 
 std::span<const Properties::Entry> Properties::of(std::uint32_t part,
                                                   std::uint32_t name) const noexcept {
-    const auto found = std::ranges::equal_range(of(part), name, {}, &Entry::name);
-    return {found.begin(), found.end()};
+    const std::span<const Entry> all = of(part);
+    const auto from = std::lower_bound(all.begin(), all.end(), name,
+                                       [](const Entry& e, std::uint32_t n) { return e.name < n; });
+    const auto to = std::upper_bound(from, all.end(), name,
+                                     [](std::uint32_t n, const Entry& e) { return n < e.name; });
+    return {from, to};
 }
 
 std::optional<std::uint32_t> Properties::find(std::string_view name) const noexcept {

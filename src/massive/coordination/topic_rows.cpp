@@ -76,6 +76,7 @@ std::string json_text(const std::vector<std::string>& texts) {
 
 std::string clashes_text(const std::vector<std::uint64_t>& clashes) {
     std::vector<std::string> texts;
+    texts.reserve(clashes.size());
     for (const std::uint64_t clash : clashes)
         texts.push_back(clash_id_text(clash));
     return json_text(texts);

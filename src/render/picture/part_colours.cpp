@@ -81,7 +81,7 @@ Colour type_colour(const std::string& type) {
 }
 
 struct ClashColour {
-    ClashKind kind;
+    ClashKind kind = ClashKind::hard;
     Colour colour;
 };
 /// The kinds from the worst on.

@@ -30,7 +30,7 @@ bool has_zero(const Signs& signs) {
 /// edge are taken in one order, so that both of its faces get the same point.
 struct PointOnEdge {
     Vec3 point;
-    double fraction;
+    double fraction = 0;
 };
 PointOnEdge meet(const Vec3& from, const Vec3& to, const Triangle& plane) {
     const bool forward = std::tie(from.x, from.y, from.z) < std::tie(to.x, to.y, to.z);

@@ -19,6 +19,7 @@ struct PartTie {
     RelationKind kind = RelationKind::fills;
     bool is_first = false; ///< the part is `a` of the PartRelation
     std::string other;     ///< id of the other part
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of a comparison for a pointer
     friend auto operator<=>(const PartTie&, const PartTie&) = default;
 };
 
