@@ -19,6 +19,7 @@ namespace abut {
 struct ReportPart {
     std::uint32_t model = 0, part = 0;
     friend bool operator==(const ReportPart&, const ReportPart&) = default;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads the comparison
     friend auto operator<=>(const ReportPart&, const ReportPart&) = default;
 };
 
@@ -26,6 +27,7 @@ struct ReportPart {
 struct NamedPart {
     std::string file, id;
     friend bool operator==(const NamedPart&, const NamedPart&) = default;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads the comparison
     friend auto operator<=>(const NamedPart&, const NamedPart&) = default;
 };
 

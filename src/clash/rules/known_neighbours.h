@@ -33,6 +33,7 @@ private:
     struct Link {
         std::uint64_t pair = 0; ///< lower number, then the higher one
         Neighbours neighbours = Neighbours::fills;
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 misreads the comparison
         friend auto operator<=>(const Link&, const Link&) = default;
     };
 

@@ -135,6 +135,7 @@ private:
         std::ranges::sort(near);
         near.resize(std::min(near.size(), most));
         std::vector<std::uint32_t> parts;
+        parts.reserve(near.size());
         for (const auto& [distance, part] : near)
             parts.push_back(part);
         std::ranges::sort(parts);

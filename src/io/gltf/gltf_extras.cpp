@@ -18,8 +18,9 @@ void add_values(const json& value, const std::string& name, int depth,
     if (depth > kDeepest || value.is_null() || value.is_binary())
         return;
     if (value.is_object()) {
+        const std::string prefix = name.empty() ? name : name + ".";
         for (const auto& [key, inner] : value.items())
-            add_values(inner, name.empty() ? key : name + "." + key, depth + 1, properties);
+            add_values(inner, prefix + key, depth + 1, properties);
     } else if (value.is_array()) {
         for (const json& inner : value)
             add_values(inner, name, depth + 1, properties);
