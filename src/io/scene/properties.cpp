@@ -167,7 +167,8 @@ bool is_consistent(const Properties& properties, std::size_t parts) {
            std::is_sorted(first.begin(), first.end()) &&
            std::ranges::all_of(entries,
                                [&](const Properties::Entry& entry) {
-                                   return entry.name < names.size() && entry.value < values.size();
+                                   return entry.name < properties.names.size() &&
+                                          entry.value < properties.values.size();
                                }) &&
            are_distinct(names) && are_distinct(values);
 }
