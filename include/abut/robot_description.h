@@ -68,8 +68,8 @@ struct RobotLink {
     std::vector<RobotShape> shapes; ///< of collision; may be empty
 };
 
-/// A tree of links. Joints come parents first: a joint's parent link is the root, or the child of an
-/// earlier joint.
+/// A tree of links. Joints come parents first: a joint's parent link is the root, or the child of
+/// an earlier joint.
 struct RobotDescription {
     std::string name;
     std::string file; ///< path as given
@@ -81,8 +81,8 @@ struct RobotDescription {
 
 struct RobotReadOptions {
     /// Folders that are searched for the packages of `package://NAME/…`: the folder itself if it
-    /// has that name, then its folder NAME. After them come the folders above the file, and those
-    /// of the environment variable ROS_PACKAGE_PATH.
+    /// has that name, then its folder NAME. After them come the folders above the file, for
+    /// packages with a package.xml, and those of the environment variable ROS_PACKAGE_PATH.
     std::vector<std::string> package_folders{};
     /// Reads the visual shapes in place of the collision shapes.
     bool visual = false;
@@ -140,8 +140,8 @@ struct RobotSemantics {
 /// Errors      Error, naming the file and the line: file_not_found, unreadable, malformed.
 RobotSemantics read_srdf(const std::string& path, const RobotDescription& robot);
 
-/// Writes the allowed pairs as an SRDF file, atomically. If `base` names an SRDF file, all else of
-/// it is kept, and its pairs are replaced.
+/// Writes the allowed pairs as an SRDF file, atomically. If `base` names an SRDF file, its other
+/// elements and comments are kept, and its pairs are replaced.
 ///
 /// Errors      Error{cannot_write}, naming the file; those of `base` as read_srdf;
 ///             Error{bad_argument} if a pair names a link that is out of range.

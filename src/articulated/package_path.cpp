@@ -2,6 +2,7 @@
 
 #include "io/file/fault.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -32,12 +33,22 @@ std::vector<fs::path> package_candidates(const std::string& package, const fs::p
     };
     for (const std::string& folder : folders)
         add(fs::absolute(folder).lexically_normal());
+    // A file may not make a package of any folder above it, such as the user's own: those folders
+    // count only if they say that they are packages, as all packages of ROS do.
+    const std::size_t given = candidates.size();
     for (fs::path above = fs::absolute(urdf).lexically_normal().parent_path();;
          above = above.parent_path()) {
         add(above);
         if (above == above.parent_path())
             break;
     }
+    const auto is_no_package = [](const fs::path& folder) {
+        std::error_code failure;
+        return !fs::exists(folder / "package.xml", failure);
+    };
+    candidates.erase(std::remove_if(candidates.begin() + static_cast<std::ptrdiff_t>(given),
+                                    candidates.end(), is_no_package),
+                     candidates.end());
     if (const char* const listed = std::getenv("ROS_PACKAGE_PATH"); listed != nullptr) {
         std::string_view rest = listed;
         while (!rest.empty()) {

@@ -92,7 +92,10 @@ TEST_F(ReadRobotTest, PackagesAreFoundAboveTheFileAndInGivenFolders) {
         R"(<link name="base"><collision><geometry><mesh filename="package://kit/meshes/t.obj"/>
            </geometry></collision></link>)";
     const std::string inside = "<robot name='a'>" + link + "</robot>";
-    EXPECT_EQ(read_robot(write("kit/urdf/in.urdf", inside)).links[0].shapes.size(), 1);
+    const std::string in_kit = write("kit/urdf/in.urdf", inside);
+    EXPECT_THROW(read_robot(in_kit), Error) << "any folder above the file was taken for a package";
+    write("kit/package.xml", "<package/>");
+    EXPECT_EQ(read_robot(in_kit).links[0].shapes.size(), 1);
     const Folder other;
     std::ofstream(other / "b.urdf") << inside;
     EXPECT_THROW(read_robot(other / "b.urdf"), Error);
