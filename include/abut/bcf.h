@@ -52,7 +52,7 @@ struct BcfCamera {
     friend bool operator==(const BcfCamera&, const BcfCamera&) = default;
 };
 
-/// What lies on the side that `direction` points to is cut away.
+/// A plane that cuts away the side to which `direction` points.
 struct BcfClippingPlane {
     Vec3 location, direction;
     friend bool operator==(const BcfClippingPlane&, const BcfClippingPlane&) = default;
@@ -67,7 +67,7 @@ struct BcfBitmap {
     friend bool operator==(const BcfBitmap&, const BcfBitmap&) = default;
 };
 
-/// What a viewer shows. Coordinates are in metres, z up.
+/// The view of a topic that a viewer shows. Coordinates are in metres, z up.
 struct BcfViewpoint {
     std::string guid;
     std::string file;          ///< name in the topic's folder; empty: only a snapshot
@@ -170,7 +170,7 @@ struct BcfFile {
     std::vector<BcfDocument> documents;
     std::vector<BcfTopic> topics; ///< sorted by folder
     std::vector<BcfEntry> entries;
-    /// What was read in a way that not every program would: one line each.
+    /// Places that other programs may read differently: one line each.
     std::vector<std::string> warnings;
     friend bool operator==(const BcfFile&, const BcfFile&) = default;
 };
@@ -194,8 +194,8 @@ BcfFile parse_bcf(const std::string& bytes, const std::string& name, const BcfLi
 
 /// Returns the bytes of a BCF file. The same content gives the same bytes.
 ///
-/// What the version cannot state takes another form: docs/bcf.md lists it. Characters that XML does
-/// not allow become U+FFFD.
+/// Fields that the version cannot state take another form: docs/bcf.md lists them. Characters that
+/// XML does not allow become U+FFFD.
 ///
 /// Errors      Error{bad_argument} for version 2.0, a topic whose GUID is not one, a number that is
 ///             not finite, or two entries of one name.

@@ -59,14 +59,14 @@ const char* to_string(GroupChange change);
 
 /// Clashes that share a property. Groups can hold groups: those of the next criterion.
 struct ClashGroup {
-    /// 16 hexadecimal digits: hash of `key` and of the groups around this one. It depends neither on
-    /// the order of files and parts nor on the other groups. A store keeps ids from job to job.
+    /// 16 hexadecimal digits: hash of `key` and of the groups around this one. It depends neither
+    /// on the order of files and parts nor on the other groups. A store keeps ids from job to job.
     std::string id;
     std::string name; ///< one line for people
     std::string what; ///< the types that clash, most frequent first: "14 IfcPipeSegment, 2 IfcBeam"
     GroupKind kind = GroupKind::part;
-    /// What all clashes share, as text. part, copies: the file's name, "/" and the part's id;
-    /// place: the id of the clash in its middle; others: the value of the property.
+    /// The property that all clashes share, as text. part, copies: the file's name, "/" and the
+    /// part's id; place: the id of the clash in its middle; others: the value of the property.
     std::string key;
     std::vector<std::uint32_t> clashes; ///< indices in ClashReport::clashes, ascending
     std::vector<ClashGroup> groups;     ///< if any, every clash is in exactly one of them

@@ -59,8 +59,8 @@ struct SectionPlane {
     double offset = 0;
 };
 
-/// A segment or, if both ends are equal, a dot, drawn over the picture. What geometry hides of it is
-/// drawn fainter.
+/// A segment or, if both ends are equal, a dot, drawn over the picture. What geometry hides of it
+/// is drawn fainter.
 struct Mark {
     Vec3 a, b; ///< world
     Colour colour{255, 120, 0};
@@ -104,8 +104,8 @@ struct RenderStyle {
     /// A length of the scene: edges fade where one pixel covers more than a tenth of it, and
     /// occlusion reaches as far. About the size of a common part.
     double detail = 0.5;
-    /// Whether backs of closed surfaces that the eye is outside of are left out: the inside of what
-    /// another part penetrates may then look different. Faster in software. No effect where a
+    /// Sets whether backs of closed surfaces that the eye is outside of are left out: the inside of
+    /// what another part penetrates may then look different. Faster in software. No effect where a
     /// section opens the inside.
     bool leave_out_backs = false;
     std::vector<SectionPlane> sections; ///< at most 6
@@ -140,8 +140,8 @@ public:
     void set_state(std::uint32_t part, const PartState& state);
     [[nodiscard]] PartState state(std::uint32_t part) const;
 
-    /// Draws a mesh beside the chunks of the view, for example a part that is carried; at most 64 at
-    /// a time. Returns its number, which `set_state` and `part_at` know.
+    /// Draws a mesh beside the chunks of the view, for example a part that is carried; at most 64
+    /// at a time. Returns its number, which `set_state` and `part_at` know.
     ///
     /// Errors      Error{bad_argument} if there are 64.
     std::uint32_t add_part(const Mesh& mesh, const Transform& world_from_mesh,
@@ -162,8 +162,8 @@ public:
     void add(const ViewFrame& frame);
     void end(std::span<const Mark> marks = {});
 
-    /// Adds the ghosted parts of a frame. Call it after all calls of `add`, with the same chunks, as
-    /// far as they have ghosted parts. `draw` does so by itself.
+    /// Adds the ghosted parts of a frame. Call it after all calls of `add`, with the same chunks,
+    /// as far as they have ghosted parts. `draw` does so by itself.
     void add_ghosts(const ViewFrame& frame);
     [[nodiscard]] bool has_ghosts() const; ///< whether any part is ghosted and not hidden
 

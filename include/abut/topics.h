@@ -22,7 +22,8 @@ struct TopicComment {
 
 /// An issue to be settled by people, usually about one group of clashes.
 struct Topic {
-    /// Of a group or a clash: derived from its id (UUID, version 5); of others as imported.
+    /// The identifier. For a group or a clash it is derived from the id (UUID, version 5); of
+    /// others as imported.
     std::string guid;
     std::string title, description;
     std::string
@@ -80,13 +81,13 @@ struct TopicMerge {
 
 /// Merges edited topics into a store, field by field: a field that only the editor has changed
 /// since `base` is taken, one that only the store has changed stays, and one that both have changed
-/// differently is a conflict. Labels, links and comments are united; one that the editor has removed
-/// is removed. Topics that are not named stay. All is done or, after an error, nothing.
+/// differently is a conflict. Labels, links and comments are united; one that the editor has
+/// removed is removed. Topics that are not named stay. All is done or, after an error, nothing.
 ///
 /// In          store: opened with read_only = false. edited: whole topics; one whose guid is empty
 ///             is about its group, or about its first clash.
-/// Errors      Error{bad_argument}: no guid, group or clash; a topic given twice; a due date that is
-///             none; an unknown base. Error{cannot_write}: the store is read-only.
+/// Errors      Error{bad_argument}: no guid, group or clash; a topic given twice; a due date that
+///             is none; an unknown base. Error{cannot_write}: the store is read-only.
 TopicMerge merge_topics(const Store& store, const std::vector<Topic>& edited,
                         const MergeOptions& options = {});
 

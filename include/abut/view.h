@@ -142,8 +142,8 @@ public:
     ///             whatever the size of the store; and at most ViewOptions::upload_budget of
     ///             chunks change hands.
     const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {});
-    /// Waits until all that the last frame wanted is loaded, or memory is full. The next frame shows
-    /// it. If a chunk cannot be read, it returns at once and the next frame throws the Error.
+    /// Waits until all that the last frame wanted is loaded, or memory is full. The next frame
+    /// shows it. If a chunk cannot be read, it returns at once and the next frame throws the Error.
     void wait();
 
     /// A point in the middle of the model; chunks are relative to it.
@@ -169,8 +169,8 @@ public:
     /// Leaves parts out of the picture (carried away, or hidden), or brings them back. Those of a
     /// merged chunk are still in it: the renderer hides them by their index.
     void set_hidden(std::uint32_t part, bool hidden);
-    /// Sets whether parts that others hide are left out; at first they are. Turn it off while the renderer
-    /// cuts parts away or makes them transparent, other than by set_hidden.
+    /// Sets whether parts that others hide are left out; at first they are. Turn it off while the
+    /// renderer cuts parts away or makes them transparent, other than by set_hidden.
     void set_occlusion(bool on);
     /// Changes ViewOptions::triangle_budget and draw_budget from the next frame on: fewer while the
     /// eye moves and a frame takes long, more when it rests.

@@ -43,7 +43,7 @@ void sort_joints(RobotDescription& robot) {
         joints_below[joint.parent].push_back(i);
     }
     robot.root = root_link(robot, joint_above);
-    // Of the joints whose parent has been reached, the first one of the given order comes next.
+    // The next joint is the first one, in the given order, whose parent has been reached.
     std::vector<std::size_t> order;
     std::set<std::size_t> next(joints_below[robot.root].begin(), joints_below[robot.root].end());
     while (!next.empty()) {

@@ -20,7 +20,7 @@ public:
     [[nodiscard]] double rounding() const { return rounding_; }
 
 private:
-    /// The same bound for points of the ball around `body`, in the frame of link `other`.
+    /// Bounds the speed of points of the ball around `body`, in the frame of link `other`.
     [[nodiscard]] double seen_from(const RobotBody& body, std::uint32_t other) const;
 
     const RobotData& robot_;

@@ -8,7 +8,7 @@ namespace abut {
 
 namespace {
 
-/// What a required text becomes if it is missing.
+/// Stands in for a required text that is missing.
 std::string stated(const std::string& text, const char* otherwise) {
     return is_blank(text) ? otherwise : text;
 }

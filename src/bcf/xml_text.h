@@ -16,7 +16,7 @@ std::string xml_escaped(std::string_view text);
 /// Appends an element with all that is in it, on one line.
 void append_xml(std::string& text, pugi::xml_node element);
 
-/// Whether XML Schema's NonEmptyOrBlankString refuses a text.
+/// Returns whether XML Schema's NonEmptyOrBlankString refuses a text.
 bool is_blank(std::string_view text);
 
 /// XML that is being written, indented by two spaces.

@@ -89,7 +89,7 @@ std::optional<Clash> classify_meeting(PartPair& pair, double touch) {
     return clash;
 }
 
-/// Whether every component of `inner` lies inside `outer`. Their surfaces must not meet.
+/// Returns whether every component of `inner` lies inside `outer`. Their surfaces must not meet.
 bool lies_inside(BlockList& inner, BlockList& outer) {
     if (!encloses(outer.part().box, inner.part().box))
         return false;

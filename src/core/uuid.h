@@ -12,7 +12,7 @@ namespace abut {
 ///             nothing.
 std::string uuid_of_name(std::string_view space, std::string_view name);
 
-/// Whether a text is a UUID in lower or upper case, with hyphens.
+/// Returns whether a text is a UUID in lower or upper case, with hyphens.
 bool is_uuid(std::string_view text);
 
 } // namespace abut

@@ -18,7 +18,7 @@ struct EyePoint {
     double near = 0;
 };
 
-/// What need not be drawn.
+/// The chunks and triangles that need not be drawn.
 struct SkippedTriangles {
     /// If given, the backs of closed surfaces that do not hold the eye.
     const EyePoint* backs_seen_from = nullptr;
@@ -58,7 +58,7 @@ private:
 
     void upload(std::uint32_t number, const ViewChunk& data);
     void bind_instances(std::uint32_t first) const;
-    /// Whether the eye sees closed surfaces of the chunk from outside only.
+    /// True if the eye sees closed surfaces of the chunk from outside only.
     static bool is_outside(const Chunk& chunk, std::span<const ChunkInstance> instances,
                            const EyePoint& eye);
 

@@ -24,7 +24,7 @@ public:
     void read(const RenderTarget& parts, const DrawnCamera& camera,
               const std::array<float, 3>& depth_to_w, const Vec3& origin);
 
-    /// Whether nothing in the box can be seen: each tile that its image touches is nearer.
+    /// Returns whether nothing in the box can be seen: each tile that its image touches is nearer.
     [[nodiscard]] bool hides(const Vec3& lower, const Vec3& upper) const;
 
 private:

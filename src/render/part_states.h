@@ -25,7 +25,7 @@ public:
 
     [[nodiscard]] bool has_ghosts() const { return ghosts_ > 0; }
     [[nodiscard]] bool has_highlights() const { return highlights_ > 0; }
-    /// Whether any part has a flag.
+    /// Returns whether any part has a flag.
     [[nodiscard]] bool has_flags() const { return flagged_ > 0; }
 
 private:

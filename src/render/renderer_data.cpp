@@ -15,8 +15,8 @@ namespace abut {
 
 namespace {
 
-/// Chunks are drawn in steps up to these eighths of the triangles, the nearest first. Those of a step
-/// are compared with the depth of the steps before.
+/// Chunks are drawn in steps up to these eighths of the triangles, the nearest first. Those of a
+/// step are compared with the depth of the steps before.
 constexpr std::array<std::uint64_t, 2> kSteps{2, 8};
 /// One chunk in this number must be hidden.
 constexpr std::uint64_t kWorthwhile = 6;
@@ -53,7 +53,7 @@ void reset_state() {
     glDepthMask(GL_TRUE);
 }
 
-/// Whether OpenGL has no graphics card.
+/// Returns whether OpenGL has no graphics card.
 bool draws_in_software() {
     const auto* const text = reinterpret_cast<const char*>(glGetString(GL_RENDERER)); // NOLINT
     const std::string_view name(text != nullptr ? text : "");

@@ -238,7 +238,7 @@ TEST_F(IfcProperties, PartsOfAnAssemblyWithoutGeometry) {
     EXPECT_EQ(values(kTable, "assembly"), Values{"0CurtainWallOfTests001"});
     EXPECT_EQ(values(kTable, "storey"), Values{"Ground"});
     EXPECT_EQ(values(kTable, "discipline"), Values{"architecture"});
-    // What joins the whole joins its parts.
+    // A relation of the whole holds for its parts.
     EXPECT_EQ(relations(),
               (std::set<Named>{{kWall, "connected", kTable}, {kWall, "connected", kOther}}));
 }

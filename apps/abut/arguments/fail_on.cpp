@@ -12,7 +12,7 @@ namespace abut::command {
 
 namespace {
 
-/// Whether a text can only be a condition: no list of words has these characters.
+/// Returns whether a text can only be a condition: no list of words has these characters.
 bool looks_like_condition(const std::string& text) {
     return text.find_first_of(" =~<>()\"") != std::string::npos;
 }

@@ -13,7 +13,7 @@ std::string bash_completion(const CLI::App& root);
 /// Returns the completion function for zsh, to be saved as a file _abut in its fpath.
 std::string zsh_completion(const CLI::App& root);
 
-/// The same for a program of its own.
+/// Returns the completion of a program that has no verbs.
 std::string bash_completion_of(const Verb& program);
 std::string zsh_completion_of(const Verb& program);
 

@@ -17,7 +17,7 @@ struct TopicArguments {
     std::vector<std::string> labels;
     std::string author, apply;
 
-    /// Whether a topic is to be changed.
+    /// Returns whether a topic is to be changed.
     [[nodiscard]] bool is_change() const;
 };
 

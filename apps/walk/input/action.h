@@ -4,13 +4,13 @@
 
 namespace abut::viewer {
 
-/// What the person wants in a frame. Velocities are fractions of the speed.
+/// The input of a person in one frame. Velocities are fractions of the speed.
 struct Wish {
     double forward = 0, right = 0, up = 0;
     bool duck = false, jump = false, fast = false;
 };
 
-/// What a key or a button of a gamepad does.
+/// The actions of keys and of a gamepad's buttons.
 enum class Action : std::uint8_t {
     walk,
     fly,

@@ -16,7 +16,7 @@ struct Gamepad {
     std::array<bool, 15> buttons{};
 };
 
-/// What the sticks and triggers of a gamepad ask for.
+/// Turns the sticks and triggers of a gamepad into the wishes of a frame.
 struct GamepadWish {
     Wish wish;
     double turn_right = 0, turn_up = 0; ///< in [-1, 1], of the fastest turn

@@ -116,7 +116,7 @@ bool perform_on_clashes(Action action, Session& session, Tools& tools) {
     }
 }
 
-/// What needs a chosen part.
+/// Performs the actions that need a chosen part.
 bool perform_on_chosen(Action action, Session& session, Tools& tools) {
     if (action != Action::go_to_chosen && action != Action::ghosts && action != Action::hide &&
         action != Action::remove)

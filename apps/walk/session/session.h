@@ -119,7 +119,8 @@ public:
     /// Opens a box around the chosen part, or around all; closes it if there is one.
     void toggle_box();
     [[nodiscard]] RenderStyle style(bool still) const;
-    /// What to draw now. While the eye rests, budgets do not keep the picture coarse.
+    /// Returns the frame to be drawn now. While the eye rests, budgets do not keep the picture
+    /// coarse.
     const ViewFrame& frame(const Camera& camera, const Vec3& velocity = {}, bool rests = false);
 
     std::string path;

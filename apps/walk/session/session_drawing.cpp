@@ -1,6 +1,6 @@
 #include "session/session.h"
 
-/// What a session draws: sections, style and frame.
+/// The part of Session that decides what is drawn: sections, style and frame.
 namespace abut::viewer {
 
 namespace {

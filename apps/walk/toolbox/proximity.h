@@ -7,7 +7,7 @@
 
 namespace abut::viewer {
 
-/// What is near the person, or near the chosen part.
+/// The parts near the person, or near the chosen part.
 struct Proximity {
     bool on = true, of_chosen = false, with_list = false;
     double reach = 1;     ///< metres, of the list and of the colours

@@ -56,7 +56,7 @@ struct Tools {
         }
     }
 
-    /// What happens in each frame, before it is drawn.
+    /// Updates the tools in each frame, before it is drawn.
     void update(Session& session, double seconds);
     /// Takes a part out of this walk.
     void remove_part(Session& session, std::uint32_t part);

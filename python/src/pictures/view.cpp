@@ -45,7 +45,7 @@ py::array chunk_parts(const ViewChunk& chunk) {
     return numbers(std::move(parts));
 }
 
-/// What one frame draws, copied: the frame itself is valid until the next one.
+/// A copy of the data that one frame draws: the frame itself is valid until the next one.
 struct FrameCopy {
     std::vector<std::uint32_t> drops;
     std::vector<ChunkUpload> uploads;

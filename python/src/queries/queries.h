@@ -39,7 +39,7 @@ RecordBinder<T>& add_counters(RecordBinder<T>& record) {
 py::object contacts_of(std::vector<Contacts> contacts);
 void bind_batch(py::module_& module);
 
-/// Whether both of a pair are deformables; deformable.cpp adds their overloads.
+/// Returns whether the first and the third argument are of this type.
 template <class T>
 bool both(PyObject* first, PyObject* third) {
     return is_a<T>(first) && is_a<T>(third);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-/// Functions that take models of several kinds. They are called without pybind11's conversions, which
-/// would cost more than a short query.
+/// Functions that take models of several kinds. They are called without pybind11's conversions,
+/// which would cost more than a short query.
 namespace abut::python {
 
 /// The arguments of one call, by the numbers of the parameters.
@@ -50,8 +50,8 @@ private:
     std::array<PyObject*, kMost> values_{}; ///< borrowed
 };
 
-/// The parameters of a function: "a pose_a b pose_b * mode progress". Those after the star are given by
-/// name only; of the others the first `required` must be given.
+/// The parameters of a function: "a pose_a b pose_b * mode progress". Those after the star are
+/// given by name only; of the others the first `required` must be given.
 class Parameters {
 public:
     Parameters(const char* list, std::size_t required);
@@ -67,7 +67,8 @@ private:
 
 /// One meaning of a verb, for arguments of some types.
 struct Overload {
-    /// Whether it is meant. In: the first and the third argument; null if they are not given.
+    /// Returns whether it is meant. In: the first and the third argument; null if they are not
+    /// given.
     bool (*accepts)(PyObject* first, PyObject* third) = nullptr;
     Parameters parameters;
     py::object (*run)(const Arguments& arguments) = nullptr;

@@ -65,7 +65,7 @@ TopicsByGuid fresh_topics(const Store& store) {
     return topics;
 }
 
-/// Whether a topic says no more than the clashes do.
+/// Returns whether a topic says no more than the clashes do.
 bool is_untouched(Topic topic, const Topic& fresh) {
     topic.created = topic.modified = 0;
     topic.created_by = topic.modified_by = "";

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *kColourOfA = "DE3E30", *kColourOfB = "346ED6";
 
-/// Whether a text is a GlobalId of IFC: 128 bits in 22 characters of 6 bits each.
+/// Returns whether a text is a GlobalId of IFC: 128 bits in 22 characters of 6 bits each.
 bool is_global_id(const std::string& id) {
     return id.size() == 22 && id.front() >= '0' && id.front() <= '3' &&
            std::ranges::all_of(id, [](char c) {

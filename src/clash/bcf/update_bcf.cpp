@@ -24,7 +24,7 @@ void keep_others(const std::vector<Element>& earlier, std::vector<Element>& late
             later.push_back(element);
 }
 
-/// Whether a store has changed a topic after the file's last change.
+/// Returns whether a store has changed a topic after the file's last change.
 bool is_changed_since(const BcfTopic& earlier, const BcfTopic& later) {
     const std::optional<std::int64_t> changed = parse_bcf_time(later.modified_date);
     const std::optional<std::int64_t> before = parse_bcf_time(

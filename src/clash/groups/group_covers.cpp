@@ -15,7 +15,8 @@ namespace {
 /// A candidate for the next cover. `count` is an upper bound: counts only become smaller.
 struct CoverCandidate {
     std::uint32_t count = 0, place = 0;
-    /// Whether the other comes first: with more clashes or, of equals, with the smaller place.
+    /// Returns whether the other comes first: with more clashes or, of equals, with the smaller
+    /// place.
     friend bool operator<(const CoverCandidate& a, const CoverCandidate& b) {
         return a.count != b.count ? a.count < b.count : a.place > b.place;
     }

@@ -12,7 +12,7 @@ namespace abut {
 
 namespace {
 
-/// Whether a text must be quoted to be read back as one word.
+/// Returns whether a text must be quoted to be read back as one word.
 bool needs_quotes(std::string_view text) {
     constexpr std::array<std::string_view, 6> kKeywords{"and", "or", "not", "AND", "OR", "NOT"};
     return text.empty() ||
@@ -47,7 +47,7 @@ std::string comparison_text(const Condition& condition) {
     return text;
 }
 
-/// Whether one value of a part passes one value of a comparison.
+/// Returns whether one value of a part passes one value of a comparison.
 bool passes(Condition::Operator op, const ConditionValue& wanted, std::string_view value) {
     const auto number = wanted.number ? number_of(value) : std::nullopt;
     if (op == Condition::Operator::equal || op == Condition::Operator::differs)

@@ -36,8 +36,8 @@ constexpr std::string_view kHeader =
 constexpr std::string_view kStatusHeader = ",status,note"; // only in reports of a store
 constexpr std::string_view kGroupHeader = ",group,group_name";
 
-/// Whether a spreadsheet may take the text for a formula or a command. A leading control character
-/// suffices, because programs differ in which of them they skip.
+/// Returns whether a spreadsheet may take the text for a formula or a command. A leading control
+/// character suffices, because programs differ in which of them they skip.
 bool is_active(std::string_view text) {
     using namespace std::string_view_literals;
     // The second row holds the same characters in full width.

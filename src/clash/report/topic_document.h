@@ -19,7 +19,7 @@ Topic topic_of_document(const std::string& document);
 ///             wrong type, or a time, an id or a date that is none.
 void read_topic_fields(const nlohmann::json& object, Topic& topic);
 
-/// Whether a text is a date: YYYY-MM-DD.
+/// Returns whether a text is a date: YYYY-MM-DD.
 bool is_date(const std::string& text);
 
 } // namespace abut

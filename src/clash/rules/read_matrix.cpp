@@ -39,7 +39,7 @@ private:
             reader_.fail("groups", "must be at most " + std::to_string(kMostGroups));
         ClashMatrix::Group group;
         group.name = reader_.read_text(value, "name", where);
-        // So that the name "A / B" of a cell is that of no other two groups.
+        // This check makes sure that the name "A / B" of a cell is that of no other two groups.
         if (group.name.empty() || group.name == "*" ||
             (' ' + group.name + ' ').find(" / ") != std::string::npos)
             reader_.fail(where + ".name",

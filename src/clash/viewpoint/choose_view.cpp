@@ -24,7 +24,7 @@ double diagonal_of_box(const Box3& box) {
     return length(box.upper - box.lower);
 }
 
-/// Whether a segment meets a box, by its slabs.
+/// Returns whether a segment meets a box, by its slabs.
 bool segment_crosses(const Vec3& from, const Vec3& to, const Box3& box) {
     double enter = 0, leave = 1;
     for (int axis = 0; axis < 3; ++axis) {

@@ -31,7 +31,7 @@ void require_viewpoint_options(const ViewpointOptions& options) {
     require(options.aspect >= 0.1 && options.aspect <= 10, "aspect must be between 0.1 and 10");
 }
 
-/// What one viewpoint is about.
+/// The subject of one viewpoint.
 class Subject {
 public:
     Subject(const ClashReport& report, const ViewGeometry& geometry,

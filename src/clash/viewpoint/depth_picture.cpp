@@ -10,7 +10,7 @@ namespace {
 
 /// Depths that differ relatively by less than this count as equal.
 constexpr double kSameDepth = 1e-7;
-/// What is nearer to the eye than this fraction of a triangle's size is cut away.
+/// Triangles are cut away where they are nearer to the eye than this fraction of their size.
 constexpr double kNearest = 1e-6;
 
 } // namespace

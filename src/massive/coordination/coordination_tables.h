@@ -8,7 +8,7 @@ namespace abut {
 
 /// Creates the tables that are missing, those of jobs too. The caller holds a transaction.
 void prepare_coordination_tables(Database& database);
-/// Whether all tables exist.
+/// Returns whether all tables exist.
 /// Errors      of both functions: Error{malformed}, naming the store, if it has a foreign table of
 ///             such a name.
 bool has_coordination_tables(Database& database);

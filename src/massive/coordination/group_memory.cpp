@@ -36,7 +36,7 @@ std::vector<EarlierGroup> earlier_groups(const GroupMemory& memory) {
     return result;
 }
 
-/// What a grouping of a job's clashes makes of the memory.
+/// The changes of the memory that the grouping of a job's clashes makes.
 class MemoryUpdate {
 public:
     MemoryUpdate(GroupMemory& memory, std::int64_t job) : memory_(memory), job_(job) {}
@@ -140,8 +140,8 @@ GroupMemory group_with_memory(const GroupMemory& before, StoreClashReport& found
     return after;
 }
 
-/// Whether the report is that of the last finished job of its question, and the grouping does not
-/// have it yet.
+/// Returns whether the report is that of the last finished job of its question, and the grouping
+/// does not have it yet.
 bool is_to_be_recorded(Database& database, const StoreClashReport& found,
                        const GroupingKey& grouping) {
     if (found.job == 0 || last_grouping_job(database, grouping) >= found.job)

@@ -166,7 +166,7 @@ std::optional<GroupChange> GroupRow::change_since(std::int64_t base) const {
 
 std::vector<GroupingKey> read_groupings(Database& database) {
     std::vector<GroupingKey> result;
-    // Also those that have lost rows: read_memory reports them.
+    // Groupings that have lost rows are included: read_memory reports them.
     Statement rows(database, "SELECT question, grouping FROM clash_grouping "
                              "UNION SELECT question, grouping FROM clash_group "
                              "ORDER BY question, grouping");

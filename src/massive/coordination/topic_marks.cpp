@@ -86,8 +86,8 @@ std::uint64_t TopicMarks::change(const Topic& before, const Topic& after, std::i
                 remove_mark(database_, marks_, clash), ++marked;
             continue;
         }
-        // What a person said of a single clash is more particular, except that approval of the
-        // topic approves all of it.
+        // A mark that a person set on a single clash is more particular, except that approval of
+        // the topic approves all of it.
         if (has_mark && !is_ours && *mark != ClashStatus::approved)
             continue;
         MarkRow row;

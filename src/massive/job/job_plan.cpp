@@ -27,7 +27,7 @@ constexpr std::uint64_t kHierarchiesShare = 64;
                 "needs more memory: " + std::to_string((least >> 20) + 1) + " MiB at least");
 }
 
-/// Whether at least one pair has a part with a large mesh.
+/// Returns whether at least one pair has a part with a large mesh.
 bool needs_large(const StoredParts& parts, const std::vector<IndexPair>& pairs) {
     return !parts.large.empty() &&
            std::any_of(pairs.begin(), pairs.end(), [&](const IndexPair& pair) {

@@ -19,7 +19,7 @@
 
 namespace abut {
 
-/// Whether a store can be written to.
+/// Returns whether a store can be written to.
 bool is_writable_store(const std::string& store);
 
 /// Numbers of a question and of a finished job of it; 0: the store has none.

@@ -113,7 +113,8 @@ SELECT h.question, h.id, kind, a, b, a_name, b_name, a_type, b_type, a_file, b_f
     THEN 'new' ELSE 'active' END AS status, resolved, note
 FROM clash_history AS h LEFT JOIN clash_mark AS m USING (id))"};
 
-/// Whether the job table was made by the first version, which had no questions and no generations.
+/// Returns whether the job table was made by the first version, which had no questions and no
+/// generations.
 bool is_of_first_version(Database& database) {
     return database.number("SELECT count(*) FROM pragma_table_info('job')") > 0 &&
            database.number(

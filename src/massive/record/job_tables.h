@@ -17,14 +17,14 @@ struct StoreTable {
     std::string_view name;
     const char* sql;
 };
-/// Whether the table exists.
+/// Returns whether the table exists.
 /// Errors      Error{malformed}, naming the store, if there is a foreign table of this name.
 bool has_table(Database& database, const StoreTable& table);
 
 /// Creates the tables that are missing. Job tables of the first version are replaced by empty ones,
 /// because jobs can be run again. The marks of users stay. The caller holds a transaction.
 void prepare_job_tables(Database& database);
-/// Whether all tables exist.
+/// Returns whether all tables exist.
 /// Errors      of both functions: Error{malformed}, naming the store, if it has a foreign table of
 ///             such a name.
 bool has_job_tables(Database& database);

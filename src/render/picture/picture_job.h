@@ -20,7 +20,8 @@ struct PictureScene {
     std::vector<Mark> marks;
 };
 
-/// What the pictures of one model share: the context, its compiled shaders and its buffers.
+/// The state that the pictures of one model share: the context, its compiled shaders and its
+/// buffers.
 struct PictureStudio {
     explicit PictureStudio(std::unique_ptr<PictureModel> shown);
 

@@ -189,7 +189,7 @@ public:
         // Bounds the errors of a product below for points at a unit of distance.
         rounding_ = 0x1p-48 * sum_of_sizes(u) * sum_of_sizes(v);
     }
-    /// Whether all corners certainly lie strictly on one side.
+    /// Returns whether all corners certainly lie strictly on one side.
     [[nodiscard]] bool has_on_one_side(const Triangle& t) const {
         int over = 0, under = 0;
         for (const Vec3& p : t) {
@@ -372,7 +372,7 @@ double volume_error(const NearSurface& surface, double diagonal, double shift) {
     return in_box * (shift + gaps) + rounding * diagonal;
 }
 
-/// None if the coordinates are so large that a product is beyond the range of numbers.
+/// Returns none if the coordinates are so large that a product is beyond the range of numbers.
 std::optional<OverlapVolume> finite_volume(double volume, double error) {
     if (!std::isfinite(volume) || !std::isfinite(error))
         return std::nullopt;

@@ -28,14 +28,15 @@ struct LevelChunkRow {
     [[nodiscard]] std::uint64_t checksum() const;
 };
 
-/// The format of chunks and of the tree. Raise it with every change of their bytes, of their geometry
-/// or of the tables: levels of another format then count as outdated, and are made again.
+/// The format of chunks and of the tree. Raise it with every change of their bytes, of their
+/// geometry or of the tables: levels of another format then count as outdated, and are made again.
 inline constexpr std::uint32_t kLevelFormat = 2;
 
-/// What the levels of a store are made from: all its parts as they are now, and the format.
+/// The content that the levels of a store are made from: all its parts as they are now, and the
+/// format.
 Hash128 level_content(const std::vector<ModelRow>& models, std::uint32_t format = kLevelFormat);
 
-/// Whether both tables exist, with the definitions of this version.
+/// Returns whether both tables exist, with the definitions of this version.
 bool has_level_tables(Database& database);
 
 /// Creates the tables. Call it within a transaction.

@@ -31,8 +31,8 @@ std::string folder_of(const std::string& path) {
     return folder.empty() ? "." : folder;
 }
 
-/// Whether the model file refers to other files. Its own size and time then do not tell whether it
-/// has changed.
+/// Returns whether the model file refers to other files. Its own size and time then do not tell
+/// whether it has changed.
 bool refers_to_files(const std::string& file) {
     return lower_extension(file) == ".gltf";
 }

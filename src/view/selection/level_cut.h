@@ -22,12 +22,13 @@ struct ViewPoint {
     ViewPoint() = default;
     ViewPoint(const Camera& camera, const Vec3& origin);
 
-    /// An upper bound on the size in pixels of a ball of a small radius anywhere in the visible part
-    /// of a box. That of a box is at least that of a box inside of it.
+    /// An upper bound on the size in pixels of a ball of a small radius anywhere in the visible
+    /// part of a box. That of a box is at least that of a box inside of it.
     ///
     /// In          distance: from the eye to the box of the node.
     /// Source      At the angle t from the middle of the picture, where tan(t)^2 = x^2 + y^2, a
-    ///             length at a distance d from the eye covers at most 1 + x^2 + y^2 times the pixels
+    ///             length at a distance d from the eye covers at most 1 + x^2 + y^2 times the
+    ///             pixels
     ///             that it would cover in the middle.
     [[nodiscard]] double pixels(double radius, const LevelNode& node, double distance) const {
         return radius <= 0 ? 0
@@ -128,7 +129,7 @@ public:
     void choose(std::span<const CutEntry> cut, const IsThere& is_there);
 
     [[nodiscard]] std::span<const std::uint32_t> drawn() const { return drawn_; }
-    /// Whether something visible is not covered.
+    /// Returns whether something visible is not covered.
     [[nodiscard]] bool has_hole() const { return has_hole_; }
 
 private:

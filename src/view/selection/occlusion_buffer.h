@@ -16,8 +16,8 @@ namespace abut {
 ///
 /// It never hides what is visible. Of an occluder, the triangles that face the eye are drawn. Their
 /// image can end only at the images of edges that one of them alone has. So a cell is covered whole
-/// if its middle is covered and no such edge passes through it. Its depth is the largest that one of
-/// the triangles has in it.
+/// if its middle is covered and no such edge passes through it. Its depth is the largest that one
+/// of the triangles has in it.
 class OcclusionBuffer {
 public:
     static constexpr int kWidth = 256, kHeight = 144;
@@ -30,7 +30,7 @@ public:
     std::size_t draw(const Occluder& occluder);
     /// Ends drawing.
     void finish();
-    /// Whether the part of the box that is in the picture is certainly behind occluders.
+    /// Returns whether the part of the box that is in the picture is certainly behind occluders.
     [[nodiscard]] bool hides(const std::array<float, 3>& lower,
                              const std::array<float, 3>& upper) const;
     /// Largest number of cells that the box of an occluder can cover, roughly.

@@ -20,7 +20,7 @@ struct PieceForms {
     Stick stick;             ///< of the piece as it is
 };
 
-/// What becomes of the pieces of a surface.
+/// The decisions about the pieces of a surface.
 struct PieceChoice {
     static constexpr int kLeftOut = -1; ///< the piece is no longer than the error
     static constexpr int kRests = -2;   ///< it is left out, because another piece is near all of it

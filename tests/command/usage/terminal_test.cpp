@@ -20,7 +20,7 @@ const std::string kShown = "a\\x1b[2Jb\\u009b31mc\\u202ed\\xffe\\nf\\x7fg";
 const std::string kHostileUtf8 = "a\x1b[2Jb\u009b31mc\u202ed\nf\x7fg";
 const std::string kShownUtf8 = "a\\x1b[2Jb\\u009b31mc\\u202ed\\nf\\x7fg";
 
-/// Whether the text contains no control character except newlines, and no directional mark.
+/// Returns whether the text contains no control character except newlines, and no directional mark.
 bool is_tame(const std::string& text) {
     const bool no_c0 = std::ranges::none_of(
         text, [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f || c == 0xff; });

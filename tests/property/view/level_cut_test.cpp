@@ -30,7 +30,7 @@ public:
     CheckedCut(const LevelTree& levels, const Camera& at)
         : tree(levels), items(levels), camera(at), view(at, levels.origin) {}
 
-    /// Whether a random point of the box is certainly in the picture.
+    /// Returns whether a random point of the box is certainly in the picture.
     bool sees_point(const LevelNode& node, Random& random) const {
         Vec3 p;
         p.x = random.uniform(node.lower[0], node.upper[0]);
@@ -43,7 +43,7 @@ public:
                std::abs(dot(d, frame.up)) < frame.slope_y * ahead && ahead > camera.near &&
                ahead < camera.far;
     }
-    /// Whether all corners of the box are outside of one plane, by more than rounding.
+    /// Returns whether all corners of the box are outside of one plane, by more than rounding.
     bool is_outside(const LevelNode& node) const {
         const CameraFrame frame(camera);
         std::array<int, 6> outside{};

@@ -65,7 +65,7 @@ Mesh random_occluder(Random& random) {
     }
 }
 
-/// Whether the segment from the eye to a point meets a triangle, to rounding.
+/// Returns whether the segment from the eye to a point meets a triangle, to rounding.
 bool is_blocked(const Vec3& eye, const Vec3& point, const std::vector<Occluder>& occluders) {
     const auto at = [](const std::array<float, 3>& p) { return Vec3{p[0], p[1], p[2]}; };
     const Vec3 d = point - eye;

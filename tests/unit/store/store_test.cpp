@@ -77,8 +77,8 @@ TEST_F(StoreByHand, ThreePartsAreListed) {
 
 TEST_F(StoreByHand, QueriesOfItsPageWork) {
     import();
-    // Rows of the queries: none in the box, two types, one colour (none), two meshes, three parts of
-    // the last import, one open shell, none.
+    // Rows of the queries: none in the box, two types, one colour (none), two meshes, three parts
+    // of the last import, one open shell, none.
     EXPECT_EQ(rows_of_page_queries("store.md", store_), (std::vector<int>{0, 2, 1, 2, 3, 1, 0}));
 }
 
@@ -220,7 +220,7 @@ TEST(UniqueIds, EqualThoseOfAScene) {
     EXPECT_EQ(unique, (std::vector<std::string>{"a", "a#3", "a#2", "a#4", "b", "b#2"}));
 }
 
-/// Whether another process sees a lock on a file.
+/// Returns whether another process sees a lock on a file.
 bool is_locked_for_others(const std::string& path) {
     const pid_t child = fork();
     if (child == 0) {

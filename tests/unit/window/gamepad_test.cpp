@@ -1,4 +1,4 @@
-/// What the sticks and buttons of a gamepad ask for, without a gamepad.
+/// The wishes that sticks and buttons of a gamepad mean, without a gamepad.
 #include "apps/walk/input/gamepad.h"
 
 #include <gtest/gtest.h>
