@@ -96,6 +96,18 @@ describe('the building in 3D', () => {
     assert.ok(await page.isHidden('#detail'));
   });
 
+  test('a viewpoint that is found late does not move an eye that the user has moved', async () => {
+    await open(page);
+    await settled(page, null);
+    const moved = await page.evaluate(() => {
+      abutReport.view.showClash(7);
+      abutReport.view.orbit(0.3, 0);
+      return abutReport.view.inspect().eye;
+    });
+    await settled(page, 'clash 7');
+    assert.deepEqual((await inspect(page)).eye, moved);
+  });
+
   test('a link with only an id opens that clash', async () => {
     const clash = truth.clashes[4321];
     await open(page, `#${clash.id}`);

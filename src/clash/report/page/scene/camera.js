@@ -14,12 +14,13 @@ export class SceneCamera {
     this.radius = radius;
     this.redraw = redraw;
     this.flight = null;
+    this.expected = null; // stands for a flight whose viewpoint is still being found
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.minDistance = 0.05;
     this.controls.maxDistance = 12 * radius;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', redraw);
-    this.controls.addEventListener('start', () => { this.flight = null; });
+    this.controls.addEventListener('start', () => this.stay());
     canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
@@ -35,11 +36,27 @@ export class SceneCamera {
     return radius / Math.sin(narrow);
   }
 
+  /** Says that a flight comes; returns a ticket that holds until the user moves or another flight is expected. */
+  expectFlight() {
+    this.expected = {};
+    return this.expected;
+  }
+
+  /** Ends the flight, and the wait for one. */
+  stay() {
+    this.flight = null;
+    this.expected = null;
+  }
+
+  get flying() {
+    return this.flight !== null || this.expected !== null;
+  }
+
   /** Flies to where the ball about `middle` is seen from `direction`. */
   flyTo(middle, radius, direction, atOnce) {
+    this.stay();
     const eye = middle.clone().addScaledVector(direction, this.distanceFor(radius));
     if (atOnce || matchMedia('(prefers-reduced-motion: reduce)').matches) {
-      this.flight = null;
       this.set(eye, middle);
       return;
     }
@@ -109,7 +126,7 @@ export class SceneCamera {
   }
 
   orbit(around, over) {
-    this.flight = null;
+    this.stay();
     const offset = this.camera.position.clone().sub(this.controls.target);
     const toY = new THREE.Quaternion().setFromUnitVectors(this.up, new THREE.Vector3(0, 1, 0));
     const at = new THREE.Spherical().setFromVector3(offset.applyQuaternion(toY));
@@ -121,7 +138,7 @@ export class SceneCamera {
   }
 
   zoom(factor) {
-    this.flight = null;
+    this.stay();
     const offset = this.camera.position.clone().sub(this.controls.target).multiplyScalar(factor);
     this.set(this.controls.target.clone().add(offset), this.controls.target.clone());
   }

@@ -32,7 +32,7 @@ async function createView(host, report, text, on) {
     /** What the tests look at. */
     inspect: () => ({
       subject: view.state.subject?.key ?? null, eye: view.camera.camera.position.toArray(),
-      target: view.camera.controls.target.toArray(), flying: view.camera.flight !== null,
+      target: view.camera.controls.target.toArray(), flying: view.camera.flying,
       viewpoint: view.viewpoints.get(view.state.subject?.key) ?? null,
       drawn: view.renderer.info.render.triangles, dots: view.marks.shown.length,
       rest: view.state.rest, section: view.state.section, slice: view.state.slice,

@@ -126,6 +126,8 @@ export class BuildingView {
   /** Shows the whole building with a dot for each of these clashes. */
   showAll(clashes, { fly = true, atOnce = false } = {}) {
     const wasAll = this.state.subject === null;
+    if (!wasAll)
+      this.camera.stay();
     this.state.subject = null;
     this.state.shown = clashes;
     this.apply();
@@ -190,8 +192,9 @@ export class BuildingView {
       this.camera.flyTo(new THREE.Vector3(), diagonalOf(this.bounds) * 0.38, this.finder.usual, atOnce);
       return;
     }
+    const ticket = this.camera.expectFlight();
     const { direction } = await this.viewpointOf(subject);
-    if (this.state.subject === subject) // not another one by now
+    if (this.camera.expected === ticket) // the user has neither moved nor asked for another view
       this.camera.flyTo(subject.middle, subject.radius, direction, atOnce);
   }
 
