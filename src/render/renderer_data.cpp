@@ -130,12 +130,15 @@ void RendererData::set_sections(ShaderProgram& used) const {
 void RendererData::begin(const Camera& seen_by, const RenderStyle& drawn_in) {
     const DrawnCamera checked(seen_by);
     require_valid_style(drawn_in);
+    // If the buffers are refused, there is no picture to go on with or to read from.
+    is_open = false;
+    camera.reset();
+    targets.resize(checked.width, checked.height, drawn_in.samples);
     camera = checked;
     style = drawn_in;
     style.up = normalized_or_zero(style.up);
     has_ground_ = has_ghosts_ = false;
     chunks.reset_counts();
-    targets.resize(camera->width, camera->height, style.samples);
     targets.parts().bind();
     reset_state();
     if (reversed_)

@@ -48,6 +48,12 @@ const PictureOptions& checked(const PictureOptions& options) {
 PictureStudio::PictureStudio(std::unique_ptr<PictureModel> shown)
     : model(std::move(shown)), renderer(model->parts.size(), middle_of(model->bounds)),
       stream(*model, middle_of(model->bounds)) {}
+PictureStudio::~PictureStudio() {
+    try {
+        context.make_current();
+    } catch (const Error&) { // current on another thread, which has the objects
+    }
+}
 
 PictureJob::PictureJob(PictureStudio& studio, const PictureOptions& options)
     : model_(*studio.model), options_(checked(options)), renderer_(studio.renderer),

@@ -24,6 +24,10 @@ struct PictureScene {
 /// buffers.
 struct PictureStudio {
     explicit PictureStudio(std::unique_ptr<PictureModel> shown);
+    /// Frees the renderer's objects in its own context: another one may be current.
+    ~PictureStudio();
+    PictureStudio(const PictureStudio&) = delete;
+    PictureStudio& operator=(const PictureStudio&) = delete;
 
     std::unique_ptr<PictureModel> model;
     OffscreenContext context;
