@@ -527,9 +527,7 @@ class BroadPhaseMethod(IntEnum):
     sweep_and_prune = 3
 
 class Camera:
-    """width=1280, height=720, near=0.05, far=10000)
-
-    A perspective camera. Lengths in metres, world frame; field_of_view is the vertical angle in
+    """A perspective camera. Lengths in metres, world frame; field_of_view is the vertical angle in
     radians, width and height are pixels of the picture.
     """
     def __init__(self, eye: ArrayLike = ..., forward: ArrayLike = ..., up: ArrayLike = ..., *, field_of_view: float = ..., width: int = ..., height: int = ..., near: float = ..., far: float = ...) -> None: ...
@@ -896,10 +894,7 @@ class ClashReview:
         """list of ListedClash, resolved ones too"""
 
 class ClashRule:
-    """ignore=IgnoreRule(), tolerated_depth=None, kinds=[], severity='')
-
-    Selects pairs of parts, one side each, in either order. Lengths in metres; None: those of the query.
-    """
+    """Selects pairs of parts, one side each, in either order. Lengths in metres; None: those of the query."""
     def __init__(self, name: str = ..., a: PartSelector = ..., b: PartSelector = ..., *, clearance: float | None = ..., touch_tolerance: float | None = ..., ignore: IgnoreRule = ..., tolerated_depth: float | None = ..., kinds: Sequence[ClashKind | str] = ..., severity: str = ...) -> None: ...
     @property
     def name(self) -> str: ...
@@ -991,6 +986,18 @@ class ColourBy(IntEnum):
     part = 3
     storey = 4
     clash = 5
+
+class ColourGroup:
+    """A row of the legend of colours."""
+    @property
+    def word(self) -> str:
+        """a type, a file, a storey, a kind, or 'none'"""
+    @property
+    def colour(self) -> Colour:
+        """Colour"""
+    @property
+    def parts(self) -> int:
+        """how many"""
 
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
@@ -1332,6 +1339,19 @@ class Depth:
         """Counters"""
     def __bool__(self) -> bool: ...
 
+class DistanceColours:
+    """Colours surfaces by their distance from a part; made by distances_from. Red where it is 0, blue
+    at the reach; what is farther keeps its part's colour.
+    """
+    @property
+    def reach(self) -> float:
+        """length"""
+    @property
+    def grid(self) -> int:
+        """the distance is computed for one pixel in grid x grid and at borders of parts"""
+    def distance(self, part: int, point: ArrayLike) -> float:
+        """The distance of a point on a part's surface, at most the reach."""
+
 class ElementaryImpact:
     """Returned by elementary_impact."""
     dtype: np.dtype[Any]
@@ -1557,6 +1577,16 @@ class GraphReport:
         """array of shape (n, 2, 3): ends of some of the edges"""
     @property
     def seconds(self) -> float: ...
+
+class Ground:
+    """A horizontal plane with a grid."""
+    def __init__(self, middle: ArrayLike, reach: float = ...) -> None: ...
+    @property
+    def middle(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def reach(self) -> float:
+        """length from the middle where it has faded"""
 
 class GroupBy(IntEnum):
     """A criterion by which clashes are grouped."""
@@ -1938,6 +1968,22 @@ class ListedGroup:
     def topic(self) -> Topic:
         """Topic; None if nobody has said anything"""
 
+class Mark:
+    """A segment or, if both ends are equal, a dot, drawn over a picture."""
+    def __init__(self, a: ArrayLike, b: ArrayLike, *, colour: Colour = ..., width: float = ...) -> None: ...
+    @property
+    def a(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def b(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def colour(self) -> Colour:
+        """Colour"""
+    @property
+    def width(self) -> float:
+        """pixels; the diameter of a dot"""
+
 class Matrix:
     """The clashes of a ClashReport by groups of parts."""
     @property
@@ -2108,6 +2154,7 @@ class Motion:
 
 class NamedPart:
     """A part by its words."""
+    def __init__(self, file: str, id: str) -> None: ...
     @property
     def file(self) -> str: ...
     @property
@@ -2299,6 +2346,28 @@ class PartAim:
     def part(self) -> str:
         """id or name"""
 
+class PartColouring:
+    """The colours of a Store's parts."""
+    @property
+    def colours(self) -> list[Colour]:
+        """list of Colour, in the order of View.parts"""
+    @property
+    def groups(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n,): of each part, its row in legend"""
+    @property
+    def legend(self) -> list[ColourGroup]:
+        """list of ColourGroup, the largest first; of 'type', 'file', 'storey' and 'clash'"""
+
+class PartDistances:
+    """Colours surfaces by their exact distance from a part."""
+    def __init__(self, part: str, reach: float = ...) -> None: ...
+    @property
+    def part(self) -> str:
+        """id or name"""
+    @property
+    def reach(self) -> float:
+        """length up to which surfaces are coloured"""
+
 class PartImpact:
     """When a moving probe first meets a part."""
     dtype: np.dtype[Any]
@@ -2373,6 +2442,21 @@ class PartSelector:
     def query(self) -> PartQuery:
         """PartQuery"""
 
+class PartState:
+    """How a Renderer draws a part."""
+    def __init__(self, colour: Colour = ..., *, hidden: bool = ..., ghosted: bool = ..., highlighted: bool = ...) -> None: ...
+    @property
+    def colour(self) -> Colour:
+        """Colour; its alpha has no effect"""
+    @property
+    def hidden(self) -> bool: ...
+    @property
+    def ghosted(self) -> bool:
+        """transparent grey, whatever its colour"""
+    @property
+    def highlighted(self) -> bool:
+        """with a bright outline"""
+
 class PartsInWay:
     """Returned by Walk.parts_in_way."""
     @property
@@ -2445,6 +2529,17 @@ class PathReport:
     def clearance(self) -> PathClearance:
         """PathClearance"""
     def __bool__(self) -> bool: ...
+
+class PictureMaker:
+    """Makes several pictures of the same models: a Store, or a Scene or path, or several. The OpenGL
+    context and the list of parts are made once, which is most of the time of a small picture. Only the
+    thread that made it may use it.
+
+    Raises Error: unsupported if EGL or OpenGL 3.3 is not available; those of the files.
+    """
+    def __init__(self, models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, progress: _Progress = ...) -> None: ...
+    def make(self, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: PartDistances | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
+        """As picture, with the same result."""
 
 class PiecesContacts:
     """Returned by collide of two ConvexPieces."""
@@ -2662,6 +2757,116 @@ class RemovedModel:
     def file(self) -> str: ...
     @property
     def parts(self) -> int: ...
+
+class RenderStatistics:
+    """Work of a Renderer."""
+    @property
+    def triangles(self) -> int:
+        """of the last picture"""
+    @property
+    def draw_calls(self) -> int:
+        """of the last picture"""
+    @property
+    def chunks(self) -> int:
+        """on the graphics card now"""
+    @property
+    def bytes(self) -> int:
+        """in vertex and index buffers now"""
+    @property
+    def uploaded_bytes(self) -> int:
+        """of all pictures"""
+
+class RenderStyle:
+    """How a Renderer draws. It checks the values when it draws."""
+    def __init__(self, *, up: ArrayLike = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: Ground | None = ..., samples: int = ..., detail: float = ..., leave_out_backs: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: DistanceColours | None = ..., background_low: Colour = ..., background_high: Colour = ...) -> None: ...
+    @property
+    def up(self) -> NDArray[Any]:
+        """array of shape (3,), for the light from the sky"""
+    @property
+    def edges(self) -> bool:
+        """dark lines at silhouettes and creases"""
+    @property
+    def ambient_occlusion(self) -> bool:
+        """darker corners"""
+    @property
+    def ground(self) -> Ground | None:
+        """Ground; else None"""
+    @property
+    def samples(self) -> int:
+        """along each side of a pixel: 1, 2 or 4"""
+    @property
+    def detail(self) -> float:
+        """length, about the size of a common part: how far occlusion reaches"""
+    @property
+    def leave_out_backs(self) -> bool:
+        """whether backs of closed surfaces are left out; faster in software"""
+    @property
+    def sections(self) -> list[SectionPlane]:
+        """list of SectionPlane, at most 6"""
+    @property
+    def section_box(self) -> Box3 | None:
+        """Box3; what lies outside is cut away; else None"""
+    @property
+    def distances(self) -> DistanceColours | None:
+        """DistanceColours; else None"""
+    @property
+    def background_low(self) -> Colour:
+        """Colour"""
+    @property
+    def background_high(self) -> Colour:
+        """Colour"""
+
+class Renderer:
+    """Draws what a View chooses, into pictures in memory, with an OpenGL context of its own. Only the
+    thread that made it may use it. Give it every frame of the View in turn: each holds only the
+    chunks that are new.
+
+    parts   number of parts: len(View.parts)
+    origin  what chunks are relative to: View.origin
+
+    Raises Error: unsupported if EGL or OpenGL 3.3 is not available.
+    """
+    def __init__(self, parts: int, origin: ArrayLike = ...) -> None: ...
+    def set_state(self, part: int, state: PartState) -> None:
+        """Sets the PartState of a part. Raises Error (bad_argument)."""
+    def state(self, part: int) -> PartState:
+        """The PartState of a part. Raises Error (bad_argument)."""
+    def add_part(self, mesh: _Mesh, pose: _OnePose | ArrayLike = ..., state: PartState = ...) -> int:
+        """Draws a mesh beside the view, at most 64 at a time. Returns its number.
+        Raises Error (bad_argument) if there are 64.
+        """
+    def move_part(self, part: int, pose: _OnePose | ArrayLike) -> None:
+        """Places a part that add_part made. Raises Error (bad_argument)."""
+    def remove_part(self, part: int) -> None:
+        """Removes a part that add_part made. Raises Error (bad_argument)."""
+    @property
+    def has_ghosts(self) -> bool:
+        """whether any part is ghosted and not hidden"""
+    def picture(self, frame: ViewFrame, camera: Camera, style: RenderStyle = ..., marks: list[Mark] = ...) -> NDArray[np.uint8]:
+        """Draws a ViewFrame as a Camera sees it. Equal to begin, add, end_picture.
+
+        Returns a uint8 array of shape (height, width, 3). Raises Error: bad_argument if the camera or
+        the style is not valid, unsupported.
+        """
+    def begin(self, camera: Camera, style: RenderStyle = ...) -> None:
+        """Begins a picture that is drawn in several steps. Raises Error: as picture."""
+    def add(self, frame: ViewFrame) -> None:
+        """Adds a ViewFrame to the picture. Raises Error (bad_argument) if none was begun."""
+    def add_ghosts(self, frame: ViewFrame) -> None:
+        """Adds the ghosted parts of a ViewFrame, after all calls of add. Raises Error (bad_argument)."""
+    def end_picture(self, marks: list[Mark] = ...) -> NDArray[np.uint8]:
+        """Ends a picture. Returns a uint8 array of shape (height, width, 3). Raises Error (bad_argument)
+        if none was begun.
+        """
+    def part_at(self, x: int, y: int) -> int | None:
+        """The part that the last picture shows at a pixel, from the top left corner; None for the
+        background and for ghosts.
+        """
+    def visible_samples(self, parts: ArrayLike) -> NDArray[np.uint64]:
+        """uint64 array of shape (n,): in how many samples of the last picture each part is visible."""
+    @property
+    def statistics(self) -> RenderStatistics:
+        """RenderStatistics"""
 
 class ReportPart:
     """A part by the indices that clashes use."""
@@ -2965,6 +3170,21 @@ class Side(IntEnum):
     outside = 0
     inside = 1
     on_surface = 2
+
+class SidesAim:
+    """Two sets of parts in red and blue, as a Camera sees them; the parts
+    around them are ghosts. No other part is drawn.
+    """
+    def __init__(self, camera: Camera, sides: list[list[NamedPart]], around: list[NamedPart] = ...) -> None: ...
+    @property
+    def camera(self) -> Camera:
+        """Camera; its size is ignored"""
+    @property
+    def sides(self) -> list[list[NamedPart]]:
+        """two lists of NamedPart"""
+    @property
+    def around(self) -> list[NamedPart]:
+        """list of NamedPart"""
 
 class Sphere:
     """A closed ball."""
@@ -3939,6 +4159,19 @@ def distance(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *
 def distance(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., upper_bound: float = ..., progress: _Progress = ...) -> Any: ...
 @overload
 def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
+def distance_colour(fraction: float) -> Colour:
+    """The Colour of a fraction of the reach, in [0, 1]; for a legend."""
+def distances_from(part: int, model: Model, pose: _OnePose | ArrayLike, reach: float, *, grid: int = ...) -> DistanceColours:
+    """The DistanceColours by the exact distance from the surface of a part, which itself keeps its
+    colour.
+
+    part   its number in the renderer
+    model  Model of the part, placed by pose
+    reach  length, positive
+    grid   1: the distance is computed for every pixel
+
+    Raises Error (bad_argument).
+    """
 def duration(tour: Tour) -> float:
     """The time of the last point; 0 if none."""
 def elementary_impact(kind: ElementaryKind | str, start: ArrayLike, end: ArrayLike, *, absolute_error: float = ..., thickness: float = ...) -> ElementaryImpact:
@@ -4130,6 +4363,11 @@ def nearest(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, upper_b
     """
 @overload
 def nearest(model: Model, pose: _OnePose | ArrayLike, points: ArrayLike, *, upper_bound: float = ..., signed_distance: bool = ..., progress: _Progress = ...) -> Any: ...
+def on_screen(camera: Camera, point: ArrayLike) -> NDArray[np.float64] | None:
+    """An array of shape (3,): where a Camera sees a point, in pixels from the top left corner, and
+    the depth along the viewing direction. None if it is not in front of the camera.
+    Raises Error (bad_argument).
+    """
 def open_store(path: _Path, *, read_only: bool = ...) -> Store:
     """Opens a Store. Raises Error: file_not_found, malformed, unsupported (a newer version's), unreadable (another
     process writes it).
@@ -4176,8 +4414,17 @@ def parse_grouping(text: str) -> list[enum]:
     """Criteria of a text such as 'storey,part': a list of GroupBy."""
 def parse_model_path(text: _Path) -> ModelPath:
     """The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument)."""
+def part_colouring(store: Store, by: ColourBy | str = ...) -> PartColouring:
+    """The PartColouring of a Store's parts. Raises Error: those of the store."""
+@overload
 def part_colours(store: Store, by: ColourBy | str = ...) -> list[Colour]:
-    """The list of Colour of a Store's parts, in the order of View.parts."""
+    """The list of Colour of a Store's parts, in the order of View.parts, or of some ViewPart. Equal
+    words get equal colours in every model.
+
+    Of ViewParts, all are grey by 'storey' and 'clash'.
+    """
+@overload
+def part_colours(parts: list[ViewPart], by: ColourBy | str = ...) -> list[Colour]: ...
 def peak_resident_mib() -> float:
     """The largest resident memory of this process, or of an ended child if larger, in MiB."""
 @overload
@@ -4206,11 +4453,12 @@ def penetration(a: Convex, pose_a: _Poses, b: Convex, pose_b: _Poses, *, warm_st
 def penetration(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, separation: bool = ..., progress: _Progress = ...) -> PiecesDepth: ...
 @overload
 def penetration(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, separation: bool = ..., progress: _Progress = ...) -> Any: ...
-def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, aim: NamedView | str | Camera | PartAim | PairAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
+def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: PartDistances | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
     """Draws models at full detail, without a window.
 
     models             a Store, or a Scene or path, or several
-    aim                NamedView or its name, Camera, PartAim, PairAim, or a Clash of these models
+    aim                NamedView or its name, Camera, PartAim, PairAim, SidesAim, or a
+                       Clash of these models
     width, height      pixels, at most 8192
     colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or 'clash'
     samples            along each side of a pixel: 1, 2 or 4
@@ -4219,11 +4467,16 @@ def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, a
     ground             a grid below the model
     sections           at most 6 SectionPlane
     section_box        Box3: what lies outside is cut away
+    distances          PartDistances: surfaces are coloured by their distance from a part
     progress           function of (stage, fraction)
 
     Returns a uint8 array of shape (height, width, 3): red, green, blue, rows from the top.
     Raises Error: unsupported if EGL or OpenGL 3.3 is not available; bad_argument if no part or
     several have the id; those of the files. KeyboardInterrupt at Ctrl-C.
+    """
+def png_bytes(picture: NDArray[Any]) -> bytes:
+    """The bytes of a PNG file of an array of shape (height, width, 3), uint8. Raises Error (bad_argument)
+    if it has no pixels.
     """
 def propose_allowed_pairs(robot: Robot, *, samples: int = ..., seed: int = ..., progress: _Progress = ...) -> list[AllowedPair]:
     """Proposes the pairs of links that need no test. Returns a list of AllowedPair."""

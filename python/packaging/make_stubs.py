@@ -71,7 +71,7 @@ PARAMETERS = {
     "models": "Iterable[Scene | _ModelPath] | Scene | _ModelPath", "report": "ClashReport", "file_name": "str",
     "warm_start": "WarmStart | None", "walk": "Walk", "poses": "_Poses", "feet": "ArrayLike", "wish": "ArrayLike",
     "meshes": "Sequence[_Mesh]", "id": "str", "type": "str", "eye": "ArrayLike", "forward": "ArrayLike",
-    "towards": "ArrayLike", "velocity": "ArrayLike", "aim": "NamedView | str | Camera | PartAim | PairAim | Clash",
+    "towards": "ArrayLike", "velocity": "ArrayLike", "aim": "NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash",
     "colour_by": "ColourBy | str", "by": "ColourBy | str", "picture": "NDArray[Any]", "normal": "ArrayLike",
     "reason": "AllowReason | str", "configuration": "ArrayLike", "properties": "Properties | None",
     "relations": "Sequence[PartRelation]", "version": "BcfVersion | str",
@@ -81,6 +81,12 @@ OWN_PARAMETERS = {
     "Camera": {"up": "ArrayLike"}, "TourPoint": {"up": "ArrayLike", "name": "str"}, "look_at_box": {"up": "ArrayLike"},
     "picture": {"models": "Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath", "section_box": "Box3 | None"},
     "PairAim": {"file": "Sequence[str]", "part": "Sequence[str]", "points": "Sequence[ArrayLike] | None"},
+    "PictureMaker": {"models": "Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath"},
+    "PictureMaker.make": {"section_box": "Box3 | None"}, "NamedPart": {"id": "str", "file": "str"}, "Mark": {"a": "ArrayLike", "b": "ArrayLike"},
+    "RenderStyle": {"up": "ArrayLike", "ground": "Ground | None", "section_box": "Box3 | None", "distances": "DistanceColours | None"},
+    "on_screen": {"point": "ArrayLike"}, "DistanceColours.distance": {"point": "ArrayLike"}, "Ground": {"middle": "ArrayLike"},
+    "Renderer.add_part": {"pose": "_OnePose | ArrayLike"}, "Renderer.move_part": {"pose": "_OnePose | ArrayLike"},
+    "Renderer.visible_samples": {"parts": "ArrayLike"}, "distances_from": {"pose": "_OnePose | ArrayLike"},
     "clip_from_world": {"origin": "ArrayLike"}, "record": {"name": "str"},
     "Convex": {"vertices": "ArrayLike | _Mesh"}, "ConvexPieces": {"model": "ArrayLike | _Mesh"}, "OrientedBox": {"pose": "_OnePose | ArrayLike"},
     "check_path": {"probe": "int | Probe | Model | Convex | Sphere | Capsule | Box3", "absolute_error": "float | None"},
@@ -186,6 +192,8 @@ RETURNS = {
     "self_time_of_impact": "FeatureImpact | None", "is_free_of_self_impacts": "bool", "is_free_of_impacts": "bool",
     "self_within": "np.recarray[Any, Any]", "elementary_impacts": "np.recarray[Any, Any]", "join_crew": "Crew | None",
     "read_frame_positions": "NDArray[np.float64] | None", "Motion.between": "Any", "Motion.screw": "Any", "picture": "NDArray[np.uint8]",
+    "PictureMaker.make": "NDArray[np.uint8]", "Renderer.picture": "NDArray[np.uint8]", "Renderer.end_picture": "NDArray[np.uint8]",
+    "Renderer.visible_samples": "NDArray[np.uint64]", "on_screen": "NDArray[np.float64] | None",
     "World.penetration": "np.recarray[Any, Any]", "World.within": "np.recarray[Any, Any]",
     "World.time_of_impact": "np.recarray[Any, Any]", "read_elementary_queries": "tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]",
 }
@@ -338,8 +346,12 @@ def property_type(owner, name, attribute):
 def doc_lines(doc, name, indent=""):
     """The docstring without the signatures, which the stub has itself."""
     text = re.sub(r"^Overloaded function\.$|^(\d+\. )?%s\(.*\) -> .*$" % re.escape(name), "", doc or "", flags=re.M)
-    while re.match(r"\s*%s\(" % re.escape(name), text):  # signatures that the docstring has in its own words
-        text = re.sub(r"^\s*%s\((?:.|\n)*?\)[^\n]*(\n|$)" % re.escape(name), "", text, count=1)
+    while begun := re.match(r"\s*%s\(" % re.escape(name), text):  # signatures that the docstring has in its own words
+        depth, end = 1, begun.end()
+        while depth and end < len(text):
+            depth += (text[end] == "(") - (text[end] == ")")
+            end += 1
+        text = text[end:].partition("\n")[2]
     lines = [indent + line if line else "" for line in re.sub(r"\n{3,}", "\n\n", text.strip()).split("\n")]
     if lines == [""]:
         return []

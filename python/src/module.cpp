@@ -48,6 +48,7 @@ PYBIND11_MODULE(_abut, module) {
     bind_camera(module);
     bind_tour(module);
     bind_view(module);
+    bind_renderer(module);
     bind_picture(module);
     bind_robot_description(module);
     bind_robot(module);

@@ -44,6 +44,7 @@ void bind_levels(py::module_& module);
 void bind_camera(py::module_& module);
 void bind_tour(py::module_& module);
 void bind_view(py::module_& module);
+void bind_renderer(py::module_& module);
 void bind_picture(py::module_& module);
 void bind_robot_description(py::module_& module);
 void bind_robot(py::module_& module);

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
@@ -121,6 +122,190 @@ def test_chunks_have_the_geometry(tmp_path):
         uploads = view.frame(abut.look_at_box(view.bounds, (0, 1, 0), (0, 0, 1))).uploads
     chunk = next(iter(uploads.values()))
     assert chunk.vertices.shape[1] == 3 and chunk.faces.max() < len(chunk.vertices) == len(chunk.parts)
+
+
+def graphics(make):
+    """What `make` returns; the test is skipped where there is no OpenGL."""
+    try:
+        return make()
+    except abut.Error as error:
+        if error.code is abut.ErrorCode.unsupported:
+            pytest.skip(str(error))
+        raise
+
+
+def test_several_pictures_of_one_model():
+    scene = two_boxes()
+    first, second = (graphics(lambda: abut.PictureMaker(scene)) for _ in range(2))
+    wanted = drawn(scene, "front")
+    assert (first.make("front", width=160, height=120) == wanted).all()
+    del second  # its objects are freed in its own context
+    assert (first.make("front", width=160, height=120) == wanted).all()
+    assert (first.make("top", width=160, height=120) != wanted).any()
+    with pytest.raises(abut.Error):
+        first.make(abut.PartAim("missing"))
+    with pytest.raises(abut.Error):
+        first.make(width=0)
+
+
+def test_two_sides_and_colours_by_distance():
+    scene = two_boxes()
+    camera = abut.look_at_box(abut.Box3((0, 0, 0), (2, 1, 1)), (0, 1, -0.5), (0, 0, 1))
+    tank, pipe = abut.NamedPart("two.glb", "tank"), abut.NamedPart("two.glb", "pipe")
+    both = drawn(scene, abut.SidesAim(camera, [[tank], [pipe]]), ground=False)
+    ghost = drawn(scene, abut.SidesAim(camera, [[tank], []], [pipe]), ground=False)
+    alone = drawn(scene, abut.SidesAim(camera, [[tank], []]), ground=False)
+    assert (both != ghost).any() and (ghost != alone).any()
+    with pytest.raises(abut.Error):
+        drawn(scene, abut.SidesAim(camera, [[abut.NamedPart("two.glb", "missing")], []]))
+    plain = drawn(scene, camera)
+    near = drawn(scene, camera, distances=abut.PartDistances("tank", 0.1))
+    assert (plain != near).any()
+    with pytest.raises(abut.Error):
+        drawn(scene, camera, distances=abut.PartDistances("tank", float("nan")))
+
+
+def test_png_in_memory(tmp_path):
+    pixels = np.arange(4 * 6 * 3, dtype=np.uint8).reshape(4, 6, 3)
+    abut.write_png(pixels, tmp_path / "a.png")
+    assert abut.png_bytes(pixels) == (tmp_path / "a.png").read_bytes()
+    assert abut.png_bytes(np.asfortranarray(pixels)) == abut.png_bytes(pixels)
+    with pytest.raises(abut.Error):
+        abut.png_bytes(pixels[:0])
+    with pytest.raises(ValueError):
+        abut.png_bytes(pixels.astype(float))
+
+
+def store_of(folder):
+    abut.write_glb(two_boxes(), folder / "two.glb")
+    abut.import_models([folder / "two.glb"], folder / "two.abut")
+    abut.build_levels(folder / "two.abut")
+    return abut.open_store(folder / "two.abut")
+
+
+def test_legend_of_colours(tmp_path):
+    with store_of(tmp_path) as store:
+        view = abut.View(store, background=False)
+        colouring = abut.part_colouring(store, "type")
+        parts = [view.part(i) for i in range(2)]
+        assert colouring.groups.dtype == np.uint32 and {row.word for row in colouring.legend} == {"IfcTank", "IfcPipe"}
+        for part, group, colour in zip(parts, colouring.groups, colouring.colours):
+            assert colouring.legend[group].word == part.type and colouring.legend[group].colour == colour
+        assert abut.part_colours(parts, "type") == colouring.colours == abut.part_colours(store, "type")
+        assert abut.part_colouring(store, "material").legend == []
+        assert abut.part_colours([], "type") == []
+    with pytest.raises(ValueError):
+        abut.part_colouring(store)
+
+
+def test_renderer(tmp_path):
+    with store_of(tmp_path) as store:
+        view = abut.View(store, background=False)
+    camera = abut.look_at_box(view.bounds, (0, 1, 0), (0, 0, 1), abut.Camera(width=80, height=60))
+    renderer, other = (graphics(lambda: abut.Renderer(len(view.parts), view.origin)) for _ in range(2))
+    frame = view.frame(camera)
+    pixels = renderer.picture(frame, camera)
+    assert pixels.shape == (60, 80, 3) and pixels.dtype == np.uint8
+    assert renderer.statistics.triangles == 24 and renderer.statistics.chunks == len(frame.uploads)
+    empty = other.picture(abut.View(store_of_nothing(tmp_path), background=False).frame(camera), camera)
+    assert (empty != pixels).any()  # contexts do not mix
+    del other
+    drawn_part = renderer.part_at(40, 30)
+    assert drawn_part in (0, 1) and renderer.part_at(0, 0) is None and renderer.part_at(80, 0) is None
+    samples = renderer.visible_samples([0, 1, 7])
+    assert samples.dtype == np.uint64 and samples[:2].all() and samples[2] == 0
+    again = view.frame(camera)  # the chunks are there already
+    assert len(again.uploads) == 0 and (renderer.picture(again, camera) == pixels).all()
+    renderer.begin(camera)
+    renderer.add(again)
+    assert (renderer.end_picture() == pixels).all()
+    hidden = abut.PartState(hidden=True)
+    for part in (0, 1):
+        renderer.set_state(part, hidden)
+    assert renderer.state(1) == hidden and (renderer.picture(again, camera) == empty).all()
+    renderer.set_state(0, abut.PartState(ghosted=True))
+    assert renderer.has_ghosts and (renderer.picture(again, camera) != empty).any()
+
+
+def store_of_nothing(folder):
+    abut.write_glb(abut.Scene([abut.Mesh([[900, 900, 900], [901, 900, 900], [900, 901, 900]], [[0, 1, 2]])], [abut.Part("far", 0)]),
+                   folder / "far.glb")
+    abut.import_models([folder / "far.glb"], folder / "far.abut")
+    abut.build_levels(folder / "far.abut")
+    return abut.open_store(folder / "far.abut")
+
+
+def test_renderer_draws_what_is_added(tmp_path):
+    with store_of_nothing(tmp_path) as store:
+        view = abut.View(store, background=False)
+    camera = abut.Camera((0, -4, 0), width=80, height=60)
+    renderer = graphics(lambda: abut.Renderer(len(view.parts), view.origin))
+    frame = view.frame(camera)
+    empty = renderer.picture(frame, camera)
+    number = renderer.add_part(abut.Mesh(*box()), None, abut.PartState(abut.Colour(255, 0, 0)))
+    assert (renderer.picture(frame, camera) != empty).any() and renderer.part_at(45, 25) == number
+    near = abut.RenderStyle(distances=abut.distances_from(number + 1, abut.Model(*box()), None, 2.0, grid=1))
+    assert (renderer.picture(frame, camera, near) != renderer.picture(frame, camera)).any()
+    renderer.move_part(number, ((50, 0, 0), (1, 0, 0, 0)))
+    assert (renderer.picture(frame, camera) == empty).all()
+    assert (renderer.picture(frame, camera, marks=[abut.Mark((0, 0, 0), (1, 0, 0), width=4)]) != empty).any()
+    style = abut.RenderStyle(samples=2, edges=False, ambient_occlusion=False, background_low=abut.Colour(0, 0, 0),
+                             background_high=abut.Colour(0, 0, 0), ground=abut.Ground((0, 0, -1), 50), leave_out_backs=True)
+    assert (renderer.picture(frame, camera, style) != empty).any()
+    renderer.remove_part(number)
+    for use in (lambda: renderer.move_part(number, None), lambda: renderer.remove_part(number), lambda: renderer.set_state(10**6, abut.PartState()),
+                lambda: renderer.picture(frame, abut.Camera(forward=(0, 0, 0))), lambda: renderer.picture(frame, camera, abut.RenderStyle(samples=3)),
+                lambda: renderer.picture(frame, camera, abut.RenderStyle(up=(0, 0, float("nan"))))):
+        with pytest.raises(abut.Error):
+            use()
+    with pytest.raises(abut.Error):  # larger than any buffer
+        renderer.begin(abut.Camera(width=1 << 20, height=8))
+    assert renderer.part_at(1, 1) is None
+    for use in (lambda: renderer.add(frame), renderer.end_picture):
+        with pytest.raises(abut.Error):  # nothing was begun
+            use()
+    with pytest.raises(TypeError):
+        abut.Renderer(-1)
+
+
+def test_a_renderer_belongs_to_its_thread():
+    renderer, maker = graphics(lambda: abut.Renderer(1)), graphics(lambda: abut.PictureMaker(two_boxes()))
+    found = []
+
+    def use():
+        for call in (lambda: renderer.state(0), maker.make):
+            try:
+                call()
+            except RuntimeError as error:
+                found.append(str(error))
+
+    thread = threading.Thread(target=use)
+    thread.start()
+    thread.join()
+    assert len(found) == 2 and all("thread" in text for text in found)
+    kept = []
+    thread = threading.Thread(target=lambda: kept.append(abut.Renderer(1)))
+    thread.start()
+    thread.join()
+    with pytest.raises(RuntimeError):
+        kept[0].state(0)
+    kept.clear()  # another thread's
+    assert renderer.state(0) == abut.PartState()
+
+
+def test_on_screen_and_distances():
+    camera = abut.Camera((0, -4, 0), width=80, height=60)
+    assert np.allclose(abut.on_screen(camera, (0, 0, 0)), (40, 30, 4))
+    assert abut.on_screen(camera, (0, -9, 0)) is None
+    with pytest.raises(abut.Error):
+        abut.on_screen(abut.Camera(forward=(0, 0, 0)), (0, 0, 0))
+    colours = abut.distances_from(3, abut.Model(*box()), ((1, 0, 0), (1, 0, 0, 0)), 5)
+    assert colours.distance(0, (-1, 0.5, 0.5)) == pytest.approx(1.5) and colours.distance(3, (-1, 0, 0)) == colours.reach == 5
+    assert abut.distance_colour(0).red > 200 and abut.distance_colour(1).blue > 200
+    assert abut.distance_colour(float("nan")) == abut.distance_colour(9)
+    for reach in (0, -1, float("nan")):
+        with pytest.raises(abut.Error):
+            abut.distances_from(0, abut.Model(*box()), None, reach)
 
 
 def test_importing_needs_no_graphics():

@@ -1,6 +1,7 @@
 #include <abut/view.h>
 
 #include "module.h"
+#include "pictures/frames.h"
 #include "stores/open_store.h"
 #include "support/arrays.h"
 #include "support/enums.h"
@@ -44,16 +45,6 @@ py::array chunk_parts(const ViewChunk& chunk) {
         parts.push_back(vertex.part);
     return numbers(std::move(parts));
 }
-
-/// A copy of the data that one frame draws: the frame itself is valid until the next one.
-struct FrameCopy {
-    std::vector<std::uint32_t> drops;
-    std::vector<ChunkUpload> uploads;
-    std::vector<ChunkDraw> draws;
-    std::vector<ChunkInstance> instances;
-    bool complete = false, loaded = false;
-    double pixel_error = 0;
-};
 
 FrameCopy copy_of(const ViewFrame& frame) {
     return {{frame.drops.begin(), frame.drops.end()},

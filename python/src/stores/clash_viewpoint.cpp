@@ -39,10 +39,15 @@ void bind_viewpoint_records(py::module_& module) {
         .field("model", &ReportPart::model, "")
         .field("part", &ReportPart::part, "")
         .done();
-    PlainBinder<NamedPart>(module, "NamedPart", "A part by its words.")
+    PlainBinder<NamedPart>(module, "NamedPart", "NamedPart(file, id)\n\nA part by its words.")
         .field("file", &NamedPart::file, "")
         .field("id", &NamedPart::id, "")
-        .done();
+        .done()
+        .def(py::init([](const std::string& file, const std::string& id) {
+                 return NamedPart{file, id};
+             }),
+             py::arg("file"), py::arg("id"))
+        .def("__eq__", [](const NamedPart& a, const NamedPart& b) { return a == b; });
     PlainBinder<ClashViewpoint>(module, "ClashViewpoint",
                                 "A camera that shows one clash or several. Lengths in metres.")
         .field("eye", &ClashViewpoint::eye, "")
