@@ -65,17 +65,17 @@ inline constexpr std::array kColourings{ColourBy::material, ColourBy::type,   Co
 const char* to_string(ColourBy by);
 
 /// Returns the colours of parts. Equal words get equal colours, in every model. By `storey` and by
-/// `clash`, all are grey: a ViewPart does not state them.
+/// `clash`, all are grey: a ViewPart does not state them. The functions below know them.
 std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by);
 
-/// The colours of a store's parts, with a legend.
+/// The colours of all parts of a store or of models, with a legend.
 struct PartColouring {
     struct Group {
         std::string word; ///< a type, a file, a storey, a kind of clash, or "none"
         Colour colour;
         std::uint64_t parts = 0;
     };
-    std::vector<Colour> colours;       ///< in the order of View::parts()
+    std::vector<Colour> colours;       ///< in the order of View::parts(), or model by model
     std::vector<std::uint32_t> groups; ///< of each part, its index in `legend`
     /// By `type`, `file`, `storey` and `clash`, the largest group first; otherwise empty.
     std::vector<Group> legend;
@@ -84,6 +84,11 @@ struct PartColouring {
 PartColouring part_colouring(const Store& store, ColourBy by);
 /// The colours alone.
 std::vector<Colour> part_colours(const Store& store, ColourBy by);
+/// As above, of models in memory.
+///
+/// Errors      Error{bad_argument} for `clash`: only a store keeps clashes.
+PartColouring part_colouring(const std::vector<Scene>& models, ColourBy by);
+std::vector<Colour> part_colours(const std::vector<Scene>& models, ColourBy by);
 
 /// Surfaces are coloured by their exact distance from a part, up to `reach`; see DistanceColours.
 struct PartDistances {
@@ -99,7 +104,7 @@ struct PictureOptions {
     ColourBy colour_by = ColourBy::material;
     std::uint32_t samples = 2; ///< along each side of a pixel: 1, 2 or 4
     bool edges = true, ambient_occlusion = true, ground = true;
-    std::vector<SectionPlane> sections; ///< at most 6
+    std::vector<SectionPlane> sections; ///< at most 6: kMostSections, less one that opens a part
     std::optional<Box3> section_box;
     std::optional<PartDistances> distances;
     Progress progress{};
@@ -108,10 +113,11 @@ struct PictureOptions {
 /// Draws parts at full detail. Models whose axes differ from the first model's are turned.
 ///
 /// Errors      Error{unsupported} if EGL or OpenGL 3.3 is not available; Error{bad_argument} if the
-///             options are not valid, or no part or several have the given id; Error{interrupted}.
+///             options are not valid, no part or several have the given id, or the colours are by
+///             clash; Error{interrupted}.
 /// Cost        memory for the geometry of a few thousand parts at a time, beside the models.
 Picture picture(const std::vector<Scene>& models, const PictureOptions& options = {});
-/// As above, of a store. Reads only the parts that the camera may see.
+/// As above, of a store. Reads only the parts that the camera may see. Knows colours by clash.
 ///
 /// Errors      as above; those of the store.
 Picture picture(const Store& store, const PictureOptions& options = {});

@@ -59,6 +59,9 @@ struct SectionPlane {
     double offset = 0;
 };
 
+/// Section planes of a picture, beside its section box.
+inline constexpr std::size_t kMostSections = 7;
+
 /// A segment or, if both ends are equal, a dot, drawn over the picture. What geometry hides of it
 /// is drawn fainter.
 struct Mark {
@@ -108,7 +111,7 @@ struct RenderStyle {
     /// what another part penetrates may then look different. Faster in software. No effect where a
     /// section opens the inside.
     bool leave_out_backs = false;
-    std::vector<SectionPlane> sections; ///< at most 6
+    std::vector<SectionPlane> sections; ///< at most kMostSections
     std::optional<Box3> section_box;    ///< what lies outside is cut away
     std::optional<DistanceColours> distances;
     Colour background_low{236, 239, 242}, background_high{171, 189, 208};

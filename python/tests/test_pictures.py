@@ -96,6 +96,9 @@ def test_a_store_and_its_view(tmp_path):
     with abut.open_store(tmp_path / "two.abut") as store:
         colours = abut.part_colours(store, "type")
         assert len(colours) == 2 and colours[0] != colours[1]
+        assert abut.part_colours([two_boxes()], "type") == colours
+        with pytest.raises(abut.Error):
+            abut.part_colours([two_boxes()], "clash")
         view = abut.View(store, background=False)
         camera = abut.look_at_box(view.bounds, (0, 1, 0), (0, 0, 1))
         view.frame(camera)

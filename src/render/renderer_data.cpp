@@ -31,8 +31,8 @@ void require_valid_style(const RenderStyle& style) {
     const auto fail = [](const char* message) { throw Error(ErrorCode::bad_argument, message); };
     if (style.samples != 1 && style.samples != 2 && style.samples != 4)
         fail("a picture has 1, 2 or 4 samples along a side of a pixel");
-    if (style.sections.size() > 6)
-        fail("a picture has at most 6 section planes");
+    if (style.sections.size() > kMostSections)
+        fail("a picture has at most 7 section planes and a section box");
     if (!is_finite(style.up) || length_sq(style.up) == 0 || !(style.detail > 0))
         fail("the style of a picture needs an up direction and a positive detail");
     if (style.distances && (!style.distances->distance || !(style.distances->reach > 0)))

@@ -113,8 +113,10 @@ void bind_colouring(py::module_& module) {
         .field("colour", &PartColouring::Group::colour, "Colour")
         .field("parts", &PartColouring::Group::parts, "how many")
         .done();
-    PlainBinder<PartColouring>(module, "PartColouring", "The colours of a Store's parts.")
-        .field("colours", &PartColouring::colours, "list of Colour, in the order of View.parts")
+    PlainBinder<PartColouring>(module, "PartColouring",
+                               "The colours of the parts of a Store or of models.")
+        .field("colours", &PartColouring::colours,
+               "list of Colour, in the order of View.parts or of models")
         .property(
             "groups", [](const PartColouring& self) { return numbers(self.groups); },
             "uint32 array of shape (n,): of each part, its row in legend")
@@ -129,7 +131,16 @@ void bind_colouring(py::module_& module) {
             return part_colouring(opened, by);
         },
         py::arg("store"), py::arg("by") = "material",
-        "The PartColouring of a Store's parts. Raises Error: those of the store.");
+        "The PartColouring of the parts of a Store, or of models, model by model. Raises Error: "
+        "those of the\nstore; bad_argument for models by 'clash'.");
+    module.def(
+        "part_colouring",
+        [](const py::object& models, ColourBy by) {
+            const std::vector<Scene> scenes = to_scenes(models, py::none());
+            const py::gil_scoped_release unlocked;
+            return part_colouring(scenes, by);
+        },
+        py::arg("models"), py::arg("by") = "material", "Of a Scene or path, or several.");
     module.def(
         "part_colours",
         [](const OpenStore& store, ColourBy by) {
@@ -145,6 +156,15 @@ void bind_colouring(py::module_& module) {
         [](const std::vector<ViewPart>& parts, ColourBy by) { return part_colours(parts, by); },
         py::arg("parts"), py::arg("by") = "material",
         "Of ViewParts, all are grey by 'storey' and 'clash'.");
+    module.def(
+        "part_colours",
+        [](const py::object& models, ColourBy by) {
+            const std::vector<Scene> scenes = to_scenes(models, py::none());
+            const py::gil_scoped_release unlocked;
+            return part_colours(scenes, by);
+        },
+        py::arg("models"), py::arg("by") = "material",
+        "Of a Scene or path, or several. Raises Error (bad_argument) by 'clash'.");
 }
 
 /// Models that pictures are made of: a store, or scenes.
@@ -243,7 +263,8 @@ void bind_picture(py::module_& module) {
         "aim                NamedView or its name, Camera, PartAim, PairAim, SidesAim, or a\n"
         "                   Clash of these models\n"
         "width, height      pixels, at most 8192\n"
-        "colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or 'clash'\n"
+        "colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or, of a Store, "
+        "'clash'\n"
         "samples            along each side of a pixel: 1, 2 or 4\n"
         "edges              dark lines at silhouettes and creases\n"
         "ambient_occlusion  darker corners\n"

@@ -136,7 +136,7 @@ void bind_style(py::module_& module) {
                "length, about the size of a common part: how far occlusion reaches")
         .field("leave_out_backs", &RenderStyle::leave_out_backs,
                "whether backs of closed surfaces are left out; faster in software")
-        .field("sections", &RenderStyle::sections, "list of SectionPlane, at most 6")
+        .field("sections", &RenderStyle::sections, "list of SectionPlane, at most 7")
         .field("section_box", &RenderStyle::section_box,
                "Box3; what lies outside is cut away; else None")
         .field("distances", &RenderStyle::distances, "DistanceColours; else None")

@@ -1,4 +1,5 @@
 #include <abut/clash_review.h>
+#include <abut/error.h>
 #include <abut/picture.h>
 #include <abut/properties.h>
 
@@ -90,13 +91,18 @@ constexpr ClashColour kClashColours[]{{ClashKind::hard, {214, 50, 40}},
                                       {ClashKind::duplicate, {82, 84, 196}},
                                       {ClashKind::touch, {236, 146, 40}},
                                       {ClashKind::clearance, {236, 208, 72}}};
-constexpr Colour kNone{206, 210, 214}; ///< of a part without a clash or a storey
+constexpr Colour kNone{206, 210, 214};         ///< of a part without a clash or a storey
+constexpr std::string_view kStorey = "storey"; ///< the property
 
 /// The word that gives a part its colour.
 struct ColourWord {
     std::string word;
     Colour colour;
 };
+
+ColourWord word_of_storey(std::string_view storey) {
+    return {std::string(storey), storey.empty() ? kNone : hashed_colour(storey)};
+}
 
 ColourWord word_of(const ViewPart& part, ColourBy by) {
     switch (by) {
@@ -147,15 +153,14 @@ void take_storeys(StoreFile& file, std::vector<FoundWord>& found) {
     parts.reserve(found.size());
     for (const FoundWord& each : found)
         parts.push_back(each.part);
-    const std::array<std::string, 1> names{"storey"};
+    const std::array<std::string, 1> names{std::string(kStorey)};
     const Properties properties = file.properties(parts, names);
     for (std::uint32_t i = 0; i < found.size(); ++i)
-        if (const std::string_view storey = properties.value(i, names[0]); !storey.empty())
-            found[i].word = {std::string(storey), hashed_colour(storey)};
+        found[i].word = word_of_storey(properties.value(i, kStorey));
 }
 
 /// The words of all parts, in the order of their rows.
-std::vector<FoundWord> words_of(const Store& store, ColourBy by) {
+std::vector<ColourWord> words_of(const Store& store, ColourBy by) {
     const auto worst = by == ColourBy::clash ? worst_clashes(store)
                                              : std::unordered_map<std::string, std::size_t>();
     std::vector<FoundWord> found;
@@ -172,7 +177,28 @@ std::vector<FoundWord> words_of(const Store& store, ColourBy by) {
     std::ranges::sort(found, {}, &FoundWord::part);
     if (by == ColourBy::storey)
         take_storeys(file, found);
-    return found;
+    std::vector<ColourWord> words;
+    words.reserve(found.size());
+    for (FoundWord& each : found)
+        words.push_back(std::move(each.word));
+    return words;
+}
+
+/// The words of all parts, model by model.
+std::vector<ColourWord> words_of(const std::vector<Scene>& models, ColourBy by) {
+    if (by == ColourBy::clash)
+        throw Error(ErrorCode::bad_argument,
+                    "colours by clash need a store, with the clashes of its last jobs");
+    std::vector<ColourWord> words;
+    for (const Scene& scene : models)
+        for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+            const Part& part = scene.parts[i];
+            words.push_back(
+                by == ColourBy::storey
+                    ? word_of_storey(scene.properties.value(i, kStorey))
+                    : word_of({0, scene.file, part.id, part.name, part.type, {}, part.colour}, by));
+        }
+    return words;
 }
 
 /// Sorts the groups by their size, and renumbers those of the parts.
@@ -189,6 +215,27 @@ void sort_legend(PartColouring& colouring) {
     colouring.legend = std::move(sorted);
     for (std::uint32_t& group : colouring.groups)
         group = place[group];
+}
+
+PartColouring colouring_of(const std::vector<ColourWord>& words, ColourBy by) {
+    PartColouring colouring;
+    colouring.colours.reserve(words.size());
+    for (const ColourWord& each : words)
+        colouring.colours.push_back(each.colour);
+    if (by == ColourBy::material || by == ColourBy::part)
+        return colouring;
+    std::unordered_map<std::string, std::uint32_t> numbers;
+    for (const ColourWord& each : words) {
+        const std::string word = each.word.empty() ? "none" : each.word;
+        const auto next = static_cast<std::uint32_t>(colouring.legend.size());
+        const auto [at, is_new] = numbers.try_emplace(word, next);
+        if (is_new)
+            colouring.legend.push_back({word, each.colour, 0});
+        ++colouring.legend[at->second].parts;
+        colouring.groups.push_back(at->second);
+    }
+    sort_legend(colouring);
+    return colouring;
 }
 
 } // namespace
@@ -219,25 +266,15 @@ std::vector<Colour> part_colours(std::span<const ViewPart> parts, ColourBy by) {
 }
 
 PartColouring part_colouring(const Store& store, ColourBy by) {
-    const std::vector<FoundWord> found = words_of(store, by);
-    PartColouring colouring;
-    colouring.colours.reserve(found.size());
-    for (const FoundWord& each : found)
-        colouring.colours.push_back(each.word.colour);
-    if (by == ColourBy::material || by == ColourBy::part)
-        return colouring;
-    std::unordered_map<std::string, std::uint32_t> numbers;
-    for (const FoundWord& each : found) {
-        const std::string word = each.word.word.empty() ? "none" : each.word.word;
-        const auto next = static_cast<std::uint32_t>(colouring.legend.size());
-        const auto [at, is_new] = numbers.try_emplace(word, next);
-        if (is_new)
-            colouring.legend.push_back({word, each.word.colour, 0});
-        ++colouring.legend[at->second].parts;
-        colouring.groups.push_back(at->second);
-    }
-    sort_legend(colouring);
-    return colouring;
+    return colouring_of(words_of(store, by), by);
+}
+
+PartColouring part_colouring(const std::vector<Scene>& models, ColourBy by) {
+    return colouring_of(words_of(models, by), by);
+}
+
+std::vector<Colour> part_colours(const std::vector<Scene>& models, ColourBy by) {
+    return part_colouring(models, by).colours;
 }
 
 std::vector<Colour> part_colours(const Store& store, ColourBy by) {

@@ -40,6 +40,8 @@ const PictureOptions& checked(const PictureOptions& options) {
     if (options.width < 1 || options.height < 1 || options.width > kMostPixels ||
         options.height > kMostPixels)
         throw Error(ErrorCode::bad_argument, "a picture has 1 to 8192 pixels a side");
+    if (options.sections.size() >= kMostSections)
+        throw Error(ErrorCode::bad_argument, "a picture has at most 6 section planes");
     return options;
 }
 

@@ -23,7 +23,7 @@ void take_bounds(PictureModel& model) {
 
 class ScenesModel : public PictureModel {
 public:
-    explicit ScenesModel(const std::vector<Scene>& models) {
+    explicit ScenesModel(const std::vector<Scene>& models) : models_(models) {
         if (!models.empty())
             up = models.front().up;
         for (const Scene& scene : models)
@@ -31,8 +31,10 @@ public:
         take_bounds(*this);
     }
     [[nodiscard]] std::shared_ptr<const Mesh> mesh(std::int64_t number) const override {
-        // The caller's models live longer than their picture takes.
         return {std::shared_ptr<const Mesh>(), meshes_[static_cast<std::size_t>(number)]};
+    }
+    [[nodiscard]] std::vector<Colour> colours(ColourBy by) const override {
+        return part_colours(models_, by);
     }
 
 private:
@@ -55,6 +57,7 @@ private:
         }
     }
 
+    const std::vector<Scene>& models_; ///< which live longer than their picture takes
     std::vector<const Mesh*> meshes_;
 };
 
@@ -91,14 +94,6 @@ private:
 };
 
 } // namespace
-
-std::vector<Colour> PictureModel::colours(ColourBy by) const {
-    std::vector<ViewPart> views;
-    views.reserve(parts.size());
-    for (const PicturePart& part : parts)
-        views.push_back(part.view);
-    return part_colours(views, by);
-}
 
 std::unique_ptr<PictureModel> picture_model(const std::vector<Scene>& models) {
     return std::make_unique<ScenesModel>(models);

@@ -22,7 +22,7 @@ public:
     /// Returns a mesh. May be called from any thread.
     [[nodiscard]] virtual std::shared_ptr<const Mesh> mesh(std::int64_t number) const = 0;
     /// The colours of `parts`.
-    [[nodiscard]] virtual std::vector<Colour> colours(ColourBy by) const;
+    [[nodiscard]] virtual std::vector<Colour> colours(ColourBy by) const = 0;
 
     std::vector<PicturePart> parts;
     Box3 bounds; ///< of all parts, world

@@ -88,7 +88,7 @@ in vec3 v_normal;
 in vec3 v_world;
 #endif
 #ifdef SECTION
-uniform vec4 u_planes[12];
+uniform vec4 u_planes[13]; // kMostSections, and six of a section box
 uniform int u_plane_count;
 #endif
 #ifdef GHOSTS

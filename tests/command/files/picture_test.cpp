@@ -4,6 +4,7 @@
 
 #include <array>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace abut::test {
 namespace {
@@ -78,6 +79,32 @@ TEST_F(PictureCommand, ShowsEachKindOfClash) {
     EXPECT_EQ(draw({"--eye", "0,9,0", "--look", "0,0,0", "--size", "160x100"}).status, 0);
 }
 
+TEST_F(PictureCommand, ColoursByWhatModelsState) {
+    Scene scene = one_of_each_kind();
+    PropertiesBuilder properties;
+    for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+        properties.add("storey", "Level " + std::to_string(i));
+        properties.next_part();
+    }
+    scene.properties = properties.finish(scene.parts.size());
+    write_glb(scene, model_);
+    const std::string store = folder_ / "site.abut";
+    ASSERT_EQ(run_abut({"import", model_, store, "--quiet"}).status, 0);
+    std::set<std::string> pictures;
+    for (const std::string by : {"material", "storey", "type", "file", "part"}) {
+        const Outcome outcome = draw({"--color-by", by, "--size", "160x100"});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        const std::string of_models = read_file(out_);
+        pictures.insert(of_models);
+        EXPECT_EQ(run_abut({"picture", store, "--color-by", by, "--size", "160x100", "--out", out_,
+                            "--quiet"})
+                      .status,
+                  0);
+        EXPECT_EQ(read_file(out_), of_models) << by;
+    }
+    EXPECT_GE(pictures.size(), 3U); // materials may be as types, and one file as one type
+}
+
 TEST_F(PictureCommand, RefusesBadInput) {
     expect_refused(draw({"--size", "0x5"}), {"--size", "WIDTHxHEIGHT"});
     expect_refused(draw({"--size", "100"}), {"--size"});
@@ -90,6 +117,7 @@ TEST_F(PictureCommand, RefusesBadInput) {
     expect_refused(draw({"--clash", "0123456789abcdef"}), {"no clash"});
     expect_refused(draw({"--section-box", "1,2,3"}), {"--section-box"});
     expect_refused(draw({"--part", "a", "--view", "top"}), {"--view"});
+    expect_refused(draw({"--color-by", "clash"}), {"clash", "store"});
     expect_refused(run_abut({"picture", model_, "--out", folder_ / "a.jpg"}), {"FILE.png"});
     expect_refused(run_abut({"picture", folder_ / "none.glb", "--out", out_}), {"none.glb"});
 }

@@ -126,6 +126,32 @@ TEST_F(PictureTest, ShowsABoxWhereRaysMeetIt) {
     EXPECT_EQ(wrong, 0U);
 }
 
+TEST_F(PictureTest, OfModelsInMemoryHasTheColoursOfStoreys) {
+    Scene scene = scene_of({box_mesh({-3, 0, -1}, {-1, 1, 1}), box_mesh({1, 0, -1}, {3, 1, 1})});
+    const PictureOptions options = [] {
+        PictureOptions by_storey = plain(camera_to({0, -8, 0}, {0, 0, 0}));
+        by_storey.colour_by = ColourBy::storey;
+        return by_storey;
+    }();
+    const Picture without = picture({scene}, options);
+    PropertiesBuilder properties;
+    for (const char* storey : {"Level 1", "Level 2"}) {
+        properties.add("storey", storey);
+        properties.next_part();
+    }
+    scene.properties = properties.finish(2);
+    const Picture with = picture({scene}, options);
+    const auto is_grey = [](const Colour& c) {
+        return std::abs(c.red - c.green) < 12 && std::abs(c.green - c.blue) < 12;
+    };
+    for (const std::uint32_t x : {50U, 110U}) {
+        EXPECT_TRUE(is_grey(pixel(without, x, 50))) << x;
+        EXPECT_FALSE(is_grey(pixel(with, x, 50))) << x;
+    }
+    EXPECT_NE(pixel(with, 50, 50), pixel(with, 110, 50));
+    EXPECT_EQ(pixel(without, 50, 50), pixel(without, 110, 50));
+}
+
 TEST_F(PictureTest, IsTheSameInEveryRun) {
     PictureOptions options;
     options.width = 320, options.height = 200;
@@ -192,6 +218,14 @@ TEST_F(PictureTest, OfAPairShowsBothParts) {
     const auto contained = reds(picture({scene}, options));
     EXPECT_GT(contained[0], 1000U);
     EXPECT_GT(contained[1], 1000U);
+    // The section that opens the part has room beside six given ones and a section box, which cut
+    // nothing here.
+    options.sections.assign(6, SectionPlane{{0, 0, 1}, 50});
+    options.section_box = Box3{{-60, -60, -60}, {60, 60, 60}};
+    EXPECT_EQ(reds(picture({scene}, options)), contained);
+    // They do cut.
+    options.section_box = Box3{{-60, -60, -60}, {60, 60, 0.1}};
+    EXPECT_EQ(reds(picture({scene}, options))[1], 0U);
 }
 
 /// The distance of a point from a solid box.
@@ -296,6 +330,7 @@ TEST_F(PictureTest, OfBadOptionsOrStrangeModels) {
     refused([](PictureOptions& o) { o.samples = 3; });
     refused([](PictureOptions& o) { o.aim = PartAim{"nobody"}; });
     refused([](PictureOptions& o) { o.sections.resize(7); });
+    refused([](PictureOptions& o) { o.colour_by = ColourBy::clash; });
     refused([](PictureOptions& o) { o.aim = camera_to({std::nan(""), 0, 0}, {1, 1, 1}); });
     PictureOptions small;
     small.width = 40, small.height = 30;
