@@ -85,4 +85,16 @@ ClashViewpoint clash_viewpoint(const ClashReport& report, const std::vector<Scen
 ClashViewpoint clash_viewpoint(const StoreClashReport& found, const Store& store,
                                std::uint32_t clash, const ViewpointOptions& options = {});
 
+/// Chooses the viewpoint of a clash as a store's review lists it (abut/clash_review.h), without the
+/// report of its job.
+///
+/// Out         sides: the place of a part's model among StoreSummary::models, and its place in
+///             read_parts. Otherwise as of a report, if the parts have not changed.
+/// Errors      Error{bad_argument} if the store lacks a part of the clash; Error{interrupted};
+///             those of the store.
+/// Cost        a pass over the boxes of all parts; both parts are classified again, as by a job;
+///             and as above for one list.
+ClashViewpoint clash_viewpoint(const Store& store, const ListedClash& clash,
+                               const ViewpointOptions& options = {});
+
 } // namespace abut

@@ -2347,10 +2347,10 @@ class PartAim:
         """id or name"""
 
 class PartColouring:
-    """The colours of a Store's parts."""
+    """The colours of the parts of a Store or of models."""
     @property
     def colours(self) -> list[Colour]:
-        """list of Colour, in the order of View.parts"""
+        """list of Colour, in the order of View.parts or of models"""
     @property
     def groups(self) -> NDArray[np.uint32]:
         """uint32 array of shape (n,): of each part, its row in legend"""
@@ -2802,7 +2802,7 @@ class RenderStyle:
         """whether backs of closed surfaces are left out; faster in software"""
     @property
     def sections(self) -> list[SectionPlane]:
-        """list of SectionPlane, at most 6"""
+        """list of SectionPlane, at most 7"""
     @property
     def section_box(self) -> Box3 | None:
         """Box3; what lies outside is cut away; else None"""
@@ -4071,8 +4071,16 @@ def clash_bcf(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene 
     """
 def clash_topic_guid(clash: str) -> str:
     """The GUID of the topic of a clash, by its id."""
+@overload
 def clash_viewpoint(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clash: int, *, fov: float = ..., aspect: float = ..., near: bool = ...) -> ClashViewpoint:
-    """As clash_viewpoints, for one clash."""
+    """As clash_viewpoints, for one clash.
+
+    The best viewpoint of a clash as review_clashes lists it.
+
+    Raises Error: bad_argument if the store lacks a part of the clash, those of the store.
+    """
+@overload
+def clash_viewpoint(store: Store, clash: ListedClash, *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> ClashViewpoint: ...
 def clash_viewpoints(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clashes: list[list[int]], *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> list[ClashViewpoint]:
     """The best viewpoint of each list of clashes, by their indices in the report.
 
@@ -4414,17 +4422,28 @@ def parse_grouping(text: str) -> list[enum]:
     """Criteria of a text such as 'storey,part': a list of GroupBy."""
 def parse_model_path(text: _Path) -> ModelPath:
     """The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument)."""
+@overload
 def part_colouring(store: Store, by: ColourBy | str = ...) -> PartColouring:
-    """The PartColouring of a Store's parts. Raises Error: those of the store."""
+    """The PartColouring of the parts of a Store, or of models, model by model. Raises Error: those of the
+    store; bad_argument for models by 'clash'.
+
+    Of a Scene or path, or several.
+    """
+@overload
+def part_colouring(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, by: ColourBy | str = ...) -> PartColouring: ...
 @overload
 def part_colours(store: Store, by: ColourBy | str = ...) -> list[Colour]:
     """The list of Colour of a Store's parts, in the order of View.parts, or of some ViewPart. Equal
     words get equal colours in every model.
 
     Of ViewParts, all are grey by 'storey' and 'clash'.
+
+    Of a Scene or path, or several. Raises Error (bad_argument) by 'clash'.
     """
 @overload
 def part_colours(parts: list[ViewPart], by: ColourBy | str = ...) -> list[Colour]: ...
+@overload
+def part_colours(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, by: ColourBy | str = ...) -> list[Colour]: ...
 def peak_resident_mib() -> float:
     """The largest resident memory of this process, or of an ended child if larger, in MiB."""
 @overload
@@ -4460,7 +4479,7 @@ def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, a
     aim                NamedView or its name, Camera, PartAim, PairAim, SidesAim, or a
                        Clash of these models
     width, height      pixels, at most 8192
-    colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or 'clash'
+    colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or, of a Store, 'clash'
     samples            along each side of a pixel: 1, 2 or 4
     edges              dark lines at silhouettes and creases
     ambient_occlusion  darker corners

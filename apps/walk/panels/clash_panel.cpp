@@ -92,7 +92,7 @@ void show_clash_panel(Session& session, Tools& tools) {
             list.read(session);
         show_job(session, list);
         if (list.wanted)
-            ImGui::TextDisabled("reading the names of parts ...");
+            ImGui::TextDisabled("finding a view ...");
         if (!list.message.empty())
             ImGui::TextWrapped("%s", list.message.c_str());
         ImGui::Text("%zu clashes", list.count());

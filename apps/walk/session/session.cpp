@@ -12,7 +12,8 @@ constexpr double kLeastRange = 100;    ///< metres that are seen at least
 constexpr double kRangeOfDiagonal = 4; ///< of the model's diagonal, that is seen
 constexpr double kFast = 5;            ///< times the speed
 constexpr double kNearestOrbit = 0.05, kNearestAim = 0.5, kFarOrbit = 10; ///< metres
-constexpr double kSlowest = 0.05, kFastest = 200;                         ///< metres a second
+constexpr double kNearOfOrbit = 0.2; ///< of the distance of an orbit, that the eye may see
+constexpr double kSlowest = 0.05, kFastest = 200; ///< metres a second
 /// Where a person is put down: before and above the point that it looked at.
 constexpr double kAway = 0.5, kAbove = 0.02;
 constexpr double kFlyingRadius = 0.2; ///< of the ball around an eye that flies
@@ -71,6 +72,8 @@ Camera Session::camera() const {
     camera.eye = eye();
     camera.forward = forward();
     camera.up = up();
+    if (move == Move::orbit) // what is orbited is seen from however near
+        camera.near = std::min(lens.near, kNearOfOrbit * orbit_distance);
     return camera;
 }
 
@@ -94,6 +97,14 @@ void Session::look_at(const Box3& box) {
     target = middle(box);
     orbit_distance = std::max(kNearestAim, length(seen.eye - target));
     look(seen.eye, way);
+}
+
+void Session::look_around(const Vec3& point, const Vec3& eye) {
+    ++jumps;
+    move = Move::orbit;
+    orbit_distance = std::max(kNearestOrbit, length(point - eye));
+    look(eye, point - eye);
+    target = point;
 }
 
 void Session::turn(double right, double up_by) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/clash_review.h>
+#include <abut/clash_viewpoint.h>
 #include <abut/picture.h>
 #include <abut/renderer.h>
 #include <abut/view.h>
@@ -64,6 +65,8 @@ public:
     void look(const Vec3& eye, const Vec3& forward);
     /// Shows a box from outside. Counts as a jump.
     void look_at(const Box3& box);
+    /// Orbits around a point, at first from an eye that looks towards it. Counts as a jump.
+    void look_around(const Vec3& point, const Vec3& eye);
     void turn(double right, double up); ///< radians
     void set_move(Move to);             ///< counts as a jump
     void step(const Wish& wish, double seconds);
@@ -88,7 +91,8 @@ public:
     /// Makes all other parts ghosts. With no parts, none is.
     void ghost_all_but(const std::vector<std::uint32_t>& parts);
     void ghost_all_but_group(std::uint32_t group); ///< of the legend
-    void show_all(); ///< no ghosts, nothing hidden, the colours of `colouring`
+    /// No ghosts, nothing hidden, the colours of `colouring`, no section box of a clash.
+    void show_all();
     [[nodiscard]] PartState state(std::uint32_t part) const;
     void set_state(std::uint32_t part, const PartState& state);
     [[nodiscard]] Colour colour_of(std::uint32_t part) const;
@@ -101,9 +105,9 @@ public:
     /// Takes a part out of this walk; the store keeps it.
     void remove(std::uint32_t part);
 
-    /// Returns false, and shows nothing, if a part of the clash is not in the store. `learn_ids`
-    /// must have read all ids.
-    bool show_clash(const ListedClash& clash);
+    /// Shows a clash from a viewpoint, with its section box. Returns false, and shows nothing, if a
+    /// part of the clash is not in this walk. `learn_ids` must have read all ids.
+    bool show_clash(const ListedClash& clash, const ClashViewpoint& from);
     /// Reads the ids of some more parts. Returns whether all are known.
     bool learn_ids(double seconds);
     [[nodiscard]] std::optional<std::uint32_t> part_of(const std::string& file,
@@ -164,6 +168,8 @@ private:
     void make_walker(const Vec3& at);
     [[nodiscard]] bool is_cut(const Vec3& point) const;
     [[nodiscard]] std::vector<std::uint32_t> all_parts() const;
+
+    bool box_is_of_clash_ = false; ///< who made the section box
 
     WalkPart carried_{};
     std::vector<std::uint32_t> removed_; ///< sorted

@@ -44,6 +44,7 @@ void Session::add_plane_across(int along) {
 
 void Session::toggle_box() {
     changed = true;
+    box_is_of_clash_ = false;
     if (section_box) {
         section_box.reset();
         return;

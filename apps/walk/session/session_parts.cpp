@@ -143,6 +143,9 @@ void Session::show_all() {
         shown.colour = colour_of(i);
         set_state(i, shown);
     }
+    if (box_is_of_clash_)
+        section_box.reset();
+    box_is_of_clash_ = false;
     changed = true;
 }
 
@@ -264,7 +267,7 @@ std::optional<std::uint32_t> Session::find(const std::string& id_or_name) const 
     return named;
 }
 
-bool Session::show_clash(const ListedClash& clash) {
+bool Session::show_clash(const ListedClash& clash, const ClashViewpoint& from) {
     const auto a = part_of(clash.file[0], clash.part[0]);
     const auto b = part_of(clash.file[1], clash.part[1]);
     if (!a || !b || is_removed(*a) || is_removed(*b))
@@ -278,17 +281,11 @@ bool Session::show_clash(const ListedClash& clash) {
     };
     paint(*a, kFirstOfClash);
     paint(*b, kSecondOfClash);
-    const Box3 box_a = box_of(*a), box_b = box_of(*b);
-    const bool a_is_small = diagonal(box_a) < diagonal(box_b);
-    const Box3& small = a_is_small ? box_a : box_b;
-    if (clash.kind == ClashKind::contained) { // the container would hide what it contains
-        const std::uint32_t container = a_is_small ? *b : *a;
-        PartState around = state(container);
-        around.ghosted = true;
-        set_state(container, around);
-    }
-    set_move(Move::orbit);
-    look_at(small);
+    section_box = from.section_box;
+    box_is_of_clash_ = true;
+    // The eye looks at the middle of the box, but for the face that opens a part.
+    const double distance = dot(middle(from.section_box) - from.eye, from.direction);
+    look_around(from.eye + std::max(0.0, distance) * from.direction, from.eye);
     return true;
 }
 

@@ -9,7 +9,8 @@ namespace abut::viewer {
 
 namespace {
 
-constexpr double kSecondsForIds = 0.005; ///< of a frame
+constexpr double kSecondsForIds = 0.005;               ///< of a frame
+constexpr double kLeastAspect = 0.1, kMostAspect = 10; ///< of ViewpointOptions
 constexpr std::uint64_t kLeastJobMemory = std::uint64_t{64} << 20;
 
 } // namespace
@@ -107,22 +108,58 @@ void ClashList::show_next(Session& session) {
         wanted = *first;
 }
 
-void ClashList::update(Session& session) {
-    if (job.has_ended()) {
-        const std::string error = job.error();
-        read(session);
-        if (!error.empty())
-            message = job.was_interrupted() ? "the job was stopped" : error;
-        if (session.colour_by == ColourBy::clash)
-            session.colour(ColourBy::clash);
-        session.changed = true;
+void ClashList::end_job(Session& session) {
+    const std::string error = job.error();
+    read(session);
+    if (!error.empty())
+        message = job.was_interrupted() ? "the job was stopped" : error;
+    if (session.colour_by == ColourBy::clash)
+        session.colour(ColourBy::clash);
+    session.changed = true;
+}
+
+bool ClashList::aim(const Session& session) {
+    if (aiming.has_ended() && wanted && wanted->id == aimed_at_) {
+        is_aimed_ = aiming.error().empty();
+        if (!is_aimed_ && !aiming.was_interrupted()) {
+            message = aiming.error();
+            wanted.reset();
+        }
     }
-    if (!wanted || !session.learn_ids(kSecondsForIds))
+    if (!wanted || (is_aimed_ && wanted->id == aimed_at_))
+        return wanted.has_value();
+    if (aiming.is_running()) {
+        if (wanted->id != aimed_at_)
+            aiming.stop();
+        return false;
+    }
+    is_aimed_ = false;
+    aimed_at_ = wanted->id;
+    viewpoint_ = std::make_shared<ClashViewpoint>();
+    ViewpointOptions options;
+    options.fov = session.lens.field_of_view;
+    options.aspect = std::clamp(static_cast<double>(session.lens.width) / session.lens.height,
+                                kLeastAspect, kMostAspect);
+    aiming.start([store = session.store, clash = *wanted, options,
+                  found = viewpoint_](const Progress& progress) {
+        ViewpointOptions with_progress = options;
+        with_progress.progress = progress;
+        *found = clash_viewpoint(store, clash, with_progress);
+    });
+    return false;
+}
+
+void ClashList::update(Session& session) {
+    if (job.has_ended())
+        end_job(session);
+    if (!aim(session) || !session.learn_ids(kSecondsForIds))
         return;
     shown = wanted->id;
     note = wanted->note;
-    message = session.show_clash(*wanted) ? "" : "a part of this clash is not in this walk";
+    message =
+        session.show_clash(*wanted, *viewpoint_) ? "" : "a part of this clash is not in this walk";
     wanted.reset();
+    is_aimed_ = false; // a later visit finds it anew: the window may have another shape
 }
 
 } // namespace abut::viewer

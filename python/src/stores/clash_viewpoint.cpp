@@ -88,6 +88,24 @@ void bind_clash_viewpoint(py::module_& module) {
         py::arg("report"), py::arg("models"), py::arg("clash"), py::kw_only(),
         py::arg("fov") = usual.fov, py::arg("aspect") = usual.aspect, py::arg("near") = usual.near,
         "As clash_viewpoints, for one clash.");
+    module.def(
+        "clash_viewpoint",
+        [](const OpenStore& models, const ListedClash& clash, double fov, double aspect, bool near,
+           const py::object& progress) {
+            const Store store = models.get();
+            ViewpointOptions options{fov, aspect, near, {}};
+            Work work(progress);
+            return work.run([&](const Progress& reported) {
+                options.progress = reported;
+                return clash_viewpoint(store, clash, options);
+            });
+        },
+        py::arg("store"), py::arg("clash"), py::kw_only(), py::arg("fov") = usual.fov,
+        py::arg("aspect") = usual.aspect, py::arg("near") = usual.near,
+        py::arg("progress") = py::none(),
+        "The best viewpoint of a clash as review_clashes lists it.\n\nRaises Error: bad_argument "
+        "if "
+        "the store lacks a part of the clash, those of the store.");
 }
 
 } // namespace abut::python

@@ -1,16 +1,20 @@
 #include <abut/clash_viewpoint.h>
+#include <abut/model.h>
 
+#include "clash/classify_pair.h"
 #include "clash/viewpoint/choose_view.h"
 #include "clash/viewpoint/view_geometry.h"
 #include "core/arguments.h"
 #include "core/parallel.h"
 #include "core/stop.h"
+#include "store/database/store_file.h"
 #include "view/camera/camera_frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -218,6 +222,30 @@ void require_clashes(const ClashReport& report,
             require(index < report.clashes.size(), "the report has no clash of this index");
 }
 
+/// A clash of two parts as a job finds it, with the witness points.
+Clash clash_again(const Store& store, const NamedGeometry& named) {
+    std::array<std::optional<Model>, 2> models;
+    for (std::size_t i = 0; i < 2; ++i)
+        models.at(i) = Model(store.file().read_mesh(named.parts[i].row.mesh));
+    const auto part = [&](std::size_t i) {
+        const PartRow& row = named.parts[i].row;
+        return ClashPart{&*models.at(i), nullptr, row.world_from_mesh, row.box};
+    };
+    Box3 both = named.parts[0].row.box;
+    extend(both, named.parts[1].row.box.lower);
+    extend(both, named.parts[1].row.box.upper);
+    const double farthest = length(both.upper - both.lower); // no two points are farther apart
+    std::optional<Clash> clash =
+        classify_by_id(part(0), named.parts[0].row.id, part(1), named.parts[1].row.id, farthest,
+                       ClashOptions{}.touch_tolerance);
+    require(clash.has_value(), "a part of the clash has no surface");
+    for (std::size_t i = 0; i < 2; ++i) {
+        clash->model.at(i) = named.parts[i].place.model;
+        clash->part.at(i) = named.parts[i].place.part;
+    }
+    return *clash;
+}
+
 } // namespace
 
 std::vector<ClashViewpoint> clash_viewpoints(const ClashReport& report,
@@ -247,6 +275,18 @@ ClashViewpoint clash_viewpoint(const ClashReport& report, const std::vector<Scen
 ClashViewpoint clash_viewpoint(const StoreClashReport& found, const Store& store,
                                std::uint32_t clash, const ViewpointOptions& options) {
     return clash_viewpoints(found, store, {{clash}}, options).front();
+}
+
+ClashViewpoint clash_viewpoint(const Store& store, const ListedClash& clash,
+                               const ViewpointOptions& options) {
+    require_viewpoint_options(options);
+    const StopScope stop(options.progress);
+    const std::array<NamedPart, 2> words{NamedPart{clash.file[0], clash.part[0]},
+                                         NamedPart{clash.file[1], clash.part[1]}};
+    const NamedGeometry named = view_geometry(store, words);
+    ClashReport report;
+    report.clashes.push_back(clash_again(store, named));
+    return viewpoints_of(report, *named.geometry, {{0}}, options).front();
 }
 
 } // namespace abut

@@ -8,6 +8,8 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
+#include <string_view>
 #include <unordered_map>
 
 namespace abut {
@@ -30,27 +32,23 @@ struct BlockRuns {
 /// A store: boxes of all parts in memory, mesh blocks read where a viewpoint needs them.
 class StoreGeometry : public ViewGeometry {
 public:
-    StoreGeometry(const Store& store, const std::vector<Scene>& models) : store_(store) {
-        std::unordered_map<std::string, std::uint32_t> report_model;
-        for (std::uint32_t i = 0; i < models.size(); ++i)
-            report_model.emplace(models[i].file, i);
-        std::vector<std::unordered_map<std::string, std::uint32_t>> by_id(models.size());
-        for (std::uint32_t m = 0; m < models.size(); ++m)
-            for (std::uint32_t i = 0; i < models[m].parts.size(); ++i)
-                by_id[m].emplace(models[m].parts[i].id, i);
+    /// In          find(file, part, place): the name by which clashes refer to a part, or none;
+    ///             `place` counts the store's models, and the parts of each.
+    template <typename Find>
+    StoreGeometry(const Store& store, const Find& find) : store_(store) {
+        ReportPart place;
         for (const ModelRow& model : store_.file().models()) {
             up = model.world_up;
-            const auto found = report_model.find(model.file);
+            place.part = 0;
             store_.file().for_each_part(model, [&](const PartRow& part) {
-                if (found != report_model.end())
-                    if (const auto at = by_id[found->second].find(part.id);
-                        at != by_id[found->second].end())
-                        numbers_[{found->second, at->second}] =
-                            static_cast<std::uint32_t>(rows_.size());
+                if (const std::optional<ReportPart> named = find(model.file, part, place))
+                    numbers_[*named] = static_cast<std::uint32_t>(rows_.size());
                 rows_.push_back(part.part);
                 boxes.push_back(part.box);
+                ++place.part;
             });
             files_[model.model] = model.file;
+            ++place.model;
         }
     }
 
@@ -106,7 +104,44 @@ private:
 } // namespace
 
 std::unique_ptr<ViewGeometry> view_geometry(const Store& store, const std::vector<Scene>& models) {
-    return std::make_unique<StoreGeometry>(store, models);
+    std::unordered_map<std::string_view, std::uint32_t> model_of;
+    std::vector<std::unordered_map<std::string_view, std::uint32_t>> part_of(models.size());
+    for (std::uint32_t m = 0; m < models.size(); ++m) {
+        model_of.emplace(models[m].file, m);
+        for (std::uint32_t i = 0; i < models[m].parts.size(); ++i)
+            part_of[m].emplace(models[m].parts[i].id, i);
+    }
+    const auto in_report = [&](const std::string& file, const PartRow& row,
+                               const ReportPart&) -> std::optional<ReportPart> {
+        const auto model = model_of.find(file);
+        if (model == model_of.end())
+            return std::nullopt;
+        const auto part = part_of[model->second].find(row.id);
+        if (part == part_of[model->second].end())
+            return std::nullopt;
+        return ReportPart{model->second, part->second};
+    };
+    return std::make_unique<StoreGeometry>(store, in_report);
+}
+
+NamedGeometry view_geometry(const Store& store, std::span<const NamedPart> parts) {
+    NamedGeometry result;
+    result.parts.resize(parts.size());
+    std::size_t found = 0;
+    const auto by_words = [&](const std::string& file, const PartRow& row,
+                              const ReportPart& place) -> std::optional<ReportPart> {
+        std::optional<ReportPart> named;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (parts[i].id == row.id && parts[i].file == file) {
+                result.parts[i] = {place, row};
+                named = place;
+                ++found;
+            }
+        return named;
+    };
+    result.geometry = std::make_unique<StoreGeometry>(store, by_words);
+    require(found == parts.size(), "a part of the clash is not in the store");
+    return result;
 }
 
 } // namespace abut

@@ -5,9 +5,11 @@
 #include <abut/store.h>
 
 #include "math/vector.h"
+#include "store/database/schema.h"
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace abut {
@@ -34,5 +36,18 @@ public:
 std::unique_ptr<ViewGeometry> view_geometry(const std::vector<Scene>& models);
 /// In          models: those of a job's report, whose parts clashes refer to.
 std::unique_ptr<ViewGeometry> view_geometry(const Store& store, const std::vector<Scene>& models);
+
+/// A part of a store, with its place among the store's models and the parts of its model.
+struct ViewedPart {
+    ReportPart place;
+    PartRow row;
+};
+/// A store, and the parts that were asked for, which `number` knows by their places.
+struct NamedGeometry {
+    std::unique_ptr<ViewGeometry> geometry;
+    std::vector<ViewedPart> parts;
+};
+/// Errors      Error{bad_argument} if the store lacks one of the parts.
+NamedGeometry view_geometry(const Store& store, std::span<const NamedPart> parts);
 
 } // namespace abut

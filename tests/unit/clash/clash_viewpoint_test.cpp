@@ -1,4 +1,5 @@
 // Viewpoints of clashes, compared with rays.
+#include <abut/clash_review.h>
 #include <abut/clash_viewpoint.h>
 #include <abut/error.h>
 #include <abut/progress.h>
@@ -200,6 +201,43 @@ TEST(ClashViewpoint, OfAStoreAndOfAnyNumberOfThreadsIsTheSame) {
     set_threads(0);
     for (std::size_t i = 0; i < lists.size(); ++i)
         EXPECT_TRUE(same_view(all[i], alone[i])) << i;
+}
+
+TEST(ClashViewpoint, OfAListedClashIsThatOfItsJob) {
+    Random random(2003);
+    const Folder folder;
+    std::vector<std::string> files;
+    for (const char* name : {"a.glb", "b.glb"}) {
+        files.push_back(folder / name);
+        write_glb(some_scene(random, 20, 1.5), files.back());
+    }
+    const std::string path = folder / "plant.abut";
+    import_models(files, path);
+    const Store store = open_store(path, {.read_only = false});
+    const StoreClashReport found = find_clashes(store, {.clearance = 0.05});
+    const auto reviews = review_clashes(store);
+    ASSERT_EQ(reviews.size(), 1U);
+    ASSERT_EQ(reviews[0].clashes.size(), found.report.clashes.size());
+    ASSERT_GT(reviews[0].clashes.size(), 5U);
+    std::size_t same = 0;
+    for (const ListedClash& listed : reviews[0].clashes) {
+        const auto at = std::ranges::find(found.report.clashes, listed.id, &Clash::id);
+        ASSERT_NE(at, found.report.clashes.end());
+        const auto index = static_cast<std::uint32_t>(at - found.report.clashes.begin());
+        const ClashViewpoint of_job = clash_viewpoint(found, store, index, {.near = true});
+        const ClashViewpoint view = clash_viewpoint(store, listed, {.near = true});
+        same += same_view(view, of_job) ? 1 : 0;
+        EXPECT_EQ(view.near, of_job.near);
+        const Scene parts = read_parts(store, view.side_a.front().model);
+        EXPECT_EQ(parts.parts.at(view.side_a.front().part).id, listed.part[0]);
+    }
+    EXPECT_EQ(same, reviews[0].clashes.size());
+    ListedClash gone = reviews[0].clashes.front();
+    gone.part[1] = "gone";
+    EXPECT_THROW(clash_viewpoint(store, gone), Error);
+    std::atomic<bool> stop{true};
+    EXPECT_THROW(clash_viewpoint(store, reviews[0].clashes.front(), {.progress = {{}, &stop}}),
+                 Error);
 }
 
 TEST(ClashViewpoint, RefusesWhatCannotBe) {
