@@ -1,6 +1,7 @@
 #pragma once
 
 #include "session/session.h"
+#include "toolbox/measurement.h"
 
 #include <array>
 #include <string>
@@ -8,9 +9,7 @@
 
 namespace abut::viewer {
 
-enum class Measured : std::uint8_t { points, point_part, parts };
-
-/// Exact distances between two clicks: of two parts, of a point and a part, of two points.
+/// Exact distances between two clicks.
 struct Measure {
     bool on = false;
     Measured kind = Measured::parts;
@@ -25,12 +24,6 @@ struct Measure {
     void next();
     /// Forgets clicks on a part that is not there any more.
     void forget_removed(const Session& session);
-
-private:
-    void measure_parts(Session& session, std::uint32_t a, std::uint32_t b);
 };
-
-/// "points", "point_part", "parts".
-const char* to_string(Measured kind);
 
 } // namespace abut::viewer
