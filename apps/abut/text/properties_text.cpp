@@ -94,6 +94,7 @@ std::vector<PropertyUse> property_uses(std::span<const Scene> scenes) {
             }
         }
     std::vector<PropertyUse> uses;
+    uses.reserve(counts.size());
     for (const auto& [name, count] : counts)
         uses.push_back({name, count.parts, count.values.size(), most_frequent(count.values)});
     std::ranges::stable_sort(uses, {}, [](const PropertyUse& use) { return rank_of(use.name); });
