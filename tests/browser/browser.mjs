@@ -15,8 +15,17 @@ export const SOFTWARE_GL = ['--use-angle=swiftshader', '--enable-unsafe-swiftsha
 
 export const addressOf = (name) => pathToFileURL(join(process.env.ABUT_REPORTS, String(name), 'report.html')).href;
 
-/** Gives each test of the suite a new page: use().page. */
-export function usePages(args, options = {}) {
+/**
+ * The address's part after #, as the page sees it: what Playwright knows of the address arrives later
+ * than the answer to a click.
+ */
+export const hashOf = async (page) => new URLSearchParams(await page.evaluate(() => location.hash.slice(1)));
+
+/** A picture for the printer is read at once, which Chromium calls slow. */
+const HARMLESS = /GPU stall due to ReadPixels/;
+
+/** Gives each test of the suite a new page: use().page. expected: what the console may say. */
+export function usePages(args, { expected = HARMLESS, ...options } = {}) {
   const use = { page: null, faults: [] };
   let profile, context;
   before(async () => {
@@ -36,8 +45,7 @@ export function usePages(args, options = {}) {
     use.faults = [];
     use.page.on('pageerror', (error) => use.faults.push(String(error)));
     use.page.on('console', (message) => {
-      // A picture for the printer is read at once, which Chromium calls slow.
-      if (message.type() !== 'log' && !message.text().includes('GPU stall due to ReadPixels'))
+      if (message.type() !== 'log' && !expected.test(message.text()))
         use.faults.push(message.text());
     });
     use.page.on('dialog', (dialog) => { use.faults.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });

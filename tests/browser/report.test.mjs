@@ -1,47 +1,19 @@
 // Opens the report page in headless Chromium and uses it as an engineer would. The page's contents are
 // compared with report.json and report.csv, which the library wrote from the same clashes.
 import assert from 'node:assert/strict';
-import { mkdtemp, readFile, rm } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { readFile } from 'node:fs/promises';
 import { join } from 'node:path';
-import { after, afterEach, before, beforeEach, describe, test } from 'node:test';
-import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { before, beforeEach, describe, test } from 'node:test';
+import { addressOf, hashOf, usePages } from './browser.mjs';
 
 const FOLDER = process.env.ABUT_REPORTS;
-const ARGS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 const KINDS = ['hard', 'touch', 'contained', 'duplicate', 'clearance'];
 
-const addressOf = (count) => pathToFileURL(join(FOLDER, String(count), 'report.html')).href;
 const readJson = async (count) => JSON.parse(await readFile(join(FOLDER, String(count), 'report.json'), 'utf8'));
 
-let profile, context, page, faults;
-before(async () => {
-  profile = await mkdtemp(join(tmpdir(), 'abut-browser-'));
-  context = await chromium.launchPersistentContext(profile, {
-    executablePath: process.env.ABUT_CHROMIUM, args: ARGS, viewport: { width: 1280, height: 800 },
-    permissions: ['clipboard-read', 'clipboard-write'], acceptDownloads: true,
-  });
-});
-after(async () => {
-  await context?.close();
-  await rm(profile, { recursive: true, force: true, maxRetries: 5 });
-});
-beforeEach(async () => {
-  page = await context.newPage();
-  faults = [];
-  page.on('pageerror', (error) => faults.push(String(error)));
-  page.on('console', (message) => { if (message.type() !== 'log') faults.push(message.text()); });
-  page.on('dialog', (dialog) => { faults.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
-  page.on('request', (request) => {
-    if (!/^(file|blob|data):/.test(request.url())) faults.push(`request: ${request.url()}`);
-  });
-});
-afterEach(async () => {
-  await page.close();
-  assert.deepEqual(faults, [], 'no script error, no blocked resource, no request to a network');
-});
+const use = usePages(['--disable-gpu'], { permissions: ['clipboard-read', 'clipboard-write'] });
+let page;
+beforeEach(() => { page = use().page; });
 
 const open = async (count, hash = '') => {
   await page.goto(addressOf(count) + hash);
@@ -61,7 +33,6 @@ const waitForCount = (count) => page.waitForFunction(
   (wanted) => Number(document.getElementById('shown').textContent.match(/^[\d,]+/)[0].replaceAll(',', '')) === wanted, count);
 const clickHead = (key) => page.click(`#heads th[data-key=${key}] button`);
 const sortOf = (key) => page.getAttribute(`#heads th[data-key=${key}]`, 'aria-sort');
-const hashOf = () => new URLSearchParams(new URL(page.url()).hash.slice(1));
 
 /** Ids of all rows from top to bottom, gathered by scrolling. */
 async function allIds(total) {
@@ -229,7 +200,7 @@ describe('10,000 clashes', () => {
     assert.equal(await row.getAttribute('aria-selected'), 'true');
     const copied = async (label) => {
       await page.click(`#detail [aria-label="${label}"]`);
-      await page.waitForFunction((wanted) => document.querySelector(`#detail [aria-label="${wanted}"]`).textContent === 'Copied', label);
+      await page.waitForFunction((wanted) => document.getElementById('live').textContent === wanted, label.replace('Copy ', 'Copied: '));
       return page.evaluate(() => navigator.clipboard.readText());
     };
     assert.equal(await copied('Copy clash id'), clash.id);
@@ -270,8 +241,8 @@ describe('10,000 clashes', () => {
     await page.waitForFunction(() => location.hash.includes('max='));
     await page.locator('#rows tr').nth(1).click();
     const before = { text: await shownText(), rows: (await rowsInView()).slice(0, 10), detail: await page.textContent('#detail') };
-    const hash = new URL(page.url()).hash;
-    assert.deepEqual(Object.fromEntries(hashOf()), {
+    const hash = await page.evaluate(() => location.hash);
+    assert.deepEqual(Object.fromEntries(await hashOf(page)), {
       kind: 'hard', q: 'beam', max: '-0.01', sort: '-triangle_pairs', open: before.rows[1].id,
     });
     await page.goto('about:blank');
@@ -360,7 +331,7 @@ describe('1,000 clashes of a store', () => {
       assert.ok((await rowsInView()).every((row) => row.cells[1] === status));
     }
     await page.locator('#rows tr').first().click();
-    const id = hashOf().get('open');
+    const id = (await hashOf(page)).get('open');
     const clash = truth.clashes.find((one) => one.id === id);
     const detail = (await page.textContent('#detail')).replace(/\s+/g, ' ');
     assert.ok(detail.includes('Status') && detail.includes('approved'));

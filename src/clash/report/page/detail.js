@@ -1,6 +1,6 @@
 // All that is known of one clash.
 
-async function copyText(text, button) {
+async function copyText(text, what, button) {
   try {
     await navigator.clipboard.writeText(text);
   } catch { // no permission; some browsers never grant it to a local file
@@ -9,13 +9,14 @@ async function copyText(text, button) {
     document.execCommand('copy');
     area.remove();
   }
+  announce(`Copied: ${what}`);
   button.textContent = 'Copied';
   setTimeout(() => { button.textContent = 'Copy'; }, 1200);
 }
 
 function copyButton(what, text) {
   const button = make('button', { type: 'button', className: 'copy', title: `Copy ${what}`, ariaLabel: `Copy ${what}` }, 'Copy');
-  button.addEventListener('click', () => copyText(text, button));
+  button.addEventListener('click', () => copyText(text, what, button));
   return button;
 }
 

@@ -6,6 +6,7 @@ const VIEWS = ['list', 'matrix', 'plan', 'time'];
 let state = null;
 let order = { key: null, descending: null, places: null }; // the last sort, kept while only the filter changes
 let shownRows = new Uint32Array(0);
+let shownGrouping = null;
 
 const emptyState = () => ({
   kinds: allKinds(), query: '', type: ANY, type2: ANY, file: ANY, file2: ANY, rule: ANY, status: ANY,
@@ -108,12 +109,15 @@ function apply({ keepScroll = false } = {}) {
   if (order.key !== key || order.descending !== descending)
     order = { key, descending, places: sortedBy(key, descending) };
   const { rows, byKind } = filtered(order.places, state);
+  // A late filter that changes nothing must not scroll the list that someone has begun to read.
+  const isSame = shownGrouping === state.group && isSameList(rows, shownRows);
   shownRows = rows;
+  shownGrouping = state.group;
   table.opened = state.open;
   table.openedGroup = state.openGroup;
   const list = groupedEntries(rows, state.group, state.openGroups);
   revealOpened(list);
-  table.show(list, state.sort, keepScroll);
+  table.show(list, state.sort, keepScroll || isSame);
   showCounts(byKind);
   showGroupCount();
   setControls();
@@ -122,6 +126,8 @@ function apply({ keepScroll = false } = {}) {
   showOverview();
   writeHash();
 }
+
+const isSameList = (a, b) => a.length === b.length && a.every((value, k) => value === b[k]);
 
 /** Opens the group of the opened clash, so that its row is in the list. */
 function revealOpened(list) {

@@ -21,5 +21,8 @@ export const middleOf = (box) => [0, 1, 2].map((k) => (box[k] + box[k + 3]) / 2)
 
 export const diagonalOf = (box) => Math.hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]);
 
+/** The distance of a point from a box; 0 inside. */
+export const distanceTo = (box, point) => Math.hypot(...point.map((value, k) => Math.max(box[k] - value, 0, value - box[k + 3])));
+
 /** The middle one of the three lengths: the width of a pipe or a beam. */
 export const thicknessOf = (box) => [box[3] - box[0], box[4] - box[1], box[5] - box[2]].sort((a, b) => a - b)[1];

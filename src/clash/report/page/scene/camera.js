@@ -87,7 +87,7 @@ export class SceneCamera {
     if (this.flight === null)
       return false;
     const { start, from, to, fromMiddle, middle } = this.flight;
-    const t = Math.min(1, (now - start) / FLIGHT);
+    const t = Math.min(1, Math.max(0, now - start) / FLIGHT); // a frame may have begun before the flight
     const s = t * t * (3 - 2 * t);
     const mix = (a, b) => a + (b - a) * s;
     const at = new THREE.Spherical(Math.exp(mix(Math.log(from.radius), Math.log(to.radius))),

@@ -28,7 +28,10 @@ void main() {
   gl_Position = look < lowest || look > highest ? vec4(0.0, 0.0, 2.0, 1.0) : projectionMatrix * view;
 }`;
 
-/** Discards what the section box and the storey slider cut off. */
+/**
+ * Discards what the section box and the storey slider cut off. A shader that may discard makes the
+ * graphics card shade what is hidden too, layer by layer; so it does only where something is cut.
+ */
 const CUT = `
 uniform vec3 boxLower, boxUpper;
 uniform vec3 up;
@@ -40,9 +43,11 @@ flat in int model;
 flat in uint partOut;
 out vec4 outColour;
 void cut() {
+#ifdef CUTS
   float height = dot(place, up);
   if (any(lessThan(place, boxLower)) || any(greaterThan(place, boxUpper)) || height < slice.x || height > slice.y)
     discard;
+#endif
 }`;
 
 const SHADED = `${CUT}
@@ -59,6 +64,12 @@ void main() {
     colour.rgb *= tints[model % 8];
   float light = 0.42 + 0.34 * facing + 0.24 * sky;
   outColour = vec4(colour.rgb * light, look == ${LOOK.ghost} ? colour.a * (1.35 - 0.7 * facing) : colour.a);
+}`;
+
+const DEPTH = `${CUT}
+void main() {
+  cut();
+  outColour = vec4(1.0);
 }`;
 
 const NUMBERED = `${CUT}
@@ -122,11 +133,13 @@ export function setSlice(uniforms, slice) {
   uniforms.slice.value.set(slice?.[0] ?? -FAR, slice?.[1] ?? FAR);
 }
 
+/** A material that cuts, and one that draws everything: {cut, whole}. */
 function material(uniforms, lowest, highest, fragment, options = {}) {
-  return new THREE.ShaderMaterial({
-    glslVersion: THREE.GLSL3, side: THREE.DoubleSide, vertexShader: VERTEX, fragmentShader: fragment,
+  const make = (defines) => new THREE.ShaderMaterial({
+    glslVersion: THREE.GLSL3, side: THREE.DoubleSide, vertexShader: VERTEX, fragmentShader: fragment, defines,
     uniforms: { ...uniforms, lowest: { value: lowest }, highest: { value: highest } }, ...options,
   });
+  return { cut: make({ CUTS: 1 }), whole: make({}) };
 }
 
 /**
@@ -135,7 +148,7 @@ function material(uniforms, lowest, highest, fragment, options = {}) {
  */
 export function makePasses(uniforms) {
   const opaque = material(uniforms, LOOK.solid, LOOK.b, SHADED);
-  const depthOnly = (lowest, highest) => material(uniforms, lowest, highest, SHADED, { colorWrite: false, transparent: true });
+  const depthOnly = (lowest, highest) => material(uniforms, lowest, highest, DEPTH, { colorWrite: false, transparent: true });
   const blended = (lowest, highest) => material(uniforms, lowest, highest, SHADED,
     { transparent: true, depthWrite: false, depthFunc: THREE.LessEqualDepth });
   return [opaque, depthOnly(LOOK.shell, LOOK.shell), blended(LOOK.shell, LOOK.shell),

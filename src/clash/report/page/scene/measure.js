@@ -5,6 +5,7 @@ export class Measure {
     this.view = view;
     this.on = false;
     this.points = [];
+    this.round = 0; // counts the measurements that were cleared away
   }
 
   turn(on) {
@@ -15,6 +16,7 @@ export class Measure {
   }
 
   clear() {
+    ++this.round;
     this.points = [];
     this.show();
   }

@@ -34,8 +34,9 @@ export class BuildingModel {
     return geometry;
   }
 
-  mesh(material, order) {
-    const mesh = new THREE.Mesh(this.whole, material);
+  mesh(materials, order) {
+    const mesh = new THREE.Mesh(this.whole, materials.cut);
+    mesh.userData.materials = materials;
     mesh.frustumCulled = false;
     mesh.renderOrder = order;
     return mesh;
@@ -69,6 +70,12 @@ export class BuildingModel {
     this.local = box === null ? null : this.geometryOf(this.indexOf(this.parts.filter((part) => meet(part.box, box))));
     for (const mesh of [...this.passes, this.numberMesh])
       mesh.geometry = this.local ?? this.whole;
+  }
+
+  /** Says whether the section box or the slice cuts something of what is drawn. */
+  setCutting(isCut) {
+    for (const mesh of this.passes)
+      mesh.material = mesh.userData.materials[isCut ? 'cut' : 'whole'];
   }
 
   /** The parts around a box whose shapes are good enough to hide something. */

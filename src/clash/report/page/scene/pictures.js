@@ -16,19 +16,10 @@ function cameraOf(view, subject, aspect) {
   return camera;
 }
 
-/** Finds the viewpoints of subjects, for the pictures to come. */
+/** Finds the viewpoints of subjects, for the pictures to come. The view goes on as it is. */
 export async function findViewpoints(view, subjects) {
-  const before = { ...view.state };
-  try {
-    for (const subject of subjects) {
-      view.state = { ...before, subject, slice: null, section: true };
-      view.apply();
-      await view.viewpointOf(subject);
-    }
-  } finally {
-    view.state = before;
-    view.apply();
-  }
+  for (const subject of subjects)
+    await view.viewpointOf(subject);
 }
 
 /**

@@ -1,6 +1,6 @@
 // The 3D view: what of the building is shown for the whole report, a clash or a group.
 import * as THREE from 'three';
-import { common, diagonalOf, grown, middleOf, ofPoints, thicknessOf } from './boxes.js';
+import { common, diagonalOf, distanceTo, grown, middleOf, ofPoints, thicknessOf } from './boxes.js';
 import { SceneCamera } from './camera.js';
 import { Marks } from './marks.js';
 import { applyPalette, LOOK, setBox, setSlice } from './materials.js';
@@ -13,6 +13,10 @@ const UPS = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 const LEAST_RADIUS = 0.6; // metres around a clash
 const MOST_RADIUS = 3.5;
 const THICKNESSES = 5; // of the thinner part that fit into the radius
+/** Triangles that decide about a viewpoint; each is drawn for each of the candidates. */
+const MOST_TRIANGLES = 40_000;
+/** A side that takes a smaller share of the picture counts as hidden. */
+const LEAST_SEEN = 0.002;
 const SECTION = 1.35; // the section box is this much larger than what the camera looks at
 
 export class BuildingView {
@@ -38,7 +42,8 @@ export class BuildingView {
     this.picker = new Picker(this.renderer, this.model);
     this.measure = new Measure(this);
     this.state = { rest: 'ghost', section: true, slice: null, subject: null, shown: [] };
-    this.viewpoints = new Map();
+    this.viewpoints = new Map(); // those that have been found, by the key of their subject
+    this.searches = new Map(); // promises of them
     this.pending = false;
     this.frame(true);
     this.setTheme();
@@ -193,21 +198,61 @@ export class BuildingView {
       return;
     }
     const ticket = this.camera.expectFlight();
-    const { direction } = await this.viewpointOf(subject);
+    const direction = await this.viewpointOf(subject).then((found) => found.direction, () => this.finder.usual);
     if (this.camera.expected === ticket) // the user has neither moved nor asked for another view
       this.camera.flyTo(subject.middle, subject.radius, direction, atOnce);
   }
 
-  /** The parts that can hide a subject, and its own. */
+  /** The parts of a subject and, the nearest first, those that can hide it; not more than a search can draw quickly. */
   partsAround(subject) {
-    const box = grown(ofPoints([subject.middle.toArray()]), SECTION * subject.radius);
-    return [...new Set([...this.model.partsNear(box), ...subject.sideA, ...subject.sideB])].filter(Boolean);
+    const own = [...subject.sideA, ...subject.sideB].filter(Boolean);
+    const middle = subject.middle.toArray();
+    const near = this.model.partsNear(this.sectionOf(subject)).filter((part) => !subject.sideA.has(part) && !subject.sideB.has(part))
+      .map((part) => ({ part, away: distanceTo(part.box, middle) })).sort((x, y) => x.away - y.away).map(({ part }) => part);
+    const parts = [];
+    let corners = 0;
+    for (const part of [...own, ...near]) {
+      if (parts.length > 0 && corners + part.count > 3 * MOST_TRIANGLES)
+        continue;
+      parts.push(part);
+      corners += part.count;
+    }
+    return parts;
   }
 
-  async viewpointOf(subject) {
-    if (!this.viewpoints.has(subject.key))
-      this.viewpoints.set(subject.key, await this.finder.find(subject.middle, subject.radius, this.partsAround(subject)));
-    return this.viewpoints.get(subject.key);
+  /** Returns the viewpoint of a subject. It is searched once; what the view shows has no part in it. */
+  viewpointOf(subject) {
+    if (!this.searches.has(subject.key))
+      this.searches.set(subject.key, this.searchViewpoint(subject));
+    return this.searches.get(subject.key);
+  }
+
+  async searchViewpoint(subject) {
+    const parts = this.partsAround(subject);
+    let found = null;
+    for (const others of [LOOK.solid, LOOK.hidden]) { // behind the other parts no side may be visible
+      found = await this.search(subject, others, parts);
+      if ((subject.inside ? Math.max(found.a, found.b) : Math.min(found.a, found.b)) > LEAST_SEEN)
+        break;
+    }
+    this.viewpoints.set(subject.key, found);
+    return found;
+  }
+
+  /** Begins a search, for which the parts have other looks than in the view. */
+  search(subject, others, parts) {
+    const { uniforms, looks } = this.model;
+    const outer = subject.inside ? this.outerOf(subject) : null;
+    setBox(uniforms, this.sectionOf(subject));
+    setSlice(uniforms, null);
+    looks.set((part) => {
+      if (part === outer)
+        return LOOK.hidden;
+      return subject.sideA.has(part) ? LOOK.a : subject.sideB.has(part) ? LOOK.b : others;
+    });
+    const found = this.finder.find(subject.middle, subject.radius, parts);
+    this.applyCuts();
+    return found;
   }
 
   /** The section box of a subject, in scene coordinates. */
@@ -218,15 +263,22 @@ export class BuildingView {
 
   /** Sets looks, cuts and marks as the state says. */
   apply() {
+    const box = this.applyCuts();
+    this.model.restrictTo(box);
+    this.marks.setBox(box);
+    this.applyMarks(this.state.subject);
+    this.redraw();
+  }
+
+  /** Sets looks and cuts, and returns the section box. */
+  applyCuts() {
     const { subject, rest, section, slice } = this.state;
     const box = subject !== null && section ? this.sectionOf(subject) : null;
     setBox(this.model.uniforms, box);
     setSlice(this.model.uniforms, slice);
-    this.model.restrictTo(box);
+    this.model.setCutting(box !== null || slice !== null);
     this.applyLooks(subject, rest);
-    this.marks.setBox(box);
-    this.applyMarks(subject);
-    this.redraw();
+    return box;
   }
 
   applyLooks(subject, rest) {
@@ -317,8 +369,11 @@ export class BuildingView {
   // ── pointing ──────────────────────────────────────────────────────────────────────────────────
 
   async click(x, y) {
-    if (this.measure.on)
-      return this.measure.take(await this.picker.pointAt(this.camera.camera, x, y, this.size));
+    if (this.measure.on) {
+      const { round } = this.measure;
+      const point = await this.picker.pointAt(this.camera.camera, x, y, this.size);
+      return round === this.measure.round && this.measure.take(point); // not a point of a scene that has gone
+    }
     const dot = this.marks.dotAt(this.camera.camera, x, y, ...this.size);
     if (dot !== null)
       return this.on.clash(dot.clash);
