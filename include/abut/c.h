@@ -72,7 +72,8 @@ typedef struct abut_pose {
 abut_status abut_transform_of(const abut_pose* pose, abut_transform* transform);
 
 /** Called with the name of a stage and the fraction of it that is done, from any thread, but never
- * from two at once. A result other than 0 ends the work with ABUT_INTERRUPTED. */
+ * from two at once. A result other than 0, also that of the last call, ends the work with
+ * ABUT_INTERRUPTED. A job on a store that had finished by then stays in the store. */
 typedef int (*abut_progress)(void* user, const char* stage, double fraction);
 
 /* ------------------------------------------------------------------------------------ models -- */

@@ -30,6 +30,14 @@ struct ClashReview {
 /// Errors      those of the store; Error{malformed} if a row is damaged.
 std::vector<ClashReview> review_clashes(const Store& store);
 
+/// Returns the options of the last job that finished. find_clashes with them asks its question
+/// again.
+///
+/// Errors      Error{bad_argument}, naming the store, if no job has finished, or if the job had
+///             rules, a matrix or conditions that the store did not keep: earlier versions did not,
+///             and texts that are not UTF-8 are not kept. Error{malformed} if a row is damaged.
+ClashOptions last_clash_options(const Store& store);
+
 /// Returns one JSON object; docs/clash-status.md lists the keys.
 std::string to_json(const ClashReview& review);
 /// One JSON object with the path of a store and its reviews, as `abut review --json` prints it.

@@ -24,6 +24,7 @@
 namespace abut {
 
 struct Clash;
+struct ClashReport;
 struct Condition;
 
 /// The longest text of a condition, in bytes, and how deep its parentheses and `not` may nest.
@@ -70,16 +71,31 @@ private:
 ///
 /// `depth` is how deep a hard, touching or contained pair reaches; `gap` is the distance of a pair
 /// that does not meet. A clash of another kind has no such value.
+///
+/// In a report, a query can also ask for the groups that a clash is in: `group` (name) and
+/// `group.id` of any of them; of the innermost one `group.size`, `group.change` and `group.hard`,
+/// `group.touch`, … (how many of the kind). And for the topics of its group or of itself:
+/// `topic.status`, `topic.title`, `topic.type`, `topic.priority`, `topic.stage`, `topic.assignee`,
+/// `topic.due`, `topic.label`.
 class ClashQuery {
 public:
     /// Matches every clash.
     ClashQuery() = default;
-    /// Errors      as PartQuery::parse.
+    /// Errors      as PartQuery::parse; also a name that begins with `group.` or `topic.` and is not
+    ///             listed above.
     static ClashQuery parse(std::string_view text);
 
+    /// Decides about a clash without its report: it has no group and no topic.
+    ///
     /// In          models: those that the clash refers to.
     /// Errors      Error{bad_argument} if the clash refers to a model or a part that does not exist.
     [[nodiscard]] bool matches(const Clash& clash, const std::vector<Scene>& models) const;
+    /// Returns the indices of a report's clashes that match, ascending.
+    ///
+    /// In          models: those of the report.
+    /// Errors      as matches.
+    [[nodiscard]] std::vector<std::uint32_t> find(const ClashReport& report,
+                                                  const std::vector<Scene>& models) const;
     /// As PartQuery::empty, text and names.
     [[nodiscard]] bool empty() const noexcept { return condition_ == nullptr; }
     [[nodiscard]] const std::string& text() const noexcept { return text_; }

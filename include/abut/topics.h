@@ -52,6 +52,11 @@ std::vector<Topic> topics_of_groups(const ClashReport& report);
 ///
 /// Errors      those of the store; Error{malformed} if a row is damaged.
 std::vector<Topic> read_topics(const Store& store);
+/// Returns the topics of a store's groups and clashes, also of resolved ones, as they are before
+/// anybody says anything about them: with status "open", and without a date.
+///
+/// Errors      as read_topics.
+std::vector<Topic> untouched_topics(const Store& store);
 /// Returns the number of the last change of topics; 0 if there was none.
 std::int64_t topics_revision(const Store& store);
 
@@ -77,6 +82,8 @@ struct TopicMerge {
     std::uint64_t comments = 0;              ///< new ones
     std::uint64_t marked = 0;                ///< clashes whose mark follows the topic's new status
     std::vector<TopicConflict> conflicts;
+    /// Places of a BCF file that other programs may read differently, one line each.
+    std::vector<std::string> warnings;
 };
 
 /// Merges edited topics into a store, field by field: a field that only the editor has changed
@@ -86,8 +93,9 @@ struct TopicMerge {
 ///
 /// In          store: opened with read_only = false. edited: whole topics; one whose guid is empty
 ///             is about its group, or about its first clash.
-/// Errors      Error{bad_argument}: no guid, group or clash; a topic given twice; a due date that
-///             is none; an unknown base. Error{cannot_write}: the store is read-only.
+/// Errors      Error{bad_argument}: no guid, group or clash; a guid of a topic or a comment that is
+///             not a UUID; a topic given twice; a due date that is none; an unknown base.
+///             Error{cannot_write}: the store is read-only.
 TopicMerge merge_topics(const Store& store, const std::vector<Topic>& edited,
                         const MergeOptions& options = {});
 

@@ -795,7 +795,9 @@ class ClashQuery:
     def text(self) -> str:
         """in a canonical form"""
     def matches(self, report: ClashReport, clash: int) -> bool:
-        """Whether a clash of a ClashReport matches."""
+        """Whether a clash of a ClashReport matches. It has no group and no topic; find() knows them."""
+    def find(self, report: ClashReport) -> list[int]:
+        """The indices of the clashes of a ClashReport that match."""
     def empty(self) -> bool:
         """Whether there is no condition."""
     def names(self) -> list[str]:
@@ -3432,6 +3434,9 @@ class TopicMerge:
     @property
     def conflicts(self) -> list[TopicConflict]:
         """list of TopicConflict"""
+    @property
+    def warnings(self) -> list[str]:
+        """places of a BCF file that other programs may read differently"""
 
 class TouchedParts:
     """Returned by Walk.collide."""
@@ -4323,6 +4328,10 @@ def join_crew() -> Crew | None:
 
     Raises Error (unsupported) if this build has no MPI, or another one than the one that started the process.
     """
+def last_clash_options(store: Store) -> dict[str, Any]:
+    """The options of the last job that finished, as keyword arguments of find_clashes.
+    Raises Error: bad_argument if there is none, or if the store did not keep its rules.
+    """
 def length_of_pixel(camera: Camera) -> float:
     """The length at distance 1 that a pixel covers, in the middle of the picture."""
 def look_at_box(box: Box3, towards: ArrayLike, up: ArrayLike, lens: Camera = ...) -> Camera:
@@ -4667,6 +4676,8 @@ def topics_revision(store: Store) -> int:
     """The number of the last change of topics."""
 def turn_up(scene: Scene, up: UpAxis | str) -> None:
     """Turns a scene by quarter turns, so that this axis points up."""
+def untouched_topics(store: Store) -> list[Topic]:
+    """The topics of a store's groups and clashes, also of resolved ones, before anybody says anything about them."""
 def update_bcf(earlier: BcfFile, later: BcfFile) -> BcfFile:
     """Updates a BcfFile by a later export; what people have changed in it stays."""
 def variables_of(type: str) -> int:

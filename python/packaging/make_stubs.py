@@ -106,6 +106,7 @@ OWN_PARAMETERS = {
     "read_elementary_queries": {"kind": "ElementaryKind | str | None"}, "Walk.move_to": {"velocity": "ArrayLike | None"},
     "PartSelector": {"file": "Sequence[str]", "name": "Sequence[str]", "type": "Sequence[str]", "query": "str | PartQuery"},
     "PartQuery": {"text": "str"}, "ClashQuery": {"text": "str"}, "ClashQuery.matches": {"report": "ClashReport", "clash": "int"},
+    "ClashQuery.find": {"report": "ClashReport"},
     "IgnoreRule": {"neighbours": "Sequence[Neighbours | str]"}, "matrix_preset": {"name": "str"}, "matrix_preset_text": {"name": "str"},
     "ClashRule": {"name": "str", "clearance": "float | None", "touch_tolerance": "float | None", "severity": "str",
                   "tolerated_depth": "float | None", "kinds": "Sequence[ClashKind | str]"}, "Scene": {"file": "str"},

@@ -132,6 +132,12 @@ def test_store(scenes, store_path):
         assert json.loads(abut.to_json(review)) and json.loads(abut.to_json([review], "plant.abut"))
         assert abut.forget_resolved_clashes(store) == 0
         abut.verify_jobs(store)
+        again = abut.find_clashes(store, **abut.last_clash_options(store))
+        assert [clash.id for clash in again.clashes] == [clash.id for clash in report.clashes]
+        abut.group_clashes(again, store=store)
+        assert abut.ClashQuery("group.size >= 1").find(again) == list(range(len(again)))
+        assert abut.ClashQuery("topic.status = *").find(again) == []
+        assert {topic.status for topic in abut.untouched_topics(store)} == {"open"}
         with pytest.raises(ValueError, match="no id"):
             abut.mark_clashes(store, approved=["zz"])
     assert store.closed and "closed" in repr(store)

@@ -1,6 +1,8 @@
 #include "bcf/bcf_parts.h"
 #include "core/uuid.h"
 
+#include <utility>
+
 namespace abut {
 
 namespace {
@@ -15,10 +17,7 @@ std::string missing_guid(const std::string& name) {
 }
 
 std::string written_guid(std::string guid, BcfVersion version) {
-    if (version == BcfVersion::v3_0)
-        for (char& c : guid)
-            c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return guid;
+    return version == BcfVersion::v3_0 ? lower_uuid(std::move(guid)) : guid;
 }
 
 } // namespace abut

@@ -37,6 +37,12 @@ public:
 
     [[nodiscard]] const Progress& progress() const { return progress_; }
 
+    /// Throws Error{interrupted} if the function has asked to stop, even in its last call.
+    void require_going_on() const {
+        if (stop_)
+            throw Error(ErrorCode::interrupted, "interrupted");
+    }
+
 private:
     std::atomic<bool> stop_{false};
     Progress progress_;
@@ -97,8 +103,8 @@ abut_status abut_scene_add_mesh(abut_scene* scene, const double* vertices, size_
         std::vector<abut::Mesh>& meshes = abut::needed(scene, "scene").scene.meshes;
         std::uint32_t& number = abut::needed(mesh, "mesh");
         meshes.push_back(
-            abut::mesh_from_c(abut::needed(vertices, 3 * vertex_count, "vertices"),
-                              abut::needed(triangles, 3 * triangle_count, "triangles")));
+            abut::mesh_from_c(abut::needed_triples(vertices, vertex_count, "vertices"),
+                              abut::needed_triples(triangles, triangle_count, "triangles")));
         number = static_cast<std::uint32_t>(meshes.size() - 1);
     });
 }
@@ -138,6 +144,7 @@ abut_status abut_find_clashes(const abut_scene* const* scenes, size_t count,
         const abut::ProgressInC progress(options);
         abut::ClashReport found =
             find_clashes(models, abut::options_from_c(options, progress.progress()));
+        progress.require_going_on();
         std::string json = to_json(found, models);
         result = new abut_report{std::move(found), std::move(models), std::move(json)};
     });
@@ -154,6 +161,7 @@ abut_status abut_find_clashes_in_store(const char* store, const abut_clash_optio
         abut::StoreClashReport found =
             find_clashes(abut::open_store(&abut::needed(store, "store"), {.read_only = false}),
                          abut::options_from_c(options, progress.progress()), out_of_core);
+        progress.require_going_on();
         std::string json = to_json(found);
         result = new abut_report{std::move(found.report), std::move(found.models), std::move(json)};
     });

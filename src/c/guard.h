@@ -6,6 +6,8 @@
 #include <abut/scene.h>
 #include <abut/types.h>
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +51,15 @@ std::span<T> needed(T* pointer, std::size_t count, const char* name) {
     if (count != 0)
         needed(pointer, name);
     return {pointer, count};
+}
+
+/// As above for an array of `count` times three elements.
+template <class T>
+std::span<T> needed_triples(T* pointer, std::size_t count, const char* name) {
+    constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() / (3 * sizeof(T));
+    if (count > kMost)
+        throw Error(ErrorCode::bad_argument, std::string(name) + " are more than memory can hold");
+    return needed(pointer, 3 * count, name);
 }
 
 inline Vec3 from_c(const abut_vec3& v) {

@@ -69,9 +69,9 @@ abut_status model_from_numbers(const Number* vertices, std::size_t vertex_count,
                                abut_model** model) {
     return guarded([&] {
         abut_model*& result = needed(model, "model");
-        result =
-            new abut_model{Model(make_mesh(needed(vertices, 3 * vertex_count, "vertices"),
-                                           needed(triangles, 3 * triangle_count, "triangles")))};
+        result = new abut_model{
+            Model(make_mesh(needed_triples(vertices, vertex_count, "vertices"),
+                            needed_triples(triangles, triangle_count, "triangles")))};
     });
 }
 

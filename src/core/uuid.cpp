@@ -104,4 +104,10 @@ bool is_uuid(std::string_view text) {
     return true;
 }
 
+std::string lower_uuid(std::string uuid) {
+    for (char& c : uuid)
+        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return uuid;
+}
+
 } // namespace abut

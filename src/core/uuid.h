@@ -15,4 +15,7 @@ std::string uuid_of_name(std::string_view space, std::string_view name);
 /// Returns whether a text is a UUID in lower or upper case, with hyphens.
 bool is_uuid(std::string_view text);
 
+/// Returns a UUID in lower case. UUIDs that differ only in case are the same.
+std::string lower_uuid(std::string uuid);
+
 } // namespace abut

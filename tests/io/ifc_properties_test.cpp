@@ -369,5 +369,43 @@ TEST_F(IfcProperties, GlbKeepsThem) {
     }
 }
 
+/// web-ifc keeps the length of a text in 16 bits.
+TEST_F(IfcProperties, TextsOfAnyLengthAreWhole) {
+    const auto times = [](int count, const std::string& text) {
+        std::string result;
+        for (int i = 0; i < count; ++i)
+            result += text;
+        return result;
+    };
+    const std::string unit = R"(a''b\\c\S\i\X\E9\X2\00E903B1\X0\(#38);)";
+    const Values texts{"F60",
+                       times(2000, unit),
+                       R"(\X2\)" + times(20000, "D83DDE00") + R"(\X0\)",
+                       std::string(65535, 'x'),
+                       std::string(65536, 'y'),
+                       times(40000, "''")};
+    std::string lines = "/* A comment's quote ' */", list;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        const std::string number = std::string("#").append(std::to_string(300 + i));
+        lines += number + "=IFCPROPERTYSINGLEVALUE('P" + std::to_string(i) + "',$,IFCTEXT('" +
+                 texts[i] + "'),$);\n";
+        list += (i > 0 ? "," : "") + number;
+    }
+    const std::string long_name = std::string(70000, 'n');
+    read(lines + "#400=IFCPROPERTYSET('0SetOfTheTests00000001',$,'Set',$,(" + list + "));\n" +
+         "#401=IFCRELDEFINESBYPROPERTIES(" + root(401) + "(#58),#400);\n" +
+         "#402=IFCRELASSOCIATESMATERIAL(" + root(402) + "(#58),#403);\n#403=IFCMATERIAL('" +
+         long_name + "',$,$);\n");
+    EXPECT_EQ(values(kTable, "Set.P0"), Values{"F60"});
+    EXPECT_EQ(values(kTable, "Set.P1"),
+              Values{times(2000, "a'b\\c\u00E9\u00E9\u00E9\u03B1(#38);")});
+    EXPECT_EQ(values(kTable, "Set.P2"), Values{times(20000, "\U0001F600")});
+    EXPECT_EQ(values(kTable, "Set.P3"), Values{texts[3]});
+    EXPECT_EQ(values(kTable, "Set.P4"), Values{texts[4]});
+    EXPECT_EQ(values(kTable, "Set.P5"), Values{std::string(40000, '\'')});
+    EXPECT_EQ(values(kTable, "material"), Values{long_name});
+    EXPECT_EQ(values(kWall, "storey"), Values{"Ground"});
+}
+
 } // namespace
 } // namespace abut::test

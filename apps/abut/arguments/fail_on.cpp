@@ -17,13 +17,34 @@ bool looks_like_condition(const std::string& text) {
     return text.find_first_of(" =~<>()\"") != std::string::npos;
 }
 
+/// Returns whether a name of a condition is about groups or topics.
+bool is_of_groups(const std::string& name) {
+    return name == "group" || name.starts_with("group.") || name.starts_with("topic.");
+}
+
+/// Refuses names that no clash of the report can have a value of.
+void require_values(const std::vector<std::string>& names, const FailOnScope& scope) {
+    for (const std::string& name : names) {
+        if (!is_of_groups(name))
+            continue;
+        if (!scope.from_store && (name == "group.change" || name.starts_with("topic.")))
+            throw Error(ErrorCode::bad_argument, "--fail-on",
+                        "'" + name +
+                            "' applies only to a store: models have no earlier job and no "
+                            "topics");
+        if (!scope.grouped)
+            throw Error(ErrorCode::bad_argument, "--fail-on",
+                        "'" + name + "' needs groups, but --group none makes none");
+    }
+}
+
 } // namespace
 
-FailOn::FailOn(const std::string& words, bool from_store) {
+FailOn::FailOn(const std::string& words, const FailOnScope& scope) {
     if (words.empty())
         return;
     if (looks_like_condition(words)) {
-        parse_condition(words, from_store);
+        parse_condition(words, scope);
         return;
     }
     std::vector<std::string> known{"any"};
@@ -32,7 +53,7 @@ FailOn::FailOn(const std::string& words, bool from_store) {
     for (const ClashStatus status : kClashStatuses)
         if (status != ClashStatus::resolved)
             known.emplace_back(abut::to_string(status));
-    parse_list(words, known, from_store);
+    parse_list(words, known, scope.from_store);
     if (kinds_.empty())
         kinds_.assign(kClashKinds.begin(), kClashKinds.end());
     if (statuses_.empty())
@@ -58,26 +79,38 @@ void FailOn::parse_list(const std::string& words, const std::vector<std::string>
     }
 }
 
-void FailOn::parse_condition(const std::string& text, bool from_store) {
+void FailOn::parse_condition(const std::string& text, const FailOnScope& scope) {
     try {
         query_ = ClashQuery::parse(text);
     } catch (const Error& error) {
         throw Error(ErrorCode::bad_argument, "--fail-on", error.what());
     }
-    if (query_->asks_status() && !from_store)
+    if (query_->asks_status() && !scope.from_store)
         throw Error(ErrorCode::bad_argument, "--fail-on",
                     "a status applies only to a store: models have no earlier job");
+    require_values(query_->names(), scope);
 }
 
-bool FailOn::is_problem(const ClashReport& report, const std::vector<Scene>& models) const {
-    return std::any_of(report.clashes.begin(), report.clashes.end(), [&](const Clash& clash) {
-        if (query_)
-            return (clash.status != ClashStatus::approved || query_->asks_status()) &&
-                   query_->matches(clash, models);
-        return std::find(kinds_.begin(), kinds_.end(), clash.kind) != kinds_.end() &&
-               (!clash.status ||
-                std::find(statuses_.begin(), statuses_.end(), *clash.status) != statuses_.end());
-    });
+bool FailOn::is_listed(const Clash& clash) const {
+    return std::ranges::find(kinds_, clash.kind) != kinds_.end() &&
+           (!clash.status || std::ranges::find(statuses_, *clash.status) != statuses_.end());
+}
+
+std::vector<std::uint32_t> FailOn::problems(const ClashReport& report,
+                                            const std::vector<Scene>& models) const {
+    std::vector<std::uint32_t> result;
+    if (query_) {
+        result = query_->find(report, models);
+        if (!query_->asks_status())
+            std::erase_if(result, [&](std::uint32_t i) {
+                return report.clashes[i].status == ClashStatus::approved;
+            });
+        return result;
+    }
+    for (std::uint32_t i = 0; i < report.clashes.size(); ++i)
+        if (is_listed(report.clashes[i]))
+            result.push_back(i);
+    return result;
 }
 
 std::vector<std::string> FailOn::warnings(const std::vector<Scene>& models) const {
@@ -86,6 +119,8 @@ std::vector<std::string> FailOn::warnings(const std::vector<Scene>& models) cons
         "depth", "gap",    "volume",   "type", "name",       "id",   "file"};
     std::vector<std::string> result;
     for (std::string name : query_ ? query_->names() : std::vector<std::string>()) {
+        if (is_of_groups(name))
+            continue;
         if (name.starts_with("a.") || name.starts_with("b."))
             name.erase(0, 2);
         if (std::ranges::find(kAlways, name) != kAlways.end() ||

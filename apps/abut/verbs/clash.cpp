@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace abut::command {
 
@@ -80,14 +81,44 @@ std::string out_of_core_summary(const OutOfCoreCounters& c) {
         grouped(c.bytes_needed));
 }
 
+/// Says which clashes are the problem that --fail-on names.
+std::string problems_text(const ClashReport& report, const std::vector<std::uint32_t>& problems) {
+    if (problems.empty())
+        return "\nfails       no clash that --fail-on names\n";
+    const std::vector<const ClashGroup*> group_of = groups_of_clashes(report);
+    std::set<const ClashGroup*> groups;
+    for (const std::uint32_t i : problems)
+        groups.insert(group_of[i]);
+    groups.erase(nullptr);
+    std::string text =
+        fmt::format("\nfails       {} {} that --fail-on names", grouped(problems.size()),
+                    problems.size() == 1 ? "clash" : "clashes");
+    if (!groups.empty())
+        text += fmt::format(", in {} {}", grouped(groups.size()),
+                            groups.size() == 1 ? "group" : "groups");
+    return text + "\n";
+}
+
 std::string text_of(const StoreClashReport& found, bool from_store,
+                    const std::optional<std::vector<std::uint32_t>>& problems,
                     const std::optional<OutputFiles>& outputs) {
     std::string text = summary(found.report, found.models);
     if (from_store)
         text += out_of_core_summary(found.counters);
+    if (problems)
+        text += problems_text(found.report, *problems);
     if (outputs)
         text += fmt::format("\nreport      {}, .json, .csv\n", shown(outputs->path("report.html")));
     return text;
+}
+
+void print_result(const StoreClashReport& found, bool from_store,
+                  const std::optional<std::vector<std::uint32_t>>& problems,
+                  const std::optional<OutputFiles>& outputs, const CommonOptions& common) {
+    if (common.json)
+        print_json(from_store ? abut::to_json(found) : abut::to_json(found.report, found.models));
+    else if (!common.quiet)
+        print_text(text_of(found, from_store, problems, outputs));
 }
 
 /// Runs a helper, that is a process other than the first one that mpirun started. It works and
@@ -188,8 +219,8 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     const std::vector<ModelPath> files = parse_model_paths(arguments.files);
     refuse_repeated(files);
     const bool from_store = arguments.files.size() == 1 && is_store(arguments.files.front());
-    const FailOn fail_on(arguments.fail_on, from_store);
     const GroupOptions grouping = grouping_of(arguments);
+    const FailOn fail_on(arguments.fail_on, {from_store, !grouping.by.empty()});
     ClashOptions options = arguments.options;
     read_selection(arguments.selection, options);
     std::optional<OutputFiles> outputs;
@@ -230,11 +261,11 @@ int run(const ClashArguments& arguments, const CommonOptions& common) {
     throw_if_interrupted();
     if (outputs)
         write_reports(*outputs, found, from_store ? arguments.files.front() : "", page);
-    if (common.json)
-        print_json(from_store ? abut::to_json(found) : abut::to_json(report, models));
-    else if (!common.quiet)
-        print_text(text_of(found, from_store, outputs));
-    return fail_on.is_problem(report, models) ? kExitProblem : kExitDone;
+    std::optional<std::vector<std::uint32_t>> problems;
+    if (!fail_on.empty())
+        problems = fail_on.problems(report, models);
+    print_result(found, from_store, problems, outputs, common);
+    return problems && !problems->empty() ? kExitProblem : kExitDone;
 }
 
 } // namespace
@@ -287,7 +318,8 @@ Subcommand add_clash(CLI::App& root, CommonOptions& common) {
            "Exit with status 1 if there is a clash of these kinds: hard, touch, contained, "
            "duplicate, clearance (comma-separated), or any; for a store, one that is not approved, "
            "or has one of these statuses: new, active, reviewed, approved. Or a condition: "
-           "'hard and storey = L2' (docs/selecting.md)")
+           "'hard and storey = L2', 'severity = high and group.change = new' "
+           "(docs/selecting.md)")
         ->check(not_empty("WORDS"));
     add_bcf_options(*app, "--bcf", arguments->bcf);
     add_read_options(*app, arguments->read);

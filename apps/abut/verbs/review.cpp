@@ -138,28 +138,30 @@ void print_list(const ReviewArguments& arguments, const std::vector<ClashStatus>
 
 /// Reads and writes BCF files.
 int exchange(const ReviewArguments& arguments, const CommonOptions& common) {
-    std::vector<std::string> warnings;
-    std::string text, json;
+    std::string text;
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
     if (!arguments.bcf.in.empty()) {
-        const TopicMerge merge =
-            merge_bcf_file(open_store(arguments.store, {.read_only = false}), arguments.bcf.in,
-                           arguments.topics.author, warnings);
+        const TopicMerge merge = merge_bcf_file(open_store(arguments.store, {.read_only = false}),
+                                                arguments.bcf.in, arguments.topics.author);
         text += merge_text(merge);
-        json = abut::to_json(merge);
+        json = nlohmann::ordered_json::parse(abut::to_json(merge));
     }
     if (!arguments.bcf.out.out.empty()) {
         ProgressBar bar(common.progress_style());
+        std::vector<std::string> warnings;
         const std::size_t topics =
             write_review_bcf(arguments.store, arguments.bcf.out, bar.progress(), warnings);
         bar.finish();
         text += fmt::format("{} topics in {}\n", topics, shown(arguments.bcf.out.out));
-        if (json.empty())
-            json = dump({{"bcf", arguments.bcf.out.out}, {"topics", topics}});
+        for (const std::string& warning : warnings)
+            text += fmt::format("warning: {}\n", shown(warning));
+        json["bcf"] = arguments.bcf.out.out;
+        json["topics"] = topics;
+        for (const std::string& warning : warnings)
+            json["warnings"].push_back(warning);
     }
-    for (const std::string& warning : warnings)
-        text += fmt::format("warning: {}\n", shown(warning));
     if (common.json)
-        print_json(json);
+        print_json(dump(json));
     else if (!common.quiet)
         print_text(text);
     return kExitDone;

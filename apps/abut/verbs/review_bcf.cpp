@@ -2,32 +2,27 @@
 
 #include <abut/clash_bcf.h>
 #include <abut/clash_review.h>
-#include <abut/error.h>
+#include <abut/store_clash.h>
 
-#include <algorithm>
+#include <cstdint>
 
 namespace abut::command {
 
 namespace {
 
-/// The clashes of the last job, which the store remembers.
-StoreClashReport last_job(const Store& store, const std::string& path, const Progress& progress) {
-    const std::vector<ClashReview> reviews = review_clashes(store);
-    const auto last = std::ranges::max_element(reviews, {}, &ClashReview::finished);
-    if (last == reviews.end())
-        throw Error(ErrorCode::bad_argument, path, "no clash job has finished");
-    if (last->rules > 0)
-        throw Error(ErrorCode::bad_argument, path,
-                    "the last clash job had rules: use abut clash with those rules and --bcf");
-    StoreClashReport found = find_clashes(store, {.clearance = last->clearance,
-                                                  .touch_tolerance = last->touch_tolerance,
-                                                  .self = last->self,
-                                                  .rules = {},
-                                                  .progress = progress});
+/// The clashes of the last job, which the store remembers, in the groups of that job.
+StoreClashReport last_job(const Store& store, const Progress& progress) {
+    ClashOptions options = last_clash_options(store);
+    options.progress = progress;
+    StoreClashReport found = find_clashes(store, options);
     GroupOptions grouping;
+    std::int64_t last = 0;
     for (const GroupReview& review : review_groups(store))
-        if (review.finished == last->finished && !review.by.empty())
+        if (review.finished >= last && !review.by.empty()) {
             grouping.by = review.by;
+            last = review.finished;
+        }
+    grouping.progress = progress;
     group_clashes(store, found, grouping);
     return found;
 }
@@ -41,18 +36,15 @@ void add_review_bcf_options(CLI::App& app, ReviewBcfArguments& arguments) {
     add_bcf_options(app, "--bcf-out", arguments.out);
 }
 
-TopicMerge merge_bcf_file(const Store& store, const std::string& path, const std::string& author,
-                          std::vector<std::string>& warnings) {
-    const BcfFile file = read_bcf(path);
-    warnings.insert(warnings.end(), file.warnings.begin(), file.warnings.end());
-    return abut::merge_bcf(store, file, {.base = {}, .author = author, .now = 0});
+TopicMerge merge_bcf_file(const Store& store, const std::string& path, const std::string& author) {
+    return abut::merge_bcf(store, read_bcf(path), {.base = {}, .author = author, .now = 0});
 }
 
 std::size_t write_review_bcf(const std::string& path, const BcfArguments& arguments,
                              const Progress& progress, std::vector<std::string>& warnings) {
     BcfOutput output(arguments);
     const Store store = open_store(path);
-    const StoreClashReport found = last_job(store, path, progress);
+    const StoreClashReport found = last_job(store, progress);
     output.write(found, store, progress, warnings);
     return output.topics();
 }

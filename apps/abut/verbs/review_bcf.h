@@ -18,12 +18,11 @@ void add_review_bcf_options(CLI::App& app, ReviewBcfArguments& arguments);
 ///
 /// In          author: who makes the changes; empty: those who made them in the file.
 /// Errors      as read_bcf and merge_bcf.
-TopicMerge merge_bcf_file(const Store& store, const std::string& path, const std::string& author,
-                          std::vector<std::string>& warnings);
+TopicMerge merge_bcf_file(const Store& store, const std::string& path, const std::string& author);
 
 /// Writes the groups of a store's last job as topics. Returns their number.
 ///
-/// Errors      Error{bad_argument} if no job has finished, or if the last one had rules.
+/// Errors      as last_clash_options.
 std::size_t write_review_bcf(const std::string& store, const BcfArguments& arguments,
                              const Progress& progress, std::vector<std::string>& warnings);
 

@@ -1,7 +1,6 @@
 #include "verbs/review_topics.h"
 
 #include <abut/clash.h>
-#include <abut/clash_review.h>
 #include <abut/error.h>
 
 #include "arguments/common.h"
@@ -14,30 +13,12 @@ namespace abut::command {
 
 namespace {
 
-/// The topics of a store by GUID, and those of its groups of which nobody has said anything.
+/// The topics of a store by GUID, and those of its groups and clashes of which nobody has said
+/// anything.
 std::map<std::string, Topic> known_topics(const Store& store) {
     std::map<std::string, Topic> known;
-    for (const GroupReview& review : review_groups(store, 0))
-        for (const ListedGroup& group : review.groups) {
-            Topic topic;
-            topic.guid = group_topic_guid(group.id);
-            topic.group = group.id;
-            topic.title = group.name;
-            topic.description = group.what;
-            topic.status = "open";
-            topic.type = "Clash";
-            known.emplace(topic.guid, topic);
-        }
-    for (const ClashReview& review : review_clashes(store))
-        for (const ListedClash& clash : review.clashes) {
-            Topic topic;
-            topic.guid = clash_topic_guid(clash.id);
-            topic.title = clash.name[0] + " \u00D7 " + clash.name[1];
-            topic.status = "open";
-            topic.type = "Clash";
-            topic.clashes = {clash.id};
-            known.emplace(topic.guid, topic);
-        }
+    for (const Topic& topic : untouched_topics(store))
+        known.emplace(topic.guid, topic);
     for (const Topic& topic : read_topics(store))
         known.insert_or_assign(topic.guid, topic);
     return known;
@@ -136,6 +117,8 @@ std::string merge_text(const TopicMerge& merge) {
         text += fmt::format("conflict: {}: {} stays \"{}\"; \"{}\" is kept in a comment\n",
                             shown(conflict.title.empty() ? conflict.guid : conflict.title),
                             conflict.field, shown(conflict.stored), shown(conflict.edited));
+    for (const std::string& warning : merge.warnings)
+        text += fmt::format("warning: {}\n", shown(warning));
     return text;
 }
 

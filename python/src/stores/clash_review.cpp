@@ -19,6 +19,22 @@ std::vector<std::uint64_t> to_clash_ids(const std::vector<std::string>& texts) {
     return ids;
 }
 
+/// The keyword arguments of find_clashes that ask the question of the last job again.
+py::dict last_options(const OpenStore& store) {
+    const ClashOptions options = last_clash_options(store.get());
+    py::dict result;
+    result["clearance"] = options.clearance;
+    result["touch_tolerance"] = options.touch_tolerance;
+    result["self"] = options.self;
+    result["rules"] = options.rules;
+    result["only"] = options.only;
+    result["a"] = options.a;
+    result["b"] = options.b;
+    result["matrix"] = options.matrix;
+    result["leave_out"] = options.leave_out;
+    return result;
+}
+
 } // namespace
 
 void bind_clash_review(py::module_& module) {
@@ -52,6 +68,10 @@ void bind_clash_review(py::module_& module) {
         py::arg("store"),
         "One ClashReview for each question that the store has been asked. Raises Error "
         "(malformed).");
+    module.def("last_clash_options", &last_options, py::arg("store"),
+               "The options of the last job that finished, as keyword arguments of find_clashes.\n"
+               "Raises Error: bad_argument if there is none, or if the store did not keep its "
+               "rules.");
     module.def(
         "mark_clashes",
         [](const OpenStore& store, const Ids& reviewed, const Ids& approved, const Ids& cleared,

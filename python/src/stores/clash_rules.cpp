@@ -69,7 +69,15 @@ void bind_queries(py::module_& module) {
                     throw py::index_error("there is no such clash");
                 return self.matches(report.report.clashes[clash], *report.models);
             },
-            py::arg("report"), py::arg("clash"), "Whether a clash of a ClashReport matches.")
+            py::arg("report"), py::arg("clash"),
+            "Whether a clash of a ClashReport matches. It has no group and no topic; find() knows "
+            "them.")
+        .def(
+            "find",
+            [](const ClashQuery& self, const Report& report) {
+                return self.find(report.report, *report.models);
+            },
+            py::arg("report"), "The indices of the clashes of a ClashReport that match.")
         .def("empty", &ClashQuery::empty, "Whether there is no condition.")
         .def("names", &ClashQuery::names, "The names that it asks for.")
         .def("asks_status", &ClashQuery::asks_status, "Whether it asks for a status.")

@@ -88,6 +88,8 @@ void bind_topic_records(py::module_& module) {
         .field("comments", &TopicMerge::comments, "new ones")
         .field("marked", &TopicMerge::marked, "clashes whose mark has changed")
         .field("conflicts", &TopicMerge::conflicts, "list of TopicConflict")
+        .field("warnings", &TopicMerge::warnings,
+               "places of a BCF file that other programs may read differently")
         .done();
 }
 
@@ -106,6 +108,11 @@ void bind_topics(py::module_& module) {
     module.def(
         "read_topics", [](const OpenStore& store) { return read_topics(store.get()); },
         py::arg("store"), "The topics of a store. Raises Error (malformed).");
+    module.def(
+        "untouched_topics", [](const OpenStore& store) { return untouched_topics(store.get()); },
+        py::arg("store"),
+        "The topics of a store's groups and clashes, also of resolved ones, before anybody says "
+        "anything about them.");
     module.def(
         "topics_revision", [](const OpenStore& store) { return topics_revision(store.get()); },
         py::arg("store"), "The number of the last change of topics.");

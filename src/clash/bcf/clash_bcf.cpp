@@ -4,6 +4,7 @@
 #include "bcf/bcf_parts.h"
 #include "clash/bcf/topic_fields.h"
 #include "clash/bcf/topic_viewpoint.h"
+#include "clash/groups/group_topics.h"
 #include "core/stop.h"
 
 #include <algorithm>

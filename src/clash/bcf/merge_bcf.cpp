@@ -1,14 +1,15 @@
 #include <abut/clash_bcf.h>
-#include <abut/clash_review.h>
 
 #include "clash/bcf/topic_fields.h"
-#include "clash/groups/group_topics.h"
+#include "core/uuid.h"
 
 #include <algorithm>
 #include <charconv>
 #include <iterator>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace abut {
 
@@ -16,15 +17,9 @@ namespace {
 
 using TopicsByGuid = std::unordered_map<std::string, Topic>;
 
-std::string small_guid(std::string guid) {
-    for (char& c : guid)
-        c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return guid;
-}
-
 Topic topic_of_bcf(const BcfTopic& from) {
     Topic topic;
-    topic.guid = small_guid(from.guid);
+    topic.guid = lower_uuid(from.guid);
     topic.title = from.title;
     topic.description = without_derived_line(from.description);
     topic.status = topic_status(from.status);
@@ -41,28 +36,19 @@ Topic topic_of_bcf(const BcfTopic& from) {
     topic.modified_by = from.modified_author.empty() ? from.creation_author : from.modified_author;
     topic.modified = parse_bcf_time(from.modified_date).value_or(topic.created);
     for (const BcfComment& comment : from.comments)
-        topic.comments.push_back({small_guid(comment.guid), comment.author, comment.text,
+        topic.comments.push_back({lower_uuid(comment.guid), comment.author, comment.text,
                                   parse_bcf_time(comment.date).value_or(0),
-                                  small_guid(comment.viewpoint)});
+                                  lower_uuid(comment.viewpoint)});
     return topic;
 }
 
-/// The topics of a store's groups and clashes of which nobody has said anything.
-TopicsByGuid fresh_topics(const Store& store) {
-    TopicsByGuid topics;
-    for (const GroupReview& review : review_groups(store, 0))
-        for (const ListedGroup& group : review.groups)
-            topics.emplace(group_topic_guid(group.id),
-                           fresh_topic(group.id, group.name, group.what));
-    for (const ClashReview& review : review_clashes(store))
-        for (const ListedClash& clash : review.clashes) {
-            const auto name = [&](std::size_t side) {
-                return clash.name.at(side).empty() ? clash.part.at(side) : clash.name.at(side);
-            };
-            topics.emplace(clash_topic_guid(clash.id),
-                           fresh_topic_of_clash(clash.id, name(0), name(1)));
-        }
-    return topics;
+TopicsByGuid by_guid(std::vector<Topic> topics) {
+    TopicsByGuid result;
+    for (Topic& topic : topics) {
+        const std::string guid = topic.guid;
+        result.emplace(guid, std::move(topic));
+    }
+    return result;
 }
 
 /// Returns whether a topic says no more than the clashes do.
@@ -114,12 +100,8 @@ TopicMerge merge_bcf(const Store& store, const BcfFile& file, const MergeOptions
     // The file of another store may say a revision that this one has not reached.
     if (!options.base && merge.base && *merge.base > topics_revision(store))
         merge.base.reset();
-    const TopicsByGuid fresh = fresh_topics(store);
-    TopicsByGuid stored;
-    for (Topic& topic : read_topics(store)) {
-        const std::string guid = topic.guid;
-        stored.emplace(guid, std::move(topic));
-    }
+    const TopicsByGuid fresh = by_guid(untouched_topics(store));
+    const TopicsByGuid stored = by_guid(read_topics(store));
     std::vector<Topic> edited;
     for (const BcfTopic& from : file.topics) {
         Topic topic = topic_of_bcf(from);
@@ -142,7 +124,9 @@ TopicMerge merge_bcf(const Store& store, const BcfFile& file, const MergeOptions
             merge_by_time(known->second, topic);
         edited.push_back(std::move(topic));
     }
-    return merge_topics(store, edited, merge);
+    TopicMerge result = merge_topics(store, edited, merge);
+    result.warnings = file.warnings;
+    return result;
 }
 
 } // namespace abut

@@ -142,16 +142,6 @@ bool is_derived_label(std::string_view label) {
         kDerivedLabels, [&](std::string_view beginning) { return label.starts_with(beginning); });
 }
 
-Topic fresh_topic_of_clash(std::uint64_t clash, const std::string& a, const std::string& b) {
-    Topic topic;
-    topic.guid = clash_topic_guid(clash);
-    topic.title = a + " \u00D7 " + b;
-    topic.status = "open";
-    topic.type = "Clash";
-    topic.clashes = {clash};
-    return topic;
-}
-
 BcfTopic bcf_topic(const Topic& topic, const std::string& author, std::int64_t time) {
     const bool is_new = topic.created == 0;
     BcfTopic result;

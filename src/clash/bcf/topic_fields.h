@@ -37,11 +37,6 @@ std::string derived_priority(const std::string& description);
 /// The entry of a file that says which revision of a store's topics it was exported from.
 inline constexpr const char *kRevisionEntry = "abut.txt", *kRevisionWord = "revision ";
 
-/// Returns the topic of a clash of which nobody has said anything yet.
-///
-/// In          a, b: names of the parts.
-Topic fresh_topic_of_clash(std::uint64_t clash, const std::string& a, const std::string& b);
-
 /// Returns a topic without its files and viewpoints. One that no store has yet has neither a
 /// description nor a date of change.
 ///

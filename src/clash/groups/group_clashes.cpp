@@ -1,6 +1,7 @@
 #include <abut/clash_groups.h>
 #include <abut/error.h>
 
+#include "clash/groups/earlier_places.h"
 #include "clash/groups/group_covers.h"
 #include "clash/groups/group_facts.h"
 #include "clash/groups/group_names.h"
@@ -385,6 +386,9 @@ std::vector<ClashUnit> ClashGrouper::join_earlier_places(std::vector<ClashUnit>&
                                                          std::vector<Draft>& drafts,
                                                          const std::string& parent) {
     const std::size_t earlier = drafts.size();
+    EarlierPlaces places(options_.reach);
+    for (const Draft& draft : drafts)
+        places.add(draft.group.centre);
     std::vector<ClashUnit> left;
     SearchSteps steps;
     for (ClashUnit& unit : units) {
@@ -393,13 +397,9 @@ std::vector<ClashUnit> ClashGrouper::join_earlier_places(std::vector<ClashUnit>&
         Draft* best = group != nullptr && group->kind == GroupKind::place
                           ? find_draft(drafts, earlier, group->id)
                           : nullptr;
-        double nearest = options_.reach * options_.reach;
-        for (std::size_t i = 0; best == nullptr && i < earlier; ++i)
-            nearest =
-                std::min(nearest, symmetric_distance_sq(drafts[i].group.centre, point_of(unit)));
-        for (std::size_t i = 0; best == nullptr && i < earlier; ++i)
-            if (symmetric_distance_sq(drafts[i].group.centre, point_of(unit)) <= nearest)
-                best = &drafts[i];
+        if (best == nullptr)
+            if (const auto near = places.nearest(point_of(unit)))
+                best = &drafts[*near];
         (best != nullptr ? best->units : left).push_back(std::move(unit));
     }
     return left;

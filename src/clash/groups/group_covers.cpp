@@ -1,9 +1,9 @@
 #include "clash/groups/group_covers.h"
 
+#include "clash/groups/point_grid.h"
 #include "core/stop.h"
 
 #include <algorithm>
-#include <cmath>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -22,26 +22,26 @@ struct CoverCandidate {
     }
 };
 
-/// Points in a grid of cubes whose edge is the reach.
-class PlaceGrid {
+/// The clashes that are left to be covered, by their places.
+class ClashesInReach {
 public:
-    PlaceGrid(const GroupFacts& facts, const std::vector<std::uint32_t>& clashes, double reach)
-        : facts_(facts), clashes_(clashes), reach_(reach) {
+    ClashesInReach(const GroupFacts& facts, const std::vector<std::uint32_t>& clashes, double reach)
+        : facts_(facts), clashes_(clashes), reach_(reach), grid_(reach) {
         for (std::uint32_t i = 0; i < clashes.size(); ++i)
-            cells_[cell_of(point(i))].push_back(i);
+            grid_.add(i, point(i));
     }
 
-    /// The number of points in the cubes around a point, which is at least that within reach.
+    /// The number of clashes in the cubes around a clash, which is at least that within reach.
     [[nodiscard]] std::uint32_t count_around(std::uint32_t i) const {
         std::size_t count = 0;
-        for_each_cell(point(i), [&](const auto& cell) { count += cell.size(); });
+        grid_.for_each_cell(point(i), [&](const auto& cell) { count += cell.size(); });
         return static_cast<std::uint32_t>(count);
     }
 
-    /// The places of the points within reach of a point that are not removed yet.
+    /// The places of the clashes within reach of a clash that are not removed yet.
     [[nodiscard]] std::vector<std::uint32_t> within_reach(std::uint32_t i) const {
         std::vector<std::uint32_t> result;
-        for_each_cell(point(i), [&](const auto& cell) {
+        grid_.for_each_cell(point(i), [&](const auto& cell) {
             for (const std::uint32_t j : cell)
                 if (symmetric_distance_sq(point(i), point(j)) <= reach_ * reach_)
                     result.push_back(j);
@@ -50,45 +50,17 @@ public:
         return result;
     }
 
-    void remove(std::uint32_t i) { std::erase(cells_.at(cell_of(point(i))), i); }
+    void remove(std::uint32_t i) { grid_.remove(i, point(i)); }
 
 private:
-    using Cell = std::array<std::int64_t, 3>;
-    struct CellHash {
-        std::size_t operator()(const Cell& cell) const {
-            std::uint64_t hash = 0;
-            for (const std::int64_t c : cell)
-                hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15U;
-            return static_cast<std::size_t>(hash ^ hash >> 32);
-        }
-    };
-
     [[nodiscard]] const Vec3& point(std::uint32_t i) const {
         return facts_.clashes[clashes_[i]].point;
-    }
-    [[nodiscard]] Cell cell_of(const Vec3& p) const {
-        constexpr double kFar = 1e15; // keeps the conversion defined for any point
-        const auto index = [&](double v) {
-            return static_cast<std::int64_t>(std::clamp(std::floor(v / reach_), -kFar, kFar));
-        };
-        return {index(p.x), index(p.y), index(p.z)};
-    }
-    template <typename Take>
-    void for_each_cell(const Vec3& p, const Take& take) const {
-        const Cell middle = cell_of(p);
-        for (std::int64_t x = -1; x <= 1; ++x)
-            for (std::int64_t y = -1; y <= 1; ++y)
-                for (std::int64_t z = -1; z <= 1; ++z) {
-                    const auto found = cells_.find({middle[0] + x, middle[1] + y, middle[2] + z});
-                    if (found != cells_.end())
-                        take(found->second);
-                }
     }
 
     const GroupFacts& facts_;
     const std::vector<std::uint32_t>& clashes_;
     double reach_;
-    std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
+    PointGrid grid_;
 };
 
 } // namespace
@@ -133,7 +105,7 @@ std::vector<Cover> cover_by_part(const GroupFacts& facts, std::vector<std::uint3
 
 std::vector<Cover> cover_by_place(const GroupFacts& facts,
                                   const std::vector<std::uint32_t>& clashes, double reach) {
-    PlaceGrid grid(facts, clashes, reach);
+    ClashesInReach grid(facts, clashes, reach);
     std::priority_queue<CoverCandidate> queue;
     for (std::uint32_t i = 0; i < clashes.size(); ++i)
         queue.push({grid.count_around(i), i});

@@ -39,6 +39,16 @@ Topic fresh_topic(std::string_view group, std::string_view name, std::string_vie
     return topic;
 }
 
+Topic fresh_topic_of_clash(std::uint64_t clash, const std::string& a, const std::string& b) {
+    Topic topic;
+    topic.guid = clash_topic_guid(clash);
+    topic.title = a + " \u00D7 " + b;
+    topic.status = "open";
+    topic.type = "Clash";
+    topic.clashes = {clash};
+    return topic;
+}
+
 std::vector<Topic> topics_of_groups(const ClashReport& report) {
     std::unordered_map<std::string, const Topic*> known;
     for (const Topic& topic : report.topics)

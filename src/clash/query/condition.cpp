@@ -126,6 +126,15 @@ void for_each_name(const Condition& condition,
         for_each_name(part, take);
 }
 
+std::vector<std::string> names_of(const Condition* condition) {
+    std::vector<std::string> names;
+    if (condition != nullptr)
+        for_each_name(*condition, [&](const std::string& name) { names.push_back(name); });
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
 void for_each_word(const Condition& condition,
                    const std::function<void(const std::string&)>& take) {
     if (condition.kind == Condition::Kind::word)

@@ -61,6 +61,8 @@ std::string to_text(const Condition& condition);
 /// Calls take(name) for each name that the condition compares, in the order of the text. Words are
 /// not names.
 void for_each_name(const Condition& condition, const std::function<void(const std::string&)>& take);
+/// Returns these names, ascending, each once; none of a null condition.
+std::vector<std::string> names_of(const Condition* condition);
 /// As for_each_name, for the words.
 void for_each_word(const Condition& condition, const std::function<void(const std::string&)>& take);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <abut/properties.h>
+#include <abut/scene.h>
 
 #include "clash/query/condition.h"
 
@@ -18,6 +19,11 @@ struct PartFacts {
     const Properties* properties = nullptr; ///< null if there are none
     std::uint32_t part = 0;                 ///< index of the part in `properties`
 };
+
+inline PartFacts facts_of(const Scene& scene, std::uint32_t part) {
+    const Part& p = scene.parts[part];
+    return {0, scene.file, p.id, p.name, p.type, &scene.properties, part};
+}
 
 /// The names that every part has a value of.
 inline constexpr std::array<std::string_view, 4> kFixedNames{"type", "name", "id", "file"};

@@ -1,116 +1,11 @@
-#include <abut/clash.h>
-#include <abut/error.h>
 #include <abut/part_query.h>
 
 #include "clash/query/condition.h"
 #include "clash/query/part_facts.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace abut {
-
-namespace {
-
-/// Returns each name that the condition asks for once, ascending.
-std::vector<std::string> names_of(const Condition* condition) {
-    std::vector<std::string> names;
-    if (condition != nullptr)
-        for_each_name(*condition, [&](const std::string& name) { names.push_back(name); });
-    std::ranges::sort(names);
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    return names;
-}
-
-/// Formats a number so that it reads back as the same double.
-std::string exact_text(double number) {
-    std::array<char, 32> text{};
-    const auto [end, fault] = std::to_chars(text.data(), text.data() + text.size(), number);
-    return fault == std::errc() ? std::string(text.data(), end) : std::string();
-}
-
-PartFacts facts_of(const Scene& scene, std::uint32_t part) {
-    const Part& p = scene.parts[part];
-    return {0, scene.file, p.id, p.name, p.type, &scene.properties, part};
-}
-
-const std::vector<std::string>& clash_words() {
-    static const std::vector<std::string> words = [] {
-        std::vector<std::string> list{"any"};
-        for (const ClashKind kind : kClashKinds)
-            list.emplace_back(to_string(kind));
-        for (const ClashStatus status : kClashStatuses)
-            list.emplace_back(to_string(status));
-        return list;
-    }();
-    return words;
-}
-
-bool is_status(std::string_view word) {
-    return std::ranges::any_of(kClashStatuses,
-                               [&](ClashStatus status) { return word == to_string(status); });
-}
-
-/// A clash as the subject of a condition.
-class ClashSubject final : public ConditionSubject {
-public:
-    ClashSubject(const Clash& clash, const std::vector<Scene>& models)
-        : clash_(clash), models_(models) {}
-
-    [[nodiscard]] bool is(std::string_view word) const override {
-        return word == "any" || word == to_string(clash_.kind) ||
-               (clash_.status && word == to_string(*clash_.status));
-    }
-
-    [[nodiscard]] bool any_value(std::string_view name,
-                                 const std::function<bool(std::string_view)>& take) const override {
-        if (name.starts_with("a.") || name.starts_with("b."))
-            return of_part(name.front() == 'a' ? 0 : 1, name.substr(2), take);
-        if (name == "kind")
-            return take(to_string(clash_.kind));
-        if (name == "status")
-            return clash_.status && take(to_string(*clash_.status));
-        if (name == "neighbours")
-            return clash_.neighbours && take(to_string(*clash_.neighbours));
-        if (name == "severity" || name == "rule" || name == "note") {
-            const std::string& text = name == "severity" ? clash_.severity
-                                      : name == "rule"   ? clash_.rule
-                                                         : clash_.note;
-            return !text.empty() && take(text);
-        }
-        if (name == "distance" || name == "depth" || name == "gap" || name == "volume") {
-            const std::optional<double> value = length_of(name);
-            return value && take(exact_text(*value));
-        }
-        return of_part(0, name, take) || of_part(1, name, take);
-    }
-
-private:
-    [[nodiscard]] std::optional<double> length_of(std::string_view name) const {
-        if (name == "distance")
-            return clash_.distance;
-        if (name == "volume")
-            return clash_.volume;
-        if (clash_.kind == ClashKind::duplicate ||
-            (clash_.kind == ClashKind::clearance) != (name == "gap"))
-            return std::nullopt;
-        return std::abs(clash_.distance);
-    }
-    [[nodiscard]] bool of_part(std::size_t side, std::string_view name,
-                               const std::function<bool(std::string_view)>& take) const {
-        const std::uint32_t model = clash_.model.at(side), part = clash_.part.at(side);
-        if (model >= models_.size() || part >= models_[model].parts.size())
-            throw Error(ErrorCode::bad_argument, "a clash names a part that does not exist");
-        const PartFacts facts = facts_of(models_[model], part);
-        return PartSubject(facts).any_value(name, take);
-    }
-
-    const Clash& clash_;
-    const std::vector<Scene>& models_;
-};
-
-} // namespace
 
 bool PartSubject::any_value(std::string_view name,
                             const std::function<bool(std::string_view)>& take) const {
@@ -149,30 +44,6 @@ bool PartQuery::matches(const Scene& scene, std::uint32_t part) const {
 
 std::vector<std::string> PartQuery::names() const {
     return names_of(condition_.get());
-}
-
-ClashQuery ClashQuery::parse(std::string_view text) {
-    ClashQuery query;
-    query.condition_ = std::make_shared<const Condition>(parse_condition(text, clash_words()));
-    query.text_ = to_text(*query.condition_);
-    return query;
-}
-
-bool ClashQuery::matches(const Clash& clash, const std::vector<Scene>& models) const {
-    return condition_ == nullptr || is_true(*condition_, ClashSubject(clash, models));
-}
-
-std::vector<std::string> ClashQuery::names() const {
-    return names_of(condition_.get());
-}
-
-bool ClashQuery::asks_status() const {
-    bool asks = false;
-    if (condition_ != nullptr) {
-        for_each_name(*condition_, [&](const std::string& name) { asks |= name == "status"; });
-        for_each_word(*condition_, [&](const std::string& word) { asks |= is_status(word); });
-    }
-    return asks;
 }
 
 } // namespace abut

@@ -14,6 +14,7 @@ import fs from 'node:fs';
 import {Colours} from './colours.mjs';
 import {Fault, MALFORMED, UNSUPPORTED} from './fault.mjs';
 import {Knowledge} from './knowledge.mjs';
+import {LongTexts} from './long_texts.mjs';
 import {mapFromProject} from './map.mjs';
 import {Products} from './products.mjs';
 import {edgeFaults, withClosedSlits} from './surface.mjs';
@@ -80,6 +81,8 @@ function withJoinedVertices({positions, triangles}) {
 }
 
 class Output {
+    /** Returns a text as it is written. */
+    textOf = text => text;
     #parts = []; // buffers, several a part
     #partCount = 0;
     #notes = []; // buffers, several a note
@@ -108,7 +111,7 @@ class Output {
 
     /** world: the twelve numbers of Transform; colour: four bytes, or null. */
     part(world, mesh, id, name, type, colour) {
-        const texts = [id, name, type].map(text => Buffer.from(text));
+        const texts = [id, name, type].map(text => Buffer.from(this.textOf(text)));
         const numbers = Uint32Array.of(mesh, ...texts.map(text => text.length), colour === null ? 0 : 1);
         this.#parts.push(Buffer.from(Float64Array.from(world).buffer), Buffer.from(numbers.buffer),
                          Buffer.from(colour ?? [0, 0, 0, 0]), ...texts);
@@ -131,7 +134,7 @@ class Output {
 
     /** kind: a number of NoteKind of include/abut/scene.h. */
     note(kind, id, name, type, text) {
-        const texts = [id, name, type, text].map(text => Buffer.from(text));
+        const texts = [id, name, type, text].map(text => Buffer.from(this.textOf(text)));
         this.#notes.push(Buffer.from(Uint32Array.of(kind, ...texts.map(text => text.length)).buffer), ...texts);
         ++this.#noteCount;
     }
@@ -142,7 +145,7 @@ class Output {
      */
     end(unit, project, map, {names, values, counts, entries, relations}) {
         const sized = text => [Buffer.from(Uint32Array.of(Buffer.byteLength(text)).buffer), Buffer.from(text)];
-        const texts = [names, values].map(list => Buffer.concat(list.flatMap(sized)));
+        const texts = [names, values].map(list => Buffer.concat(list.map(this.textOf).flatMap(sized)));
         const numbers = Uint32Array.of(names.length, values.length, relations.length / RELATION_BYTES,
                                        Buffer.byteLength(project));
         this.#append(Buffer.concat([...this.#parts, ...this.#notes]));
@@ -372,11 +375,13 @@ function mapOf(api, model, file, unit, isNeeded) {
 
 async function convert(path, withSpaces, withMap, output) {
     const damaged = text => { throw new Fault(MALFORMED, text); };
-    const file = /\.ifczip$/i.test(path) ? zippedFile(path, damaged) : plainFile(path);
+    const file = new LongTexts(/\.ifczip$/i.test(path) ? zippedFile(path, damaged) : plainFile(path));
     checkFile(file);
     const {IfcAPI} = await import('web-ifc');
     const api = new IfcAPI();
     await api.Init(undefined, true);
+    file.use(api);
+    output.textOf = text => file.of(text);
     const model = api.OpenModelFromCallback((offset, size) => file.read(size, offset), {COORDINATE_TO_ORIGIN: false});
     if (model < 0)
         throw new Fault(MALFORMED, 'cannot be parsed as IFC');

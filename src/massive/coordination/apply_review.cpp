@@ -6,6 +6,7 @@
 
 #include "clash/report/group_json.h"
 #include "clash/report/topic_document.h"
+#include "core/uuid.h"
 
 #include <algorithm>
 #include <fstream>
@@ -57,6 +58,13 @@ MergeOptions read_head(const json& file, const std::string& path, MergeOptions o
     return options;
 }
 
+void require_uuid(const std::string& guid, const std::string& place) {
+    if (!guid.empty() && !is_uuid(guid))
+        throw Error(ErrorCode::malformed,
+                    place + " must be a UUID such as 01234567-89ab-4cde-8f01-23456789abcd, not '" +
+                        guid + "'");
+}
+
 /// The GUID of the topic that an object of the file is about. Removes "clash", which stands for
 /// the GUID.
 std::string guid_of_entry(json& entry) {
@@ -75,9 +83,13 @@ std::string guid_of_entry(json& entry) {
     const auto id = parse_clash_id(clash);
     if (!clash.empty() && !id)
         throw Error(ErrorCode::malformed, "'clash' must be a clash id");
+    if (!group.empty() && !parse_clash_id(group))
+        throw Error(ErrorCode::malformed,
+                    "'group' must be the id of a group: 16 hexadecimal digits");
+    require_uuid(guid, "'guid'");
     entry.erase("clash");
     if (!guid.empty())
-        return guid;
+        return lower_uuid(std::move(guid));
     if (!group.empty())
         return group_topic_guid(group);
     if (!id)
@@ -94,6 +106,13 @@ void edit_topic(const json& entry, Topic& topic) {
     topic.modified_by.clear(); // not who changed it before
     read_topic_fields(entry, topic);
     topic.guid = guid;
+    for (std::size_t i = 0; i < topic.comments.size(); ++i) {
+        TopicComment& comment = topic.comments[i];
+        const std::string place = "comments[" + std::to_string(i) + "]: ";
+        require_uuid(comment.guid, place + "'guid'");
+        require_uuid(comment.viewpoint, place + "'viewpoint'");
+        comment.guid = lower_uuid(std::move(comment.guid));
+    }
     for (const TopicComment& comment : before)
         if (comment.guid.empty() || std::ranges::find(topic.comments, comment.guid,
                                                       &TopicComment::guid) == topic.comments.end())
@@ -150,7 +169,8 @@ std::string to_json(const TopicMerge& merge) {
                  {"changed", merge.changed},
                  {"comments", merge.comments},
                  {"marked", merge.marked},
-                 {"conflicts", conflicts}});
+                 {"conflicts", conflicts},
+                 {"warnings", merge.warnings}});
     out.end_object();
     return out.take() + "\n";
 }

@@ -9,13 +9,16 @@
 #include "massive/record/job_counts.h"
 #include "massive/record/job_rows.h"
 #include "massive/record/job_tables.h"
+#include "massive/record/question_terms.h"
 #include "massive/record/work_rows.h"
 #include "store/database/store_file.h"
 
 #include <algorithm>
 #include <ctime>
+#include <optional>
 #include <tuple>
 #include <unordered_set>
+#include <utility>
 
 namespace abut {
 
@@ -151,6 +154,19 @@ std::uint64_t forget_resolved_clashes(const Store& store) {
     });
 }
 
+ClashOptions last_clash_options(const Store& store) {
+    return store.file().with_connection([](Database& database) {
+        std::optional<JobRow> last;
+        if (has_job_tables(database))
+            for (JobRow& job : read_jobs(database))
+                if (job.finished != 0)
+                    last = std::move(job);
+        if (!last)
+            throw Error(ErrorCode::bad_argument, database.path(), "no clash job has finished");
+        return read_terms(database, last->question);
+    });
+}
+
 void verify_jobs(const Store& store) {
     store.file().with_connection([](Database& database) {
         if (!has_job_tables(database))
@@ -160,6 +176,7 @@ void verify_jobs(const Store& store) {
             for_each_in_history(database, question.question, [](const HistoryRow&) {});
             (void)read_counts(database, question.question);
         }
+        verify_terms(database);
         for (const JobRow& job : read_jobs(database)) {
             for_each_clash(database, job.job, [](const ClashRow&) {});
             for_each_pair_left(database, job.job, [](const RowPair&) {});

@@ -1,4 +1,5 @@
 #include <abut/clash.h>
+#include <abut/clash_review.h>
 #include <abut/error.h>
 #include <abut/store.h>
 #include <abut/topics.h>
@@ -25,7 +26,7 @@ namespace abut {
 
 namespace {
 
-[[noreturn]] void refuse_topic(const std::string& topic, const char* why) {
+[[noreturn]] void refuse_topic(const std::string& topic, const std::string& why) {
     throw Error(ErrorCode::bad_argument, "topic " + topic + " " + why);
 }
 
@@ -49,6 +50,22 @@ std::map<std::string, Topic> topics_nobody_touched(Database& database) {
         topics.insert_or_assign(guid, std::move(topic));
     }
     return topics;
+}
+
+/// Makes the GUIDs of a topic and its comments lower case.
+///
+/// Errors      Error{bad_argument} if one is not a UUID.
+void take_guids(Topic& topic) {
+    const auto take = [&](std::string& guid, const char* of) {
+        if (!guid.empty() && !is_uuid(guid))
+            refuse_topic(topic.guid, fmt::format("has {} '{}', which is not a UUID", of, guid));
+        guid = lower_uuid(std::move(guid));
+    };
+    take(topic.guid, "the GUID");
+    for (TopicComment& comment : topic.comments) {
+        take(comment.guid, "a comment with the GUID");
+        take(comment.viewpoint, "a comment on the viewpoint");
+    }
 }
 
 /// The topic with U+FFFD in place of bytes that are not UTF-8, as its revisions have it.
@@ -79,6 +96,7 @@ public:
 
     void merge(Topic edited) {
         edited.guid = guid_of(edited);
+        take_guids(edited);
         if (!seen_.insert(edited.guid).second)
             refuse_topic(edited.guid, "is given twice");
         if (!edited.due.empty() && !is_date(edited.due))
@@ -202,6 +220,27 @@ std::vector<Topic> read_topics(const Store& store) {
     return store.file().with_connection([](Database& database) {
         return has_coordination_tables(database) ? read_topic_rows(database) : std::vector<Topic>();
     });
+}
+
+std::vector<Topic> untouched_topics(const Store& store) {
+    auto topics = store.file().with_connection([](Database& database) {
+        return has_coordination_tables(database) ? topics_nobody_touched(database)
+                                                 : std::map<std::string, Topic>();
+    });
+    for (const ClashReview& review : review_clashes(store))
+        for (const ListedClash& clash : review.clashes) {
+            const auto name = [&](std::size_t side) {
+                return clash.name.at(side).empty() ? clash.part.at(side) : clash.name.at(side);
+            };
+            Topic topic = fresh_topic_of_clash(clash.id, name(0), name(1));
+            const std::string guid = topic.guid;
+            topics.emplace(guid, std::move(topic));
+        }
+    std::vector<Topic> result;
+    result.reserve(topics.size());
+    for (auto& [guid, topic] : topics)
+        result.push_back(std::move(topic));
+    return result;
 }
 
 std::int64_t topics_revision(const Store& store) {

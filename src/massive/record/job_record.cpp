@@ -6,6 +6,7 @@
 #include "massive/record/earlier_answers.h"
 #include "massive/record/job_counts.h"
 #include "massive/record/job_tables.h"
+#include "massive/record/question_terms.h"
 #include "store/database/row_hash.h"
 
 #include <algorithm>
@@ -58,6 +59,7 @@ JobRecord::JobRecord(const std::string& store, const StoredParts& stored,
     find(); // again: another process may have created the job meanwhile
     if (job_.question == 0)
         job_.question = add_question(database_, options);
+    keep_terms(database_, job_.question, options);
     if (job_.job == 0) {
         job_.key = job_key(parts_, job_.question);
         job_.generation = youngest_generation(stored.models);

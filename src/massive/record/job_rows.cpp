@@ -16,7 +16,40 @@ std::span<const std::byte> bytes_of(const Hash128& hash) {
     return std::as_bytes(std::span(&hash, 1));
 }
 
-/// Returns a hash of all options that make up the question. It does not depend on the parts.
+constexpr const char* kJobList = "job";
+
+JobRow read_job(Database& database, const Statement& row) {
+    JobRow job;
+    job.job = row.integer(0);
+    job.question = row.integer(1);
+    const auto key = blob_elements<std::uint64_t>(row.bytes(2));
+    if (key.size() == 2)
+        job.key = {key[0], key[1]};
+    job.generation = static_cast<std::uint64_t>(row.integer(3));
+    job.within = row.integer(4) != 0;
+    for (const auto& [model, file] : blob_elements<std::array<std::uint64_t, 2>>(row.bytes(5)))
+        job.models.emplace_back(static_cast<std::int64_t>(model), file);
+    job.candidates = static_cast<std::uint64_t>(row.integer(6));
+    job.run = row.integer(7);
+    job.planned = row.integer(8) != 0;
+    job.finished = row.integer(9);
+    if (job.checksum() != static_cast<std::uint64_t>(row.integer(10)))
+        damaged_job(database, "job " + std::to_string(job.job) + " does not match its checksum");
+    return job;
+}
+
+/// Returns the last job for which wanted(job) is true.
+template <typename Wanted>
+std::optional<JobRow> find_last(Database& database, const Wanted& wanted) {
+    std::optional<JobRow> found;
+    for (JobRow& job : read_jobs(database))
+        if (wanted(job))
+            found = std::move(job);
+    return found;
+}
+
+} // namespace
+
 Hash128 question_hash(const ClashOptions& options) {
     RowHash hash;
     const auto add_texts = [&](const std::vector<std::string>& texts) {
@@ -61,40 +94,6 @@ Hash128 question_hash(const ClashOptions& options) {
     }
     return hash.value_128();
 }
-
-constexpr const char* kJobList = "job";
-
-JobRow read_job(Database& database, const Statement& row) {
-    JobRow job;
-    job.job = row.integer(0);
-    job.question = row.integer(1);
-    const auto key = blob_elements<std::uint64_t>(row.bytes(2));
-    if (key.size() == 2)
-        job.key = {key[0], key[1]};
-    job.generation = static_cast<std::uint64_t>(row.integer(3));
-    job.within = row.integer(4) != 0;
-    for (const auto& [model, file] : blob_elements<std::array<std::uint64_t, 2>>(row.bytes(5)))
-        job.models.emplace_back(static_cast<std::int64_t>(model), file);
-    job.candidates = static_cast<std::uint64_t>(row.integer(6));
-    job.run = row.integer(7);
-    job.planned = row.integer(8) != 0;
-    job.finished = row.integer(9);
-    if (job.checksum() != static_cast<std::uint64_t>(row.integer(10)))
-        damaged_job(database, "job " + std::to_string(job.job) + " does not match its checksum");
-    return job;
-}
-
-/// Returns the last job for which wanted(job) is true.
-template <typename Wanted>
-std::optional<JobRow> find_last(Database& database, const Wanted& wanted) {
-    std::optional<JobRow> found;
-    for (JobRow& job : read_jobs(database))
-        if (wanted(job))
-            found = std::move(job);
-    return found;
-}
-
-} // namespace
 
 std::optional<std::int64_t> find_question(Database& database, const ClashOptions& options) {
     const Hash128 hash = question_hash(options);

@@ -32,6 +32,8 @@ std::vector<QuestionRow> read_questions(Database& database);
 std::optional<std::int64_t> find_question(Database& database, const ClashOptions& options);
 /// Adds a question that the store does not have yet, and returns its number.
 std::int64_t add_question(Database& database, const ClashOptions& options);
+/// Returns a hash of all options that make up the question. It does not depend on the parts.
+Hash128 question_hash(const ClashOptions& options);
 
 /// A job: a question about the parts that the store had, and how far its answer has come.
 struct JobRow {

@@ -2,11 +2,13 @@
 #include <abut/bcf.h>
 #include <abut/topics.h>
 
+#include "store/database/sqlite.h"
 #include "tests/command/models.h"
 #include "tests/command/run_command.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -214,6 +216,91 @@ TEST_F(BcfFiles, WithoutARevisionLoseNoComment) {
     stored_topic = stored(group_topic_guid(slab));
     EXPECT_EQ(stored_topic["assignee"], "Hydra");
     EXPECT_EQ(stored_topic["comments"].size(), 2U);
+}
+
+/// Every option of a question that a store keeps.
+TEST_F(BcfFiles, AreWrittenAfterAJobWithRules) {
+    import(pipes_through_slab(5));
+    const std::string rules = folder_ / "rules.toml", matrix = folder_ / "matrix.toml";
+    std::ofstream(rules) << R"(
+[[rules]]
+name = "walls"
+a = { name = "wall*", type = ["Wall"], file = "*" }
+b = "type = Wall and not name = \"a b\""
+clearance = 0.1
+touch = 0.001
+tolerate = 0.002
+kinds = ["hard", "clearance"]
+severity = "low"
+ignore = { same_name_prefix = 40, neighbours = ["fills"] }
+)";
+    std::ofstream(matrix) << R"(
+[[groups]]
+name = "slabs"
+select = "type = Slab"
+[[groups]]
+name = "pipes"
+select = "type = Pipe"
+[[cells]]
+a = "slabs"
+b = "pipes"
+severity = "high"
+[[cells]]
+a = "pipes"
+b = "pipes"
+on = false
+)";
+    const std::vector<std::string> options{
+        "--rules",          rules,         "--matrix",         matrix,    "--only",
+        "not name = pipe4", "--leave-out", "covers,connected", "--touch", "2mm",
+        "--group",          "types"};
+    const Json found = clash(store_, options);
+    ASSERT_EQ(found["groups"].size(), 2U) << found["groups"];
+    write_out();
+    BcfFile file = read_bcf(bcf_);
+    ASSERT_EQ(file.topics.size(), 2U);
+    for (const Json& group : found["groups"])
+        EXPECT_EQ(topic_of(file, group["id"]).priority, group["size"] == 4 ? "high" : "low");
+    // The same question: no clash becomes active.
+    EXPECT_EQ(clash(store_, options)["statuses"]["new"], 5);
+    // A job that was asked later counts, and another order of clashes is not another question.
+    clash(store_, {"--only", "type = Wall", "--sort", "volume"});
+    std::filesystem::remove(bcf_);
+    write_out();
+    EXPECT_EQ(read_bcf(bcf_).topics.size(), 1U);
+    EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
+
+    {
+        Database database(store_, OpenMode::read_write);
+        database.run("UPDATE question_terms SET terms = replace(terms, 'Wall', 'Pipe')");
+    }
+    expect_refused(review({"--bcf-out", bcf_}), {store_, "question"});
+    expect_refused(run_abut({"info", store_, "--verify", "--quiet"}), {store_, "question"});
+    {
+        Database database(store_, OpenMode::read_write);
+        database.run("DELETE FROM question_terms");
+    }
+    expect_refused(review({"--bcf-out", bcf_}), {store_, "rules"});
+}
+
+TEST_F(BcfFiles, TellTheirWarningsInJsonToo) {
+    import(pipes_through_slab(5));
+    const std::string slab = clash(store_)["groups"][0]["id"];
+    write_out();
+    BcfFile file = read_bcf(bcf_);
+    for (const char* const text : {"one", "two"}) // the second gets a GUID, which is a warning
+        topic_of(file, slab)
+            .comments.push_back(comment("11111111-8f4e-4f0a-9f5e-0123456789ab", text));
+    write_bcf(file, bcf_);
+    const Json in = read_in();
+    ASSERT_EQ(in["warnings"].size(), 1U) << in;
+    const Json both =
+        review({"--bcf-in", bcf_, "--bcf-out", folder_ / "out.bcf", "--no-snapshots", "--json"})
+            .json();
+    EXPECT_EQ(both["topics"], 2);
+    EXPECT_EQ(both["bcf"], folder_ / "out.bcf");
+    EXPECT_EQ(both["warnings"].size(), 1U) << both;
+    EXPECT_TRUE(both.contains("revision"));
 }
 
 TEST_F(BcfFiles, AreRefusedWithAReason) {

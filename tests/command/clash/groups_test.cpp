@@ -234,6 +234,113 @@ TEST_F(Groups, EditsOfTheSameRevisionAreMerged) {
     EXPECT_EQ(report(store_)["topics"][0], topic);
 }
 
+TEST_F(Groups, CanFailARun) {
+    const auto status = [](const std::string& of, const std::string& condition) {
+        const Outcome outcome = run_abut({"clash", of, "--quiet", "--fail-on", condition});
+        EXPECT_LE(outcome.status, 2) << outcome.err;
+        return outcome.status;
+    };
+    import(slab_and_pipes(5));
+    const std::string slab = report(store_)["groups"][0]["id"];
+    EXPECT_EQ(status(model_, "group = slab"), 1);
+    EXPECT_EQ(status(model_, "group = floor*"), 0);
+    EXPECT_EQ(status(model_, "group.id = " + slab), 1);
+    EXPECT_EQ(status(model_, "group.size >= 5"), 1);
+    EXPECT_EQ(status(model_, "group.size > 5"), 0);
+    EXPECT_EQ(status(model_, "group.hard = 5 and name = pipe3"), 1);
+    EXPECT_EQ(status(model_, "group.touch > 0"), 0);
+    EXPECT_EQ(status(store_, "group.change = new"), 1);
+    EXPECT_EQ(status(store_, "topic.status = *"), 0);
+
+    import(slab_and_pipes(5, 0.3)); // one clash of the slab has moved
+    EXPECT_EQ(status(store_, "group.change = new, reopened"), 0);
+    EXPECT_EQ(status(store_, "group.change = moved"), 1);
+    ASSERT_EQ(
+        review({"--topic", slab, "--assign", "Hydra", "--due", "2026-11-20", "--label", "openings"})
+            .status,
+        0);
+    EXPECT_EQ(status(store_, "topic.assignee = Hydra and topic.due < 2026-11-23"), 1);
+    EXPECT_EQ(status(store_, "topic.due < 2026-11-20"), 0);
+    EXPECT_EQ(status(store_, "topic.label = openings and topic.status = open"), 1);
+    EXPECT_EQ(status(store_, "not topic.status = * and group.size > 1"), 0);
+    ASSERT_EQ(review({"--topic", slab, "--set-status", "approved"}).status, 0);
+    EXPECT_EQ(status(store_, "group = slab"), 0) << "approved clashes pass";
+    EXPECT_EQ(status(store_, "group = slab and approved"), 1);
+
+    // The names of all groups around a clash count.
+    const Outcome nested = run_abut({"clash", store_, "--group", "types,part", "--fail-on",
+                                     "group = *Wall* and group = wall0"});
+    EXPECT_EQ(nested.status, 1) << nested.out << nested.err;
+    EXPECT_NE(nested.out.find("fails       1 clash that --fail-on names, in 1 group\n"),
+              std::string::npos)
+        << nested.out;
+    EXPECT_NE(run_abut({"clash", store_, "--fail-on", "group = none"})
+                  .out.find("fails       no clash that --fail-on names\n"),
+              std::string::npos);
+    // A topic about one clash.
+    const Json found = report(store_);
+    for (const Json& clash : found["clashes"]) {
+        if (clash["a"] == "wall0" || clash["b"] == "wall0") {
+            ASSERT_EQ(review({"--topic", clash["id"], "--comment", "Why?"}).status, 0);
+        }
+    }
+    EXPECT_EQ(status(store_, "topic.title ~ wall and name = wall0"), 1);
+    EXPECT_EQ(status(store_, "topic.title ~ wall and name = pipe1"), 0);
+
+    const auto refused = [](const std::string& of, const std::string& condition,
+                            const std::vector<std::string>& words,
+                            const std::string& grouping = "part,place") {
+        expect_refused(run_abut({"clash", of, "--group", grouping, "--fail-on", condition}), words);
+    };
+    refused(model_, "group.change = new", {"--fail-on", "group.change", "store"});
+    refused(model_, "topic.status = open", {"--fail-on", "topic.status", "store"});
+    refused(store_, "group.size > 3", {"--fail-on", "--group none"}, "none");
+    refused(store_, "group.colour = red", {"--fail-on", "group.colour", "group.size"});
+}
+
+TEST_F(Groups, ResolvedOnesCanHaveTopics) {
+    import(slab_and_pipes(5));
+    const std::string slab = report(store_)["groups"][0]["id"];
+    import(slab_and_pipes(0));
+    const Json after = report(store_);
+    EXPECT_EQ(after["groups"].size(), 1U);
+    EXPECT_FALSE(report(store_, {"--clearance", "1mm"}).empty()) << "another question";
+    ASSERT_EQ(review({"--topic", slab, "--comment", "Drawn anew"}).status, 0);
+    const Json topic = report(store_)["topics"][0];
+    EXPECT_EQ(topic["group"], slab);
+    EXPECT_EQ(topic["title"], "slab");
+    EXPECT_EQ(topic["description"], "5 Pipe");
+    expect_refused(review({"--topic", "0123456789abcdef", "--comment", "?"}), {"0123456789abcdef"});
+}
+
+TEST_F(Groups, GuidsInEditsAreChecked) {
+    import(slab_and_pipes(5));
+    const std::string slab = report(store_)["groups"][0]["id"];
+    const std::string edits = folder_ / "edits.json";
+    const auto apply = [&](const std::string& topics) {
+        std::ofstream(edits) << R"({"abut_review": 1, "topics": )" << topics << "}";
+        return review({"--apply", edits, "--json"});
+    };
+    const std::string guid = "ABCDEF01-8f4e-4f0a-9f5e-0123456789ab";
+    expect_refused(apply(R"([{"guid": ")" + guid + R"("}, {"guid": "../../x", "title": "a"}])"),
+                   {edits, "topics[1]", "'guid'", "UUID", "../../x"});
+    expect_refused(apply(R"([{"group": "slab", "title": "a"}])"),
+                   {edits, "topics[0]", "'group'", "16"});
+    expect_refused(apply(R"([{"guid": ")" + guid + R"(", "comments": [{"text": "a"},
+                             {"guid": "b", "text": "c"}]}])"),
+                   {edits, "topics[0]", "comments[1]", "'guid'"});
+    expect_refused(apply(R"([{"guid": ")" + guid + R"(",
+                             "comments": [{"text": "a", "viewpoint": "b"}]}])"),
+                   {edits, "topics[0]", "comments[0]", "'viewpoint'"});
+    ASSERT_EQ(apply(R"([{"guid": ")" + guid + R"(", "title": "Stairs"}])").status, 0);
+    // GUIDs are the same in upper and lower case.
+    const Json again =
+        apply(R"([{"guid": "abcdef01-8F4E-4f0a-9f5e-0123456789ab", "status": "closed"}])").json();
+    EXPECT_EQ(again["changed"], Json::array({"abcdef01-8f4e-4f0a-9f5e-0123456789ab"}));
+    EXPECT_EQ(again["warnings"], Json::array());
+    EXPECT_EQ(report(store_)["topics"].size(), 1U);
+}
+
 TEST_F(Groups, DamageIsNoticed) {
     import(slab_and_pipes(5));
     const std::string slab = report(store_)["groups"][0]["id"];

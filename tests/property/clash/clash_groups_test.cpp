@@ -305,5 +305,71 @@ TEST(ClashGroups, KeepTheirClashesFromJobToJob) {
     EXPECT_GT(opened, 10);
 }
 
+/// Points on a lattice, so that equal distances and distances of exactly the reach are frequent.
+Vec3 lattice_point(Random& random, int half) {
+    const auto step = [&] { return 0.5 * random.integer(-half, half); };
+    const double x = step(), y = step(), z = step();
+    return {x, y, z};
+}
+
+TEST(ClashGroups, JoinTheNearestEarlierPlace) {
+    Random random(23);
+    int joined = 0, ties = 0, at_reach = 0, none = 0;
+    for (int round = 0; round < many(60); ++round) {
+        const Vec3 far = random.chance(0.3) ? Vec3{4.5e6, -3.1e5, 12.75} : Vec3{};
+        const int half = random.integer(3, 30);
+        GroupedClashes all = some_clashes(random, 60);
+        std::erase_if(all.report.clashes,
+                      [](const Clash& clash) { return clash.kind == ClashKind::duplicate; });
+        for (Clash& clash : all.report.clashes)
+            clash.point_a = clash.point_b = far + lattice_point(random, half);
+        GroupOptions options;
+        options.by = {GroupBy::place};
+        options.reach = 0.5 * random.integer(1, 8);
+        for (int i = random.integer(0, 200); i > 0; --i)
+            options.earlier.push_back({clash_id_text(static_cast<std::uint64_t>(1000 + i * 7919)),
+                                       {},
+                                       "place",
+                                       GroupKind::place,
+                                       "key",
+                                       far + lattice_point(random, half),
+                                       {}});
+        shuffle(random, options.earlier);
+        const auto groups = group_clashes(all.report, all.models, options);
+        const auto group_of = [&](std::uint32_t clash) {
+            for (const ClashGroup& group : groups)
+                if (std::ranges::find(group.clashes, clash) != group.clashes.end())
+                    return group.id;
+            return std::string();
+        };
+        for (std::uint32_t c = 0; c < all.report.clashes.size(); ++c) {
+            const EarlierGroup* best = nullptr;
+            double nearest = options.reach * options.reach;
+            for (const EarlierGroup& earlier : options.earlier) {
+                const Vec3 d = earlier.centre - all.report.clashes[c].point_a;
+                const double distance = d.x * d.x + d.y * d.y + d.z * d.z;
+                ties += best != nullptr && distance == nearest ? 1 : 0;
+                if (distance < nearest ||
+                    (distance == nearest && (best == nullptr || earlier.id < best->id)))
+                    best = &earlier, nearest = distance;
+            }
+            if (best != nullptr) {
+                EXPECT_EQ(group_of(c), best->id) << "round " << round << ", clash " << c;
+                at_reach += nearest == options.reach * options.reach ? 1 : 0;
+                ++joined;
+            } else {
+                const std::string id = group_of(c);
+                EXPECT_TRUE(std::ranges::find(options.earlier, id, &EarlierGroup::id) ==
+                            options.earlier.end());
+                ++none;
+            }
+        }
+    }
+    EXPECT_GT(joined, 200);
+    EXPECT_GT(none, 100);
+    EXPECT_GT(ties, 50);
+    EXPECT_GT(at_reach, 20);
+}
+
 } // namespace
 } // namespace abut::test

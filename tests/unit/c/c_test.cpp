@@ -139,6 +139,12 @@ TEST_F(CInterface, FaultsAreCodesWithMessages) {
     EXPECT_EQ(abut_nearest(model, nullptr, nullptr, 1, 0, nullptr), ABUT_BAD_ARGUMENT);
     EXPECT_EQ(abut_nearest(model, nullptr, nullptr, 0, 0, nullptr), ABUT_OK);
     EXPECT_EQ(abut_model_from_file(nullptr, &none), ABUT_BAD_ARGUMENT);
+    constexpr std::size_t kHuge = std::numeric_limits<std::size_t>::max() / 3 + 2; // 3 * kHuge: 3
+    EXPECT_EQ(abut_model_from_arrays(kCorners.data(), kHuge, kFaces.data(), 1, &none),
+              ABUT_BAD_ARGUMENT);
+    EXPECT_EQ(abut_model_from_arrays(kCorners.data(), 4, kFaces.data(), kHuge, &none),
+              ABUT_BAD_ARGUMENT);
+    EXPECT_EQ(none, nullptr);
     const abut_pose flat{{0, 0, 0}, {0, 0, 0, 0}};
     abut_transform transform;
     EXPECT_EQ(abut_transform_of(&flat, &transform), ABUT_BAD_ARGUMENT);
@@ -163,6 +169,37 @@ abut_scene* crossing_parts() {
 int stop_at_once(void* calls, const char* /*stage*/, double /*fraction*/) {
     ++*static_cast<int*>(calls);
     return 1;
+}
+
+/// Counts the calls, and stops at the one whose number is `at`.
+struct StopAt {
+    int at = 0, calls = 0;
+};
+
+int stop_at(void* user, const char* /*stage*/, double /*fraction*/) {
+    StopAt& stop = *static_cast<StopAt*>(user);
+    return ++stop.calls == stop.at ? 1 : 0;
+}
+
+TEST_F(CInterface, EveryCallOfProgressCanStop) {
+    abut_scene* scene = crossing_parts();
+    const abut_scene* const scenes = scene;
+    StopAt stop;
+    abut_clash_options options{};
+    options.progress = stop_at;
+    options.user = &stop;
+    abut_report* report = nullptr;
+    ASSERT_EQ(abut_find_clashes(&scenes, 1, &options, &report), ABUT_OK);
+    abut_report_free(report);
+    const int calls = stop.calls;
+    ASSERT_GT(calls, 1);
+    for (const int at : {1, calls}) {
+        stop = {at, 0};
+        report = nullptr;
+        EXPECT_EQ(abut_find_clashes(&scenes, 1, &options, &report), ABUT_INTERRUPTED) << at;
+        EXPECT_EQ(report, nullptr);
+    }
+    abut_scene_free(scene);
 }
 
 TEST_F(CInterface, Clashes) {
