@@ -231,17 +231,17 @@ bool LevelView::is_over_budget() {
 }
 
 /// A stand-in also covers what is not visible, so it may have more triangles than what it stands
-/// for. Chooses a coarser cut until what is drawn is within the budgets.
+/// for. Then the cut is chosen among the chunks that are there.
 void LevelView::fit_budgets(const ViewPoint& view) {
-    CutLimits coarser = limits();
-    for (int attempt = 0; attempt < 32 && is_over_budget(); ++attempt) {
-        coarser.triangles = coarser.triangles / 4 * 3;
-        coarser.draws = coarser.draws / 4 * 3;
-        cut_.choose(view, coarser, not_drawn());
-        drawn_.choose(cut_.entries(), [&](std::uint32_t chunk) {
-            return table_.state(chunk) == ChunkState::resident;
-        });
-    }
+    if (!is_over_budget())
+        return;
+    const auto is_there = [&](std::uint32_t chunk) {
+        return table_.state(chunk) == ChunkState::resident;
+    };
+    NotDrawn of_these = not_drawn();
+    of_these.is_there = is_there;
+    cut_.choose(view, limits(), of_these);
+    drawn_.choose(cut_.entries(), is_there);
     frame_.pixel_error = 0;
     for (const std::uint32_t at : drawn_.drawn())
         frame_.pixel_error = std::max(frame_.pixel_error, double{cut_.entries()[at].error});

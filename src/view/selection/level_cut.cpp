@@ -99,6 +99,13 @@ bool LevelCut::replace(std::uint32_t at) {
     const auto first = static_cast<std::uint32_t>(entries_.size());
     items_.for_each_finer(parent.item, [&](ViewItem item) { visit(item, parent.planes); });
     const auto count = static_cast<std::uint32_t>(entries_.size()) - first;
+    if (not_drawn_.is_there && parent.chunk != kNoChunk &&
+        !std::all_of(entries_.begin() + first, entries_.end(),
+                     [&](const CutEntry& entry) { return is_there(entry.item); })) {
+        entries_.resize(first);
+        outside_ = outside, occluded_ = occluded;
+        return false;
+    }
     const std::uint64_t triangles = triangles_;
     const std::uint32_t draws = draws_;
     subtract(parent);
@@ -119,6 +126,15 @@ bool LevelCut::replace(std::uint32_t at) {
     replaced.is_replaced = true;
     replaced.first = first, replaced.count = count;
     return true;
+}
+
+/// Returns whether chunks that are there can show an item.
+bool LevelCut::is_there(ViewItem item) const {
+    if (const std::uint32_t chunk = items_.chunk(item); chunk != kNoChunk)
+        return not_drawn_.is_there(chunk);
+    bool all = true;
+    items_.for_each_finer(item, [&](ViewItem finer) { all = all && is_there(finer); });
+    return all;
 }
 
 /// Appends an entry for an item, unless the item is not visible.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -60,6 +61,8 @@ struct CutLimits {
 struct NotDrawn {
     const std::vector<bool>* hidden = nullptr; ///< by part; of instances only
     const OcclusionBuffer* occlusion = nullptr;
+    /// If given, whether a chunk can be drawn. Then no item is replaced by chunks that cannot.
+    std::function<bool(std::uint32_t chunk)> is_there;
 };
 
 /// An item that was visited: it is drawn, or replaced by others.
@@ -99,6 +102,7 @@ public:
 
 private:
     bool replace(std::uint32_t at);
+    [[nodiscard]] bool is_there(ViewItem item) const;
     void visit(ViewItem item, std::uint32_t planes);
     void push(std::uint32_t at);
     void add(const CutEntry& entry);

@@ -335,6 +335,54 @@ TEST(DrawnCut, IsTheFinestCoverOfWhatIsThere) {
     EXPECT_GT(holes, many(1000) / 200);
 }
 
+TEST(LevelCut, AmongWhatIsThereIsAsFineAsItCanBe) {
+    Random random(125);
+    int kept = 0, replaced = 0, limited = 0;
+    for (int i = 0; i < many(600); ++i) {
+        const LevelModel model = random_levels(random);
+        const CheckedCut checked(
+            model.tree, random_camera(random, model.tree.origin, model.tree.nodes[0].upper[0]));
+        std::vector<bool> is_there(model.tree.chunks.size());
+        const double share = random.uniform(0.5, 1);
+        for (std::size_t k = 0; k < is_there.size(); ++k)
+            is_there[k] = random.chance(share);
+        is_there[model.tree.nodes[0].chunk] = true;
+        const NotDrawn these{nullptr, nullptr,
+                             [&](std::uint32_t chunk) { return bool{is_there[chunk]}; }};
+        LevelCut cut(model.tree), all(model.tree);
+        cut.choose(checked.view, {0.5}, these);
+        all.choose(checked.view, {0.5});
+        std::set<Item> visible;
+        for (const CutEntry& entry : all.entries())
+            visible.emplace(entry.item.node, entry.item.level);
+        const std::set<Item> drawn = cut_of(cut);
+        Coverage(checked, drawn, random).check({0, 0}, 0);
+        for (const CutEntry& entry : cut.entries()) {
+            ASSERT_TRUE(is_there[entry.chunk]);
+            replaced += entry.is_replaced ? 1 : 0;
+            if (entry.is_replaced || !checked.items.has_finer(entry.item) || !(entry.error > 0.5F))
+                continue;
+            bool can_be_finer = true;
+            for (const Item& child : checked.finer({entry.item.node, entry.item.level}))
+                if (visible.contains(child))
+                    can_be_finer =
+                        can_be_finer && is_there[checked.items.chunk({child.first, child.second})];
+            ASSERT_FALSE(can_be_finer);
+            ++kept;
+        }
+        CutLimits limits{0.5};
+        limits.triangles = static_cast<std::uint64_t>(random.integer(200, 2000));
+        cut.choose(checked.view, limits, these);
+        if (!cut_of(cut).contains({0, 0})) {
+            ASSERT_LE(cut.triangles(), limits.triangles);
+            ++limited;
+        }
+    }
+    EXPECT_GT(kept, many(600) / 4);
+    EXPECT_GT(replaced, many(600));
+    EXPECT_GT(limited, many(600) / 4);
+}
+
 TEST(LevelCut, LeavesOutHiddenInstances) {
     Random random(124);
     int hidden_instances = 0;

@@ -38,6 +38,7 @@ public:
         ASSERT_LE(statistics.peak_gpu_bytes, options_.gpu_memory);
         ASSERT_LE(statistics.peak_bytes, options_.memory);
         ASSERT_LE(statistics.draw_calls, options_.draw_budget);
+        ASSERT_LE(statistics.triangles, options_.triangle_budget); // while chunks are read, too
         ASSERT_EQ(statistics.draw_calls, frame.draws.size());
         std::set<std::uint32_t> chunks;
         for (const ChunkDraw& draw : frame.draws) {
