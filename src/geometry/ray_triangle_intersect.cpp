@@ -17,7 +17,9 @@ constexpr double kPrecision = 0x1p-40;
 /// Relative error bound of sums of three products of three factors, each a rounded difference, sum
 /// or product. It is relative to the sum of the products' magnitudes.
 constexpr double kRayRounding = 16 * 0x1p-53;
-constexpr double kUnderflow = 64 * std::numeric_limits<double>::denorm_min();
+/// Far above what products lose to underflow; a normal number, since arithmetic with subnormal ones
+/// is slow.
+constexpr double kUnderflow = 0x1p-1000;
 
 Vec3 magnitudes(const Vec3& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
