@@ -1,11 +1,12 @@
 #include "rigid/penetration/deepest_point.h"
 
-#include "geometry/triangle_triangle_distance.h"
+#include "rigid/penetration/face_bounds.h"
 
 #include <algorithm>
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <queue>
 
@@ -16,8 +17,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A factor that outweighs the rounding of bounds, which is a few units in the last place.
 constexpr double kSafe = 1 + 0x1p-40;
-/// Limit on the faces of the solid that a piece remembers.
-constexpr std::size_t kFaces = 4;
 
 /// A point and its distance to the solid's surface.
 struct Sample {
@@ -35,34 +34,43 @@ struct Piece {
     double at_most = kInfinity; ///< upper bound of the depth of the piece's points
     NodeRef box;                ///< none, if the piece is a part of a triangle
     std::uint32_t slot = 0;     ///< of that triangle
-    boost::container::static_vector<Vec3, 8> corners;
+    std::array<Vec3, FaceBounds::kMostCorners> corner;
+    std::size_t corner_count = 0;
     Vec3 middle;
     double radius = 0; ///< of a ball around `middle` that holds the piece
     Sample sample;     ///< at `middle` if sampled, else that of an enclosing piece
     bool sampled = false;
-    /// Nearest slots of the solid for the last samples of this piece and of enclosing ones.
-    boost::container::static_vector<std::uint32_t, kFaces> faces;
-    bool operator<(const Piece& other) const { return at_most < other.at_most; }
+    FaceBounds faces;
+
+    [[nodiscard]] std::span<const Vec3> corners() const { return {corner.data(), corner_count}; }
 };
 
-/// The distances of a piece's corners from a face. The distance to a convex set is convex: at a
-/// mean of the corners it is at most the mean of their distances.
-using CornerDistances = std::array<double, 8>;
-
-/// The largest value of min(f, g) for two functions that are linear in the weights of n corners. It
-/// is taken at a corner, or between two corners where f = g.
-double largest_of_smaller(const CornerDistances& f, const CornerDistances& g, std::size_t n) {
-    double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        largest = std::max(largest, std::min(f[i], g[i]));
-        for (std::size_t j = 0; f[i] > g[i] && j < n; ++j)
-            if (f[j] < g[j]) {
-                const double share = (f[i] - g[i]) / ((f[i] - g[i]) + (g[j] - f[j]));
-                largest = std::max(largest, f[i] + share * (f[j] - f[i]));
-            }
+/// Pieces by number. They stay where they are, and the numbers of those put back are used again.
+class PieceStore {
+public:
+    [[nodiscard]] Piece& operator[](std::uint32_t number) { return pieces_[number]; }
+    std::uint32_t take() {
+        if (free_.empty()) {
+            pieces_.emplace_back();
+            return static_cast<std::uint32_t>(pieces_.size() - 1);
+        }
+        const std::uint32_t number = free_.back();
+        free_.pop_back();
+        return number;
     }
-    return largest;
-}
+    void put_back(std::uint32_t number) { free_.push_back(number); }
+
+private:
+    std::deque<Piece> pieces_;
+    std::vector<std::uint32_t> free_;
+};
+
+/// A piece that waits; the one that may be deepest comes first.
+struct Waiting {
+    double at_most;
+    std::uint32_t piece;
+    bool operator<(const Waiting& other) const { return at_most < other.at_most; }
+};
 
 class Search {
 public:
@@ -78,26 +86,35 @@ public:
             for (const Vec3& corner : surface_.world_triangle(triangle))
                 try_point(corner, triangle, nullptr);
         if (!surface_.data().tree().empty() && bounds_.box.lower[0] <= bounds_.box.upper[0])
-            add_box(NodeRef::node(0), surface_.data().tree().bounds, {}, {});
-        while (!pieces_.empty() && !finished(pieces_.top().at_most)) {
+            add_box(NodeRef::node(0), surface_.data().tree().bounds, {}, Piece());
+        while (!waiting_.empty() && !finished(waiting_.top().at_most)) {
             poll_stop();
             if (options_.steps != nullptr && !options_.steps->take())
                 break;
-            const Piece piece = pieces_.top();
-            pieces_.pop();
-            if (!piece.sampled)
-                sample(piece);
-            else if (!piece.box.is_none())
-                open(piece);
+            const std::uint32_t number = waiting_.top().piece;
+            waiting_.pop();
+            if (take_step(pieces_[number]))
+                waiting_.push({pieces_[number].at_most, number});
             else
-                bisect(piece);
+                pieces_.put_back(number);
         }
         best_.at_most =
-            std::max({best_.depth, dropped_, pieces_.empty() ? 0 : pieces_.top().at_most});
+            std::max({best_.depth, dropped_, waiting_.empty() ? 0 : waiting_.top().at_most});
         return best_;
     }
 
 private:
+    /// Samples or divides a piece. Returns whether the piece waits for another step.
+    bool take_step(Piece& piece) {
+        if (!piece.sampled)
+            return sample(piece);
+        if (piece.box.is_none())
+            bisect(piece);
+        else
+            open(piece);
+        return false;
+    }
+
     using Polygon = boost::container::static_vector<Vec3, 9>;
 
     /// A depth that a piece must exceed to be worth another look.
@@ -139,15 +156,17 @@ private:
         const auto to_world = [&](const Vec3& p) {
             return apply(surface_.world_from_tree(), frame.point_to_tree(p));
         };
-        Piece piece;
+        const std::uint32_t number = pieces_.take();
+        Piece& piece = pieces_[number];
         piece.box = ref;
         piece.radius = surface_.most_stretch() * length(upper - middle) * (1 + 0x1p-20);
         piece.middle = to_world(middle);
+        piece.corner_count = 8;
         for (unsigned i = 0; i < 8; ++i)
-            piece.corners.push_back(
-                to_world({i & 1U ? upper.x : lower.x, i & 2U ? upper.y : lower.y,
-                          i & 4U ? upper.z : lower.z}));
-        inherit(piece, parent);
+            piece.corner[i] = to_world({i & 1U ? upper.x : lower.x, i & 2U ? upper.y : lower.y,
+                                        i & 4U ? upper.z : lower.z});
+        piece.faces.begin(parent.faces, 8);
+        inherit(number, parent);
     }
 
     /// Adds the part of a triangle in the solid's box; the rest cannot lie inside the solid.
@@ -185,35 +204,55 @@ private:
     }
 
     void bisect(const Piece& parent) {
-        const auto& t = parent.corners;
+        const auto& t = parent.corner;
         std::size_t longest = 0;
         for (std::size_t i = 1; i < 3; ++i)
             if (length_sq(t[(i + 1) % 3] - t[i]) > length_sq(t[(longest + 1) % 3] - t[longest]))
                 longest = i;
-        const Vec3 &p = t[longest], &q = t[(longest + 1) % 3], &r = t[(longest + 2) % 3];
-        const Vec3 m = 0.5 * (p + q);
-        add_triangle({p, m, r}, parent.slot, parent);
-        add_triangle({m, q, r}, parent.slot, parent);
+        const std::size_t p = longest, q = (longest + 1) % 3, r = (longest + 2) % 3;
+        const Vec3 m = 0.5 * (t[p] + t[q]);
+        const std::uint32_t half = take_triangle({t[p], m, t[r]}, parent.slot, parent),
+                            other = take_triangle({m, t[q], t[r]}, parent.slot, parent);
+        FaceBounds &of_half = pieces_[half].faces, &of_other = pieces_[other].faces;
+        of_half.take_corner(0, parent.faces, p), of_half.take_corner(2, parent.faces, r);
+        inherit(half, parent);
+        of_other.take_corner(0, of_half, 1);
+        of_other.take_corner(1, parent.faces, q), of_other.take_corner(2, parent.faces, r);
+        inherit(other, parent);
     }
 
     void add_triangle(const Triangle& t, std::uint32_t slot, const Piece& parent) {
-        Piece piece;
+        const std::uint32_t number = take_triangle(t, slot, parent);
+        inherit(number, parent);
+    }
+
+    /// Takes a piece of a triangle, with the faces of its parent.
+    std::uint32_t take_triangle(const Triangle& t, std::uint32_t slot, const Piece& parent) {
+        const std::uint32_t number = pieces_.take();
+        Piece& piece = pieces_[number];
+        piece.box = {};
         piece.slot = slot;
-        piece.corners.assign(t.begin(), t.end());
+        piece.corner_count = 3;
+        std::copy(t.begin(), t.end(), piece.corner.begin());
         piece.middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
+        piece.radius = 0;
         for (const Vec3& corner : t)
             piece.radius = std::max(piece.radius, length(corner - piece.middle));
         piece.radius *= kSafe;
-        inherit(piece, parent);
+        piece.faces.begin(parent.faces, 3);
+        return number;
     }
 
-    /// Adds a piece, unless its parent's sample rules it out.
-    void inherit(Piece& piece, const Piece& parent) {
+    /// Lets a piece wait, unless its parent's sample rules it out.
+    void inherit(std::uint32_t number, const Piece& parent) {
+        Piece& piece = pieces_[number];
         piece.sample = parent.sample;
-        piece.faces = parent.faces;
+        piece.sampled = false;
         piece.at_most = bound(piece);
         if (worth_keeping(piece.at_most) && part_.may_hold(piece.middle, piece.radius))
-            pieces_.push(piece);
+            waiting_.push({piece.at_most, number});
+        else
+            pieces_.put_back(number);
     }
 
     bool worth_keeping(double at_most) {
@@ -226,7 +265,7 @@ private:
     }
 
     /// Bounds the depth of a piece by its sample, which is at the piece's middle or farther off.
-    [[nodiscard]] double bound(const Piece& piece) const {
+    [[nodiscard]] double bound(Piece& piece) const {
         const Sample& s = piece.sample;
         if (!s.any())
             return kInfinity;
@@ -238,29 +277,13 @@ private:
         const double limit = std::min(across, s.distance + reach);
         if (limit <= wanted())
             return limit;
-        return std::min(limit, bound_by_faces(piece) * kSafe);
-    }
-
-    /// The least bound that a pair of faces gives. It is tight if the piece lies halfway between
-    /// two faces.
-    [[nodiscard]] double bound_by_faces(const Piece& piece) const {
-        const std::size_t n = piece.corners.size();
-        std::array<CornerDistances, kFaces> distances{};
-        double least = kInfinity;
-        for (std::size_t k = 0; k < piece.faces.size() && least > wanted(); ++k) {
-            const Triangle face = solid_.world_slot(piece.faces[k]);
-            for (std::size_t i = 0; i < n; ++i)
-                distances[k][i] =
-                    std::sqrt(point_triangle_distance(piece.corners[i], face).distance_sq);
-            for (std::size_t other = 0; other <= k; ++other)
-                least = std::min(least, largest_of_smaller(distances[other], distances[k], n));
-        }
-        return least;
+        return std::min(limit, piece.faces.least(solid_, piece.corners(), wanted()) * kSafe);
     }
 
     // ---- points
 
-    void sample(Piece piece) {
+    /// Samples a piece at its middle. Returns whether the piece is worth being divided.
+    bool sample(Piece& piece) {
         ++evaluations_;
         const Sample known = piece.sample;
         // The search for the nearest ends at any triangle that is near enough to rule the piece
@@ -271,26 +294,24 @@ private:
         if (nearest.distance <= search.enough) {
             // No point of the piece is deeper than this.
             (void)worth_keeping((nearest.distance + piece.radius) * kSafe);
-            return;
+            return false;
         }
         piece.sampled = true;
         // Assume inside first: the test is made only if its result matters.
         piece.sample = {piece.middle, nearest.distance, nearest.slot, true};
-        remember(piece, nearest.slot);
+        piece.faces.remember(nearest.slot);
         piece.at_most = std::min(piece.at_most, bound(piece));
         if (piece.at_most > wanted()) {
             piece.sample.inside = is_inside(piece.sample, known);
             piece.at_most = std::min(piece.at_most, bound(piece));
         }
         if (!worth_keeping(piece.at_most))
-            return;
-        pieces_.push(piece);
-        if (!piece.sample.inside)
-            return;
-        if (piece.box.is_none())
+            return false;
+        if (piece.sample.inside && piece.box.is_none())
             try_points(piece, nearest);
-        else
+        else if (piece.sample.inside)
             try_any_point(piece.box, nearest.slot);
+        return true;
     }
 
     [[nodiscard]] bool is_inside(const Sample& s, const Sample& known) const {
@@ -305,17 +326,6 @@ private:
                    : solid_.contains_off_surface(s.point);
     }
 
-    /// Puts the slot first; drops the last one if there are too many.
-    static void remember(Piece& piece, std::uint32_t slot) {
-        auto& faces = piece.faces;
-        const auto known = std::find(faces.begin(), faces.end(), slot);
-        if (known != faces.end())
-            faces.erase(known);
-        else if (faces.size() == kFaces)
-            faces.pop_back();
-        faces.insert(faces.begin(), slot);
-    }
-
     // ---- points of the surface at which a depth is reached
 
     /// Takes the sample of a part of a triangle if it is deeper than the best; then tries the
@@ -325,7 +335,7 @@ private:
         if (!(nearest.distance > beyond(piece.middle) && belongs(piece.middle, triangle)))
             return;
         take(piece.middle, triangle, nearest);
-        for (const Vec3& corner : piece.corners) // depth is often greatest at a corner
+        for (const Vec3& corner : piece.corners()) // depth is often greatest at a corner
             try_point(corner, triangle, &nearest.slot);
     }
 
@@ -370,7 +380,8 @@ private:
     const DepthSearch& options_;
     DeepestPoint best_;
     double dropped_ = 0; ///< largest bound of a dropped piece, if above the depth
-    std::priority_queue<Piece> pieces_;
+    PieceStore pieces_;
+    std::priority_queue<Waiting> waiting_;
     int evaluations_ = 0;
 };
 

@@ -25,7 +25,9 @@ public:
     [[nodiscard]] bool mirrored() const { return mirrored_; }
 
     [[nodiscard]] std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const override {
-        return std::make_unique<PlacedSolid>(model_.model(), solid_, model_.world(), origin);
+        auto seen = std::make_unique<PlacedSolid>(model_.model(), solid_, model_.world(), origin);
+        seen->keeps_faces_ = true;
+        return seen;
     }
     [[nodiscard]] bool closed() const override { return solid_.closed; }
     [[nodiscard]] bool bounds_solid() const override { return solid_.solid; }
@@ -47,7 +49,7 @@ public:
     }
     using WorldSolid::nearest;
     [[nodiscard]] Nearest nearest(const Vec3& point, const NearestSearch& search) const override {
-        return nearest_point(model_, point, search);
+        return nearest_point(model_, point, search, kept());
     }
     /// A slot is that of the tree.
     [[nodiscard]] Triangle world_slot(std::uint32_t slot) const override {
@@ -65,14 +67,17 @@ public:
 
 protected:
     [[nodiscard]] std::optional<int> crossings(const Vec3& from, const Vec3& to) const override {
-        return abut::crossings(model_, from, to);
+        return abut::crossings(model_, from, to, kept());
     }
     [[nodiscard]] double winding(const Vec3& point) const override;
 
 private:
+    [[nodiscard]] PreparedFaces* kept() const { return keeps_faces_ ? &faces() : nullptr; }
+
     PlacedModel model_;
     const Solid& solid_;
     bool mirrored_;
+    bool keeps_faces_ = false; ///< for later queries, because only one thread uses this
 };
 
 } // namespace abut

@@ -62,13 +62,11 @@ void for_each_block_pair(
     });
 }
 
-std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to) {
+std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to,
+                             PreparedFaces* faces) {
     int count = 0;
     bool clear = true;
-    model.for_each_on_segment(from, to, [&](std::uint32_t slot) {
-        const Triangle t = model.world_slot(slot);
-        const int side_from = orient3d(t[0], t[1], t[2], from),
-                  side_to = orient3d(t[0], t[1], t[2], to);
+    const auto cross = [&](const Triangle& t, int side_from, int side_to) {
         if (side_from * side_to > 0)
             return;
         // A triangle without an area separates nothing, and no sign tells where the segment passes.
@@ -80,12 +78,22 @@ std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const V
             return;
         clear = clear && side_from != 0 && side_to != 0 && u != 0 && v != 0 && w != 0;
         count += side_to;
-    });
+    };
+    if (faces != nullptr)
+        model.for_each_on_segment(from, to, [&](std::uint32_t slot) {
+            const PreparedTriangle& face = faces->get(slot, [&] { return model.world_slot(slot); });
+            cross(face.corners(), face.side(from), face.side(to));
+        });
+    else
+        model.for_each_on_segment(from, to, [&](std::uint32_t slot) {
+            const Triangle t = model.world_slot(slot);
+            cross(t, orient3d(t[0], t[1], t[2], from), orient3d(t[0], t[1], t[2], to));
+        });
     return clear ? std::optional(count) : std::nullopt;
 }
 
 WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
-                                  const WorldSolid::NearestSearch& search) {
+                                  const WorldSolid::NearestSearch& search, PreparedFaces* faces) {
     WorldSolid::Nearest best;
     double best_sq = search.bound * search.bound;
     const auto bound_sq = [&](double distance) {
@@ -94,7 +102,9 @@ WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
     };
     double next_sq = bound_sq(search.bound);
     const auto visit = [&](std::uint32_t slot) {
-        const ClosestPoints c = point_triangle_distance(point, model.world_slot(slot));
+        const auto triangle = [&] { return model.world_slot(slot); };
+        const ClosestPoints c = faces != nullptr ? faces->get(slot, triangle).nearest(point)
+                                                 : point_triangle_distance(point, triangle());
         if (c.distance_sq < best_sq) {
             best_sq = c.distance_sq;
             best = {std::sqrt(c.distance_sq), c.b, slot};

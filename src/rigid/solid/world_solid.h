@@ -2,6 +2,7 @@
 
 #include "math/vector.h"
 #include "rigid/model/placed_model.h"
+#include "rigid/solid/prepared_faces.h"
 
 #include <cstdint>
 #include <functional>
@@ -30,7 +31,8 @@ public:
     WorldSolid& operator=(const WorldSolid&) = delete;
     virtual ~WorldSolid() = default;
 
-    /// Returns this surface in a frame with another origin.
+    /// Returns this surface in a frame with another origin. Only one thread may use it: it keeps
+    /// triangles for later queries.
     ///
     /// In          `this` has the world's origin.
     [[nodiscard]] virtual std::unique_ptr<WorldSolid> seen_from(const Vec3& origin) const = 0;
@@ -94,6 +96,11 @@ public:
     /// A slot is the surface's own number of a triangle.
     [[nodiscard]] virtual Triangle world_slot(std::uint32_t slot) const = 0;
     [[nodiscard]] virtual std::uint32_t triangle_at(std::uint32_t slot) const = 0;
+    /// The triangle of a slot, prepared for many points, valid until the next query. It is kept for
+    /// later calls, so only one thread may use a surface on which this is called.
+    [[nodiscard]] const PreparedTriangle& prepared_slot(std::uint32_t slot) const {
+        return faces_.get(slot, [&] { return world_slot(slot); });
+    }
 
     /// A box that encloses the surface, in a frame in which the box is tight.
     struct Bounds {
@@ -122,6 +129,11 @@ protected:
     [[nodiscard]] virtual std::optional<int> crossings(const Vec3& from, const Vec3& to) const = 0;
     /// Returns the winding number of the surface around a point.
     [[nodiscard]] virtual double winding(const Vec3& point) const = 0;
+
+    [[nodiscard]] PreparedFaces& faces() const { return faces_; }
+
+private:
+    mutable PreparedFaces faces_;
 };
 
 /// Calls visit(block of a, block of b) for blocks that may meet once b is moved by `shift`, until it
@@ -132,9 +144,13 @@ void for_each_block_pair(
 
 /// How often a model's triangles are crossed from `from` to `to`, along their normals less against
 /// them: none if the segment meets an edge or a vertex, and the count says nothing. Exact.
-std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to);
-/// The nearest point of one model.
+///
+/// In          faces: if given, the model's triangles are kept there for later calls.
+std::optional<int> crossings(const PlacedModel& model, const Vec3& from, const Vec3& to,
+                             PreparedFaces* faces = nullptr);
+/// The nearest point of one model. `faces`: as above.
 WorldSolid::Nearest nearest_point(const PlacedModel& model, const Vec3& point,
-                                  const WorldSolid::NearestSearch& search);
+                                  const WorldSolid::NearestSearch& search,
+                                  PreparedFaces* faces = nullptr);
 
 } // namespace abut
