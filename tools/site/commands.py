@@ -68,7 +68,7 @@ def page(program, verb):
         else:
             text.append(definitions(rows))
         text += [f"{line.strip()}\n" for line in lines if re.match(r"\S", line)]
-    text.append("The keys of `--json` are in [scripts](../../docs/scripts.md).\n")
+    text.append(f"What `--json` prints: [the keys](../json/{verb}.md).\n")
     return "\n".join(text)
 
 
@@ -76,8 +76,8 @@ def write_commands(program, out):
     """Writes the pages to out/reference/command and returns their paths, the index first."""
     folder = out / "reference" / "command"
     folder.mkdir(parents=True)
-    index = ["# The command\n", "What `abut VERB --help` says. [Scripts](../../docs/scripts.md) has the keys of "
-             "`--json` and the exit statuses.\n"]
+    index = ["# The command\n", "What `abut VERB --help` says. [JSON](../json/README.md) has the keys of `--json`, "
+             "[scripts](../../docs/scripts.md) the exit statuses.\n"]
     pages = ["reference/command/README.md"]
     for title, rows in verbs(program):
         index += [f"## {title}\n", "| verb | what it does |", "| --- | --- |"]

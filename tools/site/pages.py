@@ -1,4 +1,5 @@
 """The pages of the repository as mkdocs wants them, with the files that they link to."""
+import os
 import pathlib
 import re
 import shutil
@@ -101,6 +102,9 @@ class Site:
             elif to != "bench/results":  # its README.md is made
                 self.faults.append(f"{name}: links to the folder {target}, which has no README.md")
             target = target.rstrip("/") + "/README.md"
+        elif to.startswith("docs/schema/") and to.endswith(".schema.json") and to in self.files:  # its page is made
+            page = f"reference/json/{path.name.removesuffix('.schema.json')}.md"
+            return f"[{text}]({os.path.relpath(page, pathlib.PurePath(name).parent)})"
         elif to not in self.files:
             self.faults.append(f"{name}: links to {target}, which is not there")
         else:
