@@ -1,7 +1,7 @@
-/// abut-make-report FOLDER COUNT [statuses|building]: writes report.html, report.json and report.csv of
+/// abut-make-report FOLDER COUNT [statuses|rules|building]: writes report.html, report.json and report.csv of
 /// COUNT made-up clashes. Some names would break pages that do not escape text. With `statuses`,
-/// the clashes have statuses as from a store. With `building`, they are found between parts with
-/// geometry. The same arguments give the same files.
+/// the clashes have statuses as from a store; with `rules`, also groups, the cells of a matrix,
+/// severities and volumes. With `building`, they are found between parts with geometry. The same arguments give the same files.
 #include <abut/clash.h>
 #include <abut/error.h>
 
@@ -158,11 +158,43 @@ void add_statuses(ClashReport& report, const std::vector<Scene>& models) {
         report.resolved.size();
 }
 
+/// Gives the clashes cells of a matrix, severities and volumes, as find_clashes would, then groups.
+void add_rules(ClashReport& report, const std::vector<Scene>& models) {
+    ClashReport::Matrix matrix;
+    matrix.groups = {"structure", "services", "<b>openings</b>"};
+    matrix.cells = {{0, 0, false, 0, "", {}},
+                    {0, 1, true, 0.05, "high", {}},
+                    {1, 1, true, 0.025, "low", {}},
+                    {1, 2, true, 0, "", {}}};
+    for (std::size_t i = 0; i < report.clashes.size(); ++i) {
+        Clash& clash = report.clashes[i];
+        if (clash.kind == ClashKind::hard)
+            clash.volume = 1e-6 * static_cast<double>(1 + i % 900);
+        if (i % 5 == 4) {
+            clash.rule = "pipes through slabs";
+            continue;
+        }
+        ClashReport::Matrix::Cell& cell = matrix.cells[i % 5 < 3 ? 1 : 2];
+        clash.rule = matrix.groups[cell.a] + " / " + matrix.groups[cell.b];
+        clash.severity = cell.severity;
+        ++cell.counts.at(static_cast<std::size_t>(clash.kind));
+    }
+    report.matrix = matrix;
+    report.left_out.at(static_cast<std::size_t>(abut::LeftOut::off)) = 1234;
+    const abut::GroupOptions options;
+    report.grouping = options.by;
+    report.groups = group_clashes(report, models, options);
+    for (abut::ClashGroup& group : report.groups)
+        group.change = abut::GroupChange::active;
+    report.history = {{1'700'000'000, {400, 90, 5, 4, 300}, {799, 0, 0, 0, 0}, {30, 0, 0, 0, 0}},
+                      {1'700'600'000, report.counts, *report.statuses, {4, 22, 2, 1, 3}}};
+}
+
 } // namespace
 
 int main(int argc, char** argv) try {
     if (argc != 3 && argc != 4) {
-        fmt::print(stderr, "usage: abut-make-report FOLDER COUNT [statuses|building]\n");
+        fmt::print(stderr, "usage: abut-make-report FOLDER COUNT [statuses|rules|building]\n");
         return 2;
     }
     const std::string folder = argv[1], kind = argc == 4 ? argv[3] : "";
@@ -182,8 +214,10 @@ int main(int argc, char** argv) try {
             make_scene("models/hospital_sprinklers.glb", kServices, 200 + count / 30, random));
         report = make_report(models, count, random);
     }
-    if (kind == "statuses")
+    if (kind == "statuses" || kind == "rules")
         add_statuses(report, models);
+    if (kind == "rules")
+        add_rules(report, models);
     write_clash_html(report, models, folder + "/report.html");
     write_clash_json(report, models, folder + "/report.json");
     write_clash_csv(report, models, folder + "/report.csv");

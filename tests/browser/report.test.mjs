@@ -363,6 +363,89 @@ describe('1,000 clashes of a store', () => {
   });
 });
 
+describe('1,000 clashes with a matrix and groups', () => {
+  let truth;
+  before(async () => { truth = await readJson('rules'); });
+
+  test('the matrix of the job has its counts, severities and cells that are off, and filters', async () => {
+    await open('rules', '#group=none&view=matrix');
+    const cells = await page.$$eval('#matrix-table tbody tr', (rows) => rows.map((row) => Array.from(row.cells, (cell) => cell.innerText.trim())));
+    const [, high, low] = truth.matrix.cells.map((cell) => Object.values(cell.counts).reduce((a, b) => a + b));
+    assert.deepEqual(cells, [['structure', 'off', `${high}\nhigh`, '·'], ['services', '', `${low}\nlow`, '0'], ['<b>openings</b>', '', '', '·']]);
+    assert.equal(await page.textContent('#matrix-rest'), `${truth.clashes.length - high - low} more clashes were decided by rules, not by the matrix.`);
+    assert.match(await page.getAttribute('#matrix-table td:nth-child(3) button', 'title'), /^structure × services: \d+ hard, .*clearance 50 mm, severity high/);
+    await page.click('.kind.hard'); // the matrix counts what the filter leaves
+    const hard = truth.matrix.cells[1].counts.hard;
+    assert.equal(await page.innerText('#matrix-table td:nth-child(3)'), `${hard}\nhigh`);
+    await page.click('#matrix-table td:nth-child(3) button');
+    await waitForCount(hard);
+    assert.ok(await page.isVisible('#viewport'));
+    assert.equal((await hashOf(page)).get('rule'), 'structure / services');
+    const severities = await page.$$eval('#rows tr', (rows) => rows.map((row) => row.cells[8].textContent));
+    assert.ok(severities.length > 10 && severities.every((text) => text === 'high'));
+    await page.click('#reset');
+    await page.selectOption('#severity', { label: `low (${low})` });
+    await waitForCount(low);
+    assert.ok((await page.textContent('#facts')).includes('1,234 off in the matrix'));
+  });
+
+  test('sorts by volume', async () => {
+    await open('rules', '#group=none&sort=-volume');
+    const volumes = truth.clashes.map((clash) => clash.volume ?? 0).sort((a, b) => b - a);
+    const shown = await page.$$eval('#rows tr', (rows) => rows.slice(0, 10).map((row) => Number(row.cells[7].textContent)));
+    assert.deepEqual(shown, volumes.slice(0, 10).map((volume) => Number((1000 * volume).toPrecision(3))));
+  });
+
+  test('groups: in the list, the detail, over time, and in the CSV as the command writes it', async () => {
+    await open('rules');
+    assert.equal(await page.locator('#rows tr.group').first().locator('b').textContent(), String(truth.groups[0].size));
+    await page.locator('#rows tr.group').first().click();
+    const detail = await page.textContent('#detail');
+    for (const text of [truth.groups[0].name, 'Overlap', 'litres', 'Severity', 'high', 'Since last job', 'active'])
+      assert.ok(detail.includes(text), text);
+    await page.click('#tab-time');
+    const last = await page.$$eval('#history-table tbody tr:first-child td', (cells) => cells.map((cell) => Number(cell.textContent.replaceAll(',', ''))));
+    assert.deepEqual(last.slice(-6), [29, 4, 22, 2, 1, 3]);
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export')]);
+    const exported = parseCsv(await readFile(await download.path(), 'utf8'));
+    const written = parseCsv(await readFile(join(FOLDER, 'rules', 'report.csv'), 'utf8'));
+    const byId = (a, b) => (a[0] < b[0] ? -1 : 1);
+    assert.ok(written[0].includes('group_name'));
+    assert.deepEqual(exported[0], written[0]);
+    assert.deepEqual(exported.slice(1).map(numbersRead).sort(byId), written.slice(1).map(numbersRead).sort(byId));
+  });
+});
+
+describe('a review that the browser kept badly', () => {
+  const key = (page) => page.evaluate(() => Object.keys(localStorage).find((name) => name.startsWith('abut-review:')));
+  test('is told once, kept aside, and never empties the page', async () => {
+    await open('store');
+    await page.locator('#rows tr').first().click();
+    await page.locator('.review input[type=text]').first().fill('Ada');
+    await page.click('#close');
+    const name = await key(page);
+    const good = JSON.parse(await page.evaluate((item) => localStorage.getItem(item), name));
+    const bad = ['{"a"', 'null', '7', '{}', '[1]', '[["a",null]]', '[["a",{"comments":7}]]', '[["a",{"status":{},"comments":[]}]]',
+      '[["a",{"comments":[null]}]]', JSON.stringify([...good, ['x', 5]])];
+    for (const text of bad) {
+      await page.evaluate(([item, value]) => localStorage.setItem(item, value), [name, text]);
+      await page.goto('about:blank');
+      await open('store');
+      assert.equal(await shownText(), '1,000 clashes', text);
+      const isPartly = text.includes('Ada');
+      assert.match(await page.textContent('#message span'), isPartly ? /1 entry is intact/ : /damaged and cannot be shown/);
+      assert.equal(await page.isVisible('#save'), isPartly);
+      assert.equal(await page.evaluate((item) => localStorage.getItem(`${item}:damaged`), name), text);
+      await page.click('#message button');
+      assert.ok(await page.isHidden('#message'));
+      await page.reload();
+      await page.waitForSelector('#main:not([hidden])');
+      assert.ok(await page.isHidden('#message'), 'said once');
+    }
+    await page.evaluate(() => localStorage.clear());
+  });
+});
+
 describe('no clash at all', () => {
   test('says so', async () => {
     await open(0);

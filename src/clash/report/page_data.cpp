@@ -155,15 +155,19 @@ ordered_json group_of_page(const ClashGroup& group) {
 }
 
 void write_page_groups(JsonLines& out, const ClashReport& report) {
-    if (report.groups.empty())
+    if (report.grouping.empty())
         return;
-    write_column(out, "groups", report.groups, group_of_page);
+    out.member("grouping", to_string(report.grouping));
+    if (!report.groups.empty())
+        write_column(out, "groups", report.groups, group_of_page);
+    if (!report.statuses)
+        return;
     write_column(out, "history", report.history, [](const JobCounts& job) {
-        return ordered_json{
-            {"finished", job.finished}, {"kinds", job.kinds}, {"statuses", job.statuses}};
+        return ordered_json{{"finished", job.finished},
+                            {"kinds", job.kinds},
+                            {"statuses", job.statuses},
+                            {"groups", job.groups}};
     });
-    if (report.history.empty())
-        return;
     write_column(out, "topics", report.topics, [](const Topic& topic) { return json_of(topic); });
     out.member("topics_revision", report.topics_revision);
 }

@@ -10,6 +10,9 @@ const report = JSON.parse(dataElement.textContent);
 dataElement.remove(); // frees tens of megabytes of text
 const count = report.id.length;
 const hasStatus = report.status !== undefined; // only reports of a store have statuses
+const hasGrouping = report.grouping !== undefined; // the command grouped the clashes
+const hasVolumes = (report.volume ?? []).some((volume) => volume > 0);
+const hasSeverities = (report.severities ?? []).some(Boolean);
 
 const byId = (id) => document.getElementById(id);
 const once = (make) => {
@@ -49,6 +52,11 @@ const SORT_KEYS = {
   b_type: once(() => Int32Array.from(report.b, (part) => typeRanks()[typeOf(part)])),
   distance: once(() => Float64Array.from(report.distance, (value) => value ?? Infinity)),
   triangle_pairs: once(() => Float64Array.from(report.triangle_pairs)),
+  ...(hasVolumes && { volume: once(() => Float64Array.from(report.volume)) }),
+  ...(hasSeverities && { severity: once(() => {
+    const rank = ranks(report.severities, byAlphabet);
+    return Int32Array.from(report.severity, (severity) => rank[severity]);
+  }) }),
   id: once(() => ranks(report.id, byCode)),
 };
 
@@ -172,8 +180,8 @@ function heightTest(lower, upper) {
 /**
  * Returns the clashes of `order` that pass the filter, and the number of each kind that pass all of
  * it except the kind.
- * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, status, min, max,
- * properties: [{name, value, other}], heights: [lower, upper] or null}
+ * filter: {kinds: Set of kind numbers, query, type, type2, file, file2, rule, severity, status, min,
+ * max, properties: [{name, value, other}], heights: [lower, upper] or null}
  */
 function filtered(order, filter) {
   const tests = [
@@ -181,6 +189,7 @@ function filtered(order, filter) {
     sidesTest(filter.type, filter.type2, typeOf),
     sidesTest(filter.file, filter.file2, fileOf),
     filter.rule === ANY ? null : (i) => report.rule[i] === filter.rule,
+    filter.severity === ANY ? null : (i) => report.severity[i] === filter.severity,
     filter.status === ANY ? null : (i) => report.status[i] === filter.status,
     textTest(filter.query),
     ...filter.properties.map(propertyTest),
@@ -210,12 +219,19 @@ function csvText(text) {
   return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 }
 
+/** The innermost group of a clash: its id and its name. */
+function groupCells(i) {
+  const group = reportPaths()[i]?.at(-1);
+  return group === undefined ? ['', ''] : [csvText(group.key), csvText(group.name)];
+}
+
 /** The same columns as the CSV that the command writes. */
 function toCsv(rows) {
   const number = (value) => value ?? '';
   const lines = ['id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,' +
     'point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z,' +
-    'direction_x,direction_y,direction_z,triangle_pairs,rule,severity,volume,volume_error,neighbours' + (hasStatus ? ',status,note' : '')];
+    'direction_x,direction_y,direction_z,triangle_pairs,rule,severity,volume,volume_error,neighbours' +
+    (hasStatus ? ',status,note' : '') + (hasGrouping ? ',group,group_name' : '')];
   for (const i of rows) {
     const sides = [report.a[i], report.b[i]];
     lines.push([
@@ -229,6 +245,7 @@ function toCsv(rows) {
       report.triangle_pairs[i], csvText(report.rules[report.rule[i]]),
       csvText(report.severities[report.severity[i]]), number(report.volume[i]), number(report.volume_error[i]), report.neighbours[i],
       ...(hasStatus ? [STATUSES[report.status[i]], csvText(report.notes[report.note[i]])] : []),
+      ...(hasGrouping ? groupCells(i) : []),
     ].join(','));
   }
   return lines.join('\r\n') + '\r\n';

@@ -93,7 +93,7 @@ function furtherFacts(i) {
   const note = hasStatus ? report.notes[report.note[i]] : '';
   const volume = report.volume?.[i] ?? 0;
   const facts = [
-    ['Overlap', volume > 0 && `${+(volume * 1000).toPrecision(3)} litres`],
+    ['Overlap', volume > 0 && `${litres(volume)} litres`],
     ['Severity', report.severities?.[report.severity[i]]],
     ['Neighbours', report.neighbours?.[i] && String(report.neighbours[i]).replace('_', ' ')],
     ['Rule', rule],
@@ -145,9 +145,17 @@ function showGroupDetail(group) {
         uses.set(value, (uses.get(value) ?? 0) + 1);
     return [...uses].sort((a, b) => b[1] - a[1]).slice(0, 6).map(([value, n]) => `${value || '(none)'} ${wholeNumber.format(n)}`).join(' · ');
   };
+  const volume = group.clashes.reduce((sum, i) => sum + (report.volume?.[i] ?? 0), 0);
+  const severities = {};
+  for (const i of group.clashes) {
+    const severity = report.severities?.[report.severity[i]] || 'none';
+    severities[severity] = (severities[severity] ?? 0) + 1;
+  }
   const facts = [
     ['Clashes', `${wholeNumber.format(group.clashes.length)}: ${kindsInWords(group.kinds)}`],
     ['Worst', group.deepest < 0 ? `${millimetres(group.deepest)} mm` : ''],
+    ['Overlap', hasVolumes && volume > 0 ? `${litres(volume)} litres` : ''],
+    ['Severity', hasSeverities ? countsInWords(severities, {}) : ''],
     ['Since last job', group.group?.change],
     ['Types', partsOf((part) => report.types[typeOf(part)])],
     ['Files', partsOf((part) => baseName(report.files[fileOf(part)]))],

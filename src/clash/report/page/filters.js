@@ -41,27 +41,34 @@ function usesOf(values, property) {
   return uses;
 }
 
-const SELECTS = ['type', 'type2', 'file', 'file2', 'rule', 'status'];
+const SELECTS = ['type', 'type2', 'file', 'file2', 'rule', 'severity', 'status'];
 const valuesOf = (select) => (select === 'status' ? (hasStatus ? STATUSES.slice(0, -1) : [])
-  : report[`${select.replace('2', '')}s`]);
+  : select === 'severity' ? report.severities : report[`${select.replace('2', '')}s`]);
+
+/** For each value, the number of clashes that have it; indices: of the values, by clash. */
+function countUses(values, indices) {
+  const uses = new Array(values.length).fill(0);
+  for (const index of indices)
+    ++uses[index];
+  return uses;
+}
 
 function makeSelects() {
   const typeUses = usesOf(report.types, typeOf);
   const fileUses = usesOf(report.files, fileOf);
-  const ruleUses = new Array(report.rules.length).fill(0);
-  for (const rule of report.rule)
-    ++ruleUses[rule];
   for (const id of ['type', 'type2'])
     fillSelect(byId(id), report.types, typeUses, (type) => type || '(no type)');
   for (const id of ['file', 'file2'])
     fillSelect(byId(id), report.files, fileUses, baseName);
-  fillSelect(byId('rule'), report.rules, ruleUses, (rule) => rule || '(no rule)');
+  fillSelect(byId('rule'), report.rules, countUses(report.rules, report.rule), (rule) => rule || '(no rule)');
+  fillSelect(byId('severity'), report.severities, countUses(report.severities, report.severity), (severity) => severity || '(none)');
   if (hasStatus)
     fillSelect(byId('status'), valuesOf('status'), STATUSES.map((s) => report.statuses[s]), (s) => s);
   else
     byId('status').append(make('option', { value: ANY }, 'any'));
   byId('status-field').hidden = !hasStatus;
   byId('file-field').hidden = report.files.length < 3; // two files have only one pairing
+  byId('severity-field').hidden = !hasSeverities;
   byId('rule-field').hidden = !report.rules.some(Boolean);
 }
 

@@ -8,13 +8,15 @@ function makeSvg(tag, attributes, ...children) {
   return element;
 }
 
+const GROUP_CHANGES = ['new', 'active', 'moved', 'reopened', 'resolved'];
 const dayOf = (seconds) => new Date(1000 * seconds).toISOString().slice(0, 16).replace('T', ' ');
 
 /** Draws the numbers of clashes by kind after each job: report.history [{finished, kinds, statuses, groups}]. */
 function showHistory() {
   const jobs = report.history ?? [];
   const [width, height, gap] = [640, 220, 26];
-  const sumOf = (job) => job.kinds.reduce((a, b) => a + b, 0);
+  const sum = (counts) => counts.reduce((a, b) => a + b, 0);
+  const sumOf = (job) => sum(job.kinds);
   const most = Math.max(1, ...jobs.map(sumOf));
   const step = (width - 44) / Math.max(jobs.length, 1);
   const bar = Math.min(46, 0.7 * step);
@@ -41,9 +43,10 @@ function showHistory() {
     text.textContent = dayOf(job.finished).slice(5, 10);
     chart.append(text);
   });
-  const head = ['Job', 'clashes', ...KINDS, 'new', 'resolved'];
+  const hasGroups = jobs.some((job) => job.groups?.some((n) => n > 0));
+  const head = ['Job', 'clashes', ...KINDS, 'new', 'resolved', ...(hasGroups ? ['groups', ...GROUP_CHANGES.map((change) => `${change} groups`)] : [])];
   byId('history-table').replaceChildren(
     make('thead', {}, make('tr', {}, ...head.map((title, k) => make('th', { scope: 'col', className: k > 0 ? 'num' : '' }, title)))),
     make('tbody', {}, ...[...jobs].reverse().map((job) => make('tr', {}, make('th', { scope: 'row' }, `${dayOf(job.finished)} UTC`),
-      ...[sumOf(job), ...job.kinds, job.statuses[0], job.statuses[4]].map((n) => make('td', { className: 'num' }, wholeNumber.format(n)))))));
+      ...[sumOf(job), ...job.kinds, job.statuses[0], job.statuses[4], ...(hasGroups ? [sum(job.groups.slice(0, 4)), ...job.groups] : [])].map((n) => make('td', { className: 'num' }, wholeNumber.format(n)))))));
 }

@@ -20,12 +20,52 @@ function stored(action) {
   }
 }
 
+const isText = (value) => typeof value === 'string';
+
+/** Whether an entry that the browser kept is as keepEdits() writes it. Other programs can write there, too. */
+function isEdit(entry) {
+  if (!Array.isArray(entry) || !isText(entry[0]) || entry[1] === null || typeof entry[1] !== 'object')
+    return false;
+  const { comments, clashes, ...texts } = entry[1];
+  return Object.values(texts).every(isText) && Array.isArray(comments) && comments.every((comment) => isText(comment?.text) && isText(comment.time)) &&
+    (clashes === undefined || (Array.isArray(clashes) && clashes.every(isText)));
+}
+
+/** Returns the entries of what the browser kept; anything that is not a list is one unreadable entry. */
+function parseEdits(text) {
+  try {
+    const entries = JSON.parse(text);
+    return Array.isArray(entries) ? entries : [null];
+  } catch {
+    return [null];
+  }
+}
+
 function readEdits() {
   const text = stored((storage) => storage.getItem(reviewKey()));
-  for (const [key, edit] of text ? JSON.parse(text) : [])
+  const entries = text === null ? [] : parseEdits(text);
+  const usable = entries.filter(isEdit);
+  for (const [key, edit] of usable)
     edits.set(key, edit);
   isSaved = edits.size === 0;
   showSaveButton();
+  if (usable.length === entries.length)
+    return;
+  // The text stays under another name, and this is said once: the next visit reads what is usable.
+  stored((storage) => {
+    storage.setItem(`${reviewKey()}:damaged`, text);
+    storage.setItem(reviewKey(), JSON.stringify(usable));
+  });
+  showMessage(usable.length === 0 ? 'The review that this browser kept for the report is damaged and cannot be shown.'
+    : `A part of the review that this browser kept for the report is damaged; ${usable.length === 1 ? '1 entry is' : `${wholeNumber.format(usable.length)} entries are`} intact.`);
+}
+
+/** Says something that the reader must see, until it is closed. */
+function showMessage(text) {
+  const [words, close] = byId('message').children;
+  words.textContent = text;
+  close.onclick = () => { byId('message').hidden = true; };
+  byId('message').hidden = false;
 }
 
 function keepEdits() {

@@ -9,7 +9,7 @@ let shownRows = new Uint32Array(0);
 let shownGrouping = null;
 
 const emptyState = () => ({
-  kinds: allKinds(), query: '', type: ANY, type2: ANY, file: ANY, file2: ANY, rule: ANY, status: ANY,
+  kinds: allKinds(), query: '', type: ANY, type2: ANY, file: ANY, file2: ANY, rule: ANY, severity: ANY, status: ANY,
   min: null, max: null, properties: [], heights: null, sort: { ...DEFAULT_SORT }, open: null,
   group: report.groups ? 'groups' : 'none', openGroups: new Set(), openGroup: null, view: 'list',
 });
@@ -180,6 +180,8 @@ function filterInWords() {
       words.push(`${id} ${label(id)} with ${label(`${id}2`)}`);
   if (state.rule !== ANY)
     words.push(`rule ${label('rule')}`);
+  if (state.severity !== ANY)
+    words.push(`severity ${label('severity')}`);
   if (state.status !== ANY)
     words.push(`status ${label('status')}`);
   if (state.min !== null || state.max !== null)

@@ -15,6 +15,24 @@ const STATUS_MEANING = {
 };
 const MOST_RESOLVED = 1_000;
 
+const LEFT_OUT = {
+  not_selected: 'not selected', ignored: 'ignored by a rule', off: 'off in the matrix', fills: 'fill an opening', connected: 'connected',
+  covers: 'cover each other', same_assembly: 'of one assembly', tolerated: 'not deeper than tolerated', other_kind: 'of another kind',
+};
+
+/** "12 off in the matrix · 3 connected": the entries that are not 0, the largest first. */
+const countsInWords = (counts, words) => Object.entries(counts ?? {}).filter(([, n]) => n > 0).sort((a, b) => b[1] - a[1])
+  .map(([key, n]) => `${wholeNumber.format(n)} ${words[key] ?? key.replace('_', ' ')}`).join(' · ');
+
+/** Clashes by how their parts belong together. */
+function neighbourCounts() {
+  const counts = {};
+  for (const word of report.neighbours ?? [])
+    if (word !== '')
+      counts[word] = (counts[word] ?? 0) + 1;
+  return counts;
+}
+
 const inMillimetres = (metres) => (metres === null ? 'not given' : `${+(metres * 1000).toPrecision(12)} mm`);
 const inSeconds = (value) => (value === null ? '–' : `${value < 10 ? value.toFixed(2) : value.toFixed(1)} s`);
 
@@ -47,6 +65,8 @@ function showSummary() {
     fact('Time', inSeconds(total)),
     fact('Peak memory', `${wholeNumber.format(Math.round(report.peak_rss_mib ?? 0))} MiB`),
     fact('Clashes', wholeNumber.format(count)),
+    ...[['Pairs left out', countsInWords(report.left_out, LEFT_OUT)], ['Known neighbours that clash', countsInWords(neighbourCounts(), {})]]
+      .filter(([, words]) => words !== '').map(([title, words]) => fact(title, words, 'wide')),
     ...report.warnings.map((warning) => fact('Warning', warning, 'wide')),
     ...report.models.flatMap((model) => NOTES.map(([kind, words]) => {
       const ids = (model.notes ?? []).filter((note) => note.kind === kind).map((note) => note.id);

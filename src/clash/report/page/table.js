@@ -9,6 +9,8 @@ const signed = (value, digits) => {
   return text.replace('-', Number(text) === 0 ? '' : MINUS);
 };
 const millimetres = (metres) => (metres === null ? '' : metres === 0 ? '0' : signed(metres * 1000, 2));
+/** Cubic metres as litres. */
+const litres = (volume) => new Intl.NumberFormat('en', { maximumSignificantDigits: 3 }).format(1000 * volume);
 const orNoName = (text) => text || '(no name)';
 const baseName = (path) => path.split(/[\\/]/).pop() || path;
 
@@ -20,6 +22,9 @@ const COLUMNS = [
   { key: 'b_name', title: 'B', width: '', cut: true, text: (i) => orNoName(report.part_name[report.b[i]]) },
   { key: 'b_type', title: 'B type', width: '16%', broadOnly: true, text: (i) => report.types[typeOf(report.b[i])] },
   { key: 'distance', title: 'Distance, mm', width: '118px', num: true, text: (i) => millimetres(report.distance[i]) },
+  ...(hasVolumes ? [{ key: 'volume', title: 'Overlap, l', hint: 'Common volume of two solids, litres', width: '92px', num: true, broadOnly: true,
+    text: (i) => (report.volume[i] > 0 ? litres(report.volume[i]) : '') }] : []),
+  ...(hasSeverities ? [{ key: 'severity', title: 'Severity', width: '82px', broadOnly: true, text: (i) => report.severities[report.severity[i]] }] : []),
   { key: 'triangle_pairs', title: 'Tri. pairs', hint: 'Intersecting triangle pairs', width: '98px', num: true, broadOnly: true,
     text: (i) => wholeNumber.format(report.triangle_pairs[i]) },
   { key: 'id', title: 'Clash id', width: '152px', mono: true, wideOnly: true, text: (i) => report.id[i] },
