@@ -17,8 +17,8 @@ constexpr double kGamepadTurn = 2.2; ///< radians a second
 constexpr int kFramesOfClick = 2;
 
 struct KeyAction {
-    int key;
-    Action action;
+    int key = 0;
+    Action action{};
     bool repeats = false; ///< while it is held
 };
 constexpr KeyAction kActions[]{
