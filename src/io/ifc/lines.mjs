@@ -55,6 +55,15 @@ export class Lines {
         }
     }
 
+    /** Returns line(id) for each of some numbers. One call of web-ifc reads them all. */
+    lines(ids) {
+        try {
+            return this.api.GetRawLinesData(this.model, ids).map(raw => raw?.arguments === undefined ? null : raw);
+        } catch { // one of them has an integer beyond 64 bits
+            return ids.map(id => this.line(id));
+        }
+    }
+
     /** Returns the number of the line that a value refers to, or null. */
     reference(value) { return value?.type === REFERENCE ? value.value : null; }
 

@@ -49,22 +49,23 @@ export class PropertySets {
         const content = this.contents.get(line?.type);
         if (content !== undefined) {
             const name = this.lines.name(line);
-            for (const property of this.lines.references(line.arguments[content]))
-                this.#add(property, name, set, 0);
+            this.#addAll(this.lines.references(line.arguments[content]), name, set, 0);
         }
         return set;
     }
 
-    #add(id, path, set, depth) {
-        const line = this.lines.line(id);
+    #addAll(ids, path, set, depth) {
+        for (const line of this.lines.lines(ids))
+            this.#add(line, path, set, depth);
+    }
+
+    #add(line, path, set, depth) {
         const name = line === null ? null : this.lines.text(line.arguments[0]);
         if (name === null || depth === DEEPEST)
             return;
         const inner = this.complex.get(line.type);
         if (inner !== undefined) {
-            for (const property of this.lines.references(line.arguments[inner]))
-                this.#add(property, `${path}.${name}`, set, depth + 1);
-            return;
+            return this.#addAll(this.lines.references(line.arguments[inner]), `${path}.${name}`, set, depth + 1);
         }
         const values = this.#readers.get(line.type)?.(line.arguments) ?? [];
         if (values.length === 0)
