@@ -2,6 +2,7 @@
 
 #include <abut/elementary_impact.h>
 #include <abut/mesh.h>
+#include <abut/model.h>
 #include <abut/progress.h>
 
 #include <array>
@@ -103,6 +104,37 @@ struct FeaturePair {
     friend bool operator==(const FeaturePair&, const FeaturePair&) = default;
 };
 
+/// How an edge and a face that share a point lie to each other.
+enum class EdgeFaceContact : std::uint8_t {
+    /// The edge passes through the inside of the face: its ends lie strictly on the two sides of
+    /// the face's plane, and the point that they share lies on no edge of the face.
+    crossing,
+    /// They share one point, but do not cross: the edge ends on the face, or passes through the
+    /// face's border. So do an edge without length and a face without area, whatever they share.
+    touching,
+    /// The edge lies in the face's plane, and they share a point or a segment.
+    coplanar,
+};
+
+/// An edge and a face that share a point.
+struct EdgeFaceIntersection {
+    bool face_first =
+        false;              ///< of two surfaces: the face is the first one's, the edge the second's
+    std::uint32_t edge = 0; ///< as `Deformable::edges` numbers it
+    std::uint32_t face = 0; ///< the triangle
+    EdgeFaceContact contact = EdgeFaceContact::crossing;
+    Vec3 point;       ///< a shared point; of a shared segment, its middle
+    double along = 0; ///< where it is on the edge: 0 at the lower vertex, 1 at the higher
+    std::array<double, 3> barycentric{}; ///< where it is on the face
+
+    friend bool operator==(const EdgeFaceIntersection&, const EdgeFaceIntersection&) = default;
+};
+
+struct IntersectionOptions {
+    bool at_end = false; ///< take the positions at the end of the step, not those at its start
+    Progress progress{};
+};
+
 class DeformableData;
 
 /// A triangle mesh whose vertices move from step to step, with the data that its queries need.
@@ -156,7 +188,14 @@ public:
     /// Every pair of vertices that a triangle joins, once, the lower vertex first. Sorted by the
     /// higher vertex, then by the lower one.
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 2>>& edges() const noexcept;
-    /// Memory, in bytes.
+    /// The surface at the start of its step as a model, for every query that takes one. The first
+    /// call builds its hierarchy; a call in a later step refits it, and rebuilds it where its boxes
+    /// have become too loose. The model keeps its positions when the surface moves on.
+    ///
+    /// Cost        O(n log n) at first and after `set_mesh`, O(n) in a new step, and nothing in the
+    ///             same step.
+    [[nodiscard]] Model model() const;
+    /// Memory, in bytes. Includes that of the last `model`.
     [[nodiscard]] std::size_t bytes() const noexcept;
     [[nodiscard]] const DeformableData& data() const noexcept { return *data_; }
 
@@ -219,5 +258,25 @@ std::vector<FeaturePair> self_within(const Deformable& surface, double distance,
                                      const Progress& progress = {});
 std::vector<FeaturePair> within(const Deformable& a, const Deformable& b, double distance,
                                 const Progress& progress = {});
+
+/// Finds every edge and face of one surface that share a point while the surface is at rest: where
+/// it passes through itself. Each pair is listed once, sorted by face_first, edge, face. An edge
+/// and a face that share a vertex are not a pair.
+///
+/// Degenerate  any triangles are allowed; see EdgeFaceContact. Two triangles that share an edge and
+///             are folded flat onto each other have no pair. Any other two triangles that share a
+///             point beside their common vertex have one.
+/// Accuracy    which pairs, and how they meet, is exact for the given doubles. The point lies on
+///             both to rounding, and within 2^-36 of the edge's length of the true one.
+/// Errors      Error{interrupted} if the stop flag is set.
+/// Cost        parallel (`set_threads`). The surface's hierarchy is used if it is at rest;
+///             otherwise a copy is fitted to the positions, in O(n).
+/// Source      representatives as [Curtis, Tamstorf, Manocha 2008]: an edge is tested in the
+///             triangle that represents it, so that no pair is tested twice.
+std::vector<EdgeFaceIntersection> self_intersections(const Deformable& surface,
+                                                     const IntersectionOptions& options = {});
+/// As `self_intersections`, but between two surfaces.
+std::vector<EdgeFaceIntersection> intersections(const Deformable& a, const Deformable& b,
+                                                const IntersectionOptions& options = {});
 
 } // namespace abut

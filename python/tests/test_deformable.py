@@ -62,6 +62,38 @@ def test_self_queries():
     assert len(abut.within(flat, lifted, 0.06)) > 0 and len(abut.within(flat, lifted, 0.04)) == 0
 
 
+def test_intersections_at_rest():
+    """A sheet that a blade passes through, and a blade that ends on it."""
+    vertices, faces = grid(6)
+    blade = np.array([[0.07, 0.11, -1], [0.07, 0.11, 1], [5, 0.11, 9]], float)
+    mesh = np.vstack([vertices, blade]), np.vstack([faces, [[49, 50, 51]]])
+    both = abut.Deformable(*mesh)
+    found = abut.self_intersections(both)
+    assert np.all(found.contact == abut.EdgeFaceContact.crossing) and len(found) > 3
+    blades = found[(both.edges[found.edge] == (49, 50)).all(axis=1)]
+    assert len(blades) == 1 and np.allclose(blades.point[0], (0.07, 0.11, 0))
+    assert blades.along[0] == pytest.approx(0.5)
+    assert np.allclose(blades.barycentric[0] @ mesh[0][both.faces[blades.face[0]]], blades.point[0])
+    sheet, other = abut.Deformable(vertices, faces), abut.Deformable(blade, [[0, 1, 2]])
+    two = abut.intersections(sheet, other)
+    assert len(two) == len(found) and set(two.face_first.tolist()) == {False, True}
+    assert len(abut.self_intersections(sheet)) == 0
+    other.advance(blade + (0, 0, 1))
+    found = abut.intersections(other, sheet, at_end=True)
+    assert len(found) > 1 and np.all(found.contact == abut.EdgeFaceContact.touching)
+
+
+def test_a_surface_as_a_model():
+    vertices, faces = grid(6)
+    cloth, ball = abut.Deformable(vertices, faces), abut.Model(*grid(3))
+    lifted = abut.distance(cloth.model(), None, ball, ((0, 0, 2), (1, 0, 0, 0)))
+    assert lifted.distance == pytest.approx(2)
+    cloth.advance(vertices + (0, 0, 1))
+    assert np.array_equal(cloth.model().vertices, vertices)
+    cloth.advance(vertices + (0, 0, 1))
+    assert abut.distance(cloth.model(), None, ball, ((0, 0, 2), (1, 0, 0, 0))).distance == pytest.approx(1)
+
+
 def test_errors():
     vertices, faces = grid(3)
     cloth = abut.Deformable(vertices, faces)

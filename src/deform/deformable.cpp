@@ -75,6 +75,14 @@ void refit(SweptTree& swept, const DeformableData& data, double until) {
     }
 }
 
+void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end) {
+    const SurfaceView surface = data.surface();
+    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, end == StepEnd::start ? 0 : 1);
+    for (const StepEnd each : kStepEnds)
+        fit(swept.tree, each,
+            [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, each, surface, boxes); });
+}
+
 DeformableData::DeformableData() = default;
 DeformableData::~DeformableData() = default;
 
@@ -93,6 +101,7 @@ void DeformableData::build() {
     swept = SweptTree();
     flat_regions = FlatRegions();
     feature_trees.reset();
+    rest_model.forget();
     find_edges_of_triangles();
     {
         const Tree shape = build_tree(swept_boxes(triangles, vertices));
@@ -132,6 +141,7 @@ void DeformableData::move_on(std::span<const Vec3> end) {
 }
 
 void DeformableData::refit() {
+    rest_model.move_on();
     fit_boxes();
     if (looseness() > kMostLooseness * looseness_when_built_)
         build();
@@ -254,13 +264,16 @@ const std::vector<std::array<std::uint32_t, 3>>& Deformable::triangles() const n
 const std::vector<std::array<std::uint32_t, 2>>& Deformable::edges() const noexcept {
     return data_->features.edges;
 }
+Model Deformable::model() const {
+    return data_->rest_model.of(*data_);
+}
 std::size_t Deformable::bytes() const noexcept {
     const DeformableData& d = *data_;
     return d.triangles.size() * sizeof(d.triangles[0]) +
            d.features.edges.size() * sizeof(d.features.edges[0]) +
            d.features.edges_of.size() * sizeof(d.features.edges_of[0]) + d.represented.size() +
            d.vertices.size() * sizeof(d.vertices[0]) + d.swept.tree.bytes() +
-           d.swept.leaves.bytes() + d.flat_regions.bytes() +
+           d.swept.leaves.bytes() + d.flat_regions.bytes() + d.rest_model.bytes() +
            (d.feature_trees ? d.feature_trees->bytes() : 0);
 }
 

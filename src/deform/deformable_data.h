@@ -4,6 +4,7 @@
 
 #include "deform/flat_regions.h"
 #include "deform/leaf_features.h"
+#include "deform/rest_model.h"
 #include "mesh/representative_triangles.h"
 #include "tree/moving_tree.h"
 
@@ -36,6 +37,7 @@ public:
     SweptTree swept;
     FlatRegions flat_regions;                    ///< of the nodes of `swept`
     std::unique_ptr<FeatureTrees> feature_trees; ///< for Scheme::features
+    RestModel rest_model;                        ///< made when it is first asked for
 
     [[nodiscard]] SurfaceView surface() const { return {vertices.size(), triangles, features}; }
     /// Whether no vertex moves in this step.
@@ -59,5 +61,7 @@ private:
 
 /// Fits all boxes to the motion until time `until`, in [0, 1].
 void refit(SweptTree& swept, const DeformableData& data, double until);
+/// Fits all boxes to the positions at one end of the step, as if nothing moved.
+void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end);
 
 } // namespace abut

@@ -14,25 +14,26 @@ namespace abut::triangle_planes {
 
 using Signs = std::array<int, 3>;
 
-/// The side of the plane of `plane` on which each vertex of t lies. One normal serves the filters
-/// of all three.
-inline Signs plane_sides(const Triangle& plane, const Triangle& t) {
+/// The side of the plane of `plane` on which each of some points lies. One normal serves the
+/// filters of all.
+template <std::size_t count>
+std::array<int, count> plane_sides(const Triangle& plane, const std::array<Vec3, count>& points) {
     const Vec3 u = plane[1] - plane[0], v = plane[2] - plane[0];
     const Vec3 n = cross(u, v);
     const auto largest = [](const Vec3& p) {
         return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     };
     const double edge = std::max(largest(u), largest(v));
-    Signs signs{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 w = t[i] - plane[0];
+    std::array<int, count> signs{};
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 w = points[i] - plane[0];
         const double side = dot(n, w), reach = largest(w);
         // 3 products of 3 factors each, at most 9 roundings on any path: below 32 eps edge^2 reach.
         // The last term covers underflow.
         const double bound = 32 * 0x1p-53 * edge * edge * reach + 0x1p-1000 * (reach + 1);
         signs[i] = side > bound    ? 1
                    : side < -bound ? -1
-                                   : orient3d(plane[0], plane[1], plane[2], t[i]);
+                                   : orient3d(plane[0], plane[1], plane[2], points[i]);
     }
     return signs;
 }

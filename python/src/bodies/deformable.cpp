@@ -92,6 +92,24 @@ py::object run_surfaces_within(const Arguments& arguments) {
         }));
 }
 
+py::object run_self_intersections(const Arguments& arguments) {
+    IntersectionOptions options;
+    arguments.take(1, "at_end", options.at_end);
+    return records(read_one(arguments, 2, [&](const Deformable& surface, const Progress& progress) {
+        options.progress = progress;
+        return self_intersections(surface, options);
+    }));
+}
+py::object run_intersections(const Arguments& arguments) {
+    IntersectionOptions options;
+    arguments.take(2, "at_end", options.at_end);
+    return records(read_two(
+        arguments, 3, [&](const Deformable& a, const Deformable& b, const Progress& progress) {
+            options.progress = progress;
+            return intersections(a, b, options);
+        }));
+}
+
 /// Impacts of another surface could name triangles that this one has not.
 void check_features(const Deformable& surface, const Impacts& impacts) {
     for (const FeatureImpact& one : impacts.list) {
@@ -179,6 +197,16 @@ void add_surface_members(py::class_<Surface>& type) {
             "Moves features off triangles that met something, for assignment='adaptive'. In: the "
             "result of\n"
             "self_impacts of this surface. Changes no answer.")
+        .def(
+            "model",
+            [](Surface& self) {
+                const InUse::Read read(self.use, kSurface);
+                const py::gil_scoped_release unlocked;
+                return self.value.model();
+            },
+            "The surface at the start of its step as a Model, for every query that takes one. Its "
+            "hierarchy is\n"
+            "refitted from step to step. The model keeps its positions when the surface moves on.")
         .def_property_readonly("vertex_count",
                                [](const Surface& self) { return self.value.vertex_count(); })
         .def_property_readonly(
@@ -222,6 +250,20 @@ void bind_results(py::module_& module) {
         .field("b", &FeaturePair::b, "triangle, or edge")
         .field("distance", &FeaturePair::distance, "length")
         .field("barycentric", &FeaturePair::barycentric, "of the closest points")
+        .done();
+    RecordBinder<EdgeFaceIntersection>(module, "EdgeFaceIntersection",
+                                       "An edge and a face at rest that share a point.")
+        .field("face_first", &EdgeFaceIntersection::face_first,
+               "the face is the first surface's, the edge the second's")
+        .field("edge", &EdgeFaceIntersection::edge, "row of Deformable.edges")
+        .field("face", &EdgeFaceIntersection::face, "row of Deformable.faces")
+        .field("contact", &EdgeFaceIntersection::contact, "EdgeFaceContact")
+        .field("point", &EdgeFaceIntersection::point,
+               "a shared point; of a shared segment, its middle")
+        .field("along", &EdgeFaceIntersection::along,
+               "on the edge: 0 at its first vertex, 1 at "
+               "its second")
+        .field("barycentric", &EdgeFaceIntersection::barycentric, "weights in the face")
         .done();
     RecordBinder<TestCounts>(module, "TestCounts", "A number for each kind of test.")
         .field("vertex_face", &TestCounts::vertex_face, "")
@@ -300,6 +342,20 @@ void bind_surface_queries(py::module_& module) {
         "Returns a record array of FeaturePair. Raises Error (bad_argument) if the distance is "
         "negative.",
         run_self_within);
+    static const std::string at_rest =
+        "at_end    take the positions at the end of the step, not those at its start\n"
+        "progress  function of (stage, fraction)\n\n"
+        "Returns a record array of EdgeFaceIntersection, each pair once, sorted. Exact.";
+    add("self_intersections", "surface, *, at_end=False, progress=None", 1,
+        "surface * at_end progress",
+        ("Every edge and face of a Deformable at rest that share a point, but no vertex: where it "
+         "passes through itself.\n\n" +
+         at_rest)
+            .c_str(),
+        run_self_intersections);
+    add("intersections", "a, b, *, at_end=False, progress=None", 2, "a b * at_end progress",
+        ("Every edge and face of two Deformable at rest that share a point.\n\n" + at_rest).c_str(),
+        run_intersections);
     add_overload("time_of_impact",
                  {a_surface, {"a b * absolute_error thickness progress", 2}, run_time});
     add_overload("within", {a_surface, {"a b distance * progress", 3}, run_surfaces_within});
@@ -317,6 +373,8 @@ void bind_deformable(py::module_& module) {
                       "How pairs of triangles that may meet become tests of features.");
     bind_enum<Culling>(module, "Culling", {"tree", "grid", "sweep"},
                        "How pairs of triangles that may meet are found.");
+    bind_enum<EdgeFaceContact>(module, "EdgeFaceContact", {"crossing", "touching", "coplanar"},
+                               "How an edge and a face that share a point lie to each other.");
     bind_results(module);
     bind_class(module);
     bind_surface_queries(module);

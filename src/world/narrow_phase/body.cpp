@@ -2,7 +2,6 @@
 
 #include "convex/body/convex_data.h"
 #include "convex/hull/climb.h"
-#include "core/parallel.h"
 #include "deform/deformable_data.h"
 #include "math/transform.h"
 #include "rigid/shapes/shape_arguments.h"
@@ -63,14 +62,7 @@ Box3 bounds_of_deformable(const Deformable& surface) {
 } // namespace
 
 const Model& Snapshot::model() const {
-    const auto make = [&] {
-        Mesh mesh;
-        for (const MovingVertex& vertex : surface_.data().vertices)
-            mesh.positions.push_back(vertex.start);
-        mesh.triangles = surface_.triangles();
-        model_.emplace(std::move(mesh));
-    };
-    std::call_once(once_, [&] { isolated(make); });
+    std::call_once(once_, [&] { model_.emplace(surface_.model()); });
     return *model_;
 }
 

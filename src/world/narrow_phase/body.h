@@ -16,7 +16,7 @@
 
 namespace abut {
 
-/// A model of a deformable surface at the start of its step. It is built on first use.
+/// A deformable surface as it was at the start of its step when it was first used after a refresh.
 class Snapshot {
 public:
     explicit Snapshot(const Deformable& surface) : surface_(surface) {}
