@@ -8,6 +8,7 @@
 #include "peers/peer_rigid.h"
 #include "peers/peer_swept.h"
 #include "scenes/deforming/deforming.h"
+#include "suites/rest_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,7 +124,7 @@ Row scheme_row(const CcdStep& step, const std::string& name, const DeformableOpt
 
 std::vector<Row> ccd_step_rows(const CcdStep& step, int rounds) {
     std::vector<Row> rows{all_impacts_row(step, rounds), threads_row(step, rounds),
-                          earliest_row(step, rounds)};
+                          earliest_row(step, rounds), at_rest_row(step, rounds)};
     const auto add = [&](const std::string& name, const DeformableOptions& options) {
         rows.push_back(scheme_row(step, name, options, rounds));
     };

@@ -6,6 +6,7 @@
 #include "suite.h"
 #include "suites/box_scene.h"
 #include "suites/flight_rows.h"
+#include "suites/rest_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -118,6 +119,8 @@ public:
                 }
         if (options_.only.empty() || options_.only == "flight")
             add_flight_rows(report_, 1000, options_.seed);
+        if (options_.only.empty() || options_.only == "deformable")
+            add_refresh_rows(report_, 60);
         set_threads(0);
         return std::move(report_);
     }

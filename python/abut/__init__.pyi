@@ -1271,6 +1271,10 @@ class Deformable:
         """Moves features off triangles that met something, for assignment='adaptive'. In: the result of
         self_impacts of this surface. Changes no answer.
         """
+    def model(self) -> Model:
+        """The surface at the start of its step as a Model, for every query that takes one. Its hierarchy is
+        refitted from step to step. The model keeps its positions when the surface moves on.
+        """
     @property
     def vertex_count(self) -> int: ...
     @property
@@ -1353,6 +1357,37 @@ class DistanceColours:
         """the distance is computed for one pixel in grid x grid and at borders of parts"""
     def distance(self, part: int, point: ArrayLike) -> float:
         """The distance of a point on a part's surface, at most the reach."""
+
+class EdgeFaceContact(IntEnum):
+    """How an edge and a face that share a point lie to each other."""
+    crossing = 0
+    touching = 1
+    coplanar = 2
+
+class EdgeFaceIntersection:
+    """An edge and a face at rest that share a point."""
+    dtype: np.dtype[Any]
+    @property
+    def face_first(self) -> bool:
+        """the face is the first surface's, the edge the second's"""
+    @property
+    def edge(self) -> int:
+        """row of Deformable.edges"""
+    @property
+    def face(self) -> int:
+        """row of Deformable.faces"""
+    @property
+    def contact(self) -> EdgeFaceContact:
+        """EdgeFaceContact"""
+    @property
+    def point(self) -> NDArray[np.float64]:
+        """a shared point; of a shared segment, its middle"""
+    @property
+    def along(self) -> float:
+        """on the edge: 0 at its first vertex, 1 at its second"""
+    @property
+    def barycentric(self) -> NDArray[np.float64]:
+        """weights in the face"""
 
 class ElementaryImpact:
     """Returned by elementary_impact."""
@@ -4299,6 +4334,14 @@ def inspect(mesh: ArrayLike | _Mesh) -> MeshReport:
 
     Returns a MeshReport. Raises Error (bad_mesh) if a coordinate is not finite or beyond 1e18.
     """
+def intersections(a: Deformable, b: Deformable, *, at_end: bool = ..., progress: _Progress = ...) -> np.recarray[Any, Any]:
+    """Every edge and face of two Deformable at rest that share a point.
+
+    at_end    take the positions at the end of the step, not those at its start
+    progress  function of (stage, fraction)
+
+    Returns a record array of EdgeFaceIntersection, each pair once, sorted. Exact.
+    """
 def into_one_frame(scenes: list[Scene]) -> list[Scene]:
     """Returns copies of the scenes, turned so that the axis points up that does in the first one."""
 def is_free_of_impacts(a: Deformable, b: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> bool:
@@ -4611,6 +4654,14 @@ def self_impacts(surface: Deformable, *, absolute_error: float = ..., thickness:
     progress        function of (stage, fraction)
 
     Returns Impacts. Complete and exact. Raises Error (bad_argument) for a negative length.
+    """
+def self_intersections(surface: Deformable, *, at_end: bool = ..., progress: _Progress = ...) -> np.recarray[Any, Any]:
+    """Every edge and face of a Deformable at rest that share a point, but no vertex: where it passes through itself.
+
+    at_end    take the positions at the end of the step, not those at its start
+    progress  function of (stage, fraction)
+
+    Returns a record array of EdgeFaceIntersection, each pair once, sorted. Exact.
     """
 def self_time_of_impact(surface: Deformable, *, absolute_error: float = ..., thickness: float = ..., progress: _Progress = ...) -> FeatureImpact | None:
     """The earliest of self_impacts.

@@ -57,7 +57,7 @@ PARAMETERS = {
     "angular_velocity": "ArrayLike", "acceleration": "ArrayLike", "about": "ArrayLike", "position": "ArrayLike",
     "acceleration_bound": "float", "angular_speed": "float", "progress": "_Progress", "tolerance": "float",
     "distance": "float", "upper_bound": "float", "absolute_error": "float", "relative_error": "float", "thickness": "float",
-    "max_steps": "int | None", "signed_distance": "bool", "segments": "bool", "triangles": "bool", "separation": "bool",
+    "max_steps": "int | None", "signed_distance": "bool", "at_end": "bool", "segments": "bool", "triangles": "bool", "separation": "bool",
     "mode": "ContactMode | str", "volume": "Volume | str", "method": "BroadPhaseMethod | str", "scheme": "Scheme | str",
     "broad_phase": "BroadPhaseMethod | str", "assignment": "Assignment | str", "culling": "Culling | str",
     "missing": "MissingParts | str", "order": "WorkOrder | str", "up": "UpAxis | str", "kind": "ElementaryKind | str",
@@ -191,7 +191,8 @@ OTHER_OVERLOADS = {
 RETURNS = {
     "overlapping_triangles": "NDArray[np.uint32]", "self_impacts": "Impacts", "impacts": "Impacts", "overlap_graph": "GraphReport",
     "self_time_of_impact": "FeatureImpact | None", "is_free_of_self_impacts": "bool", "is_free_of_impacts": "bool",
-    "self_within": "np.recarray[Any, Any]", "elementary_impacts": "np.recarray[Any, Any]", "join_crew": "Crew | None",
+    "self_within": "np.recarray[Any, Any]", "self_intersections": "np.recarray[Any, Any]",
+    "intersections": "np.recarray[Any, Any]", "elementary_impacts": "np.recarray[Any, Any]", "join_crew": "Crew | None",
     "read_frame_positions": "NDArray[np.float64] | None", "Motion.between": "Any", "Motion.screw": "Any", "picture": "NDArray[np.uint8]",
     "PictureMaker.make": "NDArray[np.uint8]", "Renderer.picture": "NDArray[np.uint8]", "Renderer.end_picture": "NDArray[np.uint8]",
     "Renderer.visible_samples": "NDArray[np.uint64]", "on_screen": "NDArray[np.float64] | None",
@@ -203,7 +204,7 @@ PROPERTIES = {
     "ClashReport.counts": "dict[str, int]", "ClashReport.statuses": "dict[str, int] | None",
     "ClashReport.seconds": "dict[str, float]", "ClashReview.statuses": "dict[str, int]",
 }
-TWO_SURFACES = {"impacts", "is_free_of_impacts"}
+TWO_SURFACES = {"impacts", "intersections", "is_free_of_impacts"}
 
 
 def plain_type(text):

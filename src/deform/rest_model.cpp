@@ -25,23 +25,26 @@ Mesh mesh_at_start(const DeformableData& surface) {
 
 Model RestModel::of(const DeformableData& surface) const {
     const std::scoped_lock lock(mutex_);
-    if (!last_ || !is_current_) {
+    if (!model_)
         isolated([&] {
             Mesh mesh = mesh_at_start(surface);
-            if (last_)
-                last_ = Model(
-                    std::make_shared<const ModelData>(std::move(mesh), last_->data().outline()));
-            else
-                last_ = Model(std::move(mesh));
+            if (outline_) {
+                model_.emplace(std::make_shared<const ModelData>(std::move(mesh), *outline_));
+                return;
+            }
+            model_.emplace(std::move(mesh), ModelOptions{.volume = Volume::aabb, .progress = {}});
+            outline_ = std::make_shared<const ModelOutline>(model_->data().outline());
         });
-        is_current_ = true;
-    }
-    return *last_;
+    return *model_;
 }
 
 std::size_t RestModel::bytes() const {
     const std::scoped_lock lock(mutex_);
-    return last_ ? last_->bytes() : 0;
+    std::size_t bytes = model_ ? model_->bytes() : 0;
+    if (outline_)
+        bytes += outline_->tree.nodes.size() * sizeof(outline_->tree.nodes[0]) +
+                 outline_->tree.order.size() * sizeof(outline_->tree.order[0]);
+    return bytes;
 }
 
 } // namespace abut

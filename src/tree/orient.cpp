@@ -264,6 +264,9 @@ private:
     }
 
     void turn_leaves(const Node& node) {
+        const NodeFrame& frame = node.frame;
+        const bool is_turned = frame.turn != NodeFrame().turn;
+        const Vec3 origin{frame.origin[0], frame.origin[1], frame.origin[2]};
         for (const NodeRef child : node.child) {
             if (child.is_none() || !child.is_leaf())
                 continue;
@@ -273,7 +276,8 @@ private:
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const auto& t = mesh_.triangles[tree_.order[child.first() + lane]];
                 for (std::size_t v = 0; v < 3; ++v) {
-                    const Vec3 p = node.frame.point_from_tree(mesh_.positions[t[v]]);
+                    const Vec3& at = mesh_.positions[t[v]];
+                    const Vec3 p = is_turned ? frame.point_from_tree(at) : at - origin;
                     leaf.v[v][0][lane] = to_float(p.x);
                     leaf.v[v][1][lane] = to_float(p.y);
                     leaf.v[v][2][lane] = to_float(p.z);

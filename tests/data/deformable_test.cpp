@@ -1,6 +1,7 @@
 // Steps of simulations with all colliding pairs of features known, through the library and the
 // command.
 
+#include <abut/broad_phase.h>
 #include <abut/deformable.h>
 #include <abut/frame.h>
 
@@ -93,36 +94,25 @@ TEST_P(Deforming, TheCommandWritesTheTruePairs) {
         ASSERT_EQ(written[i], (WrittenImpact{0, impacts.list[i]})) << i;
 }
 
-/// Every edge and face of a mesh whose boxes overlap along all axes.
+/// Calls visit(edge, face) for every edge and face of a mesh whose boxes overlap.
 template <typename Visit>
 void for_each_near_edge_and_face(const std::vector<std::array<std::uint32_t, 2>>& edges,
                                  const Mesh& mesh, const Visit& visit) {
-    const auto& at = mesh.positions;
-    struct Face {
+    std::vector<Box3> boxes;
+    const auto add = [&](const auto& vertices) {
         Box3 box;
-        std::uint32_t id;
+        for (const std::uint32_t v : vertices)
+            extend(box, mesh.positions[v]);
+        boxes.push_back(box);
     };
-    std::vector<Face> faces;
-    double widest = 0;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        Box3 box;
-        for (const std::uint32_t v : mesh.triangles[i])
-            extend(box, at[v]);
-        faces.push_back({box, i});
-        widest = std::max(widest, box.upper.x - box.lower.x);
-    }
-    std::sort(faces.begin(), faces.end(),
-              [](const Face& a, const Face& b) { return a.box.lower.x < b.box.lower.x; });
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
-        Box3 box;
-        extend(box, at[edges[i][0]]), extend(box, at[edges[i][1]]);
-        auto face =
-            std::lower_bound(faces.begin(), faces.end(), box.lower.x - widest,
-                             [](const Face& each, double low) { return each.box.lower.x < low; });
-        for (; face != faces.end() && face->box.lower.x <= box.upper.x; ++face)
-            if (overlap(face->box, box))
-                visit(i, face->id);
-    }
+    for (const auto& edge : edges)
+        add(edge);
+    for (const auto& triangle : mesh.triangles)
+        add(triangle);
+    const auto count = static_cast<std::uint32_t>(edges.size());
+    for (const IndexPair pair :
+         overlapping_boxes(boxes, 0, [&](auto i, auto k) { return i < count && k >= count; }))
+        visit(pair.a(), pair.b() - count);
 }
 
 TEST_P(Deforming, EveryEdgeThroughAFaceAtRest) {

@@ -38,12 +38,18 @@ constexpr std::array<Named<Culling>, 3> kCullings{
 /// because the hierarchy is rebuilt each time.
 constexpr std::size_t kAdaptEvery = 8;
 
+constexpr const char *kFailOnImpacts = "impacts", *kFailOnIntersections = "intersections";
+
 struct CcdArguments {
     std::vector<std::string> frames;
     DeformableOptions surface;
     ElementaryArguments elementary;
-    bool allow_topology_changes = false;
+    bool allow_topology_changes = false, intersections = false;
     std::string out, fail_on;
+
+    [[nodiscard]] bool looks_at_rest() const {
+        return intersections || fail_on == kFailOnIntersections;
+    }
 };
 
 /// Describes how the triangles of a keyframe differ from those of the surface; empty if they are
@@ -148,6 +154,33 @@ private:
 /// sequence would keep as much more memory as its largest temporary arrays take.
 constexpr int kLargeBlock = 1 << 20;
 
+/// The steps of a sequence, and its keyframes at rest.
+struct Found {
+    CcdTotal total;
+    std::vector<CcdStep> steps;   ///< filled for JSON output only
+    std::vector<CcdFrame> frames; ///< filled for JSON output only, if asked for
+    std::size_t intersections = 0;
+};
+
+nlohmann::ordered_json report_of(const CcdArguments& arguments, const Found& found, double seconds,
+                                 std::size_t bytes) {
+    nlohmann::ordered_json steps = nlohmann::ordered_json::array();
+    for (const CcdStep& step : found.steps)
+        steps.push_back(describe(step));
+    nlohmann::ordered_json report{
+        {"scheme", name_of(arguments.surface.scheme, kSchemes)},
+        {"assignment", name_of(arguments.surface.assignment, kAssignments)},
+        {"culling", name_of(arguments.surface.culling, kCullings)},
+        {"mode", arguments.elementary.mode},
+        {"delta", arguments.elementary.options().absolute_error},
+        {"thickness", arguments.elementary.thickness},
+        {"steps", std::move(steps)},
+        {"total", describe(found.total, seconds, bytes)}};
+    for (const CcdFrame& frame : found.frames)
+        report["frames"].push_back(describe(frame));
+    return report;
+}
+
 int run(const CcdArguments& arguments, const CommonOptions& common) {
     const Stopwatch watch;
     mallopt(M_MMAP_THRESHOLD, kLargeBlock);
@@ -159,38 +192,38 @@ int run(const CcdArguments& arguments, const CommonOptions& common) {
     const bool table = !common.json && !common.quiet;
     const auto print_row = [&](const std::string& row) {
         bar.hide();
-        print_text(row);
+        if (table)
+            print_text(row);
     };
-    if (table)
-        print_row(table_head());
-    CcdTotal total;
-    std::vector<CcdStep> steps; // filled for JSON output only
+    Found found;
+    const auto look_at_rest = [&](const std::string& file) {
+        if (!arguments.looks_at_rest())
+            return;
+        const CcdFrame frame(sequence.surface(), file);
+        found.intersections += frame.all();
+        print_row(table_row(frame));
+        if (common.json)
+            found.frames.push_back(frame);
+    };
+    print_row(table_head());
+    look_at_rest(frames.front());
     for (std::size_t i = 1; i < frames.size(); ++i) {
         CcdStep step = sequence.advance(frames[i - 1], frames[i]);
-        total.add(step);
-        if (table)
-            print_row(table_row(step));
+        found.total.add(step);
+        print_row(table_row(step));
         if (common.json)
-            steps.push_back(std::move(step));
+            found.steps.push_back(std::move(step));
+        look_at_rest(frames[i]);
         bar.show("steps", static_cast<double>(i) / static_cast<double>(frames.size() - 1));
     }
     bar.finish();
     if (table)
-        print_text(table_row(total, watch.seconds()));
-    if (common.json) {
-        nlohmann::ordered_json list = nlohmann::ordered_json::array();
-        for (const CcdStep& step : steps)
-            list.push_back(describe(step));
-        print_json(dump({{"scheme", name_of(arguments.surface.scheme, kSchemes)},
-                         {"assignment", name_of(arguments.surface.assignment, kAssignments)},
-                         {"culling", name_of(arguments.surface.culling, kCullings)},
-                         {"mode", arguments.elementary.mode},
-                         {"delta", arguments.elementary.options().absolute_error},
-                         {"thickness", arguments.elementary.thickness},
-                         {"steps", std::move(list)},
-                         {"total", describe(total, watch.seconds(), sequence.surface().bytes())}}));
-    }
-    const bool problem = total.impacts != TestCounts{} && !arguments.fail_on.empty();
+        print_text(table_row(found.total, watch.seconds()));
+    if (common.json)
+        print_json(dump(report_of(arguments, found, watch.seconds(), sequence.surface().bytes())));
+    const bool problem = arguments.fail_on == kFailOnIntersections
+                             ? found.intersections > 0
+                             : found.total.impacts != TestCounts{} && !arguments.fail_on.empty();
     return problem ? kExitProblem : kExitDone;
 }
 
@@ -216,7 +249,8 @@ Subcommand add_ccd(CLI::App& root, CommonOptions& common) {
            "each step of a sequence; exit status 1 if anything meets"},
           {"abut ccd frame-0.ply frame-1.ply --thickness 1mm --out impacts.csv",
            "every pair that comes within a millimetre: which, when and where"}},
-         "features meet (with --fail-on impacts)"});
+         "features meet (with --fail-on impacts), or a frame intersects itself (with --fail-on "
+         "intersections)"});
     app->add_option("FRAME", arguments->frames,
                     "PLY or OBJ files in order, or one pattern in quotes ('frame-*.ply'), whose "
                     "matches are sorted by number")
@@ -234,7 +268,11 @@ Subcommand add_ccd(CLI::App& root, CommonOptions& common) {
     app->add_option("--out", arguments->out,
                     "Write every impact to FILE.csv or FILE.bin, step by step")
         ->check(impact_file_name());
-    add_fail_on(*app, arguments->fail_on, "impacts");
+    app->add_flag("--intersections", arguments->intersections,
+                  "Also find the edges that pass through faces in each frame, at rest");
+    app->add_option("--fail-on", arguments->fail_on,
+                    "Exit with status 1 on 'impacts', or on 'intersections' in any frame")
+        ->check(CLI::IsMember({kFailOnImpacts, kFailOnIntersections}));
     return {app, [arguments, &common] { return run(*arguments, common); }};
 }
 

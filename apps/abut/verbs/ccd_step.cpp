@@ -65,6 +65,23 @@ void CcdTotal::add(const CcdStep& step) {
     seconds_detect += step.seconds_detect;
 }
 
+CcdFrame::CcdFrame(const Deformable& surface, std::string file_name) : file(std::move(file_name)) {
+    const Stopwatch watch;
+    for (const EdgeFaceIntersection& each : self_intersections(surface, {.at_end = true}))
+        ++(each.contact == EdgeFaceContact::crossing   ? crossing
+           : each.contact == EdgeFaceContact::touching ? touching
+                                                       : coplanar);
+    seconds = watch.seconds();
+}
+
+nlohmann::ordered_json describe(const CcdFrame& frame) {
+    return {{"frame", frame.file},
+            {"crossing", frame.crossing},
+            {"touching", frame.touching},
+            {"coplanar", frame.coplanar},
+            {"seconds", frame.seconds}};
+}
+
 nlohmann::ordered_json describe(const CcdStep& step) {
     nlohmann::ordered_json json{{"from", step.from},
                                 {"to", step.to},
@@ -105,6 +122,12 @@ std::string table_row(const CcdStep& step) {
     const std::string first_time = step.first_time ? number(*step.first_time) : "-";
     return step_column(name) + table_cells(step.impacts, first_time, step.counters,
                                            step.seconds_refit, step.seconds_detect, step.seconds);
+}
+
+std::string table_row(const CcdFrame& frame) {
+    return step_column(shown(file_name(frame.file))) +
+           fmt::format("at rest: {} edges cross faces, {} touch, {} coplanar\n",
+                       grouped(frame.crossing), grouped(frame.touching), grouped(frame.coplanar));
 }
 
 std::string table_row(const CcdTotal& total, double seconds) {

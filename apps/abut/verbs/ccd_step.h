@@ -33,6 +33,18 @@ struct CcdTotal {
     void add(const CcdStep& step);
 };
 
+/// How many edges of a keyframe share a point with a face, by how they meet.
+struct CcdFrame {
+    std::string file;
+    std::size_t crossing = 0, touching = 0, coplanar = 0;
+    double seconds = 0;
+
+    /// The surface at the end of its step, which is the keyframe `file`.
+    CcdFrame(const Deformable& surface, std::string file);
+    [[nodiscard]] std::size_t all() const { return crossing + touching + coplanar; }
+};
+
+nlohmann::ordered_json describe(const CcdFrame& frame);
 nlohmann::ordered_json describe(const CcdStep& step);
 /// In          seconds: of the whole run, reading the first keyframe included; bytes: of the
 ///             surface.
@@ -41,6 +53,7 @@ nlohmann::ordered_json describe(const CcdTotal& total, double seconds, std::size
 /// The table of steps: its head, one line per step, and the line of totals.
 std::string table_head();
 std::string table_row(const CcdStep& step);
+std::string table_row(const CcdFrame& frame);
 std::string table_row(const CcdTotal& total, double seconds);
 
 } // namespace abut::command

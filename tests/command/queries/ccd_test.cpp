@@ -315,6 +315,32 @@ TEST_F(CcdCommand, TheTableHasALineForEachStep) {
     EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 4);
 }
 
+TEST_F(CcdCommand, FramesThatPassThroughThemselvesAtRest) {
+    // The small triangle begins above the large one, and ends with its lowest vertex below it.
+    const auto files =
+        frames({small_above_large(1), small_above_large(-0.5), small_above_large(0)});
+    const auto report = ccd(files, {"--json", "--intersections"}).json();
+    ASSERT_EQ(report["frames"].size(), 3U);
+    const auto expect_frame = [&](std::size_t i, int crossing, int touching) {
+        const auto& frame = report["frames"][i];
+        EXPECT_EQ(frame["frame"], files[i]);
+        EXPECT_EQ(frame["crossing"], crossing) << i;
+        EXPECT_EQ(frame["touching"], touching) << i;
+        EXPECT_EQ(frame["coplanar"], 0) << i;
+    };
+    expect_frame(0, 0, 0);
+    expect_frame(1, 2, 0); // both edges at the lowest vertex
+    expect_frame(2, 0, 2);
+    EXPECT_FALSE(ccd(files).json().contains("frames"));
+    const Outcome table = ccd(files, {"--intersections"});
+    EXPECT_NE(table.out.find("at rest: 2 edges cross faces, 0 touch, 0 coplanar"),
+              std::string::npos)
+        << table.out;
+    EXPECT_EQ(ccd(files, {"--quiet", "--fail-on", "intersections"}).status, 1);
+    const auto clean = frames({small_above_large(1), small_above_large(2)});
+    EXPECT_EQ(ccd(clean, {"--quiet", "--fail-on", "intersections"}).status, 0);
+}
+
 TEST_F(CcdCommand, FailOnAsksForImpacts) {
     const auto none = frames({small_above_large(5), small_above_large(1)});
     EXPECT_EQ(ccd(none, {"--quiet", "--fail-on", "impacts"}).status, 0);

@@ -1,0 +1,109 @@
+#include "suites/rest_rows.h"
+
+#include <abut/deformable.h>
+#include <abut/progress.h>
+#include <abut/world.h>
+
+#include "measure.h"
+#include "peers/peer_rest.h"
+
+#include <cmath>
+#include <optional>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr double kMilliseconds = 1e3;
+constexpr std::uint32_t kCells = 141; ///< along a side of the cloth: 39,762 triangles
+
+std::vector<Vec3> waving(double phase) {
+    std::vector<Vec3> points;
+    for (std::uint32_t i = 0; i <= kCells; ++i)
+        for (std::uint32_t k = 0; k <= kCells; ++k) {
+            const double u = 2.0 * i / kCells - 1, v = 2.0 * k / kCells - 1;
+            points.push_back({u, v, 0.2 * std::sin(3 * u + phase) * std::cos(2 * v)});
+        }
+    return points;
+}
+
+Mesh cloth() {
+    Mesh mesh{waving(0), {}};
+    for (std::uint32_t i = 0; i < kCells; ++i)
+        for (std::uint32_t k = 0; k < kCells; ++k) {
+            const std::uint32_t a = i * (kCells + 1) + k, b = a + 1, c = a + kCells + 1, d = c + 1;
+            mesh.triangles.push_back({a, c, b});
+            mesh.triangles.push_back({b, c, d});
+        }
+    return mesh;
+}
+
+Model tetrahedron() {
+    return Model(Mesh{{{0, 0, 0.5}, {0.1, 0, 0.5}, {0, 0.1, 0.5}, {0, 0, 0.6}},
+                      {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}});
+}
+
+} // namespace
+
+Row at_rest_row(const CcdStep& step, int rounds) {
+    const Deformable surface(step.start);
+    const CgalSelfIntersections peer(step.start);
+    std::size_t found = 0;
+    std::optional<std::size_t> pairs;
+    set_threads(1);
+    const Turns turns = take_turns(
+        rounds, [&] { found = self_intersections(surface).size(); }, [&] { pairs = peer.count(); });
+    Row row{step.name + ", edges through faces at rest",
+            kMilliseconds * turns.ours,
+            {},
+            {},
+            "ms",
+            1,
+            {}};
+    row.counters["edges through faces"] = static_cast<double>(found);
+    if (pairs) {
+        row.peer = "CGAL, triangles that intersect";
+        row.theirs = kMilliseconds * turns.theirs;
+        row.counters["pairs of triangles of the peer"] = static_cast<double>(*pairs);
+    }
+    return row;
+}
+
+void add_refresh_rows(Report& report, int steps) {
+    for (const int threads : {1, 2}) {
+        set_threads(threads);
+        Mesh mesh = cloth();
+        Deformable surface(mesh);
+        World world;
+        const BodyId body = world.add(surface);
+        world.add(tetrahedron(), Pose{});
+        constexpr double kReach = 0.5;
+        world.within(kReach);
+        std::vector<double> advance, refresh, build;
+        for (int step = 1; step <= steps; ++step) {
+            mesh.positions = waving(0.02 * step);
+            const double start = wall_seconds();
+            surface.advance(mesh.positions);
+            const double advanced = wall_seconds();
+            world.refresh(body);
+            world.within(kReach);
+            const double answered = wall_seconds();
+            const Model model{mesh};
+            build.push_back(wall_seconds() - answered);
+            advance.push_back(advanced - start);
+            refresh.push_back(answered - advanced);
+        }
+        Row row{"a deformable of 39,762 triangles, refresh and within",
+                kMilliseconds * median(refresh),
+                "our own build of a model",
+                kMilliseconds * median(build),
+                "ms/step",
+                threads,
+                {}};
+        row.counters["its own step (advance), ms"] = kMilliseconds * median(advance);
+        report.rows.push_back(std::move(row));
+    }
+    set_threads(0);
+}
+
+} // namespace abut::bench
