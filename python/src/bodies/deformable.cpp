@@ -5,6 +5,9 @@
 #include "queries/queries.h"
 #include "support/meshes.h"
 
+#include <functional>
+#include <string>
+
 namespace abut::python {
 
 namespace {
@@ -292,11 +295,38 @@ constexpr const char* kOptions =
     "thickness       length at which features count as meeting\n"
     "progress        function of (stage, fraction)\n\n";
 
+using AddQuery = std::function<void(const char* name, const char* parameters, std::size_t required,
+                                    const char* list, const std::string& doc,
+                                    py::object (*run)(const Arguments&))>;
+
+void bind_queries_at_rest(const AddQuery& add) {
+    add("self_within", "surface, distance, *, progress=None", 2, "surface distance * progress",
+        "Every vertex and face, and every two edges, at most `distance` apart at the start of the "
+        "step.\n\n"
+        "Returns a record array of FeaturePair. Raises Error (bad_argument) if the distance is "
+        "negative.",
+        run_self_within);
+    const std::string at_rest =
+        "at_end    take the positions at the end of the step, not those at its start\n"
+        "progress  function of (stage, fraction)\n\n"
+        "Returns a record array of EdgeFaceIntersection, each pair once, sorted. Exact.";
+    add("self_intersections", "surface, *, at_end=False, progress=None", 1,
+        "surface * at_end progress",
+        "Every edge and face of a Deformable at rest that share a point, but no vertex: where it "
+        "passes through itself.\n\n" +
+            at_rest,
+        run_self_intersections);
+    add("intersections", "a, b, *, at_end=False, progress=None", 2, "a b * at_end progress",
+        "Every edge and face of two Deformable at rest that share a point.\n\n" + at_rest,
+        run_intersections);
+}
+
 void bind_surface_queries(py::module_& module) {
     static std::vector<std::string> docs;
     docs.reserve(16);
-    const auto add = [&](const char* name, const char* parameters, std::size_t required,
-                         const char* list, const char* doc, py::object (*run)(const Arguments&)) {
+    const AddQuery add = [&](const char* name, const char* parameters, std::size_t required,
+                             const char* list, const std::string& doc,
+                             py::object (*run)(const Arguments&)) {
         docs.push_back(std::string(name) + "(" + parameters + ")\n--\n\n" + doc);
         add_verb(module, name, docs.back().c_str());
         add_overload(name, {a_surface, {list, required}, run});
@@ -311,51 +341,27 @@ void bind_surface_queries(py::module_& module) {
         text("Every vertex and face, and every two edges, of a Deformable that meet during its "
              "step.",
              "Returns Impacts. Complete and exact. Raises Error (bad_argument) for a negative "
-             "length.")
-            .c_str(),
+             "length."),
         run_self_impacts);
     add("impacts", kTwo, 2, "a b * absolute_error thickness progress",
         text("Every vertex and face, and every two edges, of two Deformable that meet during their "
              "step.",
              "Returns Impacts. Complete and exact. Raises Error (bad_argument) also if their "
-             "schemes differ.")
-            .c_str(),
+             "schemes differ."),
         run_impacts);
     add("self_time_of_impact", kOne, 1, "surface * absolute_error thickness progress",
-        text("The earliest of self_impacts.", "Returns FeatureImpact, or None.").c_str(),
-        run_self_time);
+        text("The earliest of self_impacts.", "Returns FeatureImpact, or None."), run_self_time);
     add("is_free_of_self_impacts", kOne, 1, "surface * absolute_error thickness progress",
         text(
             "Whether no features of a Deformable meet during its step. Stops at the first that do.",
-            "Returns a bool.")
-            .c_str(),
+            "Returns a bool."),
         run_self_free);
     add("is_free_of_impacts", kTwo, 2, "a b * absolute_error thickness progress",
         text("Whether no features of two Deformable meet during their step. Stops at the first "
              "that do.",
-             "Returns a bool.")
-            .c_str(),
+             "Returns a bool."),
         run_free);
-    add("self_within", "surface, distance, *, progress=None", 2, "surface distance * progress",
-        "Every vertex and face, and every two edges, at most `distance` apart at the start of the "
-        "step.\n\n"
-        "Returns a record array of FeaturePair. Raises Error (bad_argument) if the distance is "
-        "negative.",
-        run_self_within);
-    static const std::string at_rest =
-        "at_end    take the positions at the end of the step, not those at its start\n"
-        "progress  function of (stage, fraction)\n\n"
-        "Returns a record array of EdgeFaceIntersection, each pair once, sorted. Exact.";
-    add("self_intersections", "surface, *, at_end=False, progress=None", 1,
-        "surface * at_end progress",
-        ("Every edge and face of a Deformable at rest that share a point, but no vertex: where it "
-         "passes through itself.\n\n" +
-         at_rest)
-            .c_str(),
-        run_self_intersections);
-    add("intersections", "a, b, *, at_end=False, progress=None", 2, "a b * at_end progress",
-        ("Every edge and face of two Deformable at rest that share a point.\n\n" + at_rest).c_str(),
-        run_intersections);
+    bind_queries_at_rest(add);
     add_overload("time_of_impact",
                  {a_surface, {"a b * absolute_error thickness progress", 2}, run_time});
     add_overload("within", {a_surface, {"a b distance * progress", 3}, run_surfaces_within});
