@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace abut::viewer {
@@ -19,10 +21,29 @@ public:
         const double by = std::clamp(kSeconds / seconds, 0.9, 1.05);
         triangles_ = std::clamp(by * triangles_, kLeast, kMost);
     }
+    /// The triangles to be drawn, at most.
     [[nodiscard]] std::uint64_t triangles() const { return static_cast<std::uint64_t>(triangles_); }
+
+    /// In          triangles: of the last picture, left out by the renderer because others hide them.
+    void add_hidden(std::uint64_t triangles) {
+        hidden_.at(next_) = triangles;
+        next_ = (next_ + 1) % hidden_.size();
+    }
+    /// After a jump of the eye nothing is known about what is hidden.
+    void forget_hidden() { hidden_.fill(0); }
+    /// The triangles that a frame may choose. They are more than triangles(), as the renderer leaves
+    /// some out: three quarters of what it left out in each of the last pictures, less an eighth of
+    /// triangles(), so that what hides others may go away slowly.
+    [[nodiscard]] std::uint64_t chosen() const {
+        const std::uint64_t least = *std::min_element(hidden_.begin(), hidden_.end());
+        const std::uint64_t spare = least / 4 * 3, margin = triangles() / 8;
+        return triangles() + (spare > margin ? std::min(spare - margin, triangles()) : 0);
+    }
 
 private:
     double triangles_ = kMost;
+    std::array<std::uint64_t, 8> hidden_{}; ///< of the last pictures
+    std::size_t next_ = 0;                  ///< in hidden_
 };
 
 } // namespace abut::viewer

@@ -72,6 +72,7 @@ Json figures_of(const Session& session, const NearestPart& nearest) {
     const WalkStatistics walk = session.walk.statistics();
     const RenderStatistics drawn = session.renderer.statistics();
     return {{"triangles", drawn.triangles},
+            {"hidden_triangles", drawn.hidden_triangles},
             {"draw_calls", drawn.draw_calls},
             {"bytes_uploaded", drawn.uploaded_bytes},
             {"bytes_loaded", view.bytes_loaded},
@@ -175,7 +176,7 @@ void replay(const Arguments& arguments) {
         const NearestPart nearest =
             session.walk.distance(head, Pose{camera.eye}, {.missing = MissingParts::skip});
         const double querying = lap.seconds(), querying_processor = own.seconds();
-        const ViewFrame& frame = session.view.frame(camera, velocity);
+        const ViewFrame& frame = session.frame(camera, velocity);
         const double selecting = lap.seconds(), selecting_processor = own.seconds();
         const Drawn drawn = draw_moving(session, scene, camera, frame);
         Json row{{"seconds", seconds},

@@ -2804,6 +2804,9 @@ class RenderStatistics:
     def draw_calls(self) -> int:
         """of the last picture"""
     @property
+    def hidden_triangles(self) -> int:
+        """of the last picture: of chunks that were left out, because others hide them"""
+    @property
     def chunks(self) -> int:
         """on the graphics card now"""
     @property

@@ -140,6 +140,7 @@ void ChunkBuffers::draw(const ViewFrame& frame, bool instanced, ShaderProgram& p
         if (!instanced && left_out.behind != nullptr &&
             left_out.behind->hides({low[0], low[1], low[2]}, {high[0], high[1], high[2]})) {
             ++hidden_chunks_;
+            hidden_triangles_ += static_cast<std::uint64_t>(found->second.index_count) / 3;
             continue;
         }
         const Chunk& chunk = found->second;

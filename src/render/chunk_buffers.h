@@ -42,9 +42,10 @@ public:
     [[nodiscard]] std::uint64_t triangles() const { return triangles_; }
     [[nodiscard]] std::uint64_t draw_calls() const { return draw_calls_; }
     [[nodiscard]] std::uint64_t hidden_chunks() const { return hidden_chunks_; }
+    [[nodiscard]] std::uint64_t hidden_triangles() const { return hidden_triangles_; }
     /// Triangles of a chunk; 0 if it is not there.
     [[nodiscard]] std::uint64_t triangles_of(std::uint32_t chunk) const;
-    void reset_counts() { triangles_ = draw_calls_ = hidden_chunks_ = 0; }
+    void reset_counts() { triangles_ = draw_calls_ = hidden_chunks_ = hidden_triangles_ = 0; }
 
 private:
     struct Chunk {
@@ -65,7 +66,7 @@ private:
     std::unordered_map<std::uint32_t, Chunk> chunks_;
     GlBuffer instances_;
     std::uint64_t bytes_ = 0, uploaded_bytes_ = 0, triangles_ = 0, draw_calls_ = 0;
-    std::uint64_t hidden_chunks_ = 0;
+    std::uint64_t hidden_chunks_ = 0, hidden_triangles_ = 0;
 };
 
 } // namespace abut

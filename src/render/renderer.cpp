@@ -168,8 +168,8 @@ std::vector<std::uint64_t> Renderer::visible_samples(std::span<const std::uint32
 
 RenderStatistics Renderer::statistics() const {
     const ChunkBuffers& chunks = data_->chunks;
-    return {chunks.triangles(), chunks.draw_calls(), chunks.chunks(), chunks.bytes(),
-            chunks.uploaded_bytes()};
+    return {chunks.triangles(), chunks.draw_calls(), chunks.hidden_triangles(),
+            chunks.chunks(),    chunks.bytes(),      chunks.uploaded_bytes()};
 }
 
 } // namespace abut

@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace abut::viewer {
@@ -170,11 +171,13 @@ private:
     [[nodiscard]] std::vector<std::uint32_t> all_parts() const;
 
     bool box_is_of_clash_ = false; ///< who made the section box
+    bool rested_ = false;          ///< in the last frame
+    std::uint64_t seen_jumps_ = 0; ///< `jumps` in the last frame
 
     WalkPart carried_{};
-    std::vector<std::uint32_t> removed_; ///< sorted
-    std::vector<std::pair<std::string, std::uint32_t>>
-        ids_; ///< file, line end, id; sorted at the end
+    std::vector<std::uint32_t> removed_;                 ///< sorted
+    std::unordered_map<std::string, std::uint32_t> ids_; ///< of file, line end and id: the part
+    std::uint32_t next_id_ = 0;                          ///< the first part whose id is not in ids_
 };
 
 } // namespace abut::viewer

@@ -1,5 +1,7 @@
 #include "session/session.h"
 
+#include <utility>
+
 /// The part of Session that decides what is drawn: sections, style and frame.
 namespace abut::viewer {
 
@@ -57,11 +59,18 @@ void Session::toggle_box() {
 
 const ViewFrame& Session::frame(const Camera& camera, const Vec3& velocity, bool rests) {
     const ViewOptions options;
+    if (rests || rested_)
+        pace.forget_hidden(); // a picture at rest tells nothing about one that moves
+    else
+        pace.add_hidden(renderer.statistics().hidden_triangles);
+    if (std::exchange(seen_jumps_, jumps) != jumps)
+        pace.forget_hidden();
+    rested_ = rests;
     if (rests)
         view.set_budgets(kRestingBudget * options.triangle_budget,
                          kRestingBudget * options.draw_budget);
     else
-        view.set_budgets(pace.triangles(), options.draw_budget);
+        view.set_budgets(pace.chosen(), options.draw_budget);
     // Ghosts, and what is cut away, hide nothing.
     view.set_occlusion(sections.empty() && !section_box && !renderer.has_ghosts());
     return view.frame(camera, velocity);

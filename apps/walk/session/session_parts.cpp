@@ -227,27 +227,23 @@ void Session::remove(std::uint32_t part) {
 
 bool Session::learn_ids(double seconds) {
     const auto start = std::chrono::steady_clock::now();
-    const std::size_t parts = view.parts().size();
-    while (ids_.size() < parts) {
-        const auto next = static_cast<std::uint32_t>(ids_.size());
-        const ViewPart part = view.part(next);
-        ids_.emplace_back(part.file + '\n' + part.id, next);
-        if (ids_.size() == parts)
-            std::sort(ids_.begin(), ids_.end());
+    const auto parts = static_cast<std::uint32_t>(view.parts().size());
+    if (ids_.empty())
+        ids_.reserve(parts);
+    while (next_id_ < parts) {
+        const ViewPart part = view.part(next_id_);
+        ids_.emplace(part.file + '\n' + part.id, next_id_++);
         if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >
             seconds)
             break;
     }
-    return ids_.size() == parts;
+    return next_id_ == parts;
 }
 
 std::optional<std::uint32_t> Session::part_of(const std::string& file,
                                               const std::string& id) const {
-    const auto at =
-        std::lower_bound(ids_.begin(), ids_.end(), std::pair{file + '\n' + id, std::uint32_t{0}});
-    if (ids_.size() < view.parts().size() || at == ids_.end() || at->first != file + '\n' + id)
-        return std::nullopt;
-    return at->second;
+    const auto found = ids_.find(file + '\n' + id);
+    return found == ids_.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::optional<std::uint32_t> Session::find(const std::string& id_or_name) const {

@@ -166,6 +166,8 @@ void bind_render_styles(py::module_& module) {
     PlainBinder<RenderStatistics>(module, "RenderStatistics", "Work of a Renderer.")
         .field("triangles", &RenderStatistics::triangles, "of the last picture")
         .field("draw_calls", &RenderStatistics::draw_calls, "of the last picture")
+        .field("hidden_triangles", &RenderStatistics::hidden_triangles,
+               "of the last picture: of chunks that were left out, because others hide them")
         .field("chunks", &RenderStatistics::chunks, "on the graphics card now")
         .field("bytes", &RenderStatistics::bytes, "in vertex and index buffers now")
         .field("uploaded_bytes", &RenderStatistics::uploaded_bytes, "of all pictures")
