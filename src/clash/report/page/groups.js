@@ -6,7 +6,7 @@ const isGroup = (entry) => entry < 0;
 
 const GROUPINGS = once(() => [
   ['none', 'no groups'],
-  ...(report.groups ? [['groups', 'groups of the report']] : []),
+  ...(report.groups ? [['groups', 'report groups']] : []),
   ['part', 'part'],
   ['pair:type', 'types'],
   ...(report.files.length > 2 ? [['pair:file', 'files']] : []),

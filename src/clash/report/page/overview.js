@@ -110,7 +110,7 @@ function showRulesMatrix() {
     if (n === 0)
       return make('td', { className: 'calm tall', title: words }, ...content.filter((one) => one !== null));
     const button = make('button', { type: 'button', title: `${words}. Show these ${wholeNumber.format(n)}` }, ...content);
-    button.style.setProperty('--heat', `${Math.round(12 + 78 * Math.sqrt(n / most))}%`);
+    button.style.setProperty('--heat', `${heatOf(n, most)}%`);
     button.addEventListener('click', () => {
       Object.assign(state, { view: 'list', rule: cell.rule });
       apply();
@@ -123,6 +123,9 @@ function showRulesMatrix() {
   byId('matrix-rest').textContent = others > 0
     ? `${wholeNumber.format(others)} more ${others === 1 ? 'clash was' : 'clashes were'} decided by rules, not by the matrix.` : '';
 }
+
+/** Per cent of colour in a cell; few enough that the number on it can be read. */
+const heatOf = (n, most) => Math.round(8 + 42 * Math.sqrt(n / most));
 
 /** Draws the upper half of a matrix. names: of its rows and columns; titles: in full; draw(row, column): a cell. */
 function drawMatrix(names, titles, draw) {
@@ -143,7 +146,7 @@ function showPropertyMatrix() {
     if (n === 0)
       return make('td', { className: 'none' }, '·');
     const button = make('button', { type: 'button', title: `${label(row)} × ${label(column)}: show these ${wholeNumber.format(n)}` }, wholeNumber.format(n));
-    button.style.setProperty('--heat', `${Math.round(12 + 78 * Math.sqrt(n / most))}%`);
+    button.style.setProperty('--heat', `${heatOf(n, most)}%`);
     button.addEventListener('click', () => {
       state.view = 'list';
       addProperty({ name: dimension, value: row, other: column });

@@ -3,6 +3,8 @@
 /** The axes of the plan for each up axis: right, up on the page, each as [axis, sign]. */
 const PLAN_AXES = { z: [[0, 1], [1, 1]], y: [[0, 1], [2, -1]], x: [[1, -1], [2, -1]] };
 const MOST_LEVELS = 12;
+/** How much of a storey's height the plan's picture shows: without the ceiling, which would hide the rest. */
+const PLAN_CUT = 0.6;
 const LEVEL_HEIGHT = 4; // metres, where the models name no storeys
 
 let level = null; // index of the level that the plan shows
@@ -102,7 +104,7 @@ function drawPlan() {
   const chosen = levels()[level];
   const context = canvas.getContext('2d');
   context.clearRect(0, 0, canvas.width, canvas.height);
-  building?.drawPlan(canvas, frame, chosen);
+  building?.drawPlan(canvas, frame, { lower: chosen.lower, upper: chosen.lower + PLAN_CUT * (chosen.upper - chosen.lower) });
   const style = getComputedStyle(document.documentElement);
   const colours = KINDS.map((kind) => style.getPropertyValue(`--${kind}`));
   const dots = [];

@@ -58,7 +58,7 @@ function showSummary() {
   const fact = (title, value, className = '') =>
     make('div', { className }, make('dt', {}, title), make('dd', {}, value));
   byId('facts').append(
-    fact('Frame', `metres, ${report.frame.up} up, as ${baseName(report.frame.of)}`),
+    fact('Frame', `metres, ${report.frame.up} up${report.frame.of ? `, as ${baseName(report.frame.of)}` : ''}`),
     fact('Clearance', inMillimetres(report.clearance)),
     fact('Touch tolerance', inMillimetres(report.touch)),
     fact('Candidate pairs', wholeNumber.format(report.candidates)),

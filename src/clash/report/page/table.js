@@ -181,7 +181,7 @@ class ClashTable {
   makeGroupRow() {
     return make('tr', { className: 'group' }, make('td', { colSpan: COLUMNS.length },
       make('div', {}, make('span', { className: 'twist', ariaHidden: 'true' }), make('b'),
-        make('span', { className: 'name' }), make('span', { className: 'kinds-of soft' }), make('span', { className: 'num soft' }))));
+        make('span', { className: 'name cut' }, make('span'), make('span')), make('span', { className: 'kinds-of soft' }), make('span', { className: 'num soft' }))));
   }
 
   fill(row, place) {
@@ -209,9 +209,12 @@ class ClashTable {
     twist.textContent = isExpanded ? '▾' : '▸';
     row.cells[0].firstChild.style.paddingInlineStart = `${14 * (group.level - 1)}px`;
     number.textContent = wholeNumber.format(group.clashes.length);
-    name.textContent = group.name.replace(/\s+/g, ' ');
+    this.fillCut(name, group.name);
     name.title = group.name;
-    kinds.textContent = kindsInWords(group.kinds);
+    kinds.replaceChildren(...group.kinds.map((n, k) => n > 0 && make('span', { className: `mark ${KINDS[k]}` }, wholeNumber.format(n))).filter(Boolean));
+    kinds.title = kindsInWords(group.kinds);
+    kinds.setAttribute('role', 'img');
+    kinds.setAttribute('aria-label', kinds.title);
     deepest.textContent = group.deepest < 0 ? `${millimetres(group.deepest)} mm` : '';
   }
 

@@ -90,6 +90,10 @@ function place(points, t, o, positions, at) {
   return box;
 }
 
+/** Whether a transform turns front faces into backs. */
+const isMirrored = (t, o) => t[o] * (t[o + 4] * t[o + 8] - t[o + 5] * t[o + 7]) - t[o + 3] * (t[o + 1] * t[o + 8] - t[o + 2] * t[o + 7]) +
+  t[o + 6] * (t[o + 1] * t[o + 5] - t[o + 2] * t[o + 4]) < 0;
+
 /**
  * Returns {positions, partOf, indices, parts, numbered}: vertices with the index of their part,
  * corners, the parts {first, count (of corners), number, model, detail, box} in the order of their
@@ -125,8 +129,12 @@ export async function decodeBuilding(meta, text) {
     };
     partOf.fill(p, vertex, vertex + count);
     const shift = vertex - mesh.first;
-    for (let i = 0; i < mesh.corners.length; ++i)
+    const mirrored = isMirrored(maps, 12 * p);
+    for (let i = 0; i < mesh.corners.length; i += 3) {
       indices[corner + i] = mesh.corners[i] + shift;
+      indices[corner + i + 1] = mesh.corners[i + (mirrored ? 2 : 1)] + shift;
+      indices[corner + i + 2] = mesh.corners[i + (mirrored ? 1 : 2)] + shift;
+    }
     vertex += count;
     corner += mesh.corners.length;
     parts.push(part);

@@ -54,6 +54,7 @@ const SHADED = `${CUT}
 uniform vec4 colours[${LOOKS}];
 uniform vec3 tints[8];
 uniform vec3 upInView;
+uniform float insides;
 void main() {
   cut();
   vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
@@ -62,6 +63,8 @@ void main() {
   vec4 colour = colours[look];
   if (look <= ${LOOK.solid})
     colour.rgb *= tints[model % 8];
+  if (!gl_FrontFacing)
+    colour.rgb *= insides;
   float light = 0.42 + 0.34 * facing + 0.24 * sky;
   outColour = vec4(colour.rgb * light, look == ${LOOK.ghost} ? colour.a * (1.35 - 0.7 * facing) : colour.a);
 }`;
@@ -120,6 +123,7 @@ export function makeUniforms(looks, up) {
     upInView: { value: new THREE.Vector3() },
     slice: { value: new THREE.Vector2(-FAR, FAR) },
     colours: { value: Array.from({ length: LOOKS }, () => new THREE.Vector4(1, 1, 1, 1)) },
+    insides: { value: 1 }, // brightness of backs: less, and walls that a plan cuts are dark
     tints: { value: Array.from({ length: 8 }, () => new THREE.Color(1, 1, 1)) },
   };
 }
@@ -165,7 +169,7 @@ const PALETTE = {
     line: '#c3162f', edge: '#20262d', box: '#5a6673', kinds: ['#c3262b', '#a86100', '#7a3bb5', '#00717e', '#3567a6'],
   },
   dark: {
-    ground: '#101317', ghost: ['#a9bbd0', 0.2], shell: ['#ff9a3d', 0.32], solid: '#7d8894', a: '#ff9326', b: '#4a95ff',
+    ground: '#101317', ghost: ['#a9bbd0', 0.3], shell: ['#ff9a3d', 0.32], solid: '#7d8894', a: '#ff9326', b: '#4a95ff',
     line: '#ff5a6e', edge: '#e4e8ed', box: '#8492a1', kinds: ['#ff7a75', '#e5a440', '#c79dff', '#4cc5d3', '#86b4ec'],
   },
 };

@@ -23,7 +23,9 @@ export function drawPlanPicture(view, canvas, frame, { lower, upper }) {
   view.model.looks.set(() => LOOK.solid);
   view.renderer.setPixelRatio(1);
   view.renderer.setSize(canvas.width, canvas.height, false);
+  view.model.uniforms.insides.value = 0.5;
   view.drawWith(camera);
+  view.model.uniforms.insides.value = 1;
   canvas.getContext('2d').drawImage(view.canvas, 0, 0);
   view.state = before;
   view.apply();
