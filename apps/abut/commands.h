@@ -23,6 +23,7 @@ Subcommand add_graph(CLI::App& root, CommonOptions& common);
 Subcommand add_ccd(CLI::App& root, CommonOptions& common);
 Subcommand add_ccd_query(CLI::App& root, CommonOptions& common);
 Subcommand add_robot(CLI::App& root, CommonOptions& common);
+Subcommand add_motion(CLI::App& root, CommonOptions& common);
 Subcommand add_scene(CLI::App& root, CommonOptions& common);
 Subcommand add_generate(CLI::App& root, CommonOptions& common);
 

@@ -75,13 +75,17 @@ int main(int argc, char** argv) {
     root.require_subcommand(1);
     CommonOptions common;
     const std::vector<Subcommand> commands{
-        add_info(root, common),        add_import(root, common),         add_picture(root, common),
-        add_collide(root, common),     add_distance(root, common),       add_within(root, common),
-        add_penetration(root, common), add_time_of_impact(root, common), add_nearest(root, common),
-        add_ray(root, common),         add_overlap(root, common),        add_contains(root, common),
-        add_clash(root, common),       add_review(root, common),         add_graph(root, common),
-        add_ccd(root, common),         add_ccd_query(root, common),      add_robot(root, common),
-        add_scene(root, common),       add_generate(root, common)};
+        add_info(root, common),        add_import(root, common),
+        add_picture(root, common),     add_collide(root, common),
+        add_distance(root, common),    add_within(root, common),
+        add_penetration(root, common), add_time_of_impact(root, common),
+        add_nearest(root, common),     add_ray(root, common),
+        add_overlap(root, common),     add_contains(root, common),
+        add_clash(root, common),       add_review(root, common),
+        add_graph(root, common),       add_ccd(root, common),
+        add_ccd_query(root, common),   add_robot(root, common),
+        add_motion(root, common),      add_scene(root, common),
+        add_generate(root, common)};
     try {
         return run(root, commands, common, arguments);
     } catch (const abut::Error& error) {

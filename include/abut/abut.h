@@ -2,6 +2,7 @@
 
 /// Includes the whole library. There is one header for each subject, and each can be included
 /// alone.
+#include <abut/assembly.h>
 #include <abut/batch.h>
 #include <abut/broad_phase.h>
 #include <abut/camera.h>

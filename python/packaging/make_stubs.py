@@ -116,6 +116,10 @@ OWN_PARAMETERS = {
     "read_scene": {"path": "_ModelPath"}, "read_mesh": {"path": "_ModelPath"}, "inspect": {"mesh": "ArrayLike | _Mesh"},
     "clash_bcf": {"snapshot": "Callable[[ClashViewpoint], bytes] | None"}, "group_clashes": {"store": "Store | None"},
     "RobotObstacle": {"name": "str", "pose": "_OnePose | ArrayLike"}, "write_srdf": {"base": "_Path | None"},
+    "AssemblyPart": {"name": "str", "pose": "_OnePose | ArrayLike"}, "JointKeys": {"poses": "Sequence[Pose]"},
+    "AssemblyJoint": {"type": "AssemblyJointType | str", "axis": "ArrayLike"}, "AssemblyLoop": {"pin": "ArrayLike"},
+    "Assembly": {"parts": "Sequence[AssemblyPart]"}, "write_motion_csv": {"report": "MotionReport"},
+    "write_motion_html": {"report": "MotionReport"},
     "Segment": {"a": "ArrayLike", "b": "ArrayLike"}, "ModelPath": {"up": "UpAxis | str | None"}, "to_json": {"store": "str"},
 }
 # The meanings of verbs: the first argument, the keywords, and what one question returns. A matrix may be one pose or

@@ -52,6 +52,7 @@ PYBIND11_MODULE(_abut, module) {
     bind_picture(module);
     bind_robot_description(module);
     bind_robot(module);
+    bind_assembly(module);
     bind_helper_programs(module);
 }
 

@@ -48,6 +48,7 @@ void bind_renderer(py::module_& module);
 void bind_picture(py::module_& module);
 void bind_robot_description(py::module_& module);
 void bind_robot(py::module_& module);
+void bind_assembly(py::module_& module);
 void bind_helper_programs(py::module_& module);
 
 } // namespace abut::python

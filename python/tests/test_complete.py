@@ -156,7 +156,7 @@ OPTIONS = {
     "WalkerOptions": "Walker", "MarkChanges": "mark_clashes",
     "ClashPageOptions": "write_clash_html", "RobotReadOptions": "read_robot", "RobotOptions": "Robot",
     "RobotDistanceOptions": "distance", "RobotImpactOptions": "time_of_impact",
-    "AllowedPairsOptions": "propose_allowed_pairs",
+    "AllowedPairsOptions": "propose_allowed_pairs", "MotionClashOptions": "find_motion_clashes",
 }
 
 

@@ -32,18 +32,6 @@ bool is_angle(JointType type, std::size_t index) {
     }
 }
 
-/// The rotation about a unit axis, followed by a translation [Rodrigues].
-Transform rotation_about(const Vec3& u, double angle, const Vec3& shift) {
-    const double s = std::sin(angle);
-    const double h = std::sin(0.5 * angle);
-    const double v = 2 * h * h; // 1 - cos(angle), without cancellation
-    const double c = 1 - v;
-    return Transform({c + v * u.x * u.x, v * u.x * u.y + s * u.z, v * u.x * u.z - s * u.y,
-                      v * u.x * u.y - s * u.z, c + v * u.y * u.y, v * u.y * u.z + s * u.x,
-                      v * u.x * u.z + s * u.y, v * u.y * u.z - s * u.x, c + v * u.z * u.z, //
-                      shift.x, shift.y, shift.z});
-}
-
 /// The two directions of a planar joint's plane; with the axis they are right-handed.
 std::array<Vec3, 2> plane_directions(const Vec3& axis) {
     const Vec3 first = perpendicular(axis);
@@ -105,6 +93,17 @@ double size_of(std::span<const double> values, std::size_t end) {
 }
 
 } // namespace
+
+Transform rotation_about(const Vec3& u, double angle, const Vec3& shift) {
+    const double s = std::sin(angle);
+    const double h = std::sin(0.5 * angle);
+    const double v = 2 * h * h; // 1 - cos(angle), without cancellation
+    const double c = 1 - v;
+    return Transform({c + v * u.x * u.x, v * u.x * u.y + s * u.z, v * u.x * u.z - s * u.y,
+                      v * u.x * u.y - s * u.z, c + v * u.y * u.y, v * u.y * u.z + s * u.x,
+                      v * u.x * u.z + s * u.y, v * u.y * u.z - s * u.x, c + v * u.z * u.z, //
+                      shift.x, shift.y, shift.z});
+}
 
 JointVariables number_variables(const RobotDescription& robot) {
     JointVariables result;

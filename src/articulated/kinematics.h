@@ -32,6 +32,11 @@ double mimic_size(const RobotJoint& joint, std::uint32_t first,
 void forward_kinematics(const RobotDescription& robot, const JointVariables& variables,
                         std::span<const double> configuration, std::vector<Transform>& links);
 
+/// The rotation about a unit axis, followed by a translation.
+///
+/// Source      [Rodrigues].
+Transform rotation_about(const Vec3& axis, double angle, const Vec3& shift);
+
 /// Bounds of a joint's motion between two configurations, while every variable changes at a constant
 /// rate in unit time.
 struct JointMotion {

@@ -64,7 +64,7 @@ double PlacedBodies::hull_gap(const BodyTest& test) const {
 Gap PlacedBodies::measure(const BodyTest& test, const DistanceOptions& options) const {
     Gap gap = distance(bodies_[test.a].model, places_[test.a], bodies_[test.b].model,
                        places_[test.b], options);
-    if (gap.distance > 0 && (is_inside(test.a, test.b) || is_inside(test.b, test.a))) {
+    if (gap.distance > 0 && (inside(test.a, test.b) || inside(test.b, test.a))) {
         gap.distance = gap.at_least = 0;
         gap.status = Status::exact;
     }
@@ -74,19 +74,24 @@ Gap PlacedBodies::measure(const BodyTest& test, const DistanceOptions& options) 
 bool PlacedBodies::meet(const BodyTest& test) const {
     return collide(bodies_[test.a].model, places_[test.a], bodies_[test.b].model, places_[test.b])
                .meet() ||
-           is_inside(test.a, test.b) || is_inside(test.b, test.a);
+           inside(test.a, test.b) || inside(test.b, test.a);
 }
 
-bool PlacedBodies::is_inside(std::uint32_t inner, std::uint32_t outer) const {
-    const RobotBody& solid = bodies_[outer];
+bool PlacedBodies::inside(std::uint32_t inner, std::uint32_t outer) const {
+    return is_inside(bodies_[inner], places_[inner], bodies_[outer], places_[outer]);
+}
+
+bool is_inside(const RobotBody& inner, const Transform& inner_place, const RobotBody& solid,
+               const Transform& solid_place) {
     if (!solid.is_solid)
         return false;
+    const Vec3 middle = apply(solid_place, 0.5 * (solid.box.lower + solid.box.upper));
     // The surfaces do not meet, so one vertex decides for its component. A point outside of the
     // solid's ball is not inside of the solid.
-    return std::ranges::any_of(bodies_[inner].vertices, [&](const Vec3& vertex) {
-        const Vec3 point = apply(places_[inner], vertex);
-        return length(point - centres_[outer]) <= solid.radius &&
-               contains(solid.model, places_[outer], point).side == Side::inside;
+    return std::ranges::any_of(inner.vertices, [&](const Vec3& vertex) {
+        const Vec3 point = apply(inner_place, vertex);
+        return length(point - middle) <= solid.radius &&
+               contains(solid.model, solid_place, point).side == Side::inside;
     });
 }
 

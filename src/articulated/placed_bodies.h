@@ -30,6 +30,12 @@ private:
     std::vector<BodyTest> tests_; ///< sorted by their pairs
 };
 
+/// Whether a component of one body lies inside another one, which bounds a solid.
+///
+/// In          bodies whose surfaces do not meet, at their places: world_from_model.
+bool is_inside(const RobotBody& inner, const Transform& inner_place, const RobotBody& solid,
+               const Transform& solid_place);
+
 /// The bodies of a query at their places in one configuration. Reuse it for many configurations.
 class PlacedBodies {
 public:
@@ -50,7 +56,7 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_inside(std::uint32_t inner, std::uint32_t outer) const;
+    [[nodiscard]] bool inside(std::uint32_t inner, std::uint32_t outer) const;
 
     const QueryBodies& bodies_;
     std::vector<Transform> links_;

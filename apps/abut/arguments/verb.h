@@ -15,6 +15,7 @@ inline constexpr const char* kOneModel = "One model and a shape";
 inline constexpr const char* kClashes = "Clashes between the parts of models";
 inline constexpr const char* kDeforming = "Surfaces that deform";
 inline constexpr const char* kRobots = "Robots";
+inline constexpr const char* kAssemblies = "Assemblies in motion";
 inline constexpr const char* kScenes = "Example scenes";
 
 /// The group of the options that all verbs have, and its name for a program of its own.

@@ -1,32 +1,15 @@
 #include <abut/clash.h>
 
 #include "clash/report/clash_text.h"
+#include "clash/report/csv_cells.h"
 #include "core/atomic_file.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <fmt/format.h>
 #include <string_view>
 
-/// Writes CSV as RFC 4180 defines it: a header, CRLF, quotes where a cell needs them; UTF-8 without
-/// a byte-order mark.
-///
-/// A spreadsheet takes a cell that begins with = + - @ | for a formula or a command, even if the
-/// cell is quoted, in full width (East Asian forms) or after white space. The texts come from
-/// untrusted model files. Such a text therefore gets a leading apostrophe, which marks it as text
-/// for a spreadsheet. Numbers are written by this library and stay as they are. Programs that need
-/// the unaltered texts read the JSON report.
 namespace abut {
 
 namespace {
-
-/// Text under construction; fmt::format_to appends to it.
-using TextBuffer = fmt::memory_buffer;
-
-inline void append(TextBuffer& out, std::string_view text) {
-    out.append(text.data(), text.data() + text.size());
-}
 
 constexpr std::string_view kHeader =
     "id,kind,a,b,a_name,b_name,a_type,b_type,a_file,b_file,distance,"
@@ -35,47 +18,6 @@ constexpr std::string_view kHeader =
     "neighbours";
 constexpr std::string_view kStatusHeader = ",status,note"; // only in reports of a store
 constexpr std::string_view kGroupHeader = ",group,group_name";
-
-/// Returns whether a spreadsheet may take the text for a formula or a command. A leading control
-/// character suffices, because programs differ in which of them they skip.
-bool is_active(std::string_view text) {
-    using namespace std::string_view_literals;
-    // The second row holds the same characters in full width.
-    constexpr std::array kStarts{"="sv,      "+"sv,      "-"sv,      "@"sv,      "|"sv,
-                                 "\uFF1D"sv, "\uFF0B"sv, "\uFF0D"sv, "\uFF20"sv, "\uFF5C"sv};
-    // Space, no-break, ideographic and zero-width space, byte-order mark.
-    constexpr std::array kSpaces{" "sv, "\u00A0"sv, "\u3000"sv, "\u200B"sv, "\uFEFF"sv};
-    const auto leads = [&](std::string_view start) { return text.starts_with(start); };
-    for (auto space = kSpaces.begin();
-         (space = std::ranges::find_if(kSpaces, leads)) != kSpaces.end();)
-        text.remove_prefix(space->size());
-    const bool control = !text.empty() && static_cast<unsigned char>(text.front()) < 0x20;
-    return control || std::ranges::any_of(kStarts, leads);
-}
-
-/// Appends a comma and the text.
-void append_cell(TextBuffer& out, std::string_view raw) {
-    const std::string text = valid_utf8(raw);
-    const bool formula = is_active(text);
-    const bool quoted = text.find_first_of("\",\r\n") != std::string::npos;
-    append(out, quoted ? ",\"" : ",");
-    if (formula)
-        out.push_back('\'');
-    for (const char c : text) {
-        if (c == '"')
-            out.push_back('"');
-        out.push_back(c);
-    }
-    if (quoted)
-        out.push_back('"');
-}
-
-/// Appends a comma and the number; a number that is not finite leaves its cell empty.
-void append_cell(TextBuffer& out, double value) {
-    out.push_back(',');
-    if (std::isfinite(value))
-        fmt::format_to(fmt::appender(out), "{}", value);
-}
 
 void append_cells(TextBuffer& out, const Vec3& point) {
     append_cell(out, point.x);

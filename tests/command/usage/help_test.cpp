@@ -16,7 +16,7 @@ namespace {
 const std::vector<std::string> kVerbs{
     "info",           "import",  "picture",   "collide", "distance", "within", "penetration",
     "time-of-impact", "nearest", "ray",       "overlap", "contains", "clash",  "review",
-    "graph",          "ccd",     "ccd-query", "robot",   "scene"};
+    "graph",          "ccd",     "ccd-query", "robot",   "motion",   "scene"};
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::istringstream stream(text);
@@ -76,6 +76,7 @@ protected:
         (void)folder_.write("queries-vertex-face.csv", rows);
         (void)folder_.write("queries.csv", rows);
         write_arm();
+        EXPECT_EQ(shell("abut scene engine --out engine.toml >engine.txt").status, 0);
     }
 
     /// A robot of four bars, and what its examples need.
