@@ -19,8 +19,8 @@ struct Engine {
     std::string assembly; ///< the text of a TOML file for read_assembly
 };
 
-/// The crank turns twice in 0.04 s, from 90 to 810 degrees. Piston and rod 3 (of fewer cylinders the
-/// last) are at their bottom at 360 and at 720 degrees.
+/// The crank turns twice in 0.04 s, from 90 to 810 degrees. Piston 3 is at its bottom at 360 and at
+/// 720 degrees, rod 1 at 180 and at 540 degrees. Fewer than three cylinders: the last piston is long.
 ///
 /// In          model_file: the name of the scene's file, which the assembly refers to
 Engine make_engine(const EngineOptions& options, const std::string& model_file);

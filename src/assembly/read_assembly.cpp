@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180;
-/// More parts than this are refused: all pairs of them are counted.
+/// More parts than this are refused.
 constexpr std::size_t kMostParts = 100'000;
 
 class AssemblyReader {

@@ -28,9 +28,13 @@ int make_engine_files(const std::string& out, const scenes::EngineOptions& optio
         throw_if_interrupted();
         outputs.commit();
     }
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : engine.scene.meshes)
+        triangles += mesh.triangles.size();
     if (common.json)
-        print_json(dump({{"assembly", outputs.path(assembly_name)},
-                         {"model", outputs.path(model_name)},
+        print_json(dump({{"scene", "engine"},
+                         {"triangles", triangles},
+                         {"files", {outputs.path(assembly_name), outputs.path(model_name)}},
                          {"parts", engine.scene.parts.size()}}));
     else if (!common.quiet)
         print_text(fmt::format(
