@@ -53,6 +53,87 @@ class AllowedPair:
     def reason(self) -> AllowReason:
         """AllowReason"""
 
+class Assembly:
+    """Parts that move on each other, as read_assembly returns them."""
+    def __init__(self, parts: Sequence[AssemblyPart], *, loops: list[AssemblyLoop] = ..., ignored: list[tuple[int, int]] = ...) -> None: ...
+    @property
+    def file(self) -> str:
+        """path as given"""
+    @property
+    def parts(self) -> list[AssemblyPart]:
+        """list of AssemblyPart"""
+    @property
+    def loops(self) -> list[AssemblyLoop]:
+        """list of AssemblyLoop"""
+    @property
+    def ignored(self) -> list[tuple[int, int]]:
+        """list of pairs of parts that are not tested"""
+    @property
+    def up(self) -> UpAxis:
+        """UpAxis"""
+
+class AssemblyJoint:
+    """How a part moves on the part that it hangs on. Points are those at rest."""
+    def __init__(self, type: AssemblyJointType | str = ..., *, origin: ArrayLike = ..., axis: ArrayLike = ..., limits: tuple[float, float] = ..., keys: JointKeys | None = ..., follow: JointFollow | None = ...) -> None: ...
+    @property
+    def type(self) -> AssemblyJointType:
+        """AssemblyJointType"""
+    @property
+    def origin(self) -> NDArray[Any]:
+        """a point of the axis"""
+    @property
+    def axis(self) -> NDArray[Any]: ...
+    @property
+    def limits(self) -> JointLimits:
+        """JointLimits"""
+    @property
+    def keys(self) -> JointKeys:
+        """JointKeys"""
+    @property
+    def follow(self) -> JointFollow:
+        """JointFollow, or None"""
+
+class AssemblyJointType(IntEnum):
+    """How a part moves on the part that it hangs on."""
+    fixed = 0
+    revolute = 1
+    prismatic = 2
+    free = 3
+
+class AssemblyLoop:
+    """A closed chain: a rod and a piston or a rocker that a pin joins."""
+    def __init__(self, coupler: int, closer: int, pin: ArrayLike) -> None: ...
+    @property
+    def coupler(self) -> int:
+        """index of a part: the rod"""
+    @property
+    def closer(self) -> int:
+        """index of a part: the piston or the rocker"""
+    @property
+    def pin(self) -> NDArray[Any]:
+        """a point of the pin's axis at rest"""
+
+class AssemblyPart:
+    """A part of an assembly."""
+    def __init__(self, name: str, model: Model, *, pose: _OnePose | ArrayLike = ..., on: int | None = ..., joint: AssemblyJoint | None = ...) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def file(self) -> str:
+        """of its model; may be empty"""
+    @property
+    def model(self) -> Model:
+        """Model"""
+    @property
+    def place(self) -> NDArray[Any]:
+        """matrix of shape (4, 4): its place at rest"""
+    @property
+    def on(self) -> int | None:
+        """index of the part that it hangs on; None: the world"""
+    @property
+    def joint(self) -> AssemblyJoint:
+        """AssemblyJoint"""
+
 class Assignment(IntEnum):
     """Which one of its triangles represents a vertex or an edge."""
     greedy = 0
@@ -1876,6 +1957,31 @@ class JobCounts:
     def groups(self) -> dict[str, Any]:
         """dict of change to number"""
 
+class JointFollow:
+    """A joint that follows that of another part: ratio * value + offset."""
+    def __init__(self, part: int, ratio: float = ..., offset: float = ...) -> None: ...
+    @property
+    def part(self) -> int:
+        """index of the part that is followed"""
+    @property
+    def ratio(self) -> float: ...
+    @property
+    def offset(self) -> float:
+        """radians or metres"""
+
+class JointKeys:
+    """The value of a joint over time; between two keys it changes at a constant rate."""
+    def __init__(self, times: list[float] = ..., values: list[float] = ..., poses: Sequence[Pose] = ...) -> None: ...
+    @property
+    def times(self) -> list[float]:
+        """list of seconds, ascending"""
+    @property
+    def values(self) -> list[float]:
+        """list of radians or metres, one for each time"""
+    @property
+    def poses(self) -> list[Pose]:
+        """list of Pose, one for each time, of a free joint"""
+
 class JointLimits:
     """Bounds of a joint's value."""
     @property
@@ -2188,6 +2294,125 @@ class Motion:
     def velocity(self) -> NDArray[Any]: ...
     @property
     def angular_velocity(self) -> NDArray[Any]: ...
+
+class MotionClash:
+    """What happens between two parts over time."""
+    @property
+    def a(self) -> int:
+        """index of a part"""
+    @property
+    def b(self) -> int:
+        """index of a part, above a"""
+    @property
+    def kind(self) -> MotionClashKind:
+        """MotionClashKind"""
+    @property
+    def contacts(self) -> list[MotionInterval]:
+        """list of MotionInterval"""
+    @property
+    def approaches(self) -> list[MotionInterval]:
+        """list of MotionInterval"""
+    @property
+    def gap(self) -> float:
+        """metres: the least that was measured"""
+    @property
+    def gap_at_least(self) -> float:
+        """a proven lower bound of it"""
+    @property
+    def gap_time(self) -> float:
+        """seconds"""
+    @property
+    def point_a(self) -> NDArray[Any]:
+        """the nearest point then"""
+    @property
+    def point_b(self) -> NDArray[Any]:
+        """the nearest point then"""
+    @property
+    def depth(self) -> float:
+        """metres: the largest that was measured"""
+    @property
+    def depth_at_most(self) -> float:
+        """an upper bound of it; may be inf"""
+    @property
+    def depth_time(self) -> float:
+        """seconds"""
+    @property
+    def depth_point(self) -> NDArray[Any]:
+        """on b then"""
+    @property
+    def samples(self) -> list[MotionSample]:
+        """list of MotionSample"""
+    @property
+    def status(self) -> Status:
+        """Status; bound_only: contact was not decided"""
+    @property
+    def steps(self) -> int:
+        """measurements"""
+
+class MotionClashKind(IntEnum):
+    """Whether a pair meets, or only comes near."""
+    contact = 0
+    clearance = 1
+
+class MotionInterval:
+    """A span of time in which a pair is in contact, or near."""
+    @property
+    def start(self) -> float:
+        """never later than the first contact"""
+    @property
+    def end(self) -> float:
+        """never earlier than the last contact"""
+    @property
+    def seen(self) -> float:
+        """a time of contact; inf: none was seen"""
+
+class MotionReport:
+    """The clashes of an assembly over time."""
+    @property
+    def start(self) -> float:
+        """seconds"""
+    @property
+    def end(self) -> float:
+        """seconds"""
+    @property
+    def clearance(self) -> float:
+        """as asked, metres"""
+    @property
+    def tolerance(self) -> float:
+        """as asked, metres"""
+    @property
+    def clashes(self) -> list[MotionClash]:
+        """list of MotionClash, contacts first"""
+    @property
+    def pairs(self) -> int:
+        """all pairs of parts"""
+    @property
+    def still(self) -> int:
+        """of them: without relative motion"""
+    @property
+    def joined(self) -> int:
+        """of them: joined by a joint or a loop"""
+    @property
+    def ignored(self) -> int:
+        """of them: left out on request"""
+    @property
+    def near(self) -> int:
+        """of them: measured"""
+    @property
+    def slices(self) -> int:
+        """of time"""
+    @property
+    def steps(self) -> int:
+        """measurements"""
+
+class MotionSample:
+    """The gap of a pair at a time."""
+    @property
+    def time(self) -> float:
+        """seconds"""
+    @property
+    def gap(self) -> float:
+        """metres"""
 
 class NamedPart:
     """A part by its words."""
@@ -4267,6 +4492,18 @@ def find_clashes(store: Store, *, clearance: float = ..., touch_tolerance: float
     """
 @overload
 def find_clashes(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, clearance: float = ..., touch_tolerance: float = ..., self: bool = ..., rules: Sequence[ClashRule] | _Path = ..., progress: _Progress = ..., only: str | PartQuery = ..., a: str | PartQuery = ..., b: str | PartQuery = ..., matrix: ClashMatrix | _Path | None = ..., leave_out: Sequence[Neighbours | str] = ..., sort: ClashOrder | str = ...) -> ClashReport: ...
+def find_motion_clashes(assembly: Assembly, *, clearance: float = ..., tolerance: float = ..., step: float = ..., joined: bool = ..., max_steps: int = ..., progress: _Progress = ...) -> MotionReport:
+    """Finds every clash between the parts of an assembly while it moves.
+
+    clearance  also finds pairs that come at most this near
+    tolerance  parts at most this far apart count as in contact
+    step       seconds: shorter contacts and separations may be joined; 0: a thousandth of the duration
+    joined     whether pairs that a joint or a loop connects are tested, too
+    max_steps  measurements of a pair, before they become coarse
+    progress   function of (stage, fraction)
+
+    Returns MotionReport. No contact is missed between samples.
+    """
 @overload
 def first_hit(model: Model, pose: _OnePose | ArrayLike, origin: Ray, *, progress: _Progress = ...) -> RayHit:
     """The first triangle that each ray meets.
@@ -4499,6 +4736,8 @@ def part_colours(store: Store, by: ColourBy | str = ...) -> list[Colour]:
 def part_colours(parts: list[ViewPart], by: ColourBy | str = ...) -> list[Colour]: ...
 @overload
 def part_colours(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, by: ColourBy | str = ...) -> list[Colour]: ...
+def part_transforms(assembly: Assembly, time: float) -> list[NDArray[Any]]:
+    """The place of each part at a time: list of matrices of shape (4, 4)."""
 def peak_resident_mib() -> float:
     """The largest resident memory of this process, or of an ended child if larger, in MiB."""
 @overload
@@ -4558,6 +4797,14 @@ def ranked_clashes(report: ClashReport) -> list[int]:
     """Indices of a ClashReport's clashes, the worst first: hard ones by volume, then by depth."""
 def ray_through(camera: Camera, x: float, y: float) -> Ray:
     """The Ray from the eye through a pixel; (0, 0) is the top left corner of the picture."""
+def read_assembly(path: _Path, *, allow_outside_files: bool = ..., progress: _Progress = ...) -> Assembly:
+    """Reads an assembly in motion from a TOML or JSON file.
+
+    allow_outside_files  whether models outside of the file's folder may be read
+    progress             function of (stage, fraction)
+
+    Returns Assembly. Raises Error, naming the file and the element.
+    """
 def read_bcf(path: _Path, limits: BcfLimits = ...) -> BcfFile:
     """Reads a BCF file of version 2.0, 2.1 or 3.0. Returns a BcfFile. Raises Error: file_not_found, unreadable, malformed, unsupported."""
 def read_elementary_queries(file: str, kind: ElementaryKind | str | None = ...) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any], NDArray[Any]]:
@@ -4707,6 +4954,8 @@ def time_of_impact(a: Deformable, b: Deformable, *, absolute_error: float = ...,
 def time_of_impact(a: Model, motion_a: Motion | _OnePose, b: Model, motion_b: Motion | _OnePose, *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Impact: ...
 @overload
 def time_of_impact(a: Model, motion_a: Motion | Sequence[Motion] | _Poses, b: Model, motion_b: Motion | Sequence[Motion] | _Poses, *, absolute_error: float | None = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
+def time_range(assembly: Assembly) -> tuple[float, float]:
+    """The first and the last time of all keys."""
 @overload
 def to_json(report: ClashReport) -> str:
     """The JSON text that the command writes: of a ClashReport, of a ClashReview, or of a list of ClashReview and the path
@@ -4777,6 +5026,10 @@ def write_frame(mesh: _Mesh, path: _Path) -> None:
     """Writes a frame as binary PLY. Takes what Model takes. Raises Error: unsupported, bad_mesh, cannot_write."""
 def write_glb(scene: Scene, path: _Path) -> None:
     """Writes a scene as binary glTF. Raises Error (cannot_write)."""
+def write_motion_csv(report: MotionReport, assembly: Assembly, path: _Path) -> None:
+    """Writes a row for each contact and each approach."""
+def write_motion_html(report: MotionReport, assembly: Assembly, path: _Path) -> None:
+    """Writes one HTML page with a chart over time and tables."""
 def write_png(picture: NDArray[Any], path: _Path) -> None:
     """Writes an array of shape (height, width, 3), uint8, as PNG, atomically. Raises Error (cannot_write)."""
 def write_srdf(robot: RobotDescription, allowed: list[AllowedPair], path: _Path, base: _Path | None = ...) -> None:
