@@ -63,24 +63,40 @@ std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, double ti
     return boxes;
 }
 
+/// Fits the boxes of one end to the positions at a time.
+void fit_end(SweptTree& swept, const DeformableData& data, StepEnd end, double time) {
+    const SurfaceView surface = data.surface();
+    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, time);
+    fit(swept.tree, end,
+        [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, end, surface, boxes); });
+}
+
+/// Makes all boxes at the end those at the start.
+void start_at_end(SweptTree& swept) {
+    constexpr std::size_t kBoxesAtOnce = 1024;
+    parallel_for(swept.tree.nodes.size(), kBoxesAtOnce, [&](std::size_t i) {
+        auto& rows = swept.tree.nodes[i].rows;
+        for (std::size_t row = 0; row < MovingBoxRun::kEnd; ++row)
+            std::copy_n(rows[MovingBoxRun::kEnd + row], MovingNode::kWidth, rows[row]);
+    });
+    LeafFeatures& leaves = swept.leaves;
+    parallel_for(leaves.faces.leaves(), kBoxesAtOnce, [&](std::size_t i) {
+        const auto leaf = static_cast<std::uint32_t>(i);
+        for (FeatureRuns* runs : {&leaves.faces, &leaves.edges, &leaves.vertices})
+            runs->start_at_end(leaf);
+    });
+}
+
 } // namespace
 
 void refit(SweptTree& swept, const DeformableData& data, double until) {
-    const SurfaceView surface = data.surface();
-    for (const StepEnd end : kStepEnds) {
-        const std::vector<Aabb> boxes =
-            vertex_boxes(data.vertices, end == StepEnd::start ? 0 : until);
-        fit(swept.tree, end,
-            [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, end, surface, boxes); });
-    }
+    fit_end(swept, data, StepEnd::start, 0);
+    fit_end(swept, data, StepEnd::end, until);
 }
 
 void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end) {
-    const SurfaceView surface = data.surface();
-    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, end == StepEnd::start ? 0 : 1);
-    for (const StepEnd each : kStepEnds)
-        fit(swept.tree, each,
-            [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, each, surface, boxes); });
+    fit_end(swept, data, StepEnd::end, end == StepEnd::start ? 0 : 1);
+    start_at_end(swept);
 }
 
 DeformableData::DeformableData() = default;
@@ -117,12 +133,16 @@ void DeformableData::build() {
     swept.leaves.allocate_boxes();
     if (options.scheme == Scheme::features)
         feature_trees = std::make_unique<FeatureTrees>(surface(), swept_vertex_boxes(vertices));
-    fit_boxes();
+    fit_boxes(FirstBoxes::unknown);
     looseness_when_built_ = looseness();
 }
 
-void DeformableData::fit_boxes() {
-    abut::refit(swept, *this, 1);
+void DeformableData::fit_boxes(FirstBoxes first) {
+    if (first == FirstBoxes::last_ends)
+        start_at_end(swept);
+    else
+        fit_end(swept, *this, StepEnd::start, 0);
+    fit_end(swept, *this, StepEnd::end, 1);
     if (feature_trees)
         for (const StepEnd end : kStepEnds)
             feature_trees->fit(surface(), end,
@@ -140,9 +160,9 @@ void DeformableData::move_on(std::span<const Vec3> end) {
     });
 }
 
-void DeformableData::refit() {
+void DeformableData::refit(FirstBoxes first) {
     rest_model.move_on();
-    fit_boxes();
+    fit_boxes(first);
     if (looseness() > kMostLooseness * looseness_when_built_)
         build();
 }
@@ -223,18 +243,18 @@ void Deformable::set_motion(std::span<const Vec3> start, std::span<const Vec3> e
     parallel_for(d.vertices.size(), kGrain, [&](std::size_t i) {
         d.vertices[i] = {start[i], end[i]};
     });
-    d.refit();
+    d.refit(FirstBoxes::unknown);
 }
 
 void Deformable::advance(std::span<const Vec3> end) {
     data_->move_on(end);
-    data_->refit();
+    data_->refit(FirstBoxes::last_ends);
 }
 
 void Deformable::advance(std::vector<Vec3>&& end) {
     data_->move_on(end);
     std::vector<Vec3>().swap(end);
-    data_->refit();
+    data_->refit(FirstBoxes::last_ends);
 }
 
 void Deformable::adapt(const Impacts& impacts) {

@@ -8,6 +8,7 @@
 #include "mesh/representative_triangles.h"
 #include "tree/moving_tree.h"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct FeatureTrees;
 struct SweptTree {
     MovingTree tree;
     LeafFeatures leaves;
+};
+
+/// The boxes at the start of a step.
+enum class FirstBoxes : std::uint8_t {
+    unknown,   ///< to be fitted to the positions
+    last_ends, ///< those at the end of the last step
 };
 
 class DeformableData {
@@ -50,10 +57,10 @@ public:
     /// Sets the next step's motion, but not its boxes. Errors as Deformable::advance.
     void move_on(std::span<const Vec3> end);
     /// Fits all boxes to the motion. Rebuilds the hierarchy if its boxes have become too loose.
-    void refit();
+    void refit(FirstBoxes first);
 
 private:
-    void fit_boxes();
+    void fit_boxes(FirstBoxes first);
     [[nodiscard]] double looseness() const;
 
     double looseness_when_built_ = 0;

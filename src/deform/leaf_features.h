@@ -5,6 +5,7 @@
 #include "tree/obb_tree.h"
 #include "volume/moving_box.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +30,7 @@ public:
         rows_.assign(MovingBoxRun::kRows * ids_.size() + MovingBoxRun::kPadding, 0.0F);
     }
 
+    [[nodiscard]] std::size_t leaves() const { return begin_.size() - 1; }
     [[nodiscard]] std::uint32_t count(std::uint32_t leaf) const {
         return begin_[leaf + 1] - begin_[leaf];
     }
@@ -46,6 +48,12 @@ public:
     void set_box(std::uint32_t leaf, std::uint32_t k, StepEnd end, const Aabb& box) {
         float* rows = rows_.data() + MovingBoxRun::kRows * begin_[leaf];
         set_bounds(rows + first_bound(end, count(leaf), k), count(leaf), box);
+    }
+    /// Makes the boxes at the end those at the start.
+    void start_at_end(std::uint32_t leaf) {
+        float* rows = rows_.data() + MovingBoxRun::kRows * begin_[leaf];
+        std::copy(rows + MovingBoxRun::kEnd * count(leaf), rows + MovingBoxRun::kRows * count(leaf),
+                  rows);
     }
     [[nodiscard]] MovingBox box(std::uint32_t leaf, std::uint32_t k) const {
         const float* rows = rows_.data() + MovingBoxRun::kRows * begin_[leaf];

@@ -2,6 +2,7 @@
 // of threads and SIMD target against each other. Each test prints its seed and what it has seen.
 
 #include <abut/deformable.h>
+#include <abut/penetration.h>
 #include <abut/progress.h>
 #include <abut/rigid.h>
 
@@ -261,6 +262,45 @@ TEST(DeformableModel, StepsEqualNewModels) {
     std::cout << met << " met, " << apart << " apart\n";
     EXPECT_GT(met, 10);
     EXPECT_GT(apart, 10);
+}
+
+/// Penetration of a closed surface that deforms, and of two.
+TEST(DeformableModel, ClosedSurfacesPenetrate) {
+    Random random(77);
+    int deep = 0, apart = 0;
+    const Mesh rest = torus_mesh(1, 0.4, 24, 12);
+    const Model probe(sphere_mesh(0.4, 16, 12));
+    Deformable surface(rest), other(rest);
+    for (int step = 0; step < many(40); ++step) {
+        Mesh mesh = rest, second = rest;
+        const Vec3 by = random.in_cube(1.2);
+        const double wave = random.uniform(0, 6);
+        for (Vec3& p : mesh.positions)
+            p = p + 0.1 * Vec3{std::sin(3 * p.y + wave), std::sin(2 * p.z), std::cos(3 * p.x)};
+        for (Vec3& p : second.positions)
+            p = p + 2 * by;
+        surface.set_motion(mesh.positions, mesh.positions);
+        other.set_motion(second.positions, second.positions);
+        const auto check = [&](const Model& a, const Model& b, const Model& anew,
+                               const Transform& place) {
+            const Depth found = penetration(a, {}, b, place),
+                        truth = penetration(anew, {}, b, place);
+            ASSERT_EQ(found.meet, truth.meet);
+            ASSERT_EQ(found.interpenetrate, truth.interpenetrate);
+            ASSERT_EQ(found.regions.size(), truth.regions.size());
+            // Both intervals hold the depth.
+            ASSERT_LE(found.depth, truth.depth_at_most * (1 + 1e-9));
+            ASSERT_LE(truth.depth, found.depth_at_most * (1 + 1e-9));
+            (found.depth > 0 ? deep : apart) += 1;
+        };
+        check(surface.model(), probe, Model(mesh), Pose{by});
+        check(surface.model(), other.model(), Model(mesh), {});
+        const Gap gap = distance(surface.model(), {}, other.model(), {});
+        ASSERT_EQ(gap.distance == 0, !intersections(surface, other).empty());
+    }
+    std::cout << deep << " deep, " << apart << " apart\n";
+    EXPECT_GT(deep, many(40) / 4);
+    EXPECT_GT(apart, many(40) / 4);
 }
 
 } // namespace
