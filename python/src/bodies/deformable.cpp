@@ -131,6 +131,13 @@ void change_surface(Surface& surface, Change change) {
     change(surface.value);
 }
 
+/// Reads a member of a surface that another thread may be about to change.
+template <class Read>
+auto read_surface(Surface& surface, Read read) {
+    const InUse::Read use(surface.use, kSurface);
+    return read(std::as_const(surface.value));
+}
+
 bool a_surface(PyObject* first, PyObject* /*third*/) {
     return is_a<Surface>(first);
 }
@@ -193,8 +200,10 @@ void add_surface_members(py::class_<Surface>& type) {
     type.def(
             "adapt",
             [](Surface& self, const Impacts& impacts) {
-                check_features(self.value, impacts);
-                change_surface(self, [&](Deformable& surface) { surface.adapt(impacts); });
+                change_surface(self, [&](Deformable& surface) {
+                    check_features(surface, impacts);
+                    surface.adapt(impacts);
+                });
             },
             py::arg("impacts"),
             "Moves features off triangles that met something, for assignment='adaptive'. In: the "
@@ -210,19 +219,35 @@ void add_surface_members(py::class_<Surface>& type) {
             "The surface at the start of its step as a Model, for every query that takes one. Its "
             "hierarchy is\n"
             "refitted from step to step. The model keeps its positions when the surface moves on.")
-        .def_property_readonly("vertex_count",
-                               [](const Surface& self) { return self.value.vertex_count(); })
+        .def_property_readonly(
+            "vertex_count",
+            [](Surface& self) {
+                return read_surface(self, [](const auto& value) { return value.vertex_count(); });
+            })
         .def_property_readonly(
             "faces",
-            [](const Surface& self) { return rows<std::uint32_t>(self.value.triangles()); },
+            [](Surface& self) {
+                return rows<std::uint32_t>(
+                    read_surface(self, [](const auto& value) { return value.triangles(); }));
+            },
             "uint32 array of shape (m, 3)")
         .def_property_readonly(
-            "edges", [](const Surface& self) { return rows<std::uint32_t>(self.value.edges()); },
+            "edges",
+            [](Surface& self) {
+                return rows<std::uint32_t>(
+                    read_surface(self, [](const auto& value) { return value.edges(); }));
+            },
             "uint32 array of shape (k, 2): every pair of vertices that a triangle joins")
-        .def_property_readonly("bytes", [](const Surface& self) { return self.value.bytes(); })
-        .def("__repr__", [](const Surface& self) {
-            return "<abut.Deformable: " + std::to_string(self.value.vertex_count()) +
-                   " vertices, " + std::to_string(self.value.triangles().size()) + " triangles>";
+        .def_property_readonly("bytes",
+                               [](Surface& self) {
+                                   return read_surface(
+                                       self, [](const auto& value) { return value.bytes(); });
+                               })
+        .def("__repr__", [](Surface& self) {
+            return read_surface(self, [](const auto& value) {
+                return "<abut.Deformable: " + std::to_string(value.vertex_count()) + " vertices, " +
+                       std::to_string(value.triangles().size()) + " triangles>";
+            });
         });
 }
 

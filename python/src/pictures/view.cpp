@@ -223,7 +223,11 @@ void bind_view_frames(py::class_<OpenView>& view_class) {
             py::arg("triangles"), py::arg("draws"),
             "Changes triangle_budget and draw_budget from the next frame on.")
         .def_property_readonly(
-            "statistics", [](OpenView& self) { return self.view.statistics(); }, "ViewStatistics");
+            "statistics",
+            [](OpenView& self) {
+                return self.run([](View& view) -> ViewStatistics { return view.statistics(); });
+            },
+            "ViewStatistics");
 }
 
 void bind_view_parts(py::class_<OpenView>& view_class) {
