@@ -112,3 +112,17 @@ def test_time_of_impact_and_schedule():
     world.move(a, matrix((4, 0, 0)))
     assert world.advance(9).tolist() == [[a, b]]
     assert world.schedule_counters().steps >= 2
+
+
+def test_move_takes_arrays_with_any_strides():
+    world, model = abut.World(), abut.Model(*box())
+    bodies = np.array([world.add(model) for _ in range(6)])
+    poses = np.tile(np.eye(4), (3, 1, 1))
+    poses[:, 0, 3] = 10, 20, 30
+    world.move(bodies[::2], poses)
+    assert [world.world_from_body(int(body))[0, 3] for body in bodies] == [10, 0, 20, 0, 30, 0]
+    world.move(bodies[::-2].astype(np.uint64), poses)
+    assert [world.world_from_body(int(body))[0, 3] for body in bodies] == [10, 30, 20, 20, 30, 10]
+    world.move(np.zeros(0, np.int64), np.zeros((0, 4, 4)))
+    with pytest.raises(TypeError):
+        world.move(bodies[:3].astype(float), poses)

@@ -143,7 +143,12 @@ public:
             const Pose place = to_pose(pose, "pose");
             return quick([&](World& world) { world.move(id, place); });
         }
-        const auto ids = py::array_t<std::int64_t>::ensure(body);
+        if (const char kind = py::reinterpret_borrow<py::array>(body).dtype().kind();
+            kind != 'i' && kind != 'u')
+            throw py::type_error("body: an array of integers is wanted");
+        // Without gaps, whatever strides the caller's array has.
+        const auto ids =
+            py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(body);
         const auto places = to_pose_list(pose, "pose");
         if (!ids || ids.ndim() != 1 || static_cast<std::size_t>(ids.size()) != places.size())
             throw py::value_error("body: there are not as many bodies as poses");
