@@ -7,6 +7,7 @@
 #include "suites/box_scene.h"
 #include "suites/flight_rows.h"
 #include "suites/rest_rows.h"
+#include "suites/schedule_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -121,6 +122,8 @@ public:
             add_flight_rows(report_, 1000, options_.seed);
         if (options_.only.empty() || options_.only == "deformable")
             add_refresh_rows(report_, 60);
+        if (options_.only.empty() || options_.only == "schedule")
+            add_schedule_rows(report_, options_.seed);
         set_threads(0);
         return std::move(report_);
     }

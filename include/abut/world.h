@@ -78,19 +78,23 @@ struct BodyImpact {
 };
 
 /// Bounds on a body's future motion. Its origin moves as x + v t + a t^2 / 2, plus the effect of
-/// another acceleration of at most `acceleration_bound`. Its angular speed is at most
-/// `angular_speed`.
+/// another acceleration of at most `acceleration_bound`. The body rotates about its origin with
+/// `angular_velocity`, plus another angular velocity of at most
+/// `angular_speed + angular_acceleration t`. All bounds are 0 if the motion is prescribed.
 struct SpeedBounds {
     Vec3 velocity, acceleration;
     double acceleration_bound = 0;
-    double angular_speed = 0; ///< radians per unit of time
+    double angular_speed = 0;        ///< radians per unit of time
+    double angular_acceleration = 0; ///< radians per unit of time, squared
+    Vec3 angular_velocity;           ///< world axis, whose length is in radians per unit of time
 };
 
 /// The work of a world's collision schedule so far.
 struct ScheduleCounters {
     std::uint64_t steps = 0;
     std::uint64_t pairs = 0;            ///< sum over the steps of all pairs that may ever meet
-    std::uint64_t distance_queries = 0; ///< of those pairs, the ones that were due
+    std::uint64_t estimates = 0;        ///< of those pairs, the ones that were due
+    std::uint64_t distance_queries = 0; ///< of those, the ones that boxes and planes did not decide
 };
 
 class CollisionSchedule;
@@ -196,8 +200,9 @@ public:
 
     /// Sets bounds on the body's motion from its current place and the time of the last `advance`.
     /// Call it before `move`. A body without bounds is assumed to be at rest. The schedule tests a
-    /// body anew if it moves otherwise, or if its new bounds do not follow from the old ones.
-    /// Repeating bounds that still hold costs nothing.
+    /// body anew if it moves or turns otherwise, or if its new bounds do not follow from the old
+    /// ones. Repeating bounds that still hold costs nothing. A deformable needs no bounds: it is
+    /// assumed to be at rest, and tested anew after each `refresh`.
     ///
     /// Errors      Error{bad_argument} if the id is not valid, a value is not finite, or a bound is
     ///             negative.
@@ -205,19 +210,39 @@ public:
     /// Lets time pass, to the current places of the bodies, and returns all pairs that share a
     /// point there, sorted. Only pairs that may have met by then are tested.
     ///
-    /// Accuracy    as `collide`; deformables are left out.
+    /// Accuracy    as `collide`.
     /// Errors      Error{bad_argument} if the time is negative or not finite. Error{interrupted} if
     ///             the stop flag is set: the time has passed, and `advance(0)` then returns the
     ///             answer.
-    /// Cost        constant for each body, a distance for each pair that is due; from time to time,
-    ///             a broad phase over boxes that enclose the bodies' possible places.
+    /// Cost        constant for each body; for each pair that is due, the first of four bounds that
+    ///             proves it apart: balls, boxes, a plane, a coarse distance. From time to time, a
+    ///             broad phase over boxes that enclose the bodies' possible places.
     /// Source      a heap of pairs by a lower bound of their time to collision,
     ///             t = (sqrt(v^2 + 2 a d) - v) / a
-    ///             [Lin 1993; Cohen, Lin, Manocha, Ponamgi 1995].
+    ///             [Lin 1993; Cohen, Lin, Manocha, Ponamgi 1995]. Differs: the speed v is that along
+    ///             the direction in which the bodies are apart, if a plane or boxes prove it.
     std::vector<BodyPair> advance(double time, const Progress& progress = {});
     /// Returns a time from the last `advance`. Before it has passed, no pair that does not touch
-    /// now can begin to touch, as long as the bodies keep to their bounds.
+    /// now can begin to touch, as long as the bodies keep to their bounds. It does not exceed the
+    /// time up to which the schedule looks ahead, in which a body moves by about its size. Call it
+    /// before the bodies are moved.
+    ///
+    /// Cost        an exact distance for each pair that could be the next.
     [[nodiscard]] double next_event() const;
+    /// As `next_event`, however far ahead, but at most `limit`. Infinite if no bodies can ever meet.
+    ///
+    /// Errors      Error{bad_argument} if the limit is negative or NaN. Error{interrupted} if the
+    ///             stop flag is set.
+    /// Cost        as `next_event`, and a few broad phases over boxes of growing size.
+    [[nodiscard]] double time_to_collision(double limit = std::numeric_limits<double>::infinity(),
+                                           const Progress& progress = {}) const;
+    /// Returns a time from the last `advance`. Before it has passed, the two bodies cannot begin to
+    /// touch, as long as they keep to their bounds: 0 if they touch, infinite if they can never
+    /// meet or options and filter keep them apart.
+    ///
+    /// Errors      Error{bad_argument} if an id is not valid or the two are the same.
+    /// Cost        an exact distance, unless cheaper bounds prove that they never meet.
+    [[nodiscard]] double time_to_collision(BodyId a, BodyId b) const;
     [[nodiscard]] const ScheduleCounters& schedule_counters() const noexcept;
 
 private:

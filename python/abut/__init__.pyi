@@ -876,9 +876,7 @@ class ClashQuery:
     def text(self) -> str:
         """in a canonical form"""
     def matches(self, report: ClashReport, clash: int) -> bool:
-        """Whether a clash of a ClashReport matches. It has no group and no topic; find() knows them."""
-    def find(self, report: ClashReport) -> list[int]:
-        """The indices of the clashes of a ClashReport that match."""
+        """Whether a clash of a ClashReport matches."""
     def empty(self) -> bool:
         """Whether there is no condition."""
     def names(self) -> list[str]:
@@ -1069,18 +1067,6 @@ class ColourBy(IntEnum):
     part = 3
     storey = 4
     clash = 5
-
-class ColourGroup:
-    """A row of the legend of colours."""
-    @property
-    def word(self) -> str:
-        """a type, a file, a storey, a kind, or 'none'"""
-    @property
-    def colour(self) -> Colour:
-        """Colour"""
-    @property
-    def parts(self) -> int:
-        """how many"""
 
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
@@ -1426,6 +1412,7 @@ class Depth:
         """Counters"""
     def __bool__(self) -> bool: ...
 
+<<<<<<< HEAD
 class DistanceColours:
     """Colours surfaces by their distance from a part; made by distances_from. Red where it is 0, blue
     at the reach; what is farther keeps its part's colour.
@@ -1470,6 +1457,8 @@ class EdgeFaceIntersection:
     def barycentric(self) -> NDArray[np.float64]:
         """weights in the face"""
 
+=======
+>>>>>>> 4edda01a (World: the schedule tries cheap bounds first, remembers a distance, and tells times to collision)
 class ElementaryImpact:
     """Returned by elementary_impact."""
     dtype: np.dtype[Any]
@@ -1695,16 +1684,6 @@ class GraphReport:
         """array of shape (n, 2, 3): ends of some of the edges"""
     @property
     def seconds(self) -> float: ...
-
-class Ground:
-    """A horizontal plane with a grid."""
-    def __init__(self, middle: ArrayLike, reach: float = ...) -> None: ...
-    @property
-    def middle(self) -> NDArray[Any]:
-        """array of shape (3,), world frame"""
-    @property
-    def reach(self) -> float:
-        """length from the middle where it has faded"""
 
 class GroupBy(IntEnum):
     """A criterion by which clashes are grouped."""
@@ -2111,22 +2090,6 @@ class ListedGroup:
     def topic(self) -> Topic:
         """Topic; None if nobody has said anything"""
 
-class Mark:
-    """A segment or, if both ends are equal, a dot, drawn over a picture."""
-    def __init__(self, a: ArrayLike, b: ArrayLike, *, colour: Colour = ..., width: float = ...) -> None: ...
-    @property
-    def a(self) -> NDArray[Any]:
-        """array of shape (3,), world frame"""
-    @property
-    def b(self) -> NDArray[Any]:
-        """array of shape (3,), world frame"""
-    @property
-    def colour(self) -> Colour:
-        """Colour"""
-    @property
-    def width(self) -> float:
-        """pixels; the diameter of a dot"""
-
 class Matrix:
     """The clashes of a ClashReport by groups of parts."""
     @property
@@ -2416,7 +2379,6 @@ class MotionSample:
 
 class NamedPart:
     """A part by its words."""
-    def __init__(self, file: str, id: str) -> None: ...
     @property
     def file(self) -> str: ...
     @property
@@ -2608,28 +2570,6 @@ class PartAim:
     def part(self) -> str:
         """id or name"""
 
-class PartColouring:
-    """The colours of the parts of a Store or of models."""
-    @property
-    def colours(self) -> list[Colour]:
-        """list of Colour, in the order of View.parts or of models"""
-    @property
-    def groups(self) -> NDArray[np.uint32]:
-        """uint32 array of shape (n,): of each part, its row in legend"""
-    @property
-    def legend(self) -> list[ColourGroup]:
-        """list of ColourGroup, the largest first; of 'type', 'file', 'storey' and 'clash'"""
-
-class PartDistances:
-    """Colours surfaces by their exact distance from a part."""
-    def __init__(self, part: str, reach: float = ...) -> None: ...
-    @property
-    def part(self) -> str:
-        """id or name"""
-    @property
-    def reach(self) -> float:
-        """length up to which surfaces are coloured"""
-
 class PartImpact:
     """When a moving probe first meets a part."""
     dtype: np.dtype[Any]
@@ -2704,21 +2644,6 @@ class PartSelector:
     def query(self) -> PartQuery:
         """PartQuery"""
 
-class PartState:
-    """How a Renderer draws a part."""
-    def __init__(self, colour: Colour = ..., *, hidden: bool = ..., ghosted: bool = ..., highlighted: bool = ...) -> None: ...
-    @property
-    def colour(self) -> Colour:
-        """Colour; its alpha has no effect"""
-    @property
-    def hidden(self) -> bool: ...
-    @property
-    def ghosted(self) -> bool:
-        """transparent grey, whatever its colour"""
-    @property
-    def highlighted(self) -> bool:
-        """with a bright outline"""
-
 class PartsInWay:
     """Returned by Walk.parts_in_way."""
     @property
@@ -2791,17 +2716,6 @@ class PathReport:
     def clearance(self) -> PathClearance:
         """PathClearance"""
     def __bool__(self) -> bool: ...
-
-class PictureMaker:
-    """Makes several pictures of the same models: a Store, or a Scene or path, or several. The OpenGL
-    context and the list of parts are made once, which is most of the time of a small picture. Only the
-    thread that made it may use it.
-
-    Raises Error: unsupported if EGL or OpenGL 3.3 is not available; those of the files.
-    """
-    def __init__(self, models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, progress: _Progress = ...) -> None: ...
-    def make(self, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: PartDistances | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
-        """As picture, with the same result."""
 
 class PiecesContacts:
     """Returned by collide of two ConvexPieces."""
@@ -3020,6 +2934,7 @@ class RemovedModel:
     @property
     def parts(self) -> int: ...
 
+<<<<<<< HEAD
 class RenderStatistics:
     """Work of a Renderer."""
     @property
@@ -3133,6 +3048,8 @@ class Renderer:
     def statistics(self) -> RenderStatistics:
         """RenderStatistics"""
 
+=======
+>>>>>>> 4edda01a (World: the schedule tries cheap bounds first, remembers a distance, and tells times to collision)
 class ReportPart:
     """A part by the indices that clashes use."""
     @property
@@ -3399,8 +3316,11 @@ class ScheduleCounters:
     def pairs(self) -> int:
         """that may ever meet, summed over the steps"""
     @property
-    def distance_queries(self) -> int:
+    def estimates(self) -> int:
         """of these, those that were due"""
+    @property
+    def distance_queries(self) -> int:
+        """of these, those that boxes and planes did not decide"""
 
 class Scheme(IntEnum):
     """How pairs of triangles that may meet become tests of features."""
@@ -3435,21 +3355,6 @@ class Side(IntEnum):
     outside = 0
     inside = 1
     on_surface = 2
-
-class SidesAim:
-    """Two sets of parts in red and blue, as a Camera sees them; the parts
-    around them are ghosts. No other part is drawn.
-    """
-    def __init__(self, camera: Camera, sides: list[list[NamedPart]], around: list[NamedPart] = ...) -> None: ...
-    @property
-    def camera(self) -> Camera:
-        """Camera; its size is ignored"""
-    @property
-    def sides(self) -> list[list[NamedPart]]:
-        """two lists of NamedPart"""
-    @property
-    def around(self) -> list[NamedPart]:
-        """list of NamedPart"""
 
 class Sphere:
     """A closed ball."""
@@ -3697,9 +3602,6 @@ class TopicMerge:
     @property
     def conflicts(self) -> list[TopicConflict]:
         """list of TopicConflict"""
-    @property
-    def warnings(self) -> list[str]:
-        """places of a BCF file that other programs may read differently"""
 
 class TouchedParts:
     """Returned by Walk.collide."""
@@ -4256,14 +4158,29 @@ class World:
         motions  a dict of body to Motion, or a list of (body, Motion); others stay where they are, and
                  deformables move as their steps say
         """
-    def set_speed(self, body: int, velocity: ArrayLike = ..., acceleration: ArrayLike = ..., acceleration_bound: float = ..., angular_speed: float = ...) -> None:
-        """Bounds on the body's motion from its place and the time of the last `advance`. Call it before `move`."""
+    def set_speed(self, body: int, velocity: ArrayLike = ..., acceleration: ArrayLike = ..., acceleration_bound: float = ..., angular_speed: float = ..., angular_acceleration: float = ..., angular_velocity: ArrayLike = ...) -> None:
+        """Bounds on the body's motion from its place and the time of the last `advance`. Call it before `move`.
+
+        velocity, acceleration  of its origin, as far as they are known
+        acceleration_bound      length of another acceleration, at most
+        angular_velocity        known, about its origin: radians per unit of time
+        angular_speed           length of another angular velocity, at most
+        angular_acceleration    how fast that may grow, at most
+
+        A deformable needs no bounds: it is tested anew after each refresh.
+        """
     def advance(self, time: float, *, progress: _Progress = ...) -> NDArray[Any]:
         """Lets time pass, and returns the pairs that share a point at the places that the bodies have now. Looks only
-        at pairs that may have met by then. Deformables are left out.
+        at pairs that may have met by then.
         """
     def next_event(self) -> float:
         """For so long from the last `advance` on, no pair that does not touch now can begin to."""
+    def time_to_collision(self, a: int | None = ..., b: int | None = ..., *, limit: float = ..., progress: _Progress = ...) -> float:
+        """Of all bodies: as `next_event`, however far ahead, but at most `limit`; infinite if no bodies can ever meet.
+        Of two: for so long from the last `advance` on, they cannot begin to touch; 0 if they touch.
+
+        Raises Error (bad_argument) if the limit is negative, a body is not valid or both are the same.
+        """
     def schedule_counters(self) -> ScheduleCounters: ...
 
 COMMON_PROPERTIES: tuple[str, ...]
@@ -4339,16 +4256,8 @@ def clash_bcf(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene 
     """
 def clash_topic_guid(clash: str) -> str:
     """The GUID of the topic of a clash, by its id."""
-@overload
 def clash_viewpoint(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clash: int, *, fov: float = ..., aspect: float = ..., near: bool = ...) -> ClashViewpoint:
-    """As clash_viewpoints, for one clash.
-
-    The best viewpoint of a clash as review_clashes lists it.
-
-    Raises Error: bad_argument if the store lacks a part of the clash, those of the store.
-    """
-@overload
-def clash_viewpoint(store: Store, clash: ListedClash, *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> ClashViewpoint: ...
+    """As clash_viewpoints, for one clash."""
 def clash_viewpoints(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clashes: list[list[int]], *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> list[ClashViewpoint]:
     """The best viewpoint of each list of clashes, by their indices in the report.
 
@@ -4435,19 +4344,6 @@ def distance(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *
 def distance(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., upper_bound: float = ..., progress: _Progress = ...) -> Any: ...
 @overload
 def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
-def distance_colour(fraction: float) -> Colour:
-    """The Colour of a fraction of the reach, in [0, 1]; for a legend."""
-def distances_from(part: int, model: Model, pose: _OnePose | ArrayLike, reach: float, *, grid: int = ...) -> DistanceColours:
-    """The DistanceColours by the exact distance from the surface of a part, which itself keeps its
-    colour.
-
-    part   its number in the renderer
-    model  Model of the part, placed by pose
-    reach  length, positive
-    grid   1: the distance is computed for every pixel
-
-    Raises Error (bad_argument).
-    """
 def duration(tour: Tour) -> float:
     """The time of the last point; 0 if none."""
 def elementary_impact(kind: ElementaryKind | str, start: ArrayLike, end: ArrayLike, *, absolute_error: float = ..., thickness: float = ...) -> ElementaryImpact:
@@ -4611,10 +4507,6 @@ def join_crew() -> Crew | None:
 
     Raises Error (unsupported) if this build has no MPI, or another one than the one that started the process.
     """
-def last_clash_options(store: Store) -> dict[str, Any]:
-    """The options of the last job that finished, as keyword arguments of find_clashes.
-    Raises Error: bad_argument if there is none, or if the store did not keep its rules.
-    """
 def length_of_pixel(camera: Camera) -> float:
     """The length at distance 1 that a pixel covers, in the middle of the picture."""
 def look_at_box(box: Box3, towards: ArrayLike, up: ArrayLike, lens: Camera = ...) -> Camera:
@@ -4663,11 +4555,6 @@ def nearest(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, upper_b
     """
 @overload
 def nearest(model: Model, pose: _OnePose | ArrayLike, points: ArrayLike, *, upper_bound: float = ..., signed_distance: bool = ..., progress: _Progress = ...) -> Any: ...
-def on_screen(camera: Camera, point: ArrayLike) -> NDArray[np.float64] | None:
-    """An array of shape (3,): where a Camera sees a point, in pixels from the top left corner, and
-    the depth along the viewing direction. None if it is not in front of the camera.
-    Raises Error (bad_argument).
-    """
 def open_store(path: _Path, *, read_only: bool = ...) -> Store:
     """Opens a Store. Raises Error: file_not_found, malformed, unsupported (a newer version's), unreadable (another
     process writes it).
@@ -4714,17 +4601,8 @@ def parse_grouping(text: str) -> list[enum]:
     """Criteria of a text such as 'storey,part': a list of GroupBy."""
 def parse_model_path(text: _Path) -> ModelPath:
     """The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument)."""
-@overload
-def part_colouring(store: Store, by: ColourBy | str = ...) -> PartColouring:
-    """The PartColouring of the parts of a Store, or of models, model by model. Raises Error: those of the
-    store; bad_argument for models by 'clash'.
-
-    Of a Scene or path, or several.
-    """
-@overload
-def part_colouring(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, by: ColourBy | str = ...) -> PartColouring: ...
-@overload
 def part_colours(store: Store, by: ColourBy | str = ...) -> list[Colour]:
+<<<<<<< HEAD
     """The list of Colour of a Store's parts, in the order of View.parts, or of some ViewPart. Equal
     words get equal colours in every model.
 
@@ -4738,6 +4616,9 @@ def part_colours(parts: list[ViewPart], by: ColourBy | str = ...) -> list[Colour
 def part_colours(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, by: ColourBy | str = ...) -> list[Colour]: ...
 def part_transforms(assembly: Assembly, time: float) -> list[NDArray[Any]]:
     """The place of each part at a time: list of matrices of shape (4, 4)."""
+=======
+    """The list of Colour of a Store's parts, in the order of View.parts."""
+>>>>>>> 4edda01a (World: the schedule tries cheap bounds first, remembers a distance, and tells times to collision)
 def peak_resident_mib() -> float:
     """The largest resident memory of this process, or of an ended child if larger, in MiB."""
 @overload
@@ -4766,30 +4647,24 @@ def penetration(a: Convex, pose_a: _Poses, b: Convex, pose_b: _Poses, *, warm_st
 def penetration(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, separation: bool = ..., progress: _Progress = ...) -> PiecesDepth: ...
 @overload
 def penetration(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, separation: bool = ..., progress: _Progress = ...) -> Any: ...
-def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: PartDistances | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
+def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
     """Draws models at full detail, without a window.
 
     models             a Store, or a Scene or path, or several
-    aim                NamedView or its name, Camera, PartAim, PairAim, SidesAim, or a
-                       Clash of these models
+    aim                NamedView or its name, Camera, PartAim, PairAim, or a Clash of these models
     width, height      pixels, at most 8192
-    colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or, of a Store, 'clash'
+    colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or 'clash'
     samples            along each side of a pixel: 1, 2 or 4
     edges              dark lines at silhouettes and creases
     ambient_occlusion  darker corners
     ground             a grid below the model
     sections           at most 6 SectionPlane
     section_box        Box3: what lies outside is cut away
-    distances          PartDistances: surfaces are coloured by their distance from a part
     progress           function of (stage, fraction)
 
     Returns a uint8 array of shape (height, width, 3): red, green, blue, rows from the top.
     Raises Error: unsupported if EGL or OpenGL 3.3 is not available; bad_argument if no part or
     several have the id; those of the files. KeyboardInterrupt at Ctrl-C.
-    """
-def png_bytes(picture: NDArray[Any]) -> bytes:
-    """The bytes of a PNG file of an array of shape (height, width, 3), uint8. Raises Error (bad_argument)
-    if it has no pixels.
     """
 def propose_allowed_pairs(robot: Robot, *, samples: int = ..., seed: int = ..., progress: _Progress = ...) -> list[AllowedPair]:
     """Proposes the pairs of links that need no test. Returns a list of AllowedPair."""
@@ -4979,8 +4854,6 @@ def topics_revision(store: Store) -> int:
     """The number of the last change of topics."""
 def turn_up(scene: Scene, up: UpAxis | str) -> None:
     """Turns a scene by quarter turns, so that this axis points up."""
-def untouched_topics(store: Store) -> list[Topic]:
-    """The topics of a store's groups and clashes, also of resolved ones, before anybody says anything about them."""
 def update_bcf(earlier: BcfFile, later: BcfFile) -> BcfFile:
     """Updates a BcfFile by a later export; what people have changed in it stays."""
 def variables_of(type: str) -> int:

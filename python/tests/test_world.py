@@ -109,6 +109,10 @@ def test_time_of_impact_and_schedule():
     world.set_speed(a, velocity=(1, 0, 0))
     assert world.advance(0).tolist() == []
     assert 5 < world.next_event() <= 8.01
+    assert 7.5 < world.time_to_collision() <= 8.01 and world.time_to_collision(limit=3) == 3
+    assert 7.5 < world.time_to_collision(a, b) <= 8.01
+    with pytest.raises(abut.Error, match="two bodies"):
+        world.time_to_collision(a, a)
     world.move(a, matrix((4, 0, 0)))
     assert world.advance(9).tolist() == [[a, b]]
     assert world.schedule_counters().steps >= 2

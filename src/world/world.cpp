@@ -256,11 +256,13 @@ std::vector<BodyImpact> World::time_of_impact(const std::vector<BodyMotion>& mot
 void World::set_speed(BodyId body, const SpeedBounds& bounds) {
     static_cast<void>(data_->body(body)); // throws if the id is not valid
     naming(body, [&] {
-        require(is_finite(bounds.velocity) && is_finite(bounds.acceleration),
+        require(is_finite(bounds.velocity) && is_finite(bounds.acceleration) &&
+                    is_finite(bounds.angular_velocity),
                 "velocity or acceleration is not finite");
-        require(bounds.acceleration_bound >= 0 && bounds.acceleration_bound < HUGE_VAL &&
-                    bounds.angular_speed >= 0 && bounds.angular_speed < HUGE_VAL,
-                "bounds of a speed must not be negative, and finite");
+        for (const double bound :
+             {bounds.acceleration_bound, bounds.angular_speed, bounds.angular_acceleration})
+            require(bound >= 0 && bound < HUGE_VAL,
+                    "bounds of a speed must not be negative, and finite");
     });
     schedule_->set_speed(body.index, bounds);
 }
@@ -270,6 +272,14 @@ std::vector<BodyPair> World::advance(double time, const Progress& progress) {
 }
 double World::next_event() const {
     return schedule_->next_event();
+}
+double World::time_to_collision(double limit, const Progress& progress) const {
+    return schedule_->time_to_collision(limit, progress);
+}
+double World::time_to_collision(BodyId a, BodyId b) const {
+    static_cast<void>(data_->body(a)), static_cast<void>(data_->body(b)); // throw if not valid
+    require(a.index != b.index, "a time to collision needs two bodies");
+    return schedule_->time_to_collision(a.index, b.index);
 }
 const ScheduleCounters& World::schedule_counters() const noexcept {
     return schedule_->counters();

@@ -3,6 +3,8 @@
 #include "bodies/bodies.h"
 #include "module.h"
 
+#include <limits>
+
 namespace abut::python {
 
 namespace {
@@ -65,8 +67,9 @@ void bind_world_results(py::module_& module) {
     RecordBinder<ScheduleCounters>(module, "ScheduleCounters", "The work that `advance` has done.")
         .field("steps", &ScheduleCounters::steps, "")
         .field("pairs", &ScheduleCounters::pairs, "that may ever meet, summed over the steps")
+        .field("estimates", &ScheduleCounters::estimates, "of these, those that were due")
         .field("distance_queries", &ScheduleCounters::distance_queries,
-               "of these, those that were due")
+               "of these, those that boxes and planes did not decide")
         .done();
 }
 
@@ -242,17 +245,28 @@ void add_world_schedule(py::class_<Bodies>& type) {
     type.def(
             "set_speed",
             [](Bodies& self, BodyId body, const py::object& velocity,
-               const py::object& acceleration, double acceleration_bound, double angular_speed) {
+               const py::object& acceleration, double acceleration_bound, double angular_speed,
+               double angular_acceleration, const py::object& angular_velocity) {
                 const SpeedBounds bounds{to_vec3(velocity, "velocity"),
-                                         to_vec3(acceleration, "acceleration"), acceleration_bound,
-                                         angular_speed};
+                                         to_vec3(acceleration, "acceleration"),
+                                         acceleration_bound,
+                                         angular_speed,
+                                         angular_acceleration,
+                                         to_vec3(angular_velocity, "angular_velocity")};
                 self.quick([&](World& world) { world.set_speed(body, bounds); });
             },
             py::arg("body"), py::arg("velocity") = py::make_tuple(0, 0, 0),
             py::arg("acceleration") = py::make_tuple(0, 0, 0), py::arg("acceleration_bound") = 0.0,
-            py::arg("angular_speed") = 0.0,
+            py::arg("angular_speed") = 0.0, py::arg("angular_acceleration") = 0.0,
+            py::arg("angular_velocity") = py::make_tuple(0, 0, 0),
             "Bounds on the body's motion from its place and the time of the last `advance`. Call "
-            "it before `move`.")
+            "it before `move`.\n\n"
+            "velocity, acceleration  of its origin, as far as they are known\n"
+            "acceleration_bound      length of another acceleration, at most\n"
+            "angular_velocity        known, about its origin: radians per unit of time\n"
+            "angular_speed           length of another angular velocity, at most\n"
+            "angular_acceleration    how fast that may grow, at most\n\n"
+            "A deformable needs no bounds: it is tested anew after each refresh.")
         .def(
             "advance",
             [](Bodies& self, double time, const py::object& report) {
@@ -263,13 +277,35 @@ void add_world_schedule(py::class_<Bodies>& type) {
             py::arg("time"), py::kw_only(), py::arg("progress") = py::none(),
             "Lets time pass, and returns the pairs that share a point at the places that the "
             "bodies have now. Looks only\n"
-            "at pairs that may have met by then. Deformables are left out.")
+            "at pairs that may have met by then.")
         .def(
             "next_event",
-            [](Bodies& self) {
-                return self.quick([](World& world) { return world.next_event(); });
+            [](Bodies& self) { return self.run([](World& world) { return world.next_event(); }); },
+            "For so long from the last `advance` on, no pair that does not touch now can begin "
+            "to.");
+}
+
+void add_world_estimates(py::class_<Bodies>& type) {
+    type.def(
+            "time_to_collision",
+            [](Bodies& self, std::optional<BodyId> a, std::optional<BodyId> b, double limit,
+               const py::object& report) {
+                if (a.has_value() != b.has_value())
+                    throw py::value_error("time_to_collision: two bodies, or none");
+                return self.query(report, [&](World& world, const Progress& progress) {
+                    return a ? world.time_to_collision(*a, *b)
+                             : world.time_to_collision(limit, progress);
+                });
             },
-            "For so long from the last `advance` on, no pair that does not touch now can begin to.")
+            py::arg("a") = py::none(), py::arg("b") = py::none(), py::kw_only(),
+            py::arg("limit") = std::numeric_limits<double>::infinity(),
+            py::arg("progress") = py::none(),
+            "Of all bodies: as `next_event`, however far ahead, but at most `limit`; infinite if "
+            "no bodies can ever meet.\n"
+            "Of two: for so long from the last `advance` on, they cannot begin to touch; 0 if they "
+            "touch.\n\n"
+            "Raises Error (bad_argument) if the limit is negative, a body is not valid or both are "
+            "the same.")
         .def("schedule_counters",
              [](Bodies& self) {
                  return self.quick([](World& world) { return world.schedule_counters(); });
@@ -290,6 +326,7 @@ void bind_world(py::module_& module) {
     add_world_pairs(world);
     add_world_queries(world);
     add_world_schedule(world);
+    add_world_estimates(world);
 }
 
 } // namespace abut::python

@@ -73,4 +73,39 @@ bool far_apart(const ModelData& model_a, const Transform& world_from_a, const Mo
     return false;
 }
 
+SeparatingSlab separation(const ModelData& model_a, const Transform& world_from_a,
+                          const ModelData& model_b, const Transform& world_from_b,
+                          const Vec3& first) {
+    constexpr int kMostDirections = 6;
+    constexpr double kWideEnough = 0.75; // of the widest slab that there may be
+    const PlacedSupport a(model_a.support(), world_from_a), b(model_b.support(), world_from_b);
+    const Vec3 between = b.middle() - a.middle();
+    const double margin = 0x1p-46 * (a.reach() + b.reach());
+    SeparatingSlab best;
+    // The first direction only finds a point of the difference of the sets; later ones point from
+    // the origin to the nearest point found of it.
+    Vec3 nearest = between, n = first == Vec3{} ? between : first;
+    for (int i = 0; i < kMostDirections; ++i) {
+        const double n_sq = length_sq(n);
+        if (!(n_sq > kSmallest))
+            return best;
+        const Vec3 n_a = a.seen(n), n_b = b.seen(-n);
+        const double apart =
+            (dot(n, between) - margin * sum_of_sizes(n)) - (a.height(n_a) + b.height(n_b));
+        if (!(apart > -kHopeless * n_sq) && i > 0)
+            return best;
+        const double size = std::sqrt(n_sq), gap = apart / size * (1 - 0x1p-40);
+        if (apart > kSmallest && gap > best.gap)
+            best = {gap, (1 / size) * n};
+        const Vec3 corner = between + b.support(n_b) - a.support(n_a), along = corner - nearest;
+        const bool known = first != Vec3{} && i == 0;
+        nearest =
+            nearest + (i == 0 && !known ? 0.5 : 1) * nearest_to_origin(nearest, along) * along;
+        if (best.gap >= kWideEnough * length(nearest))
+            return best;
+        n = nearest;
+    }
+    return best;
+}
+
 } // namespace abut

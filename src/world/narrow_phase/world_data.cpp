@@ -79,6 +79,7 @@ void WorldData::refresh(BodyId id) {
         return;
     moved.shape = shape_of(*deformable->surface);
     moved.own_bounds = bounds_of(moved.shape);
+    ++moved.shape_version;
     fit_box(id.index);
 }
 

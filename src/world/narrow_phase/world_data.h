@@ -19,6 +19,7 @@ struct Body {
     Box3 own_bounds;
     BodyOptions options;
     std::uint32_t generation = 0;
+    std::uint32_t shape_version = 0; ///< how often the shape has been refreshed
     bool alive = false;
 };
 
@@ -91,7 +92,7 @@ void carry_over(std::vector<Value>& values, const BroadPhase& phase, const Value
     const std::vector<IndexPair>&begun = phase.begun(), &ended = phase.ended();
     if (begun.empty() && ended.empty())
         return;
-    const std::vector<Value> last = std::exchange(values, {});
+    std::vector<Value> last = std::exchange(values, {});
     values.reserve(phase.pairs().size());
     auto next_begun = begun.begin(), next_ended = ended.begin();
     std::size_t next = 0; // in `last`
@@ -102,7 +103,7 @@ void carry_over(std::vector<Value>& values, const BroadPhase& phase, const Value
             values.push_back(fresh);
             ++next_begun;
         } else {
-            values.push_back(last[next++]);
+            values.push_back(std::move(last[next++]));
         }
     }
 }

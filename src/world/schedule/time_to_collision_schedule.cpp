@@ -1,9 +1,9 @@
 #include "world/schedule/time_to_collision_schedule.h"
 
+#include "core/arguments.h"
 #include "core/parallel.h"
 #include "core/progress.h"
-#include "math/transform.h"
-#include "rigid/shapes/shape_arguments.h"
+#include "core/stop.h"
 #include "world/broad_phase/box_node.h"
 
 #include <algorithm>
@@ -15,15 +15,14 @@ namespace abut {
 
 namespace {
 
-/// kOffCourse bounds how far the caller's rounding may move a body off its course, relative to the
-/// coordinates. kGapRounding is subtracted from lengths and times to cover that and this file's
-/// rounding.
-constexpr double kOffCourse = 0x1p-48;
-constexpr double kGapRounding = 0x1p-40;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+Vec3 place_of(const Body& body) {
+    const auto& m = body.world_from_body.m;
+    return {m[9], m[10], m[11]};
+}
 
-Vec3 moved_by(const SpeedBounds& bounds, double t) {
-    return t * bounds.velocity + (0.5 * t * t) * bounds.acceleration;
+/// The time `wait` after now, rounded down.
+double time_after(double now, double wait) {
+    return wait < kNoCollision ? (now + wait) * (1 - 0x1p-52) : kNoCollision;
 }
 
 } // namespace
@@ -33,97 +32,75 @@ CollisionSchedule::CollisionSchedule(const WorldData& world)
       broad_phase_({BroadPhaseMethod::automatic,
                     [this](std::uint32_t i, std::uint32_t k) { return world_.may_meet(i, k); }}) {}
 
-Vec3 CollisionSchedule::origin_of(std::uint32_t body) const {
-    const auto& m = world_.bodies()[body].world_from_body.m;
-    return {m[9], m[10], m[11]};
-}
-
 bool CollisionSchedule::takes_part(std::uint32_t body) const {
     const Body& b = world_.bodies()[body];
-    return b.alive && !is_deformable(b.shape) && !is_empty(b.own_bounds);
-}
-
-double CollisionSchedule::reach_of(std::uint32_t body) const {
-    return reach_from(world_.bodies()[body].shape, world_.bodies()[body].own_bounds, {});
+    return b.alive && !is_empty(b.own_bounds);
 }
 
 void CollisionSchedule::set_speed(std::uint32_t body, const SpeedBounds& bounds) {
+    const Body& of = world_.bodies()[body];
+    if (is_deformable(of.shape))
+        return; // it is at rest until it is refreshed, and then tested anew
     if (body >= courses_.size())
         courses_.resize(body + 1);
     Course& course = courses_[body];
-    const SpeedBounds& old = course.bounds;
-    const double t = now_ - course.since;
-    const Vec3 off = bounds.velocity - old.velocity - t * old.acceleration;
     // If the new bounds follow from the old ones, the pairs' due times remain valid.
-    course.known = course.known && course.generation == world_.bodies()[body].generation &&
-                   keeps_course(body) && bounds.acceleration == old.acceleration &&
-                   bounds.acceleration_bound <= old.acceleration_bound &&
-                   bounds.angular_speed <= old.angular_speed &&
-                   length(off) <= old.acceleration_bound * t + kOffCourse * length(bounds.velocity);
-    course.since = now_, course.origin = origin_of(body), course.bounds = bounds;
-    course.generation = world_.bodies()[body].generation;
-}
-
-bool CollisionSchedule::keeps_course(std::uint32_t body) const {
-    const Course& course = courses_[body];
-    const double t = now_ - course.since;
-    const Vec3 expected = course.origin + moved_by(course.bounds, t), is = origin_of(body);
-    return length(is - expected) <= 0.5 * course.bounds.acceleration_bound * t * t +
-                                        kOffCourse * (max_abs(is) + max_abs(expected));
+    const bool known = course.known && course.generation == of.generation &&
+                       keeps_course(course, of, now_) && follows(course, bounds, now_);
+    begin_course(course, of, now_);
+    course.bounds = bounds;
+    course.known = known;
 }
 
 /// The bodies whose pairs' due times have become invalid: bodies with new bounds, off their course,
 /// added or removed.
 std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
-    courses_.resize(world_.bodies().size());
-    swept_.resize(world_.bodies().size());
+    const std::vector<Body>& bodies = world_.bodies();
+    courses_.resize(bodies.size());
+    swept_.resize(bodies.size());
     std::vector<std::uint32_t> strayed;
     for (std::uint32_t body = 0; body < courses_.size(); ++body) {
         Course& course = courses_[body];
         const bool exists = takes_part(body), existed = abut::takes_part(swept_[body]);
         if (!exists && !existed)
             continue;
-        const std::uint32_t generation = world_.bodies()[body].generation;
-        if (course.generation != generation) // a new body, whose motion is not known
-            course = {now_, origin_of(body), {}, generation, false};
-        if (exists && existed && course.known && keeps_course(body))
-            continue;
-        if (exists && !keeps_course(body))
-            course.since = now_, course.origin = origin_of(body);
+        if (exists) {
+            const bool is_new = course.reach < 0 || course.generation != bodies[body].generation;
+            if (is_new) // its motion is not known
+                course = {};
+            const bool keeps = !is_new && keeps_course(course, bodies[body], now_);
+            if (existed && course.known && keeps)
+                continue;
+            if (!keeps)
+                begin_course(course, bodies[body], now_);
+        }
         strayed.push_back(body);
     }
     return strayed;
 }
 
 double CollisionSchedule::chosen_horizon(double step) const {
-    double size = 0, speed = 0;
+    double size = 0, speed = 0, acceleration = 0;
     for (std::uint32_t body = 0; body < courses_.size(); ++body)
         if (takes_part(body)) {
-            const SpeedBounds& bounds = courses_[body].bounds;
-            size += reach_of(body);
-            speed += length(bounds.velocity) + reach_of(body) * bounds.angular_speed;
+            const CourseNow course = course_at(courses_[body], now_);
+            const TurnBounds& turn = course.turn;
+            size += turn.reach;
+            speed += length(course.velocity) + course.speed +
+                     turn.reach * (turn.speed + length(turn.velocity));
+            acceleration += length(course.acceleration) + course.acceleration_bound;
         }
     // A body moves by about its own size until the horizon. Larger swept boxes cost little more,
     // and half the horizon would require two sweeps.
-    return std::max(step, speed > 0 ? 2 * size / speed : 16 * step);
+    const double sum = speed + std::sqrt(speed * speed + 4 * acceleration * size);
+    return sum > 0 ? std::max(step, 4 * size / sum) : kNoCollision;
 }
 
-Box3 CollisionSchedule::swept_box(std::uint32_t body) const {
-    if (!takes_part(body))
-        return {};
-    const Course& course = courses_[body];
-    const SpeedBounds& bounds = course.bounds;
-    const double begin = now_ - course.since, end = horizon_ - course.since;
-    const Vec3 here = moved_by(bounds, begin);
-    const double most = length(bounds.velocity) + length(bounds.acceleration) * end;
-    // The path is a parabola. Between its ends, it deviates from the chord by at most the sagitta.
-    const double span = end - begin, sagitta = length(bounds.acceleration) * span * span / 8;
-    const double by = 0.5 * bounds.acceleration_bound * end * end + sagitta +
-                      std::min(bounds.angular_speed * span, 2.0) * reach_of(body) +
-                      kGapRounding * (most * end + max_abs(origin_of(body)));
-    const Vec3 way = moved_by(bounds, end) - here, margin{by, by, by};
-    const Box3& box = world_.boxes()[body];
-    return {min(box.lower, box.lower + way) - margin, max(box.upper, box.upper + way) + margin};
+void CollisionSchedule::set_swept_box(std::uint32_t body) {
+    const Body& of = world_.bodies()[body];
+    swept_[body] = !takes_part(body) ? Box3{}
+                                     : swept_box(course_at(courses_[body], now_), place_of(of),
+                                                 world_.boxes()[body], horizon_ - now_);
 }
 
 void CollisionSchedule::sweep(const std::vector<std::uint32_t>& strayed, double step) {
@@ -134,121 +111,225 @@ void CollisionSchedule::sweep(const std::vector<std::uint32_t>& strayed, double 
         std::iota(changed.begin(), changed.end(), 0);
     }
     for (const std::uint32_t body : changed)
-        swept_[body] = swept_box(body);
+        set_swept_box(body);
     broad_phase_.update(swept_, changed);
-    carry_over(due_, broad_phase_, -kNever);
+    follow_pairs(now_);
+    if (strayed.empty())
+        return;
     for (const std::uint32_t body : strayed)
         courses_[body].known = false;
-    const std::vector<IndexPair>& pairs = broad_phase_.pairs();
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-        if (due_[k] == -kNever || !courses_[pairs[k].a()].known || !courses_[pairs[k].b()].known)
-            make_due(k, now_);
+    for (const IndexPair bodies : broad_phase_.pairs())
+        if (const Course& a = courses_[bodies.a()], &b = courses_[bodies.b()];
+            !a.known || !b.known) {
+            const std::uint32_t place = place_of_.at(bodies.key());
+            make_due(place, now_);
+            if (a.reshaped || b.reshaped)
+                memories_[place] = {};
+        }
     for (const std::uint32_t body : strayed)
-        courses_[body].known = true;
+        courses_[body].known = true, courses_[body].reshaped = false;
+    forget_outdated();
 }
 
-void CollisionSchedule::make_due(std::size_t pair, double time) {
-    due_[pair] = time;
-    queue_.push({time, broad_phase_.pairs()[pair]});
+/// Follows changes of bodies, bounds and places since the last step.
+void CollisionSchedule::catch_up(double step) {
+    const std::vector<std::uint32_t> strayed = follow_courses();
+    if (!strayed.empty() || now_ >= horizon_)
+        sweep(strayed, step);
 }
 
-/// The pairs that are due or that touched at the last step, sorted, each once.
-std::vector<IndexPair> CollisionSchedule::take_due() {
-    std::vector<IndexPair> due = std::exchange(touching_, {});
-    while (!queue_.empty() && queue_.top().time <= now_) {
-        due.push_back(queue_.top().pair);
-        queue_.pop();
+/// Gives places to the pairs that have begun, which are due at a time, and takes those of pairs that
+/// ended.
+void CollisionSchedule::follow_pairs(double begun_due) {
+    for (const IndexPair bodies : broad_phase_.ended()) {
+        const auto found = place_of_.find(bodies.key());
+        pairs_[found->second] = {}, memories_[found->second] = {};
+        free_pairs_.push_back(found->second);
+        place_of_.erase(found);
     }
-    std::sort(due.begin(), due.end());
-    due.erase(std::unique(due.begin(), due.end()), due.end());
-    return due;
+    for (const IndexPair bodies : broad_phase_.begun()) {
+        if (free_pairs_.empty()) {
+            free_pairs_.push_back(static_cast<std::uint32_t>(pairs_.size()));
+            pairs_.emplace_back(), memories_.emplace_back();
+        }
+        const std::uint32_t place = free_pairs_.back();
+        free_pairs_.pop_back();
+        place_of_[bodies.key()] = place;
+        pairs_[place].bodies = bodies, pairs_[place].alive = true;
+        make_due(place, begun_due);
+    }
 }
 
-// The solution of d = v t + a t^2 / 2, which is t = (sqrt(v^2 + 2 a d) - v) / a, without
-// cancellation.
-double CollisionSchedule::time_to_collision(IndexPair pair, double distance) const {
-    const Course &a = courses_[pair.a()], &b = courses_[pair.b()];
-    const double since_a = now_ - a.since, since_b = now_ - b.since;
-    const Vec3 velocity_a = a.bounds.velocity + since_a * a.bounds.acceleration,
-               velocity_b = b.bounds.velocity + since_b * b.bounds.acceleration;
-    const double v = length(velocity_a - velocity_b) + a.bounds.acceleration_bound * since_a +
-                     b.bounds.acceleration_bound * since_b +
-                     reach_of(pair.a()) * a.bounds.angular_speed +
-                     reach_of(pair.b()) * b.bounds.angular_speed;
-    const double acceleration = length(a.bounds.acceleration - b.bounds.acceleration) +
-                                a.bounds.acceleration_bound + b.bounds.acceleration_bound;
-    const double size = max_abs(origin_of(pair.a())) + max_abs(origin_of(pair.b())) + distance;
-    const double d = distance - kGapRounding * size;
-    if (d <= 0)
-        return 0;
-    const double sum = v + std::sqrt(v * v + 2 * acceleration * d);
-    return sum > 0 ? 2 * d / sum * (1 - kGapRounding) : kNever;
+void CollisionSchedule::make_due(std::uint32_t pair, double time) {
+    pairs_[pair].due = time, pairs_[pair].improved = false;
+    if (time < kNoCollision) {
+        queue_.push_back({time, pair});
+        std::push_heap(queue_.begin(), queue_.end());
+    }
 }
 
-/// 0 for pairs that share a point.
-std::vector<double> CollisionSchedule::distances_of(const std::vector<std::size_t>& pairs,
-                                                    const Progress& progress) const {
+bool CollisionSchedule::is_outdated(const Due& due) const {
+    return !pairs_[due.pair].alive || pairs_[due.pair].due != due.time;
+}
+
+void CollisionSchedule::take_first() {
+    std::pop_heap(queue_.begin(), queue_.end());
+    queue_.pop_back();
+}
+
+/// Removes outdated entries of the queue, if most are.
+void CollisionSchedule::forget_outdated() {
+    if (queue_.size() < 4 * place_of_.size() + 1000)
+        return;
+    std::erase_if(queue_, [&](const Due& due) { return is_outdated(due); });
+    std::make_heap(queue_.begin(), queue_.end());
+}
+
+/// The pairs that are due or that touched at the last step, sorted by their bodies, each once.
+std::vector<std::uint32_t> CollisionSchedule::take_due() {
+    std::vector<std::pair<IndexPair, std::uint32_t>> due;
+    for (const std::uint32_t pair : std::exchange(touching_, {}))
+        if (pairs_[pair].alive)
+            due.emplace_back(pairs_[pair].bodies, pair);
+    const auto touching = static_cast<std::ptrdiff_t>(due.size()); // sorted, as a rule
+    for (; !queue_.empty() && queue_.front().time <= now_; take_first())
+        if (!is_outdated(queue_.front()))
+            due.emplace_back(pairs_[queue_.front().pair].bodies, queue_.front().pair);
+    if (!std::is_sorted(due.begin(), due.begin() + touching))
+        std::sort(due.begin(), due.begin() + touching);
+    std::sort(due.begin() + touching, due.end());
+    std::inplace_merge(due.begin(), due.begin() + touching, due.end());
+    std::vector<std::uint32_t> result;
+    for (const auto& [bodies, pair] : due)
+        if (result.empty() || result.back() != pair)
+            result.push_back(pair);
+    return result;
+}
+
+PairNow CollisionSchedule::pair_now(IndexPair pair) const {
+    const std::uint32_t a = pair.a(), b = pair.b();
+    return {world_.placed(a), world_.placed(b), world_.boxes()[a], world_.boxes()[b],
+            relative_motion(course_at(courses_[a], now_), course_at(courses_[b], now_))};
+}
+
+std::vector<PairEstimate> CollisionSchedule::estimates_of(const std::vector<std::uint32_t>& pairs,
+                                                          double step, const Progress& progress) {
     const StopScope stopping(progress);
     ProgressMeter meter(progress, "distances", pairs.size());
-    std::vector<double> distances(pairs.size());
-    parallel_for(pairs.size(), 8, [&](std::size_t i) {
-        const IndexPair pair = broad_phase_.pairs()[pairs[i]];
-        const PlacedBody a = world_.placed(pair.a()), b = world_.placed(pair.b());
-        PairWarmStart warm_start;
-        distances[i] =
-            touch(a, b, warm_start)
-                ? 0
-                : std::max(gap_between(a, b, kNever, Depths::no, warm_start).distance, 0.0);
+    std::vector<PairEstimate> estimates(pairs.size());
+    parallel_for(pairs.size(), 32, [&](std::size_t i) {
+        const std::uint32_t pair = pairs[i];
+        estimates[i] = estimate(pair_now(pairs_[pair].bodies), memories_[pair], step);
         meter.advance();
     });
-    return distances;
+    return estimates;
 }
 
 std::vector<BodyPair> CollisionSchedule::advance(double time, const Progress& progress) {
-    require(time >= 0 && time < kNever, "time must not be negative, and finite");
+    require(time >= 0 && time < kNoCollision, "time must not be negative, and finite");
     now_ += time;
-    const std::vector<std::uint32_t> strayed = follow_courses();
-    if (!strayed.empty() || now_ >= horizon_)
-        sweep(strayed, time);
-    const std::vector<IndexPair>& pairs = broad_phase_.pairs();
-    std::vector<std::size_t> looked_at;
-    for (const IndexPair pair : take_due()) {
-        const auto k = static_cast<std::size_t>(std::lower_bound(pairs.begin(), pairs.end(), pair) -
-                                                pairs.begin());
-        if (k < pairs.size() && pairs[k] == pair && due_[k] <= now_)
-            looked_at.push_back(k);
-    }
-    std::vector<double> distances;
+    if (time > 0)
+        step_ = time;
+    catch_up(time);
+    const std::vector<std::uint32_t> due = take_due();
+    std::vector<PairEstimate> estimates;
     try {
-        distances = distances_of(looked_at, progress);
+        estimates = estimates_of(due, step_, progress);
     } catch (...) {
         // Nothing is known of these pairs: they are due at the next step.
-        for (const std::size_t k : looked_at)
-            make_due(k, due_[k]);
+        for (const std::uint32_t pair : due)
+            make_due(pair, now_);
         throw;
     }
     std::vector<BodyPair> touching;
-    for (std::size_t i = 0; i < looked_at.size(); ++i) {
-        const IndexPair pair = pairs[looked_at[i]];
-        if (distances[i] > 0) {
-            make_due(looked_at[i], now_ + time_to_collision(pair, distances[i]));
-            continue;
+    for (std::size_t i = 0; i < due.size(); ++i) {
+        Pair& pair = pairs_[due[i]];
+        counters_.distance_queries += estimates[i].measured ? 1 : 0;
+        if (estimates[i].touch) {
+            touching.push_back(world_.ids_of(pair.bodies));
+            touching_.push_back(due[i]);
+            pair.due = now_;
+        } else {
+            make_due(due[i], time_after(now_, estimates[i].free));
         }
-        touching.push_back(world_.ids_of(pair));
-        touching_.push_back(pair);
-        due_[looked_at[i]] = now_;
     }
     ++counters_.steps;
     counters_.pairs += world_.size() * (world_.size() - 1) / 2;
-    counters_.distance_queries += looked_at.size();
+    counters_.estimates += due.size();
     return touching;
 }
 
-double CollisionSchedule::next_event() const {
-    double first = horizon_;
-    if (!queue_.empty())
-        first = std::min(first, queue_.top().time);
-    return std::max(first - now_, 0.0);
+void CollisionSchedule::extend_horizon(double horizon) {
+    // Before the old horizon, only the pairs that are known already can meet.
+    const double known_until = std::exchange(horizon_, horizon);
+    for (std::uint32_t body = 0; body < courses_.size(); ++body)
+        set_swept_box(body);
+    broad_phase_.update(swept_);
+    follow_pairs(known_until);
+}
+
+/// The time at which the first pair is due; infinite if there is none.
+double CollisionSchedule::first_due() {
+    while (!queue_.empty() && is_outdated(queue_.front()))
+        take_first();
+    return queue_.empty() ? kNoCollision : queue_.front().time;
+}
+
+/// Measures the pair that is due first, as well as it can be. Returns whether that may have changed
+/// its time. In: there is a first pair.
+bool CollisionSchedule::improve_first() {
+    const std::uint32_t first = queue_.front().pair;
+    Pair& pair = pairs_[first];
+    if (pair.improved)
+        return false;
+    const PairEstimate best = best_estimate(pair_now(pair.bodies), memories_[first]);
+    ++counters_.estimates;
+    counters_.distance_queries += best.measured ? 1 : 0;
+    const double due = pair.due;
+    take_first();
+    memories_[first].touched = best.touch;
+    if (best.touch) // the next step tests it anyway
+        touching_.push_back(first), pair.due = now_;
+    else
+        make_due(first, std::max(due, time_after(now_, best.free)));
+    pair.improved = true;
+    return true;
+}
+
+/// The time until the first event, at most the limit and the time until the horizon.
+double CollisionSchedule::free_until_horizon(double limit) {
+    const double end = std::min(horizon_, now_ + limit);
+    while (first_due() < end && improve_first())
+        poll_stop();
+    return std::clamp(first_due() - now_, 0.0, std::min(horizon_ - now_, limit));
+}
+
+double CollisionSchedule::next_event() {
+    catch_up(step_);
+    return free_until_horizon(kNoCollision);
+}
+
+double CollisionSchedule::time_to_collision(double limit, const Progress& progress) {
+    require_not_negative(limit, "limit of a time to collision");
+    constexpr int kMostSweeps = 30;
+    const StopScope stopping(progress);
+    catch_up(step_);
+    double free = free_until_horizon(limit);
+    for (int i = 0; i < kMostSweeps && free < limit && now_ + free >= horizon_; ++i) {
+        const double span = std::max(8 * (horizon_ - now_), step_);
+        extend_horizon(std::min(now_ + span, now_ + limit));
+        free = free_until_horizon(limit);
+    }
+    return free;
+}
+
+double CollisionSchedule::time_to_collision(std::uint32_t a, std::uint32_t b) {
+    catch_up(step_);
+    const IndexPair bodies(a, b);
+    if (!takes_part(a) || !takes_part(b) || !world_.may_meet(bodies.a(), bodies.b()))
+        return kNoCollision;
+    PairMemory memory; // the answer does not depend on earlier ones
+    return best_estimate(pair_now(bodies), memory).free;
 }
 
 } // namespace abut

@@ -3,10 +3,11 @@
 #include <abut/world.h>
 
 #include "world/narrow_phase/world_data.h"
+#include "world/schedule/course.h"
+#include "world/schedule/pair_estimate.h"
 
 #include <cstdint>
-#include <limits>
-#include <queue>
+#include <unordered_map>
 #include <vector>
 
 namespace abut {
@@ -25,51 +26,63 @@ public:
     /// changed.
     void forget() { broad_phase_.forget(), horizon_ = -1; }
     std::vector<BodyPair> advance(double time, const Progress& progress);
-    [[nodiscard]] double next_event() const;
+    /// As World::next_event. It improves the estimates that come first.
+    double next_event();
+    /// As World::time_to_collision.
+    double time_to_collision(double limit, const Progress& progress);
+    double time_to_collision(std::uint32_t a, std::uint32_t b);
     [[nodiscard]] const ScheduleCounters& counters() const { return counters_; }
 
 private:
-    /// The known motion of a body.
-    struct Course {
-        double since = 0; ///< time to which the other members refer
-        Vec3 origin;
-        SpeedBounds bounds;
-        std::uint32_t generation = 0;
-        bool known = false; ///< false: its pairs must be tested
+    /// A pair of overlapping swept boxes, or a free place for one.
+    struct Pair {
+        IndexPair bodies;
+        double due = 0;
+        bool alive = false;
+        bool improved = false; ///< `due` is the best that can be proven at the last step
     };
+    /// Outdated if the pair has another due time.
     struct Due {
         double time = 0;
-        IndexPair pair;
-        bool operator<(const Due& other) const { // the earliest pair comes first
-            return time != other.time ? time > other.time : other.pair < pair;
-        }
+        std::uint32_t pair = 0;
+        bool operator<(const Due& other) const { return time > other.time; } // the earliest first
     };
 
-    [[nodiscard]] Vec3 origin_of(std::uint32_t body) const;
     [[nodiscard]] bool takes_part(std::uint32_t body) const;
-    [[nodiscard]] bool keeps_course(std::uint32_t body) const;
-    [[nodiscard]] Box3 swept_box(std::uint32_t body) const;
     [[nodiscard]] double chosen_horizon(double step) const;
-    [[nodiscard]] double reach_of(std::uint32_t body) const;
-    [[nodiscard]] double time_to_collision(IndexPair pair, double distance) const;
+    [[nodiscard]] PairNow pair_now(IndexPair pair) const;
 
     std::vector<std::uint32_t> follow_courses();
     void sweep(const std::vector<std::uint32_t>& strayed, double step);
-    std::vector<IndexPair> take_due();
-    void make_due(std::size_t pair, double time);
-    [[nodiscard]] std::vector<double> distances_of(const std::vector<std::size_t>& pairs,
-                                                   const Progress& progress) const;
+    void follow_pairs(double begun_due);
+    std::vector<std::uint32_t> take_due();
+    void make_due(std::uint32_t pair, double time);
+    [[nodiscard]] bool is_outdated(const Due& due) const;
+    void take_first();
+    void forget_outdated();
+    std::vector<PairEstimate> estimates_of(const std::vector<std::uint32_t>& pairs, double step,
+                                           const Progress& progress);
+    void catch_up(double step);
+    void set_swept_box(std::uint32_t body);
+    void extend_horizon(double horizon);
+    double first_due();
+    bool improve_first();
+    double free_until_horizon(double limit);
 
     const WorldData& world_;
     double now_ = 0;
+    double step_ = 0;     ///< length of the last step that took time
     double horizon_ = -1; ///< the swept boxes are valid until this time
     std::vector<Course> courses_;
     std::vector<Box3> swept_;
     BroadPhase broad_phase_;
-    std::vector<double> due_;         ///< one for each pair of the broad phase
-    std::priority_queue<Due> queue_;  ///< may hold outdated times that `due_` no longer has
-    std::vector<IndexPair> touching_; ///< pairs that touched at the last step: always due, and not
-                                      ///< in the queue
+    std::vector<Pair> pairs_;
+    std::vector<PairMemory> memories_;                          ///< one for each of pairs_
+    std::vector<std::uint32_t> free_pairs_;                     ///< free places in pairs_
+    std::unordered_map<std::uint64_t, std::uint32_t> place_of_; ///< in pairs_, by the bodies' key
+    std::vector<Due> queue_;                                    ///< a heap
+    /// Pairs that touched at the last step: always due, and not in the queue.
+    std::vector<std::uint32_t> touching_;
     ScheduleCounters counters_;
 };
 

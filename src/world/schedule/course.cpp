@@ -1,0 +1,148 @@
+#include "world/schedule/course.h"
+
+#include "rigid/shapes/shape_arguments.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+/// How far the caller's rounding may move a body off its course, relative to the coordinates, and
+/// how far it may turn it, in radians.
+constexpr double kOffCourse = 0x1p-48;
+constexpr double kOffTurn = 0x1p-42;
+
+Vec3 origin_of(const Body& body) {
+    const auto& m = body.world_from_body.m;
+    return {m[9], m[10], m[11]};
+}
+
+Vec3 way_after(const Vec3& velocity, const Vec3& acceleration, double t) {
+    return t * velocity + (0.5 * t * t) * acceleration;
+}
+
+/// v, rotated by |turn| radians about turn.
+Vec3 rotated(const Vec3& v, const Vec3& turn) {
+    const double angle = length(turn);
+    if (angle == 0)
+        return v;
+    const Vec3 axis = (1 / angle) * turn;
+    const double s = std::sin(angle), half = std::sin(0.5 * angle);
+    return v + s * cross(axis, v) + (2 * half * half) * cross(axis, cross(axis, v));
+}
+
+/// Whether the body has turned no farther than its course allows. A rotation by an angle x changes
+/// the three columns of a rotation by 2 sqrt(2) sin(x / 2) together, which is at most sqrt(2) x.
+bool keeps_turn(const Course& course, const Body& body, double t) {
+    const SpeedBounds& bounds = course.bounds;
+    const double most =
+        t * (bounds.angular_speed + 0.5 * t * bounds.angular_acceleration) + kOffTurn;
+    const Vec3 turn = t * bounds.angular_velocity;
+    const auto& then = course.linear;
+    const auto& now = body.world_from_body.m;
+    const bool turns = turn != Vec3{};
+    double change_sq = 0;
+    for (std::size_t i = 0; i < 9; i += 3) {
+        Vec3 column{then[i], then[i + 1], then[i + 2]};
+        if (turns)
+            column = rotated(column, turn);
+        change_sq += length_sq(Vec3{now[i], now[i + 1], now[i + 2]} - column);
+    }
+    return change_sq <= 2 * most * most;
+}
+
+} // namespace
+
+void begin_course(Course& course, const Body& body, double now) {
+    const double t = now - course.since;
+    SpeedBounds& bounds = course.bounds;
+    bounds.velocity = bounds.velocity + t * bounds.acceleration;
+    bounds.angular_speed += t * bounds.angular_acceleration;
+    course.reshaped = course.reshaped || course.reach < 0 || course.generation != body.generation ||
+                      course.shape_version != body.shape_version;
+    course.since = now;
+    course.origin = origin_of(body);
+    std::copy_n(body.world_from_body.m.begin(), 9, course.linear.begin());
+    course.reach = reach_from(body.shape, body.own_bounds, {});
+    course.generation = body.generation, course.shape_version = body.shape_version;
+}
+
+bool keeps_course(const Course& course, const Body& body, double now) {
+    const double t = now - course.since;
+    const SpeedBounds& bounds = course.bounds;
+    const Vec3 is = origin_of(body),
+               expected = course.origin + way_after(bounds.velocity, bounds.acceleration, t);
+    const double most =
+        0.5 * bounds.acceleration_bound * t * t + kOffCourse * (max_abs(is) + max_abs(expected));
+    return course.shape_version == body.shape_version && length_sq(is - expected) <= most * most &&
+           keeps_turn(course, body, t);
+}
+
+bool follows(const Course& course, const SpeedBounds& bounds, double now) {
+    const SpeedBounds& old = course.bounds;
+    const double t = now - course.since;
+    const Vec3 off = bounds.velocity - old.velocity - t * old.acceleration;
+    return bounds.acceleration == old.acceleration &&
+           bounds.acceleration_bound <= old.acceleration_bound &&
+           length(off) <= old.acceleration_bound * t + kOffCourse * length(bounds.velocity) &&
+           bounds.angular_velocity == old.angular_velocity &&
+           bounds.angular_speed <= old.angular_speed + t * old.angular_acceleration &&
+           bounds.angular_acceleration <= old.angular_acceleration;
+}
+
+CourseNow course_at(const Course& course, double now) {
+    const double t = now - course.since;
+    const SpeedBounds& bounds = course.bounds;
+    return {bounds.velocity + t * bounds.acceleration,
+            bounds.acceleration,
+            t * bounds.acceleration_bound,
+            bounds.acceleration_bound,
+            {bounds.angular_velocity, bounds.angular_speed + t * bounds.angular_acceleration,
+             bounds.angular_acceleration, course.reach}};
+}
+
+RelativeMotion relative_motion(const CourseNow& a, const CourseNow& b) {
+    const double rounding = kScheduleRounding * (length(a.velocity) + length(b.velocity));
+    return {a.velocity - b.velocity,
+            a.acceleration - b.acceleration,
+            a.speed + b.speed + rounding,
+            a.acceleration_bound + b.acceleration_bound,
+            a.turn,
+            b.turn};
+}
+
+bool is_at_rest(const CourseNow& course) {
+    const TurnBounds& turn = course.turn;
+    return course.velocity == Vec3{} && course.acceleration == Vec3{} && course.speed == 0 &&
+           course.acceleration_bound == 0 && turn.velocity == Vec3{} && turn.speed == 0 &&
+           turn.acceleration == 0;
+}
+
+Box3 swept_box(const CourseNow& course, const Vec3& origin, const Box3& box, double span) {
+    if (is_at_rest(course))
+        return grown(box, kScheduleRounding * (max_abs(origin) + course.turn.reach));
+    const double acceleration = length(course.acceleration);
+    const double most = length(course.velocity) + acceleration * span;
+    // The path is a parabola. Between its ends, it deviates from the chord by at most the sagitta.
+    const double sagitta = acceleration * span * span / 8;
+    const TurnBounds& turn = course.turn;
+    const double angle =
+        span * (length(turn.velocity) + turn.speed + 0.5 * span * turn.acceleration);
+    const double by = span * (course.speed + 0.5 * span * course.acceleration_bound) + sagitta +
+                      kScheduleRounding * (most * span + max_abs(origin) + turn.reach);
+    // A turning body stays within a ball, and each of its points near its place.
+    const double turned = std::min(angle, 2.0) * turn.reach;
+    const Vec3 ball{turn.reach, turn.reach, turn.reach}, near{turned, turned, turned};
+    const Vec3 lower = max(min(box.lower, origin - ball), box.lower - near),
+               upper = min(max(box.upper, origin + ball), box.upper + near);
+    const Vec3 way = way_after(course.velocity, course.acceleration, span), margin{by, by, by};
+    const Box3 swept{min(lower, lower + way) - margin, max(upper, upper + way) + margin};
+    const bool is_box = swept.lower.x <= swept.upper.x && swept.lower.y <= swept.upper.y &&
+                        swept.lower.z <= swept.upper.z;
+    const Vec3 all{kNoCollision, kNoCollision, kNoCollision};
+    return is_box ? swept : Box3{-all, all}; // bounds so large that they overflow
+}
+
+} // namespace abut

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <abut/types.h>
+#include <abut/world.h>
+
+#include "world/narrow_phase/world_data.h"
+#include "world/schedule/closing_time.h"
+
+#include <array>
+#include <cstdint>
+
+namespace abut {
+
+/// The known motion of a body: its bounds, and its place at the time that they refer to.
+struct Course {
+    double since = 0;
+    Vec3 origin;
+    std::array<double, 9> linear{}; ///< of the body's transform
+    SpeedBounds bounds;
+    double reach = -1; ///< no point of the body is farther from its origin; -1: not begun
+    std::uint32_t generation = 0, shape_version = 0;
+    bool known = false;    ///< false: the body's pairs must be tested
+    bool reshaped = false; ///< true: what is remembered of the body's pairs is void
+};
+
+/// Bounds of a body's motion from a later time on, as they follow from its course.
+struct CourseNow {
+    Vec3 velocity, acceleration;
+    double speed = 0; ///< bound of a further velocity
+    double acceleration_bound = 0;
+    TurnBounds turn;
+};
+
+/// Lets the course begin anew at the body's current place. It notices a body with another shape.
+void begin_course(Course& course, const Body& body, double now);
+/// Whether the body is where its course allows it to be. In: same generation.
+bool keeps_course(const Course& course, const Body& body, double now);
+/// Whether bounds that are told now allow no motion that the course does not allow. In: the body
+/// keeps its course.
+bool follows(const Course& course, const SpeedBounds& bounds, double now);
+CourseNow course_at(const Course& course, double now);
+RelativeMotion relative_motion(const CourseNow& a, const CourseNow& b);
+bool is_at_rest(const CourseNow& course);
+/// A box that encloses the body from now until the end, which is now + span. `box` is its current
+/// box.
+Box3 swept_box(const CourseNow& course, const Vec3& origin, const Box3& box, double span);
+
+} // namespace abut

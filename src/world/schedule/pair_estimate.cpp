@@ -1,0 +1,209 @@
+#include "world/schedule/pair_estimate.h"
+
+#include "geometry/triangle_triangle_intersect.h"
+#include "math/transform.h"
+#include "rigid/model/model_data.h"
+#include "rigid/pair/separating_plane.h"
+#include "world/narrow_phase/offset_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+namespace {
+
+/// A measurement pays if it saves at least this many tests for contact.
+constexpr double kMeasureWorth = 4;
+/// Longest pause between two measurements that do not pay, in tests.
+constexpr std::uint8_t kLongestIdle = 31;
+/// Error allowed to the distance of two surfaces.
+constexpr double kCoarse = 0.5;
+
+OffsetSurface surface_now(const BodyShape& shape) {
+    if (const auto* deformable = std::get_if<DeformableShape>(&shape))
+        return {deformable->snapshot->model(), {}, 0};
+    return offset_surface_of(shape);
+}
+
+/// One estimate of a pair.
+class Estimator {
+public:
+    Estimator(const PairNow& pair, PairMemory& memory)
+        : pair_(pair), memory_(memory),
+          size_(max_abs(pair.box_a.lower) + max_abs(pair.box_a.upper) + max_abs(pair.box_b.lower) +
+                max_abs(pair.box_b.upper) + pair.motion.a.reach + pair.motion.b.reach),
+          margin_(kScheduleRounding * size_) {}
+
+    [[nodiscard]] double of_balls() const {
+        const auto &a = pair_.a.world_from_body.m, &b = pair_.b.world_from_body.m;
+        return time_of_balls(pair_.motion, Vec3{a[9], a[10], a[11]} - Vec3{b[9], b[10], b[11]},
+                             size_);
+    }
+
+    /// The bodies meet only when their boxes overlap along all three axes.
+    [[nodiscard]] double of_boxes() const {
+        double latest = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 n{axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+            double gap = component(pair_.box_b.lower, axis) - component(pair_.box_a.upper, axis);
+            const double other =
+                component(pair_.box_a.lower, axis) - component(pair_.box_b.upper, axis);
+            if (other > gap)
+                gap = other, n = -n;
+            if (gap > margin_)
+                latest = std::max(latest, time_along(pair_.motion, n, gap - margin_));
+        }
+        return latest;
+    }
+
+    [[nodiscard]] bool both_solid() const {
+        return is_convex(pair_.a.shape) && is_convex(pair_.b.shape);
+    }
+    /// Whether neither body can lie inside the other without touching it.
+    [[nodiscard]] bool both_surfaces() const {
+        return !is_convex(pair_.a.shape) && !is_convex(pair_.b.shape);
+    }
+
+    double of_solids() {
+        const BodyGap gap =
+            gap_between(pair_.a, pair_.b, kNoCollision, Depths::no, memory_.warm_start);
+        return time_along(pair_.motion, gap.normal, gap.distance - margin_);
+    }
+
+    double of_plane() {
+        const OffsetSurface a = surface_now(pair_.a.shape), b = surface_now(pair_.b.shape);
+        const SeparatingSlab plane =
+            separation(a.surface.data(), compose(pair_.a.world_from_body, a.body_from_surface),
+                       b.surface.data(), compose(pair_.b.world_from_body, b.body_from_surface),
+                       memory_.direction);
+        memory_.direction = plane.normal;
+        return time_along(pair_.motion, plane.normal, plane.gap - a.radius - b.radius - margin_);
+    }
+
+    bool touch() { return abut::touch(pair_.a, pair_.b, memory_.warm_start); }
+
+    /// Whether the triangles that touched at the last test still do. False proves nothing.
+    [[nodiscard]] bool still_touch() const {
+        const auto *a = std::get_if<Model>(&pair_.a.shape), *b = std::get_if<Model>(&pair_.b.shape);
+        const WarmStart& start = memory_.warm_start.surfaces;
+        if (a == nullptr || b == nullptr || !start.used ||
+            start.last.a >= a->mesh().triangles.size() ||
+            start.last.b >= b->mesh().triangles.size())
+            return false;
+        return triangle_triangle_intersect(
+                   a->data().world_triangle(start.last.a, pair_.a.world_from_body),
+                   b->data().world_triangle(start.last.b, pair_.b.world_from_body)) !=
+               TriangleContact::none;
+    }
+
+    /// What is left of the distance that was measured last. As a sees it, no point of b has moved
+    /// farther than its origin and its turn say.
+    [[nodiscard]] double of_known_distance() const {
+        const KnownDistance& known = memory_.known;
+        if (!(known.at_least > margin_))
+            return 0;
+        const Transform now = a_from_b();
+        double turn_sq = 0;
+        for (std::size_t i = 0; i < 9; ++i) {
+            const double d = now.m[i] - known.a_from_b.m[i];
+            turn_sq += d * d;
+        }
+        const auto &to = now.m, &from = known.a_from_b.m;
+        const double way = length(Vec3{to[9] - from[9], to[10] - from[10], to[11] - from[11]});
+        // A difference of two rotations has two equal singular values, and the third is 0.
+        const double turned = std::sqrt(0.5 * turn_sq) * pair_.motion.b.reach;
+        return time_from_distance(pair_.motion, known.at_least - way - turned - 2 * margin_);
+    }
+
+    double of_surfaces(double relative_error) {
+        const OffsetSurface a = surface_now(pair_.a.shape), b = surface_now(pair_.b.shape);
+        DistanceOptions options;
+        options.relative_error = relative_error;
+        options.warm_start = &memory_.warm_start.surfaces;
+        const Gap gap =
+            distance(a.surface, compose(pair_.a.world_from_body, a.body_from_surface), b.surface,
+                     compose(pair_.b.world_from_body, b.body_from_surface), options);
+        memory_.known = {gap.at_least - a.radius - b.radius, a_from_b()};
+        return time_from_distance(pair_.motion, memory_.known.at_least - margin_);
+    }
+
+private:
+    /// Rotations are orthogonal to a few roundings, which the margin covers.
+    [[nodiscard]] Transform a_from_b() const {
+        const Transform &a = pair_.a.world_from_body, &b = pair_.b.world_from_body;
+        Transform result;
+        for (std::size_t i = 0; i < 12; i += 3) {
+            Vec3 column{b.m[i], b.m[i + 1], b.m[i + 2]};
+            if (i == 9)
+                column = column - Vec3{a.m[9], a.m[10], a.m[11]};
+            column = pull_back(a, column);
+            result.m[i] = column.x, result.m[i + 1] = column.y, result.m[i + 2] = column.z;
+        }
+        return result;
+    }
+
+    const PairNow& pair_;
+    PairMemory& memory_;
+    double size_, margin_;
+};
+
+/// Surfaces whose planes do not tell them apart.
+PairEstimate estimate_surfaces(Estimator& estimator, PairMemory& memory, double step) {
+    if (memory.idle > 0) {
+        --memory.idle;
+        return {estimator.touch(), true, 0};
+    }
+    // A distance tells surfaces apart by itself, but not a surface inside of a solid.
+    if (!estimator.both_surfaces() && estimator.touch())
+        return {true, true, 0};
+    const double free = estimator.of_surfaces(kCoarse);
+    if (!(free > 0) && estimator.touch())
+        return {true, true, 0};
+    if (free >= kMeasureWorth * step)
+        memory.idle_next = 0;
+    else
+        memory.idle = memory.idle_next =
+            std::min<std::uint8_t>(kLongestIdle, 2 * memory.idle_next + 1);
+    return {false, true, free};
+}
+
+} // namespace
+
+PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step) {
+    Estimator estimator(pair, memory);
+    if (memory.touched && (estimator.still_touch() || estimator.touch()))
+        return {true, true, 0};
+    memory.touched = false;
+    double free = std::max(estimator.of_balls(), estimator.of_boxes());
+    if (free > 0)
+        return {false, false, free};
+    // A distance that ends soon is used up while another one would not pay.
+    free = estimator.of_known_distance();
+    if (free > step || (free > 0 && memory.idle > 0))
+        return {false, false, free};
+    const bool solids = estimator.both_solid();
+    const double of_plane = solids ? estimator.of_solids() : estimator.of_plane();
+    if (of_plane > 0)
+        return {false, solids, std::max(free, of_plane)};
+    const PairEstimate result = solids ? PairEstimate{estimator.touch(), true, 0}
+                                       : estimate_surfaces(estimator, memory, step);
+    memory.touched = result.touch;
+    return result;
+}
+
+PairEstimate best_estimate(const PairNow& pair, PairMemory& memory) {
+    Estimator estimator(pair, memory);
+    double free = std::max(estimator.of_balls(), estimator.of_boxes());
+    if (free == kNoCollision)
+        return {false, false, free};
+    if (!(free > 0) && estimator.touch())
+        return {true, true, 0};
+    const bool solids = estimator.both_solid();
+    free = std::max(free, solids ? estimator.of_solids() : estimator.of_plane());
+    if (!solids && free < kNoCollision)
+        free = std::max(free, estimator.of_surfaces(0));
+    return {false, true, free};
+}
+
+} // namespace abut
