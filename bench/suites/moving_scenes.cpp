@@ -139,11 +139,10 @@ private:
     std::vector<Mover> bodies_;
 };
 
-/// Chains of rings. Each ring wanders about its place and gets another velocity every quarter of a
-/// second.
+/// Chains of rings. Each ring wanders about its place and gets another velocity after some steps.
 class Chains final : public MovingScene {
 public:
-    explicit Chains(std::uint64_t seed) : random_(seed) {
+    Chains(std::size_t period, std::uint64_t seed) : random_(seed), period_(period) {
         constexpr int kChains = 10, kRings = 20;
         const Model model(torus(1, 0.15, 40, 20));
         for (int chain = 0; chain < kChains; ++chain)
@@ -165,15 +164,15 @@ public:
         }
     }
     void steer() override {
-        constexpr std::size_t kPeriod = 60;
         for (std::size_t i = 0; i < bodies_.size(); ++i)
-            if ((steps_ + 7 * i) % kPeriod == 0 || steps_ == 0) {
+            if ((steps_ + 7 * i) % period_ == 0 || steps_ == 0) {
                 Mover& body = bodies_[i];
                 std::uniform_real_distribution<double> along(-0.1, 0.1);
                 const Vec3 target =
                     sum(homes_[i], {along(random_), along(random_), along(random_)});
-                body.velocity = sum({}, sum(target, body.pose.translation, -1), 4);
-                const double spin = 0.3 * (body.spin.x > 0 ? -1 : 1);
+                const double time = kSceneStep * static_cast<double>(period_);
+                body.velocity = sum({}, sum(target, body.pose.translation, -1), 1 / time);
+                const double spin = 0.075 / time * (body.spin.x > 0 ? -1 : 1);
                 body.spin = {spin, 0, 0};
                 world.set_speed(body.id, {.velocity = body.velocity,
                                           .angular_speed = std::abs(spin) * (1 + 1e-9)});
@@ -182,7 +181,7 @@ public:
 
 private:
     std::mt19937_64 random_;
-    std::size_t steps_ = 0;
+    std::size_t period_, steps_ = 0;
     std::vector<Mover> bodies_;
     std::vector<Vec3> homes_;
 };
@@ -312,7 +311,10 @@ std::vector<NamedScene> moving_scenes(std::uint64_t seed) {
             scenes.push_back(
                 {fmt::format("300 tori in a box of {:.0f}{}", side, spin ? ", spinning" : ""),
                  [=] { return std::make_unique<Tori>(side, spin, seed); }});
-    scenes.push_back({"10 chains of 20 rings", [=] { return std::make_unique<Chains>(seed); }});
+    for (const auto& [period, often] :
+         {std::pair(60, "4 times a second"), std::pair(240, "once a second")})
+        scenes.push_back({fmt::format("10 chains of 20 rings, pushed {}", often),
+                          [=] { return std::make_unique<Chains>(period, seed); }});
     scenes.push_back({"20 gears in a train", [] { return std::make_unique<Gears>(); }});
     scenes.push_back({"robot in its cell", [] { return std::make_unique<RobotCell>(); }});
     return scenes;

@@ -27,6 +27,7 @@ struct RelativeMotion {
     double speed = 0;              ///< bound of a further velocity
     double acceleration_bound = 0; ///< bound of a further acceleration
     TurnBounds a, b;
+    bool prescribed = false; ///< there is nothing further, and the accelerations are equal
 };
 
 /// A time before which a gap between two slabs stays open. No point of a lies beyond the first slab

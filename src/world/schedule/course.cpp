@@ -103,6 +103,11 @@ CourseNow course_at(const Course& course, double now) {
              bounds.angular_acceleration, course.reach}};
 }
 
+bool is_prescribed(const CourseNow& course) {
+    return course.speed == 0 && course.acceleration_bound == 0 && course.turn.speed == 0 &&
+           course.turn.acceleration == 0;
+}
+
 RelativeMotion relative_motion(const CourseNow& a, const CourseNow& b) {
     const double rounding = kScheduleRounding * (length(a.velocity) + length(b.velocity));
     return {a.velocity - b.velocity,
@@ -110,7 +115,8 @@ RelativeMotion relative_motion(const CourseNow& a, const CourseNow& b) {
             a.speed + b.speed + rounding,
             a.acceleration_bound + b.acceleration_bound,
             a.turn,
-            b.turn};
+            b.turn,
+            is_prescribed(a) && is_prescribed(b) && a.acceleration == b.acceleration};
 }
 
 bool is_at_rest(const CourseNow& course) {

@@ -39,6 +39,8 @@ bool keeps_course(const Course& course, const Body& body, double now);
 /// keeps its course.
 bool follows(const Course& course, const SpeedBounds& bounds, double now);
 CourseNow course_at(const Course& course, double now);
+/// Whether the body's motion is known exactly.
+bool is_prescribed(const CourseNow& course);
 RelativeMotion relative_motion(const CourseNow& a, const CourseNow& b);
 bool is_at_rest(const CourseNow& course);
 /// A box that encloses the body from now until the end, which is now + span. `box` is its current

@@ -16,7 +16,7 @@ namespace {
 /// A measurement pays if it saves at least this many tests for contact.
 constexpr double kMeasureWorth = 4;
 /// Longest pause between two measurements that do not pay, in tests.
-constexpr std::uint8_t kLongestIdle = 31;
+constexpr std::uint8_t kLongestIdle = 127;
 /// Error allowed to the distance of two surfaces.
 constexpr double kCoarse = 0.5;
 
@@ -149,7 +149,10 @@ private:
 };
 
 /// Surfaces whose planes do not tell them apart.
-PairEstimate estimate_surfaces(Estimator& estimator, PairMemory& memory, double step) {
+PairEstimate estimate_surfaces(Estimator& estimator, PairMemory& memory, double step,
+                               std::uint8_t first_idle) {
+    if (!memory.measured)
+        memory.measured = true, memory.idle = memory.idle_next = first_idle;
     if (memory.idle > 0) {
         --memory.idle;
         return {estimator.touch(), true, 0};
@@ -160,21 +163,25 @@ PairEstimate estimate_surfaces(Estimator& estimator, PairMemory& memory, double 
     const double free = estimator.of_surfaces(kCoarse);
     if (!(free > 0) && estimator.touch())
         return {true, true, 0};
-    if (free >= kMeasureWorth * step)
-        memory.idle_next = 0;
-    else
-        memory.idle = memory.idle_next =
-            std::min<std::uint8_t>(kLongestIdle, 2 * memory.idle_next + 1);
-    return {false, true, free};
+    const bool pays = free >= kMeasureWorth * step;
+    memory.idle_next = pays ? 0 : std::min<std::uint8_t>(kLongestIdle, 2 * memory.idle_next + 1);
+    memory.idle = memory.idle_next;
+    return {false, true, free, pays ? Measurement::paid : Measurement::wasted};
 }
 
 } // namespace
 
-PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step) {
+PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step,
+                      std::uint8_t first_idle) {
     Estimator estimator(pair, memory);
-    if (memory.touched && (estimator.still_touch() || estimator.touch()))
-        return {true, true, 0};
-    memory.touched = false;
+    if (memory.touched) {
+        if (estimator.still_touch())
+            return {true, true, 0};
+        memory.warm_start.surfaces.used = false; // those triangles need no other test
+        if (estimator.touch())
+            return {true, true, 0};
+        memory.touched = false;
+    }
     double free = std::max(estimator.of_balls(), estimator.of_boxes());
     if (free > 0)
         return {false, false, free};
@@ -187,7 +194,7 @@ PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step) {
     if (of_plane > 0)
         return {false, solids, std::max(free, of_plane)};
     const PairEstimate result = solids ? PairEstimate{estimator.touch(), true, 0}
-                                       : estimate_surfaces(estimator, memory, step);
+                                       : estimate_surfaces(estimator, memory, step, first_idle);
     memory.touched = result.touch;
     return result;
 }

@@ -19,6 +19,7 @@ struct PairMemory {
     KnownDistance known;
     Vec3 direction;             ///< of the last plane between the bodies; zero: none known
     bool touched = false;       ///< at the last test
+    bool measured = false;      ///< whether the distance of the surfaces was ever measured
     std::uint8_t idle = 0;      ///< tests until surfaces are measured again
     std::uint8_t idle_next = 0; ///< the same after the next measurement that does not pay
 };
@@ -30,10 +31,14 @@ struct PairNow { // NOLINT(cppcoreguidelines-pro-type-member-init): an aggregate
     RelativeMotion motion;
 };
 
+/// Whether a distance of surfaces was measured, and saved as much as it cost.
+enum class Measurement : std::uint8_t { none, wasted, paid };
+
 struct PairEstimate {
     bool touch = false;
     bool measured = false; ///< whether surfaces or solids were measured, or tested for contact
     double free = 0;       ///< the bodies cannot begin to touch before this time has passed
+    Measurement measurement = Measurement::none;
 };
 
 /// Tells whether two bodies touch now, and bounds when they may meet. Bounds are tried in the order
@@ -42,8 +47,10 @@ struct PairEstimate {
 /// distance of their surfaces.
 ///
 /// In          step: the time until the next test. A distance of surfaces that hardly ever buys
-///             more than a few steps is replaced by a test for contact.
-PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step);
+///             more than a few steps is replaced by a test for contact; first_idle: so is the first
+///             one of a pair, so often.
+PairEstimate estimate(const PairNow& pair, PairMemory& memory, double step,
+                      std::uint8_t first_idle);
 
 /// As `estimate`, with the latest time that all bounds together prove. It takes an exact distance.
 PairEstimate best_estimate(const PairNow& pair, PairMemory& memory);

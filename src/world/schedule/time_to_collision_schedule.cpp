@@ -5,6 +5,7 @@
 #include "core/progress.h"
 #include "core/stop.h"
 #include "world/broad_phase/box_node.h"
+#include "world/schedule/prescribed_impact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,11 @@ Vec3 place_of(const Body& body) {
     const auto& m = body.world_from_body.m;
     return {m[9], m[10], m[11]};
 }
+
+/// If fewer measurements than this share save their cost, a new pair first gets kFirstIdle tests for
+/// contact.
+constexpr double kWorthTrying = 0.3;
+constexpr std::uint8_t kFirstIdle = 7;
 
 /// The time `wait` after now, rounded down.
 double time_after(double now, double wait) {
@@ -61,6 +67,10 @@ std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
     std::vector<std::uint32_t> strayed;
     for (std::uint32_t body = 0; body < courses_.size(); ++body) {
         Course& course = courses_[body];
+        const Body& at = bodies[body];
+        if (course.known && at.alive && course.generation == at.generation &&
+            keeps_course(course, at, now_))
+            continue; // most bodies
         const bool exists = takes_part(body), existed = abut::takes_part(swept_[body]);
         if (!exists && !existed)
             continue;
@@ -217,12 +227,19 @@ std::vector<PairEstimate> CollisionSchedule::estimates_of(const std::vector<std:
     const StopScope stopping(progress);
     ProgressMeter meter(progress, "distances", pairs.size());
     std::vector<PairEstimate> estimates(pairs.size());
+    const std::uint8_t first_idle = paying_ < kWorthTrying ? kFirstIdle : 0;
     parallel_for(pairs.size(), 32, [&](std::size_t i) {
         const std::uint32_t pair = pairs[i];
-        estimates[i] = estimate(pair_now(pairs_[pair].bodies), memories_[pair], step);
+        estimates[i] = estimate(pair_now(pairs_[pair].bodies), memories_[pair], step, first_idle);
         meter.advance();
     });
     return estimates;
+}
+
+void CollisionSchedule::count_payment(Measurement measurement) {
+    constexpr double kMemory = 0x1p-6; // the last 64 measurements or so count
+    if (measurement != Measurement::none)
+        paying_ += kMemory * ((measurement == Measurement::paid ? 1 : 0) - paying_);
 }
 
 std::vector<BodyPair> CollisionSchedule::advance(double time, const Progress& progress) {
@@ -245,6 +262,7 @@ std::vector<BodyPair> CollisionSchedule::advance(double time, const Progress& pr
     for (std::size_t i = 0; i < due.size(); ++i) {
         Pair& pair = pairs_[due[i]];
         counters_.distance_queries += estimates[i].measured ? 1 : 0;
+        count_payment(estimates[i].measurement);
         if (estimates[i].touch) {
             touching.push_back(world_.ids_of(pair.bodies));
             touching_.push_back(due[i]);
@@ -275,6 +293,20 @@ double CollisionSchedule::first_due() {
     return queue_.empty() ? kNoCollision : queue_.front().time;
 }
 
+/// The best estimate of a pair; with prescribed motions, it looks for the first contact itself, up to
+/// the time `most` and to kFarther times what the bounds prove.
+PairEstimate CollisionSchedule::best_of_pair(IndexPair bodies, PairMemory& memory, double most) {
+    constexpr double kFarther = 1000;
+    const PairNow now = pair_now(bodies);
+    PairEstimate best = best_estimate(now, memory);
+    const Body &a = world_.bodies()[bodies.a()], &b = world_.bodies()[bodies.b()];
+    if (now.motion.prescribed && !best.touch && best.free < most && !is_deformable(a.shape) &&
+        !is_deformable(b.shape))
+        best.free = std::max(best.free, prescribed_free_time(a, b, now.motion,
+                                                             std::min(most, kFarther * best.free)));
+    return best;
+}
+
 /// Measures the pair that is due first, as well as it can be. Returns whether that may have changed
 /// its time. In: there is a first pair.
 bool CollisionSchedule::improve_first() {
@@ -282,7 +314,7 @@ bool CollisionSchedule::improve_first() {
     Pair& pair = pairs_[first];
     if (pair.improved)
         return false;
-    const PairEstimate best = best_estimate(pair_now(pair.bodies), memories_[first]);
+    const PairEstimate best = best_of_pair(pair.bodies, memories_[first], horizon_ - now_);
     ++counters_.estimates;
     counters_.distance_queries += best.measured ? 1 : 0;
     const double due = pair.due;
@@ -329,7 +361,7 @@ double CollisionSchedule::time_to_collision(std::uint32_t a, std::uint32_t b) {
     if (!takes_part(a) || !takes_part(b) || !world_.may_meet(bodies.a(), bodies.b()))
         return kNoCollision;
     PairMemory memory; // the answer does not depend on earlier ones
-    return best_estimate(pair_now(bodies), memory).free;
+    return best_of_pair(bodies, memory, kNoCollision).free;
 }
 
 } // namespace abut

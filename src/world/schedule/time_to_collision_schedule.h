@@ -62,9 +62,11 @@ private:
     void forget_outdated();
     std::vector<PairEstimate> estimates_of(const std::vector<std::uint32_t>& pairs, double step,
                                            const Progress& progress);
+    void count_payment(Measurement measurement);
     void catch_up(double step);
     void set_swept_box(std::uint32_t body);
     void extend_horizon(double horizon);
+    PairEstimate best_of_pair(IndexPair bodies, PairMemory& memory, double most);
     double first_due();
     bool improve_first();
     double free_until_horizon(double limit);
@@ -83,6 +85,7 @@ private:
     std::vector<Due> queue_;                                    ///< a heap
     /// Pairs that touched at the last step: always due, and not in the queue.
     std::vector<std::uint32_t> touching_;
+    double paying_ = 1; ///< share of the late measurements of surfaces that saved their cost
     ScheduleCounters counters_;
 };
 

@@ -120,6 +120,14 @@ public:
         rover.push = random_.direction(), rover.axis = random_.direction();
         world_.set_speed(rover.id, rover.bounds);
     }
+    /// Leaves nothing unknown of the body's motion.
+    void prescribe(Rover& rover) {
+        rover.start = rover.at(now_), rover.since = now_;
+        rover.bounds = {.velocity = random_.in_cube(),
+                        .acceleration = gravity_,
+                        .angular_velocity = 2 * random_.in_cube()};
+        world_.set_speed(rover.id, rover.bounds);
+    }
     void turn_back() {
         for (Rover& rover : rovers)
             if (random_.chance(0.01) ||
@@ -228,6 +236,30 @@ TEST(ScheduleEstimates, NoPairMeetsBeforeItsTimeToCollision) {
     EXPECT_GT(met, apart / 8);
     EXPECT_GT(soon, met / 3); // the estimates are worth something
     EXPECT_GT(never, apart / 50);
+}
+
+TEST(ScheduleEstimates, OfPrescribedMotionsIsTheFirstContact) {
+    Random random(5316);
+    constexpr double kStep = 0.004;
+    int met = 0;
+    for (int round = 0; round < many(200); ++round) {
+        World world;
+        Rovers all(random, world, 2, random.uniform(0.3, 0.6));
+        all.prescribe(all.rovers[0]), all.prescribe(all.rovers[1]);
+        if (!world.advance(0).empty())
+            continue;
+        const double free = world.time_to_collision(all.rovers[0].id, all.rovers[1].id);
+        for (double t = 0; t < 0.5; t += kStep) {
+            all.move_to(t);
+            if (world.collide().empty())
+                continue;
+            EXPECT_LE(free, t) << "round " << round;
+            EXPECT_GE(free, t - kStep - 1e-4) << "round " << round;
+            ++met;
+            break;
+        }
+    }
+    EXPECT_GT(met, many(200) / 8);
 }
 
 TEST(ScheduleEstimates, NothingBeginsToTouchBeforeTheTimeToCollision) {
