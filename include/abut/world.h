@@ -82,11 +82,11 @@ struct BodyImpact {
 /// `angular_velocity`, plus another angular velocity of at most
 /// `angular_speed + angular_acceleration t`. All bounds are 0 if the motion is prescribed.
 struct SpeedBounds {
-    Vec3 velocity, acceleration;
+    Vec3 velocity{}, acceleration{};
     double acceleration_bound = 0;
     double angular_speed = 0;        ///< radians per unit of time
     double angular_acceleration = 0; ///< radians per unit of time, squared
-    Vec3 angular_velocity;           ///< world axis, whose length is in radians per unit of time
+    Vec3 angular_velocity{};         ///< world axis, whose length is in radians per unit of time
 };
 
 /// The work of a world's collision schedule so far.
@@ -227,7 +227,9 @@ public:
     /// time up to which the schedule looks ahead, in which a body moves by about its size. Call it
     /// before the bodies are moved.
     ///
-    /// Cost        an exact distance for each pair that could be the next.
+    /// Accuracy    never later than the next contact; near it if the motions are prescribed.
+    /// Cost        an exact distance for each pair that could be the next; a time of impact if their
+    ///             motions are prescribed.
     [[nodiscard]] double next_event() const;
     /// As `next_event`, however far ahead, but at most `limit`. Infinite if no bodies can ever meet.
     ///

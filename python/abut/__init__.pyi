@@ -876,7 +876,9 @@ class ClashQuery:
     def text(self) -> str:
         """in a canonical form"""
     def matches(self, report: ClashReport, clash: int) -> bool:
-        """Whether a clash of a ClashReport matches."""
+        """Whether a clash of a ClashReport matches. It has no group and no topic; find() knows them."""
+    def find(self, report: ClashReport) -> list[int]:
+        """The indices of the clashes of a ClashReport that match."""
     def empty(self) -> bool:
         """Whether there is no condition."""
     def names(self) -> list[str]:
@@ -1067,6 +1069,18 @@ class ColourBy(IntEnum):
     part = 3
     storey = 4
     clash = 5
+
+class ColourGroup:
+    """A row of the legend of colours."""
+    @property
+    def word(self) -> str:
+        """a type, a file, a storey, a kind, or 'none'"""
+    @property
+    def colour(self) -> Colour:
+        """Colour"""
+    @property
+    def parts(self) -> int:
+        """how many"""
 
 class ContactMode(IntEnum):
     """Whether to stop at the first pair."""
@@ -1412,7 +1426,6 @@ class Depth:
         """Counters"""
     def __bool__(self) -> bool: ...
 
-<<<<<<< HEAD
 class DistanceColours:
     """Colours surfaces by their distance from a part; made by distances_from. Red where it is 0, blue
     at the reach; what is farther keeps its part's colour.
@@ -1457,8 +1470,6 @@ class EdgeFaceIntersection:
     def barycentric(self) -> NDArray[np.float64]:
         """weights in the face"""
 
-=======
->>>>>>> 4edda01a (World: the schedule tries cheap bounds first, remembers a distance, and tells times to collision)
 class ElementaryImpact:
     """Returned by elementary_impact."""
     dtype: np.dtype[Any]
@@ -1684,6 +1695,16 @@ class GraphReport:
         """array of shape (n, 2, 3): ends of some of the edges"""
     @property
     def seconds(self) -> float: ...
+
+class Ground:
+    """A horizontal plane with a grid."""
+    def __init__(self, middle: ArrayLike, reach: float = ...) -> None: ...
+    @property
+    def middle(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def reach(self) -> float:
+        """length from the middle where it has faded"""
 
 class GroupBy(IntEnum):
     """A criterion by which clashes are grouped."""
@@ -2090,6 +2111,22 @@ class ListedGroup:
     def topic(self) -> Topic:
         """Topic; None if nobody has said anything"""
 
+class Mark:
+    """A segment or, if both ends are equal, a dot, drawn over a picture."""
+    def __init__(self, a: ArrayLike, b: ArrayLike, *, colour: Colour = ..., width: float = ...) -> None: ...
+    @property
+    def a(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def b(self) -> NDArray[Any]:
+        """array of shape (3,), world frame"""
+    @property
+    def colour(self) -> Colour:
+        """Colour"""
+    @property
+    def width(self) -> float:
+        """pixels; the diameter of a dot"""
+
 class Matrix:
     """The clashes of a ClashReport by groups of parts."""
     @property
@@ -2379,6 +2416,7 @@ class MotionSample:
 
 class NamedPart:
     """A part by its words."""
+    def __init__(self, file: str, id: str) -> None: ...
     @property
     def file(self) -> str: ...
     @property
@@ -2570,6 +2608,28 @@ class PartAim:
     def part(self) -> str:
         """id or name"""
 
+class PartColouring:
+    """The colours of the parts of a Store or of models."""
+    @property
+    def colours(self) -> list[Colour]:
+        """list of Colour, in the order of View.parts or of models"""
+    @property
+    def groups(self) -> NDArray[np.uint32]:
+        """uint32 array of shape (n,): of each part, its row in legend"""
+    @property
+    def legend(self) -> list[ColourGroup]:
+        """list of ColourGroup, the largest first; of 'type', 'file', 'storey' and 'clash'"""
+
+class PartDistances:
+    """Colours surfaces by their exact distance from a part."""
+    def __init__(self, part: str, reach: float = ...) -> None: ...
+    @property
+    def part(self) -> str:
+        """id or name"""
+    @property
+    def reach(self) -> float:
+        """length up to which surfaces are coloured"""
+
 class PartImpact:
     """When a moving probe first meets a part."""
     dtype: np.dtype[Any]
@@ -2644,6 +2704,21 @@ class PartSelector:
     def query(self) -> PartQuery:
         """PartQuery"""
 
+class PartState:
+    """How a Renderer draws a part."""
+    def __init__(self, colour: Colour = ..., *, hidden: bool = ..., ghosted: bool = ..., highlighted: bool = ...) -> None: ...
+    @property
+    def colour(self) -> Colour:
+        """Colour; its alpha has no effect"""
+    @property
+    def hidden(self) -> bool: ...
+    @property
+    def ghosted(self) -> bool:
+        """transparent grey, whatever its colour"""
+    @property
+    def highlighted(self) -> bool:
+        """with a bright outline"""
+
 class PartsInWay:
     """Returned by Walk.parts_in_way."""
     @property
@@ -2716,6 +2791,17 @@ class PathReport:
     def clearance(self) -> PathClearance:
         """PathClearance"""
     def __bool__(self) -> bool: ...
+
+class PictureMaker:
+    """Makes several pictures of the same models: a Store, or a Scene or path, or several. The OpenGL
+    context and the list of parts are made once, which is most of the time of a small picture. Only the
+    thread that made it may use it.
+
+    Raises Error: unsupported if EGL or OpenGL 3.3 is not available; those of the files.
+    """
+    def __init__(self, models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, *, progress: _Progress = ...) -> None: ...
+    def make(self, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: PartDistances | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
+        """As picture, with the same result."""
 
 class PiecesContacts:
     """Returned by collide of two ConvexPieces."""
@@ -2934,7 +3020,6 @@ class RemovedModel:
     @property
     def parts(self) -> int: ...
 
-<<<<<<< HEAD
 class RenderStatistics:
     """Work of a Renderer."""
     @property
@@ -3048,8 +3133,6 @@ class Renderer:
     def statistics(self) -> RenderStatistics:
         """RenderStatistics"""
 
-=======
->>>>>>> 4edda01a (World: the schedule tries cheap bounds first, remembers a distance, and tells times to collision)
 class ReportPart:
     """A part by the indices that clashes use."""
     @property
@@ -3356,6 +3439,21 @@ class Side(IntEnum):
     inside = 1
     on_surface = 2
 
+class SidesAim:
+    """Two sets of parts in red and blue, as a Camera sees them; the parts
+    around them are ghosts. No other part is drawn.
+    """
+    def __init__(self, camera: Camera, sides: list[list[NamedPart]], around: list[NamedPart] = ...) -> None: ...
+    @property
+    def camera(self) -> Camera:
+        """Camera; its size is ignored"""
+    @property
+    def sides(self) -> list[list[NamedPart]]:
+        """two lists of NamedPart"""
+    @property
+    def around(self) -> list[NamedPart]:
+        """list of NamedPart"""
+
 class Sphere:
     """A closed ball."""
     def __init__(self, centre: ArrayLike, radius: float) -> None: ...
@@ -3602,6 +3700,9 @@ class TopicMerge:
     @property
     def conflicts(self) -> list[TopicConflict]:
         """list of TopicConflict"""
+    @property
+    def warnings(self) -> list[str]:
+        """places of a BCF file that other programs may read differently"""
 
 class TouchedParts:
     """Returned by Walk.collide."""
@@ -4256,8 +4357,16 @@ def clash_bcf(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene 
     """
 def clash_topic_guid(clash: str) -> str:
     """The GUID of the topic of a clash, by its id."""
+@overload
 def clash_viewpoint(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clash: int, *, fov: float = ..., aspect: float = ..., near: bool = ...) -> ClashViewpoint:
-    """As clash_viewpoints, for one clash."""
+    """As clash_viewpoints, for one clash.
+
+    The best viewpoint of a clash as review_clashes lists it.
+
+    Raises Error: bad_argument if the store lacks a part of the clash, those of the store.
+    """
+@overload
+def clash_viewpoint(store: Store, clash: ListedClash, *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> ClashViewpoint: ...
 def clash_viewpoints(report: ClashReport, models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, clashes: list[list[int]], *, fov: float = ..., aspect: float = ..., near: bool = ..., progress: _Progress = ...) -> list[ClashViewpoint]:
     """The best viewpoint of each list of clashes, by their indices in the report.
 
@@ -4344,6 +4453,19 @@ def distance(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *
 def distance(robot: Robot, configuration: ArrayLike, *, self_pairs: bool = ..., obstacles: RobotObstacles | None = ..., root: bool = ..., upper_bound: float = ..., progress: _Progress = ...) -> Any: ...
 @overload
 def distance(model: Model, pose: _OnePose | ArrayLike, segment: Segment, *, upper_bound: float = ..., absolute_error: float = ..., relative_error: float = ..., max_steps: int | None = ..., progress: _Progress = ...) -> Any: ...
+def distance_colour(fraction: float) -> Colour:
+    """The Colour of a fraction of the reach, in [0, 1]; for a legend."""
+def distances_from(part: int, model: Model, pose: _OnePose | ArrayLike, reach: float, *, grid: int = ...) -> DistanceColours:
+    """The DistanceColours by the exact distance from the surface of a part, which itself keeps its
+    colour.
+
+    part   its number in the renderer
+    model  Model of the part, placed by pose
+    reach  length, positive
+    grid   1: the distance is computed for every pixel
+
+    Raises Error (bad_argument).
+    """
 def duration(tour: Tour) -> float:
     """The time of the last point; 0 if none."""
 def elementary_impact(kind: ElementaryKind | str, start: ArrayLike, end: ArrayLike, *, absolute_error: float = ..., thickness: float = ...) -> ElementaryImpact:
@@ -4507,6 +4629,10 @@ def join_crew() -> Crew | None:
 
     Raises Error (unsupported) if this build has no MPI, or another one than the one that started the process.
     """
+def last_clash_options(store: Store) -> dict[str, Any]:
+    """The options of the last job that finished, as keyword arguments of find_clashes.
+    Raises Error: bad_argument if there is none, or if the store did not keep its rules.
+    """
 def length_of_pixel(camera: Camera) -> float:
     """The length at distance 1 that a pixel covers, in the middle of the picture."""
 def look_at_box(box: Box3, towards: ArrayLike, up: ArrayLike, lens: Camera = ...) -> Camera:
@@ -4555,6 +4681,11 @@ def nearest(model: Model, pose: _OnePose | ArrayLike, points: _Point, *, upper_b
     """
 @overload
 def nearest(model: Model, pose: _OnePose | ArrayLike, points: ArrayLike, *, upper_bound: float = ..., signed_distance: bool = ..., progress: _Progress = ...) -> Any: ...
+def on_screen(camera: Camera, point: ArrayLike) -> NDArray[np.float64] | None:
+    """An array of shape (3,): where a Camera sees a point, in pixels from the top left corner, and
+    the depth along the viewing direction. None if it is not in front of the camera.
+    Raises Error (bad_argument).
+    """
 def open_store(path: _Path, *, read_only: bool = ...) -> Store:
     """Opens a Store. Raises Error: file_not_found, malformed, unsupported (a newer version's), unreadable (another
     process writes it).
@@ -4601,8 +4732,17 @@ def parse_grouping(text: str) -> list[enum]:
     """Criteria of a text such as 'storey,part': a list of GroupBy."""
 def parse_model_path(text: _Path) -> ModelPath:
     """The ModelPath of 'pump.stl:mm' or 'part.obj:mm:y-up'. Raises Error (bad_argument)."""
+@overload
+def part_colouring(store: Store, by: ColourBy | str = ...) -> PartColouring:
+    """The PartColouring of the parts of a Store, or of models, model by model. Raises Error: those of the
+    store; bad_argument for models by 'clash'.
+
+    Of a Scene or path, or several.
+    """
+@overload
+def part_colouring(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, by: ColourBy | str = ...) -> PartColouring: ...
+@overload
 def part_colours(store: Store, by: ColourBy | str = ...) -> list[Colour]:
-<<<<<<< HEAD
     """The list of Colour of a Store's parts, in the order of View.parts, or of some ViewPart. Equal
     words get equal colours in every model.
 
@@ -4616,9 +4756,6 @@ def part_colours(parts: list[ViewPart], by: ColourBy | str = ...) -> list[Colour
 def part_colours(models: Iterable[Scene | _ModelPath] | Scene | _ModelPath, by: ColourBy | str = ...) -> list[Colour]: ...
 def part_transforms(assembly: Assembly, time: float) -> list[NDArray[Any]]:
     """The place of each part at a time: list of matrices of shape (4, 4)."""
-=======
-    """The list of Colour of a Store's parts, in the order of View.parts."""
->>>>>>> 4edda01a (World: the schedule tries cheap bounds first, remembers a distance, and tells times to collision)
 def peak_resident_mib() -> float:
     """The largest resident memory of this process, or of an ended child if larger, in MiB."""
 @overload
@@ -4647,24 +4784,30 @@ def penetration(a: Convex, pose_a: _Poses, b: Convex, pose_b: _Poses, *, warm_st
 def penetration(a: ConvexPieces, pose_a: _OnePose, b: ConvexPieces, pose_b: _OnePose, *, separation: bool = ..., progress: _Progress = ...) -> PiecesDepth: ...
 @overload
 def penetration(a: ConvexPieces, pose_a: _Poses, b: ConvexPieces, pose_b: _Poses, *, separation: bool = ..., progress: _Progress = ...) -> Any: ...
-def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
+def picture(models: Store | Iterable[Scene | _ModelPath] | Scene | _ModelPath, aim: NamedView | str | Camera | PartAim | PairAim | SidesAim | Clash = ..., *, width: int = ..., height: int = ..., colour_by: ColourBy | str = ..., samples: int = ..., edges: bool = ..., ambient_occlusion: bool = ..., ground: bool = ..., sections: list[SectionPlane] = ..., section_box: Box3 | None = ..., distances: PartDistances | None = ..., progress: _Progress = ...) -> NDArray[np.uint8]:
     """Draws models at full detail, without a window.
 
     models             a Store, or a Scene or path, or several
-    aim                NamedView or its name, Camera, PartAim, PairAim, or a Clash of these models
+    aim                NamedView or its name, Camera, PartAim, PairAim, SidesAim, or a
+                       Clash of these models
     width, height      pixels, at most 8192
-    colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or 'clash'
+    colour_by          ColourBy: 'material', 'type', 'file', 'part', 'storey' or, of a Store, 'clash'
     samples            along each side of a pixel: 1, 2 or 4
     edges              dark lines at silhouettes and creases
     ambient_occlusion  darker corners
     ground             a grid below the model
     sections           at most 6 SectionPlane
     section_box        Box3: what lies outside is cut away
+    distances          PartDistances: surfaces are coloured by their distance from a part
     progress           function of (stage, fraction)
 
     Returns a uint8 array of shape (height, width, 3): red, green, blue, rows from the top.
     Raises Error: unsupported if EGL or OpenGL 3.3 is not available; bad_argument if no part or
     several have the id; those of the files. KeyboardInterrupt at Ctrl-C.
+    """
+def png_bytes(picture: NDArray[Any]) -> bytes:
+    """The bytes of a PNG file of an array of shape (height, width, 3), uint8. Raises Error (bad_argument)
+    if it has no pixels.
     """
 def propose_allowed_pairs(robot: Robot, *, samples: int = ..., seed: int = ..., progress: _Progress = ...) -> list[AllowedPair]:
     """Proposes the pairs of links that need no test. Returns a list of AllowedPair."""
@@ -4854,6 +4997,8 @@ def topics_revision(store: Store) -> int:
     """The number of the last change of topics."""
 def turn_up(scene: Scene, up: UpAxis | str) -> None:
     """Turns a scene by quarter turns, so that this axis points up."""
+def untouched_topics(store: Store) -> list[Topic]:
+    """The topics of a store's groups and clashes, also of resolved ones, before anybody says anything about them."""
 def update_bcf(earlier: BcfFile, later: BcfFile) -> BcfFile:
     """Updates a BcfFile by a later export; what people have changed in it stays."""
 def variables_of(type: str) -> int:
