@@ -28,12 +28,13 @@ async function take(name, { width, height, scheme = 'light', hash = '' }, act = 
   await page.close();
 }
 
+const HARD = '#kind=hard&group=part';
 const openHard = async (page) => {
-  for (let k = 0; k < 3; ++k)
-    await page.keyboard.press('n'); // opens the first group on its way
+  for (let k = 0; k < 6; ++k)
+    await page.keyboard.press('n'); // opens groups on its way
   await page.waitForFunction(() => abutReport.view.inspect().subject?.startsWith('clash'));
 };
-await take('report.png', { width: 1280, height: 800 }, openHard);
+await take('report.png', { width: 1280, height: 800, hash: HARD }, openHard);
 await take('report-plan.png', { width: 1280, height: 800, hash: '#view=plan' });
-await take('report-phone.png', { width: 390, height: 844 }, openHard);
+await take('report-phone.png', { width: 390, height: 844, hash: HARD }, openHard);
 await browser.close();
