@@ -62,7 +62,7 @@ struct NotDrawn {
     const std::vector<bool>* hidden = nullptr; ///< by part; of instances only
     const OcclusionBuffer* occlusion = nullptr;
     /// If given, whether a chunk can be drawn. Then no item is replaced by chunks that cannot.
-    std::function<bool(std::uint32_t chunk)> is_there;
+    std::function<bool(std::uint32_t chunk)> is_there{};
 };
 
 /// An item that was visited: it is drawn, or replaced by others.
