@@ -8,6 +8,7 @@
 #include "peers/peer_fcl.h"
 #include "suite.h"
 #include "suites/clash_scene.h"
+#include "suites/hard_pair_rows.h"
 
 #include <algorithm>
 #include <atomic>
@@ -31,8 +32,9 @@ struct ClashSuiteOptions {
     std::string part_file;   ///< empty: the bent pipe
     double clearance = 0.05; ///< in diagonals of the part
     int rounds = 5;
-    int threads = 2;        ///< of the rows that use more than one
-    double job_limit = 120; ///< seconds after which the whole job is stopped
+    int threads = 2;                ///< of the rows that use more than one
+    double job_limit = 120;         ///< seconds after which the whole job is stopped
+    std::vector<std::string> files; ///< if given: only the hard pairs between these models
 };
 
 constexpr std::size_t kBatch = 2048; ///< candidates that one side processes before the other's turn
@@ -269,6 +271,12 @@ private:
 /// Measures intersection and clearance of all candidate pairs against FCL, then the whole clash
 /// job.
 Report run_clash_suite(const ClashSuiteOptions& options) {
+    if (!options.files.empty()) {
+        Report report;
+        report.suite = "clash";
+        add_hard_pair_rows(options.files, options.rounds, report);
+        return report;
+    }
     return ClashSuite(options).run();
 }
 
@@ -286,6 +294,9 @@ const Suite kClashSuite(
         suite.add_option("--seed", options->scene.seed, "Of jitter and rotations");
         suite.add_option("--part", options->part_file,
                          "Model file to use instead of the bent pipe");
+        suite.add_option("--files", options->files,
+                         "Measure only the hard pairs between these model files: their depths and "
+                         "volumes against the bare questions");
         suite.add_option("--clearance", options->clearance, "In diagonals of the part")
             ->check(CLI::PositiveNumber);
         add_rounds(suite, options->rounds);

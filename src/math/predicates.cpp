@@ -64,6 +64,11 @@ int orient2d_integer(const Scaled<6>& s) {
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                    bool direction = false) {
     ++t_exact_signs;
+    // Faces of buildings lie in planes along the axes: points with a coordinate in common.
+    if (!direction &&
+        ((a.x == b.x && a.x == c.x && a.x == d.x) || (a.y == b.y && a.y == c.y && a.y == d.y) ||
+         (a.z == b.z && a.z == c.z && a.z == d.z)))
+        return 0;
     const Scaled<12> s({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
     // |difference| < 2^(bits + 1), |x| < 2^(2 bits + 3), |det| < 6 * 2^(3 (bits + 1))
     if (s.bits <= 40)

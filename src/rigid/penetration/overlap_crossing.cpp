@@ -67,12 +67,9 @@ private:
     int starts_ = 0, stops_ = 0;
 };
 
-/// Returns whether the line of a segment that crosses a triangle's plane goes through the triangle;
-/// none if it meets an edge.
-std::optional<bool> goes_through(const Vec3& from, const Vec3& to, const Triangle& triangle) {
-    Signs turns{};
-    for (std::size_t j = 0; j < 3; ++j)
-        turns.at(j) = orient3d(from, to, triangle.at(j), triangle.at((j + 1) % 3));
+/// Returns whether a line goes through a triangle whose plane it crosses, by the sides on which it
+/// passes the edges; none if it meets an edge.
+std::optional<bool> goes_through(const Signs& turns) {
     // It misses the triangle if it passes two edges on different sides.
     if (std::ranges::count(turns, 1) > 0 && std::ranges::count(turns, -1) > 0)
         return false;
@@ -81,16 +78,34 @@ std::optional<bool> goes_through(const Vec3& from, const Vec3& to, const Triangl
     return true;
 }
 
-/// Returns whether an edge of a face goes through another one; none if it meets an edge of it.
+/// On which sides the edges of two faces pass each other. The sign of an edge of a and one of b
+/// serves both faces, since orient3d(p, q, r, s) = orient3d(r, s, p, q).
+class EdgeTurns {
+public:
+    EdgeTurns(const Triangle& a, const Triangle& b) : a_(a), b_(b) { turns_.fill(kUnknown); }
+
+    int turn(std::size_t i, std::size_t j) {
+        int& known = turns_.at(3 * i + j);
+        if (known == kUnknown)
+            known = orient3d(a_.at(i), a_.at((i + 1) % 3), b_.at(j), b_.at((j + 1) % 3));
+        return known;
+    }
+    Signs of_edge_of_a(std::size_t i) { return {turn(i, 0), turn(i, 1), turn(i, 2)}; }
+    Signs of_edge_of_b(std::size_t j) { return {turn(0, j), turn(1, j), turn(2, j)}; }
+
+private:
+    static constexpr int kUnknown = 2;
+    const Triangle& a_;
+    const Triangle& b_;
+    std::array<int, 9> turns_{};
+};
+
+/// Returns whether an edge runs from one side of the other face's plane to the other side.
 ///
-/// In          sides: of the face's corners, seen from the other one. None is 0. Edges within one
+/// In          sides: of the face's corners, seen from the other face. None is 0. Edges within one
 ///             side are not tested, because parallel edges are coplanar.
-std::optional<bool> pierces(const Triangle& face, std::size_t edge, const Signs& sides,
-                            const Triangle& other) {
-    const std::size_t next = (edge + 1) % 3;
-    if (sides.at(edge) == sides.at(next))
-        return false;
-    return goes_through(face.at(edge), face.at(next), other);
+bool changes_side(std::size_t edge, const Signs& sides) {
+    return sides.at(edge) != sides.at((edge + 1) % 3);
 }
 
 FaceCrossing degenerate_crossing() {
@@ -111,8 +126,10 @@ FaceCrossing cross_faces(const Triangle& a, const Triangle& b) {
     if (has_zero(of_a) || has_zero(of_b))
         return degenerate_crossing();
     CrossingEnds ends;
+    EdgeTurns turns(a, b);
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto hits_b = pierces(a, i, of_a, b), hits_a = pierces(b, i, of_b, a);
+        const auto hits_b = changes_side(i, of_a) ? goes_through(turns.of_edge_of_a(i)) : false,
+                   hits_a = changes_side(i, of_b) ? goes_through(turns.of_edge_of_b(i)) : false;
         if (!hits_b || !hits_a)
             return degenerate_crossing();
         if (*hits_b)
@@ -128,7 +145,10 @@ std::optional<int> segment_crossing(const Vec3& from, const Vec3& to, const Tria
     const int after = orient3d(triangle[0], triangle[1], triangle[2], to);
     if (before == after && before != 0)
         return 0;
-    const auto through = goes_through(from, to, triangle);
+    Signs turns{};
+    for (std::size_t j = 0; j < 3; ++j)
+        turns.at(j) = orient3d(from, to, triangle.at(j), triangle.at((j + 1) % 3));
+    const auto through = goes_through(turns);
     if (through == false)
         return 0;
     if (!through || before == 0 || after == 0)
