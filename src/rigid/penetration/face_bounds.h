@@ -37,7 +37,7 @@ private:
 
     std::array<std::uint32_t, kMostFaces> slots_{};
     std::uint8_t faces_ = 0, corners_ = 0;
-    std::array<CornerDistances, kMostFaces> distances_; ///< by face, of faces_ x corners_
+    std::array<CornerDistances, kMostFaces> distances_{}; ///< by face, of faces_ x corners_
 };
 
 } // namespace abut

@@ -49,7 +49,7 @@ TEST(PreparedTriangle, same_bits) {
         const int side = orient3d(t[0], t[1], t[2], p);
         ASSERT_EQ(prepared.side(p), side) << i;
         ++dimensions.at(nearest.dimension);
-        ++sides.at(static_cast<std::size_t>(side + 1));
+        ++sides.at(side < 0 ? 0U : side == 0 ? 1U : 2U);
     }
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_GT(dimensions.at(k), many(5'000)) << k;
