@@ -9,8 +9,9 @@ namespace abut::bench {
 /// triangles that intersect.
 Row at_rest_row(const CcdStep& step, int rounds);
 
-/// Rows of a world with one waving cloth of about 40,000 triangles and a small model: a step of the
-/// cloth, and `refresh` with `within`, beside a build of the cloth as a new model.
-void add_refresh_rows(Report& report, int steps);
+/// Adds a row of a world with one waving cloth of about 40,000 triangles and a small model:
+/// `refresh` and `within` after a step of the cloth, beside a build of the cloth as a new model.
+/// Processor time of one thread.
+void add_refresh_row(Report& report, int steps);
 
 } // namespace abut::bench

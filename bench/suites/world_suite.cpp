@@ -121,7 +121,7 @@ public:
         if (options_.only.empty() || options_.only == "flight")
             add_flight_rows(report_, 1000, options_.seed);
         if (options_.only.empty() || options_.only == "deformable")
-            add_refresh_rows(report_, 60);
+            add_refresh_row(report_, 60);
         if (options_.only.empty() || options_.only == "schedule")
             add_schedule_rows(report_, options_.seed);
         set_threads(0);
