@@ -136,7 +136,8 @@ private:
         });
         moving_.rounding = kRoundingShare * std::ranges::max(largest);
         require(options_.tolerance > 8 * moving_.rounding,
-                "the tolerance is below the rounding of the coordinates");
+                "the tolerance is below the rounding of such large coordinates: it must exceed " +
+                    std::to_string(8e3 * moving_.rounding) + " mm");
         std::vector<NearSlice> near;
         for (std::uint32_t s = 0; s < count; ++s)
             for (const IndexPair& pair : pairs[s])
