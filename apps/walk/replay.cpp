@@ -25,6 +25,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kFirstPictures = 2;
+
 /// Processor time of all threads of the process in seconds, OpenGL's threads included.
 double processor_seconds() {
     rusage used{};
@@ -131,6 +133,12 @@ Json draw_first(Session& session, SceneBuffer& scene, const Camera& camera) {
     const ViewFrame& frame = session.view.frame(camera);
     const double selecting = lap.seconds();
     const Drawn drawn = draw_moving(session, scene, camera, frame);
+    // What it hides lets others be finer, which are read too before the path begins.
+    for (int k = 0; k < kFirstPictures; ++k) {
+        (void)session.frame(camera);
+        session.view.wait();
+        (void)draw_moving(session, scene, camera, session.frame(camera));
+    }
     return {{"loading", loading},
             {"selection", selecting},
             {"upload", drawn.uploading},

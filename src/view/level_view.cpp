@@ -21,6 +21,10 @@ constexpr std::uint64_t share_of(std::uint64_t gpu_memory) {
     return gpu_memory - gpu_memory / 8;
 }
 
+/// Chunks are read ahead for errors down to this share of the largest one of a cut. It is less than
+/// what a full cut replaces, as the next cut may have a smaller error.
+constexpr double kPlannedError = 0.35;
+
 /// The share of the memory that occluders may take.
 constexpr std::uint64_t occluder_memory(const ViewOptions& options) {
     return options.memory / 16;
@@ -159,7 +163,7 @@ void LevelView::upload(const CameraMotion& motion) {
     const std::uint64_t others = std::min(most - std::min(most, bytes), loader_.staged_bytes());
     const std::uint64_t room = residency_.make_room(bytes + others, loader_.plan_frame());
     request_.motion = motion;
-    request_.pixel_error = std::max(options_.pixel_error, 0.5 * cut_.error());
+    request_.pixel_error = std::max(options_.pixel_error, kPlannedError * cut_.error());
     request_.frame = frame_number_;
     auto taken = loader_.exchange(first, std::min(others, room - bytes), request_, has_waited_);
     if (!taken)

@@ -11,6 +11,10 @@ namespace abut {
 
 namespace {
 
+/// In a full cut, items with less than this share of the error of the first item that did not fit
+/// stay: what fills the last gaps changes from frame to frame, and shows nothing.
+constexpr double kSmallest = 0.5;
+
 float bounded_float(double value) {
     return static_cast<float>(std::min(value, double{std::numeric_limits<float>::max()}));
 }
@@ -78,6 +82,8 @@ void LevelCut::choose(const ViewPoint& view, const CutLimits& limits, const NotD
         std::pop_heap(heap_.begin(), heap_.end(), is_less);
         const std::uint32_t at = heap_.back();
         heap_.pop_back();
+        if (double{entries_[at].error} < kSmallest * full_at_)
+            break;
         if (!replace(at))
             continue;
         for (std::uint32_t i = 0; i < entries_[at].count; ++i) {
@@ -120,12 +126,20 @@ bool LevelCut::replace(std::uint32_t at) {
         add(parent);
         entries_.resize(first);
         outside_ = outside, occluded_ = occluded;
+        if (full_at_ == 0 && is_almost_full())
+            full_at_ = parent.error;
         return false;
     }
     CutEntry& replaced = entries_[at];
     replaced.is_replaced = true;
     replaced.first = first, replaced.count = count;
     return true;
+}
+
+/// Returns whether a limit is reached but for an eighth.
+bool LevelCut::is_almost_full() const {
+    return triangles_ > limits_.triangles / 8 * 7 || draws_ > limits_.draws / 8 * 7 ||
+           held_bytes_ > limits_.bytes / 8 * 7;
 }
 
 /// Returns whether chunks that are there can show an item.
@@ -206,7 +220,7 @@ void LevelCut::forget() {
     heap_.clear();
     triangles_ = held_bytes_ = outside_ = occluded_ = 0;
     draws_ = 0;
-    error_ = 0;
+    error_ = full_at_ = 0;
 }
 
 std::uint64_t LevelCut::bytes() const {

@@ -79,7 +79,8 @@ struct CutEntry {
 /// The coarsest set of items that covers all that is visible, with errors of at most a number of
 /// pixels, within limits.
 ///
-/// The item with the largest error is replaced first. An item whose children exceed a limit stays.
+/// The item with the largest error is replaced first. An item whose children exceed a limit stays,
+/// and then those with less than half of its error, if a limit is reached but for an eighth.
 /// So the result depends on the camera, the limits and the tree only.
 ///
 /// Cost        O(n log n) of the visited items n, which are those of the cut and their ancestors.
@@ -103,6 +104,7 @@ public:
 private:
     bool replace(std::uint32_t at);
     [[nodiscard]] bool is_there(ViewItem item) const;
+    [[nodiscard]] bool is_almost_full() const;
     void visit(ViewItem item, std::uint32_t planes);
     void push(std::uint32_t at);
     void add(const CutEntry& entry);
@@ -122,6 +124,7 @@ private:
     std::uint64_t triangles_ = 0, held_bytes_ = 0, outside_ = 0, occluded_ = 0;
     std::uint32_t draws_ = 0;
     double error_ = 0;
+    double full_at_ = 0; ///< the error of the first item that did not fit; 0: all did
 };
 
 /// The entries that are drawn while some chunks are missing: the finest set that covers the cut

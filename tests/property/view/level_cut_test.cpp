@@ -335,6 +335,44 @@ TEST(DrawnCut, IsTheFinestCoverOfWhatIsThere) {
     EXPECT_GT(holes, many(1000) / 200);
 }
 
+TEST(LevelCut, DoesNotFillTheLastGapsWithWhatDoesNotShow) {
+    Random random(126);
+    int full = 0, tried = 0;
+    for (int i = 0; i < many(200); ++i) {
+        LevelModelMaker::Options options;
+        options.depth = 5;
+        options.instances = 0;
+        options.most_triangles = 20;
+        const LevelModel model = LevelModelMaker(random, options).make();
+        const CheckedCut checked(
+            model.tree, random_camera(random, model.tree.origin, model.tree.nodes[0].upper[0]));
+        std::uint64_t largest = 0; ///< number of triangles that a replacement adds
+        for (const LevelNode& node : model.tree.nodes) {
+            std::uint64_t finer = 0;
+            for (std::uint32_t k = 0; k < node.children; ++k)
+                finer += model.tree.chunks[model.tree.nodes[node.first_child + k].chunk].triangles;
+            largest = std::max(largest, finer);
+        }
+        CutLimits limits{1e-3};
+        limits.triangles = 8 * largest + static_cast<std::uint64_t>(random.integer(8, 800));
+        LevelCut cut(model.tree);
+        cut.choose(checked.view, limits);
+        // The first item that does not fit is met in a cut that is almost full, and has the largest
+        // error of those that stay.
+        for (const CutEntry& entry : cut.entries()) {
+            const bool is_fine = !checked.items.has_finer(entry.item);
+            if (entry.is_replaced) {
+                ASSERT_GE(entry.error, 0.5 * cut.error() * (1 - 1e-6));
+                tried += cut.error() > limits.pixel_error && entry.error < cut.error() ? 1 : 0;
+            }
+            full +=
+                !entry.is_replaced && !is_fine && double{entry.error} < 0.5 * cut.error() ? 1 : 0;
+        }
+    }
+    EXPECT_GT(full, many(200));
+    EXPECT_GT(tried, many(200) / 10);
+}
+
 TEST(LevelCut, AmongWhatIsThereIsAsFineAsItCanBe) {
     Random random(125);
     int kept = 0, replaced = 0, limited = 0;
