@@ -48,7 +48,7 @@ describe('the building in 3D', () => {
     await open(page);
     await settled(page, null);
     assert.equal((await inspect(page)).dots, truth.clashes.length);
-    assert.ok((await inspect(page)).drawn > 1000);
+    await page.waitForFunction(() => abutReport.view.inspect().drawn > 1000);
     const before = await inspect(page);
     await page.locator('#rows tr').nth(3).click();
     const id = (await hashOf(page)).get('open');

@@ -85,6 +85,7 @@ export class BuildingModel {
 
   /** Tells which passes have something to draw; a look that no part has costs nothing. */
   skipEmptyPasses(used) {
+    this.passes[0].visible = used.solid;
     this.passes[1].visible = this.passes[2].visible = used.shell;
     this.passes[3].visible = this.passes[4].visible = used.ghost;
   }

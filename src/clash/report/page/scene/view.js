@@ -45,10 +45,14 @@ export class BuildingView {
     this.viewpoints = new Map(); // those that have been found, by the key of their subject
     this.searches = new Map(); // promises of them
     this.pending = false;
+    this.model.skipEmptyPasses({ solid: false, ghost: false, shell: false }); // nothing is shown yet
     this.frame(true);
     this.setTheme();
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.setTheme());
-    new ResizeObserver(() => this.resize()).observe(host);
+    new ResizeObserver(() => {
+      if (host.clientWidth !== this.size?.[0] || host.clientHeight !== this.size[1])
+        this.resize();
+    }).observe(host);
     this.resize();
     this.listen();
   }
@@ -284,7 +288,7 @@ export class BuildingView {
   applyLooks(subject, rest) {
     const others = { ghost: LOOK.ghost, hidden: LOOK.hidden, solid: LOOK.solid }[rest];
     const outer = subject?.inside ? this.outerOf(subject) : null;
-    const used = { ghost: others === LOOK.ghost, shell: outer !== null };
+    const used = { solid: subject !== null || rest !== 'ghost', ghost: others === LOOK.ghost, shell: outer !== null };
     const clashing = new Set(subject === null ? this.state.shown.flatMap((i) => [this.report.a[i], this.report.b[i]]) : []);
     this.model.looks.set((part) => {
       if (part === outer)
