@@ -121,8 +121,8 @@ struct RenderStatistics {
     std::uint64_t triangles = 0, draw_calls = 0; ///< of the last picture
     /// Of the last picture: those of chunks that were left out, because others hide them.
     std::uint64_t hidden_triangles = 0;
-    std::uint64_t chunks = 0, bytes = 0;         ///< in vertex and index buffers now
-    std::uint64_t uploaded_bytes = 0;            ///< of all pictures
+    std::uint64_t chunks = 0, bytes = 0; ///< in vertex and index buffers now
+    std::uint64_t uploaded_bytes = 0;    ///< of all pictures
 };
 
 /// Returns where a camera sees a point: pixels from the top left corner, and the depth along the
