@@ -107,11 +107,24 @@ Shape liners(int cylinders) {
     return shape;
 }
 
+/// A text as TOML has it between quotation marks.
+std::string toml_text(const std::string& raw) {
+    std::string text;
+    for (const char c : raw)
+        if (c == '"' || c == '\\')
+            text += std::string("\\") + c;
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+            text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            text += c;
+    return text;
+}
+
 class EngineMaker {
 public:
     EngineMaker(const EngineOptions& options, const std::string& model_file)
         : cylinders_(std::clamp(options.cylinders, 1, 1000)), clashes_(options.clashes),
-          model_(model_file) {
+          model_(toml_text(model_file)) {
         engine_.scene.up = UpAxis::z;
         engine_.assembly = "# An engine: the crank turns twice. Lengths in mm, angles in degrees, "
                            "times in s.\nunit = \"mm\"\nup = \"z\"\n";

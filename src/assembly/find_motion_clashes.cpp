@@ -23,6 +23,50 @@ namespace {
 /// chain of 1,000 joints, and of loops, whose rounding the transmission divides.
 constexpr double kRoundingShare = 1e-11;
 
+/// Rounding of the sine of an angle, as a share of the angle: also of its interpolation.
+constexpr double kMotionAngleShare = 1e-15;
+/// Rounding of a place at rest, as a share of the coordinates of the model and of the place.
+constexpr double kMotionPlaceShare = 1e-14;
+
+/// The values that a motion is computed from. They may be larger than all coordinates of places.
+struct MotionSizes {
+    double length = 0; ///< of origins, pins, slides and poses
+    double angle = 0;  ///< the largest sum of angles along a chain of joints
+};
+
+/// The largest size of a joint's value. For one that follows another joint, the sizes of both terms
+/// are added, because these are rounded.
+double value_size(const Assembly& assembly, const AssemblyJoint& joint) {
+    double size = 0;
+    if (!joint.follow) {
+        for (const double value : joint.keys.values)
+            size = std::max(size, std::abs(value));
+        return size;
+    }
+    for (const double value : assembly.parts[joint.follow->part].joint.keys.values)
+        size = std::max(size, std::abs(joint.follow->ratio * value));
+    return size + std::abs(joint.follow->offset);
+}
+
+MotionSizes motion_sizes(const AssemblyKinematics& kinematics) {
+    const Assembly& assembly = kinematics.assembly();
+    MotionSizes sizes;
+    std::vector<double> angles(assembly.parts.size());
+    for (const std::uint32_t part : kinematics.order()) {
+        const AssemblyPart& p = assembly.parts[part];
+        const double value = value_size(assembly, p.joint);
+        const bool turns = p.joint.type == AssemblyJointType::revolute;
+        angles[part] = (turns ? value : 0) + (p.on ? angles[*p.on] : 0);
+        sizes.angle = std::max(sizes.angle, angles[part]);
+        sizes.length = std::max({sizes.length, max_abs(p.joint.origin), turns ? 0 : value});
+        for (const Pose& pose : p.joint.keys.poses)
+            sizes.length = std::max(sizes.length, max_abs(pose.translation));
+    }
+    for (const AssemblyLoop& loop : assembly.loops)
+        sizes.length = std::max(sizes.length, max_abs(loop.pin));
+    return sizes;
+}
+
 /// A slice in which the swept boxes of two bodies are near.
 struct NearSlice {
     IndexPair pair;
@@ -134,7 +178,7 @@ private:
             });
             meter.advance();
         });
-        moving_.rounding = kRoundingShare * std::ranges::max(largest);
+        moving_.rounding = rounding_of(std::ranges::max(largest));
         require(options_.tolerance > 8 * moving_.rounding,
                 "the tolerance is below the rounding of such large coordinates: it must exceed " +
                     std::to_string(8e3 * moving_.rounding) + " mm");
@@ -144,6 +188,21 @@ private:
                 near.push_back({pair, s});
         parallel_sort(near.begin(), near.end());
         return near;
+    }
+
+    /// In          largest: of the coordinates of all places.
+    [[nodiscard]] double rounding_of(double largest) const {
+        const MotionSizes sizes = motion_sizes(kinematics_);
+        const bool has_loops = !kinematics_.assembly().loops.empty();
+        const double angle = kMotionAngleShare * sizes.angle / (has_loops ? kLeastTransmission : 1);
+        double local = 0;
+        for (const RobotBody& body : moving_.bodies) {
+            const auto& m = body.owner_from_model.m;
+            local = std::max({local, max_abs(body.box.lower), max_abs(body.box.upper),
+                              max_abs(Vec3{m[9], m[10], m[11]})});
+        }
+        return (kRoundingShare + angle) * std::max(largest, sizes.length) +
+               kMotionPlaceShare * local;
     }
 
     void follow_pairs(const std::vector<NearSlice>& near) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace abut {
 
@@ -16,6 +17,8 @@ namespace {
 /// Values at keys may exceed the limits by this: rounding of decimal input.
 constexpr double kLimitTolerance = 1e-9;
 constexpr double kRigidTolerance = 1e-6;
+/// Seconds: keys that are nearer in time would make rates that overflow.
+constexpr double kShortestSpan = 1e-30;
 
 bool has_one_value(AssemblyJointType type) {
     return type == AssemblyJointType::revolute || type == AssemblyJointType::prismatic;
@@ -73,9 +76,9 @@ void AssemblyKinematics::fail(std::uint32_t part, const std::string& what) const
 void AssemblyKinematics::check_part(std::uint32_t part) const {
     const AssemblyPart& p = assembly_.parts[part];
     const AssemblyJoint& joint = p.joint;
-    const auto check = [&](bool condition, const std::string& what) {
+    const auto check = [&](bool condition, std::string_view what) {
         if (!condition)
-            fail(part, what);
+            fail(part, std::string(what));
     };
     check(!p.on || *p.on < size(), "hangs on a part that is out of range");
     check(std::ranges::all_of(p.place.m, is_usable) && is_rigid(p.place),
@@ -94,22 +97,26 @@ void AssemblyKinematics::check_part(std::uint32_t part) const {
           "has keys, but its joint is fixed");
     for (std::size_t k = 0; k < keys.times.size(); ++k) {
         check(is_usable(keys.times[k]), "a time is not finite or is beyond 1e9");
-        check(k == 0 || keys.times[k - 1] < keys.times[k],
-              "its times do not ascend: " + std::to_string(keys.times[k]) + " follows " +
-                  std::to_string(keys.times[k > 0 ? k - 1 : 0]));
+        if (k > 0 && !(keys.times[k] - keys.times[k - 1] >= kShortestSpan))
+            fail(part, "its times do not ascend: " + std::to_string(keys.times[k]) + " follows " +
+                           std::to_string(keys.times[k - 1]));
     }
     for (const Pose& pose : keys.poses)
         check(is_usable(max_abs(pose.translation)) && is_finite(pose.translation),
               "a pose is not finite or is beyond 1e9");
     const auto check_value = [&](double value) {
         check(is_usable(value), "a value is not finite or is beyond 1e9");
-        check(value >= joint.limits.lower - kLimitTolerance &&
-                  value <= joint.limits.upper + kLimitTolerance,
-              "the value " + std::to_string(value) + " (radians or metres) is beyond its limits");
+        if (value < joint.limits.lower - kLimitTolerance ||
+            value > joint.limits.upper + kLimitTolerance)
+            fail(part, "the value " + std::to_string(value) +
+                           " (radians or metres) is beyond its limits");
     };
     std::ranges::for_each(keys.values, check_value);
-    if (!joint.follow)
+    if (!joint.follow) {
+        if (one && keys.values.empty())
+            check_value(0);
         return;
+    }
     check(one && keys.times.empty(), "follows another joint, so it is revolute or prismatic, "
                                      "without keys");
     check(joint.follow->part < size(), "follows a part that is out of range");

@@ -61,10 +61,14 @@ LoopGeometry::Plane LoopGeometry::in_plane(const Vec3& v) const {
 }
 
 LoopState LoopGeometry::solve(const Transform& closer_from_coupler) const {
-    // The crank must stay in the plane of the loop.
+    // The crank must stay in the plane of the loop: neither tilt nor move along the axis.
     if (length(cross(apply_linear(closer_from_coupler, axis_), axis_)) > kPlaneError)
         return {};
     const Vec3 crank = apply(closer_from_coupler, crank_pin_);
+    const Vec3 way_of_crank = crank - crank_pin_;
+    if (!(std::abs(dot(way_of_crank, axis_)) <=
+          kPlaneError * (length(way_of_crank) + coupler_length_)))
+        return {};
     LoopState state;
     Vec3 pin;
     if (slides_) {

@@ -141,12 +141,17 @@ private:
         const double power = std::pow(10, std::floor(std::log10(duration / 5)));
         const double share = duration / 5 / power;
         const double step = power * (share < 2 ? 1 : share < 5 ? 2 : 5);
-        for (double n = std::ceil(report_.start / step); n * step <= report_.end + 1e-9 * duration;
-             ++n)
+        const double first = std::ceil(report_.start / step);
+        constexpr int kMostTicks = 16; // where rounding hides the steps, counting would not end
+        for (int i = 0; i < kMostTicks; ++i) {
+            const double n = first + i;
+            if (!(n * step <= report_.end + 1e-9 * duration))
+                break;
             out_ += fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"18\" "
                                 "y2=\"{1:.0f}\"/><text class=\"tick\" x=\"{0:.1f}\" y=\"13\" "
                                 "text-anchor=\"middle\">{2:.6g} s</text>\n",
                                 at(n * step), height, n * step);
+        }
     }
 
     void add_mark(const char* kind, const MotionInterval& interval, double y,
@@ -162,8 +167,12 @@ private:
         std::string name = part_name(assembly_, clash.a) + " – " + part_name(assembly_, clash.b);
         const std::string title = escaped(name);
         constexpr std::size_t kMostLetters = 38;
-        if (name.size() > kMostLetters)
-            name = name.substr(0, kMostLetters) + "…";
+        if (name.size() > kMostLetters) {
+            std::size_t end = kMostLetters; // not within a letter of several bytes
+            while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U)
+                --end;
+            name = name.substr(0, end) + "…";
+        }
         out_ += fmt::format("<text x=\"0\" y=\"{:.1f}\">{}<title>{}</title></text><rect "
                             "class=\"lane\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\"/>\n",
                             y + 16, escaped(name), title, kLabel, y, kWidth - kLabel - 20, kLane);
@@ -196,6 +205,8 @@ private:
             const MotionClash& clash = report_.clashes[i];
             const bool contact = clash.kind == MotionClashKind::contact;
             const auto& intervals = contact ? clash.contacts : clash.approaches;
+            if (intervals.empty()) // not a result of find_motion_clashes
+                continue;
             out_ += fmt::format(
                 "<tr><td class=\"name\">{} – {}<td{}>{}{}", escaped(part_name(assembly_, clash.a)),
                 escaped(part_name(assembly_, clash.b)), contact ? " class=\"contact\"" : "",
@@ -231,7 +242,8 @@ private:
                     continue;
                 }
                 ++facts.contacts;
-                facts.first = std::min(facts.first, clash.contacts.front().start);
+                if (!clash.contacts.empty())
+                    facts.first = std::min(facts.first, clash.contacts.front().start);
             }
         out_ += "<h2>Parts</h2>\n<div class=\"wide\"><table><tr><th>part<th class=\"num\">meets<th "
                 "class=\"num\">comes near<th class=\"num\">first contact<th class=\"num\">least "

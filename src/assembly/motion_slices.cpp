@@ -24,6 +24,8 @@ constexpr double kLargestTurn = 0.15;
 constexpr double kMostCuts = 200'000;
 /// A slice is halved at most this often because of its loops.
 constexpr int kMostHalvings = 12;
+/// Motions that need more slices because of their loops are refused.
+constexpr std::size_t kMostSlices = 4'000'000;
 
 double distance_from_axis(const Vec3& point, const Vec3& centre, const Vec3& axis) {
     const Vec3 way = point - centre;
@@ -59,7 +61,8 @@ void SliceMotion::bound_loop(std::uint32_t loop) {
     const Way way = walk(crank, frame, pin, 0, {});
     const double least = geometry.least_transmission(
         compose(inverse(place_of(frame)), place_of(crank)), way.speed * half_);
-    if (!(least >= 0.5 * kLeastTransmission)) {
+    // With this bound the loop closes at every time of the slice, so no later stage fails.
+    if (!(least >= kLeastTransmission)) {
         is_bounded_ = false;
         return;
     }
@@ -206,8 +209,10 @@ std::vector<TimeSlice> cut_into_slices(const AssemblyKinematics& kinematics) {
     const std::vector<double>& times = kinematics.key_times();
     require(times.size() > 1, "no joint has two keys, so nothing moves");
     std::vector<TimeSlice> even;
-    for (std::size_t i = 0; i + 1 < times.size(); ++i)
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+        poll_stop();
         cut_evenly(kinematics, times[i], times[i + 1], times.back() - times.front(), even);
+    }
     std::vector<bool> is_needed(kinematics.size());
     for (const AssemblyLoop& loop : kinematics.assembly().loops)
         for (const std::uint32_t need : kinematics.needed_for(loop.coupler, loop.closer))
@@ -223,6 +228,8 @@ std::vector<TimeSlice> cut_into_slices(const AssemblyKinematics& kinematics) {
     for (const TimeSlice& slice : even) {
         poll_stop();
         cut_for_loops(kinematics, motion, parts, slice, 0, slices);
+        require(slices.size() <= kMostSlices,
+                "the loops turn too often for one query: take a shorter time");
     }
     return slices;
 }

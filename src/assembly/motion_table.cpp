@@ -69,7 +69,8 @@ public:
 private:
     struct Column {
         std::uint32_t part = kTime;
-        int element = -1; ///< of a pose; -1: the value of a joint
+        int element = -1;         ///< of a pose; -1: the value of a joint
+        bool begins_pose = false; ///< it is the first column of its pose
     };
 
     [[noreturn]] void fail(const std::string& what) const {
@@ -84,6 +85,9 @@ private:
                 }))
                 fail("the column '" + name + "' comes twice");
             columns_.push_back(column);
+            columns_.back().begins_pose =
+                column.element >= 0 &&
+                std::ranges::count(columns_, column.part, &Column::part) == 1;
         }
         if (std::ranges::find(columns_, kTime, &Column::part) == columns_.end())
             fail("has no column 'time'");
@@ -114,7 +118,7 @@ private:
                 fail("the column '" + name + "' is that of a part whose joint is fixed");
             if (!of.joint.keys.times.empty())
                 fail("the part '" + of.name + "' has keys already");
-            return {part, is_free ? static_cast<int>(element - kPoseColumns.begin()) : -1};
+            return {part, is_free ? static_cast<int>(element - kPoseColumns.begin()) : -1, false};
         }
         fail("the column '" + name +
              "' is neither 'time' nor a joint: parts with one value have "
@@ -147,8 +151,7 @@ private:
             return;
         }
         // The first column of a pose in the file begins a new one.
-        const auto first = std::ranges::find(columns_, column.part, &Column::part);
-        if (first->element == column.element)
+        if (column.begins_pose)
             joint.keys.poses.emplace_back();
         Pose& pose = joint.keys.poses.back();
         const std::array<double*, 3> place{&pose.translation.x, &pose.translation.y,

@@ -47,6 +47,7 @@ PairTimeline::PairTimeline(const MovingBodies& moving, std::uint32_t a, std::uin
     step_ = options.step > 0 ? options.step : 1e-3 * duration;
     SliceMotion motion(moving.kinematics);
     for (const std::uint32_t slice : slices) {
+        poll_stop();
         motion.set(moving.slices[slice], needed_);
         slices_.push_back({moving.slices[slice], motion.relative_speed(a_, b_)});
     }
@@ -89,7 +90,8 @@ PairTimeline::Measured PairTimeline::measure(double time, double far) {
     const double ball_gap = length(centre_b - centre_a) - a_.radius - b_.radius;
     // Rough bounds suffice, unless the gap itself is wanted or the tolerance has become large.
     const bool is_rough = far < kInfinity && steps_ <= options_.max_steps;
-    if (ball_gap > far || (is_rough && ball_gap > level + std::min(a_.radius, b_.radius)))
+    const double rough = std::max(std::min(a_.radius, b_.radius), kFar * options_.tolerance);
+    if (ball_gap > far || (is_rough && ball_gap > level + rough))
         return bound(ball_gap);
     const double hull_gap = abut::distance(a_.hull, place_a_, b_.hull, place_b_).at_least;
     if (hull_gap > far || (is_rough && hull_gap > level + kFar * options_.tolerance))
@@ -116,6 +118,13 @@ double PairTimeline::touch(const PairSlice& slice) const {
     return std::max(options_.tolerance, slice.speed * duration / kCoarseSteps);
 }
 
+double PairTimeline::near_step() const {
+    if (steps_ < options_.max_steps)
+        return step_;
+    const double duration = moving_.slices.back().end - moving_.slices.front().start;
+    return std::max(step_, duration / kCoarseSteps);
+}
+
 void PairTimeline::scan(const PairSlice& slice) {
     const double level = options_.clearance;
     const double end = slice.time.end;
@@ -134,7 +143,7 @@ void PairTimeline::scan(const PairSlice& slice) {
                 return; // free until the end
             step = (at.at_least - level) / slice.speed;
         } else {
-            step = step_;
+            step = near_step();
             if (at.gap > tolerance && slice.speed > 0)
                 step = std::min(step, at.at_least / slice.speed);
         }
@@ -166,6 +175,7 @@ void PairTimeline::note(Level& level, const Measured& at, const PairSlice& slice
 
 double PairTimeline::find_end(Level& level, Measured free, const PairSlice& slice) {
     while (free.time > level.last) {
+        poll_stop();
         const double way = free.at_least - level.gap;
         const double time = slice.speed > 0 ? free.time - way / slice.speed : level.last;
         if (time <= level.last || !(time < free.time))
@@ -229,7 +239,8 @@ void PairTimeline::find_proofs(MotionClash& clash) {
 }
 
 /// Finds the least gap of each approach. Drops those that stay beyond the clearance: the scan looks
-/// for gaps a little above it, so that it misses none below.
+/// for gaps a little above it, so that it misses none below. An approach whose search ended too
+/// early to prove that is kept.
 void PairTimeline::search_approaches() {
     const auto gap_at = [&](double time) {
         const Measured at = measure(time, kInfinity);
@@ -250,11 +261,13 @@ void PairTimeline::search_approaches() {
             before = &sample;
         }
         search.run(options_.tolerance, kLeastGapShare, most);
-        if (search.best().value > options_.clearance)
+        const double at_least = std::min(least_.at_least, search.at_least());
+        least_.at_least = at_least; // a dropped approach counts too
+        if (search.best().value > options_.clearance &&
+            search.at_least() >= (1 - 2 * kLeastGapShare) * options_.clearance - options_.tolerance)
             continue;
         near.seen = search.best().time;
         found.push_back(near);
-        const double at_least = std::min(least_.at_least, search.at_least());
         if (search.best().value < least_.value)
             least_ = search.best();
         least_.at_least = at_least;

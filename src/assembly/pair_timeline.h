@@ -55,6 +55,8 @@ private:
     void place(double time);
     Measured measure(double time, double far);
     [[nodiscard]] double touch(const PairSlice& slice) const;
+    /// The time from one sample to the next where the pair is near or in contact.
+    [[nodiscard]] double near_step() const;
     void scan(const PairSlice& slice);
     void note(const Measured& at, const PairSlice& slice);
     void note(Level& level, const Measured& at, const PairSlice& slice);

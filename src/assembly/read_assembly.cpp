@@ -6,11 +6,12 @@
 #include "assembly/part_models.h"
 #include "clash/rules/settings_file.h"
 #include "clash/rules/settings_reader.h"
+#include "io/file/companion_file.h"
+#include "io/file/fault.h"
 #include "math/vector.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <unordered_map>
 
@@ -277,8 +278,12 @@ private:
     }
 
     [[nodiscard]] std::string table_path() const {
-        const std::filesystem::path folder = std::filesystem::path(path_).parent_path();
-        return (folder / reader_.read_text(root_, "table", "the file")).string();
+        const std::string text = reader_.read_text(root_, "table", "the file");
+        try {
+            return companion_path(path_, text, options_.allow_outside_files);
+        } catch (const Fault& fault) {
+            throw Error(fault.code(), path_, std::string("table: it ") + fault.what());
+        }
     }
 
     const std::string& path_;

@@ -27,10 +27,13 @@ void TimeSearch::run(double absolute_error, double relative_error, std::size_t m
         const Span span = spans_.top();
         const double allowed = std::max(absolute_error, relative_error * std::abs(best_.value));
         const double middle = span.from.time + 0.5 * (span.to.time - span.from.time);
-        if (best_.value - span.at_least <= allowed || !(span.from.time < middle) ||
-            !(middle < span.to.time))
+        if (best_.value - span.at_least <= allowed)
             return;
         spans_.pop();
+        if (!(span.from.time < middle) || !(middle < span.to.time)) {
+            undivided_ = std::min(undivided_, span.at_least);
+            continue;
+        }
         const TimeValue value = measure_(middle);
         add(span.from, value);
         add(value, span.to);
@@ -38,7 +41,8 @@ void TimeSearch::run(double absolute_error, double relative_error, std::size_t m
 }
 
 double TimeSearch::at_least() const {
-    return spans_.empty() ? best_.at_least : std::min(best_.at_least, spans_.top().at_least);
+    const double least = std::min(best_.at_least, undivided_);
+    return spans_.empty() ? least : std::min(least, spans_.top().at_least);
 }
 
 } // namespace abut

@@ -47,6 +47,8 @@ private:
     std::function<TimeValue(double)> measure_;
     std::function<double(double, double)> change_;
     std::priority_queue<Span> spans_;
+    /// The lowest bound of the spans that are too short to be halved.
+    double undivided_ = std::numeric_limits<double>::infinity();
     TimeValue best_{0, std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
 };

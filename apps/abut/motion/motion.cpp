@@ -90,7 +90,7 @@ Subcommand add_motion(CLI::App& root, CommonOptions& common) {
     app->add_flag("--joined", arguments->options.joined,
                   "Also test the pairs that a joint or a loop connects");
     app->add_flag("--allow-outside-files", arguments->read.allow_outside_files,
-                  "Also read models that are not in the assembly's folder");
+                  "Also read models and tables that are not in the assembly's folder");
     app->add_option("--csv", arguments->csv, "Write a row for each contact and approach")
         ->check(not_empty("FILE"));
     app->add_option("--report", arguments->report,

@@ -198,6 +198,8 @@ TEST_F(MotionCommandTest, Faults) {
     refuse("model = \"box.obj:mm\"", "model = \"lid.obj\"",
            {"a.toml", "parts[0] (\"wall\").model", "lid.obj", "does not exist"});
     refuse("model = \"box.obj:mm\"", "model = \"/etc/passwd\"", {"a.toml", "outside"});
+    refuse("unit = \"mm\"", "unit = \"mm\"\ntable = \"/etc/passwd\"",
+           {"a.toml", "table", "outside"});
     refuse("name = \"box\"", "name = \"box\"\non = \"lid\"", {"a.toml", "parts[1]", ".on", "lid"});
     refuse("name = \"box\"", "name = \"box\"\non = \"box\"", {"a.toml", "'box'", "cycle"});
     refuse("axis = [1, 0, 0]", "axis = [0, 0, 0]", {"a.toml", "joint.axis", "length 0"});

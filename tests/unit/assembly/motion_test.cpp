@@ -236,6 +236,40 @@ TEST(MotionClashes, BadAssemblies) {
     expect_bad(bad, "dead point");
 }
 
+TEST(MotionClashes, ACrankThatLeavesThePlaneOfItsLoop) {
+    Assembly assembly = slider_crank({0, 1}, {0, 4 * kPi});
+    assembly.parts.push_back(
+        part("base", {8, 8, 8}, {9, 9, 9}, slide({0, 0, 1}, {0, 1}, {0, 0.5})));
+    assembly.parts[0].on = 3;
+    expect_bad(assembly, "leaves its plane");
+    assembly.parts[2].on = 3; // the slider goes along
+    EXPECT_EQ(find_motion_clashes(assembly).start, 0);
+}
+
+TEST(MotionClashes, AJointWithoutKeysStaysWithinItsLimits) {
+    Assembly assembly = slider_crank({0, 1}, {0, 4 * kPi});
+    assembly.parts.push_back(part("lid", {8, 8, 8}, {9, 9, 9}, turn({}, {}, {})));
+    assembly.parts[3].joint.limits = {1, 2};
+    expect_bad(assembly, "'lid': the value 0");
+}
+
+TEST(MotionClashes, ARoundingThatFarOriginsCauseIsNotHidden) {
+    Assembly assembly;
+    assembly.parts = {part("still", {3, 0, 0}, {4, 1, 1}),
+                      part("arm", {0, 0, 0}, {1, 1, 1}, turn({0, 1e6, 0}, {0, 1}, {0, 1e-5}))};
+    expect_bad(assembly, "the tolerance is below the rounding");
+}
+
+TEST(MotionClashes, ATinyStepBecomesCoarse) {
+    Assembly assembly;
+    assembly.parts = {part("table", {-9, -9, -1}, {9, 9, 0}),
+                      part("block", {0, 0, -0.1}, {1, 1, 1}, slide({1, 0, 0}, {0, 1}, {0, 2}))};
+    const MotionReport report = find_motion_clashes(assembly, {.step = 1e-300, .max_steps = 100});
+    ASSERT_EQ(report.clashes.size(), 1U);
+    EXPECT_EQ(report.clashes[0].contacts.size(), 1U);
+    EXPECT_LT(report.steps, 10'000U);
+}
+
 TEST(TimeSearch, FindsTheLeastValueWithItsBound) {
     // |sin| has rate 1 and a zero at pi, where all values nearby are small.
     const auto measure = [](double time) {
