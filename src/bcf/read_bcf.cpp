@@ -128,8 +128,12 @@ private:
         result_.topics.push_back(std::move(topic));
     }
 
-    /// Comments and viewpoints without a GUID, or with one that another has, get one.
+    /// Comments and viewpoints without a GUID, or with one that another has, get one. Comments
+    /// refer to the viewpoints' new GUIDs.
     void give_guids(BcfTopic& topic, const std::string& entry) {
+        std::map<std::string, std::size_t> viewpoints; // by GUID, as the file has it
+        for (std::size_t i = 0; i < topic.viewpoints.size(); ++i)
+            viewpoints.emplace(topic.viewpoints[i].guid, i);
         const auto check = [&](auto& list, const char* what) {
             std::set<std::string> known;
             for (std::size_t i = 0; i < list.size(); ++i) {
@@ -142,6 +146,15 @@ private:
         };
         check(topic.comments, "comment");
         check(topic.viewpoints, "viewpoint");
+        for (BcfComment& comment : topic.comments) {
+            if (comment.viewpoint.empty() || is_uuid(comment.viewpoint))
+                continue;
+            const auto found = viewpoints.find(comment.viewpoint);
+            if (found == viewpoints.end())
+                warn(entry, "a comment refers to a viewpoint that is not there");
+            comment.viewpoint =
+                found == viewpoints.end() ? std::string() : topic.viewpoints[found->second].guid;
+        }
     }
 
     /// Counts an entry that a viewpoint refers to. Many viewpoints may refer to one large entry,

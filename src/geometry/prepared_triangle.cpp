@@ -15,7 +15,7 @@ PreparedTriangle::PreparedTriangle(const Triangle& t) : corners_(t) {
     other_ = -edges_[(first_ + 2) % 3];
     normal_ = cross(u, other_);
     normal_sq_ = length_sq(normal_);
-    rounding_ = 0x1p-48 * sum_of_sizes(u) * sum_of_sizes(other_);
+    rounding_ = 0x1p-48 * sum_of_sizes(u) * sum_of_sizes(other_) + kTiny;
 }
 
 ClosestPoints PreparedTriangle::nearest(const Vec3& p) const {

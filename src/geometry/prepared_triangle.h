@@ -38,7 +38,8 @@ public:
     }
 
 private:
-    /// Far above what is lost to underflow.
+    /// Far above what a product loses to underflow: in the normal, before a point's height scales
+    /// it, and in the height.
     static constexpr double kTiny = 0x1p-960;
 
     struct Found {

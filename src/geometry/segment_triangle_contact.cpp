@@ -56,7 +56,8 @@ SegmentPoint segment_triangle_point(const Vec3& p, const Vec3& q, const Triangle
     double size = 0;
     for (const Vec3& v : {t[1] - t[0], t[2] - t[0], q - p})
         size = std::max({size, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    const double scale = size > 0 ? std::ldexp(1, -std::ilogb(size)) : 1;
+    // 2^1022 also brings subnormal sizes there; a larger power may overflow.
+    const double scale = size > 0 ? std::ldexp(1, std::min(1022, -std::ilogb(size))) : 1;
     const auto scaled = [&](const Vec3& v) { return scale * (v - t[0]); };
     const Vec3 way = scale * (q - p);
     const auto along = [&](const Vec3& point) {

@@ -18,7 +18,7 @@ const STAR = 0x2a;
 const SPACE = 0x20;
 // The units of an encoded text that must not be cut [ISO 10303-21, 6.4.3]; a run of hexadecimal
 // characters may be.
-const UNIT = /''|\\\\|\\S\\[\s\S]|\\X\\[\s\S]{2}|\\P[\s\S]\\|\\X([24])\\([0-9A-F]*)\\X0\\|[\xc0-\xff][\x80-\xbf]*|[\s\S]/gy;
+const UNIT = /''|\\\\|\\S\\(?:''|[\s\S])|\\X\\[\s\S]{2}|\\P[\s\S]\\|\\X([24])\\([0-9A-F]*)\\X0\\|[\xc0-\xff][\x80-\xbf]*|[\s\S]/gy;
 
 /** Returns the long texts of a file: [position of the first byte, position of the closing quote]. */
 function longTexts(file) {

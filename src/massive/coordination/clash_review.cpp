@@ -159,7 +159,8 @@ ClashOptions last_clash_options(const Store& store) {
         std::optional<JobRow> last;
         if (has_job_tables(database))
             for (JobRow& job : read_jobs(database))
-                if (job.finished != 0)
+                // A job that was interrupted may finish after a job that began later.
+                if (job.finished != 0 && (!last || job.finished >= last->finished))
                     last = std::move(job);
         if (!last)
             throw Error(ErrorCode::bad_argument, database.path(), "no clash job has finished");

@@ -195,6 +195,10 @@ void keep_terms(Database& database, std::int64_t question, const ClashOptions& o
     } catch (const json::type_error&) {
         return; // a text is not UTF-8
     }
+    // A condition of nearly the greatest length can be longer as it is written than as it was given.
+    if (const auto parsed = parse_terms(terms);
+        !parsed || question_hash(*parsed) != question_hash(options))
+        return;
     if (!has_table(database, kTermsTable))
         database.run(kTermsTable.sql);
     Statement(database, "INSERT OR IGNORE INTO question_terms VALUES (?,?)")

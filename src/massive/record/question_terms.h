@@ -10,8 +10,9 @@
 /// as it was written.
 namespace abut {
 
-/// Writes the options of a question, if the store does not have them yet. Options with texts that
-/// are not UTF-8 are not written. The caller holds a transaction.
+/// Writes the options of a question, if the store does not have them yet. Options that could not be
+/// read back are not written: those with texts that are not UTF-8 or with conditions of nearly the
+/// greatest length. The caller holds a transaction.
 void keep_terms(Database& database, std::int64_t question, const ClashOptions& options);
 
 /// Returns the options of a question.

@@ -146,7 +146,7 @@ function showGroupDetail(group) {
     return [...uses].sort((a, b) => b[1] - a[1]).slice(0, 6).map(([value, n]) => `${value || '(none)'} ${wholeNumber.format(n)}`).join(' · ');
   };
   const volume = group.clashes.reduce((sum, i) => sum + (report.volume?.[i] ?? 0), 0);
-  const severities = {};
+  const severities = Object.create(null); // a severity may have any name
   for (const i of group.clashes) {
     const severity = report.severities?.[report.severity[i]] || 'none';
     severities[severity] = (severities[severity] ?? 0) + 1;

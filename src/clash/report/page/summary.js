@@ -22,7 +22,7 @@ const LEFT_OUT = {
 
 /** "12 off in the matrix · 3 connected": the entries that are not 0, the largest first. */
 const countsInWords = (counts, words) => Object.entries(counts ?? {}).filter(([, n]) => n > 0).sort((a, b) => b[1] - a[1])
-  .map(([key, n]) => `${wholeNumber.format(n)} ${words[key] ?? key.replace('_', ' ')}`).join(' · ');
+  .map(([key, n]) => `${wholeNumber.format(n)} ${Object.hasOwn(words, key) ? words[key] : key.replace('_', ' ')}`).join(' · ');
 
 /** Clashes by how their parts belong together. */
 function neighbourCounts() {
