@@ -72,8 +72,8 @@ std::size_t sample_contacts(const Assembly& assembly, std::size_t samples) {
                 met.push_back(pair);
     }
     std::ranges::sort(met, {}, &IndexPair::key);
-    const auto [again, last] = std::ranges::unique(met);
-    return static_cast<std::size_t>(again - met.begin());
+    const auto last = std::unique(met.begin(), met.end());
+    return static_cast<std::size_t>(last - met.begin());
 }
 
 /// Returns the median time that all threads compute.

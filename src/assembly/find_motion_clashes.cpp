@@ -220,7 +220,7 @@ private:
             for (std::size_t i = starts[p]; i < end; ++i)
                 slices.push_back(near[i].slice);
             const IndexPair pair = near[starts[p]].pair;
-            PairTimeline timeline(moving_, pair.a(), pair.b(), std::move(slices), options_);
+            PairTimeline timeline(moving_, pair.a(), pair.b(), slices, options_);
             clashes[p] = timeline.run();
             steps[p] = timeline.steps();
             meter.advance();

@@ -64,7 +64,7 @@ AssemblyKinematics::AssemblyKinematics(const Assembly& assembly)
     for (const auto& [a, b] : assembly.ignored)
         require(a < size() && b < size(), "an ignored pair names a part that is out of range");
     std::ranges::sort(key_times_);
-    key_times_.erase(std::ranges::unique(key_times_).begin(), key_times_.end());
+    key_times_.erase(std::unique(key_times_.begin(), key_times_.end()), key_times_.end());
     sort_parts();
     group_parts();
 }

@@ -39,7 +39,7 @@ constexpr std::size_t kMostSamples = 400; ///< of a result
 } // namespace
 
 PairTimeline::PairTimeline(const MovingBodies& moving, std::uint32_t a, std::uint32_t b,
-                           std::vector<std::uint32_t> slices, const MotionClashOptions& options)
+                           std::span<const std::uint32_t> slices, const MotionClashOptions& options)
     : moving_(moving), a_(moving.bodies[a]), b_(moving.bodies[b]), options_(options),
       needed_(moving.kinematics.needed_for(a_.owner, b_.owner)),
       displacements_(moving.kinematics.size()) {
@@ -64,8 +64,8 @@ std::optional<MotionClash> PairTimeline::run() {
     for (Level* const level : {&contacts_, &approaches_})
         close(*level, slices_.back().time.end);
     std::ranges::sort(samples_, {}, &TimeValue::time);
-    const auto [again, end] = std::ranges::unique(samples_, {}, &TimeValue::time);
-    samples_.erase(again, end);
+    const auto same_time = [](const TimeValue& a, const TimeValue& b) { return a.time == b.time; };
+    samples_.erase(std::unique(samples_.begin(), samples_.end(), same_time), samples_.end());
     search_approaches();
     if (contacts_.found.empty() && approaches_.found.empty())
         return std::nullopt;

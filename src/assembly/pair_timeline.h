@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace abut {
@@ -32,7 +33,7 @@ class PairTimeline {
 public:
     /// In          a, b: indices of bodies. slices: indices, ascending.
     PairTimeline(const MovingBodies& moving, std::uint32_t a, std::uint32_t b,
-                 std::vector<std::uint32_t> slices, const MotionClashOptions& options);
+                 std::span<const std::uint32_t> slices, const MotionClashOptions& options);
 
     /// Returns the clash of the pair, if there is one.
     std::optional<MotionClash> run();
