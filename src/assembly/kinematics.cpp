@@ -17,6 +17,8 @@ namespace {
 /// Values at keys may exceed the limits by this: rounding of decimal input.
 constexpr double kLimitTolerance = 1e-9;
 constexpr double kRigidTolerance = 1e-6;
+/// The squares of a shorter axis would lose digits.
+constexpr double kShortestAxis = 1e-140;
 /// Seconds: keys that are nearer in time would make rates that overflow.
 constexpr double kShortestSpan = 1e-30;
 
@@ -84,7 +86,8 @@ void AssemblyKinematics::check_part(std::uint32_t part) const {
     check(std::ranges::all_of(p.place.m, is_usable) && is_rigid(p.place),
           "its place is not a rigid transform");
     check(is_usable(max_abs(joint.origin)) && is_finite(joint.origin), "its origin is not finite");
-    check(is_finite(joint.axis) && length(joint.axis) > 0 && std::isfinite(length(joint.axis)),
+    check(is_finite(joint.axis) && length(joint.axis) > kShortestAxis &&
+              std::isfinite(length(joint.axis)),
           "its axis has length 0, or is not finite");
     check(joint.limits.lower <= joint.limits.upper, "its limits leave no value");
     const JointKeys& keys = joint.keys;

@@ -254,13 +254,13 @@ void PairTimeline::search_approaches() {
     for (MotionInterval& near : approaches_.found) {
         TimeSearch search(gap_at, change);
         const TimeValue* before = nullptr;
-        for (const TimeValue& sample : samples_) {
-            if (sample.time < near.start || sample.time > near.end)
-                continue;
-            search.add(before == nullptr ? sample : *before, sample);
-            before = &sample;
+        auto sample = std::ranges::lower_bound(samples_, near.start, {}, &TimeValue::time);
+        for (; sample != samples_.end() && sample->time <= near.end; ++sample) {
+            search.add(before == nullptr ? *sample : *before, *sample);
+            before = &*sample;
         }
-        search.run(options_.tolerance, kLeastGapShare, most);
+        if (search.best().value > 0) // no gap is less than 0
+            search.run(options_.tolerance, kLeastGapShare, most);
         const double at_least = std::min(least_.at_least, search.at_least());
         least_.at_least = at_least; // a dropped approach counts too
         if (search.best().value > options_.clearance &&
