@@ -56,10 +56,13 @@ double first_time_within(const Vec3& between, const Vec3& velocity, double radii
     const double square = away * away - (speed - growth) * (speed + growth) * left;
     if (!(left > 0) || !std::isfinite(square))
         return 0;
-    const double rounding = kScheduleRounding * (distance * speed + radii * growth);
+    const double terms = distance * speed + radii * growth, rounding = kScheduleRounding * terms;
     if (square < -rounding * rounding / kScheduleRounding)
         return kNoCollision;
-    const double sum = std::sqrt(std::max(square, 0.0)) - away + rounding;
+    // Where balls graze each other the square cancels, so that its root has a larger error.
+    constexpr double kSquareRounding = 0x1p-47;
+    const double root = std::sqrt(std::max(square, 0.0) + kSquareRounding * terms * terms);
+    const double sum = root - away + rounding;
     return sum > 0 ? left / sum * (1 - kScheduleRounding) : kNoCollision;
 }
 

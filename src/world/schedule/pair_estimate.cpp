@@ -19,6 +19,8 @@ constexpr double kMeasureWorth = 4;
 constexpr std::uint8_t kLongestIdle = 127;
 /// Error allowed to the distance of two surfaces.
 constexpr double kCoarse = 0.5;
+/// Rounding of the witness points of two solids, relative to the coordinates.
+constexpr double kTiltRounding = 0x1p-48;
 
 OffsetSurface surface_now(const BodyShape& shape) {
     if (const auto* deformable = std::get_if<DeformableShape>(&shape))
@@ -68,7 +70,13 @@ public:
     double of_solids() {
         const BodyGap gap =
             gap_between(pair_.a, pair_.b, kNoCollision, Depths::no, memory_.warm_start);
-        return time_along(pair_.motion, gap.normal, gap.distance - margin_);
+        if (!(gap.distance > margin_))
+            return 0;
+        // The witness points are rounded. The shorter their distance, the more that tilts the normal,
+        // and the solids may reach beyond the planes across a tilted normal.
+        const double tilt = kTiltRounding * size_ / gap.distance;
+        return std::max(time_along(pair_.motion, gap.normal, gap.distance - tilt * size_ - margin_),
+                        time_from_distance(pair_.motion, gap.distance - margin_));
     }
 
     double of_plane() {

@@ -297,13 +297,16 @@ double CollisionSchedule::first_due() {
 /// the time `most` and to kFarther times what the bounds prove.
 PairEstimate CollisionSchedule::best_of_pair(IndexPair bodies, PairMemory& memory, double most) {
     constexpr double kFarther = 1000;
+    constexpr double kBeyond =
+        1 + 0x1p-30; // so that rounding does not end the search before `most`
     const PairNow now = pair_now(bodies);
     PairEstimate best = best_estimate(now, memory);
     const Body &a = world_.bodies()[bodies.a()], &b = world_.bodies()[bodies.b()];
     if (now.motion.prescribed && !best.touch && best.free < most && !is_deformable(a.shape) &&
         !is_deformable(b.shape))
-        best.free = std::max(best.free, prescribed_free_time(a, b, now.motion,
-                                                             std::min(most, kFarther * best.free)));
+        best.free = std::max(
+            best.free,
+            prescribed_free_time(a, b, now.motion, std::min(kBeyond * most, kFarther * best.free)));
     return best;
 }
 
@@ -320,11 +323,12 @@ bool CollisionSchedule::improve_first() {
     const double due = pair.due;
     take_first();
     memories_[first].touched = best.touch;
-    if (best.touch) // the next step tests it anyway
-        touching_.push_back(first), pair.due = now_;
+    if (best.touch) // the next step tests it anyway; no entry of the queue has this time
+        touching_.push_back(first), pair.due = kNoCollision;
     else
         make_due(first, std::max(due, time_after(now_, best.free)));
-    pair.improved = true;
+    // A search up to the horizon can go on once that has moved.
+    pair.improved = best.touch || pair.due < horizon_;
     return true;
 }
 
