@@ -33,14 +33,11 @@ Vec3 rotated(const Vec3& v, const Vec3& turn) {
     return v + s * cross(axis, v) + (2 * half * half) * cross(axis, cross(axis, v));
 }
 
-/// Whether the body has turned no farther than its course allows. A rotation by an angle x changes
-/// the three columns of a rotation by 2 sqrt(2) sin(x / 2) together, which is at most sqrt(2) x.
-bool keeps_turn(const Course& course, const Body& body, double t) {
-    const SpeedBounds& bounds = course.bounds;
-    const double most =
-        t * (bounds.angular_speed + 0.5 * t * bounds.angular_acceleration) + kOffTurn;
-    const Vec3 turn = t * bounds.angular_velocity;
-    const auto& then = course.linear;
+/// Whether the body's axes are the earlier ones, turned by `turn` and by at most `most` radians more.
+/// A rotation by an angle x changes the three columns of a rotation by 2 sqrt(2) sin(x / 2) together,
+/// which is at most sqrt(2) x.
+bool keeps_turn(const std::array<double, 9>& then, const Body& body, const Vec3& turn,
+                double most) {
     const auto& now = body.world_from_body.m;
     const bool turns = turn != Vec3{};
     double change_sq = 0;
@@ -53,6 +50,16 @@ bool keeps_turn(const Course& course, const Body& body, double t) {
     return change_sq <= 2 * most * most;
 }
 
+/// How far the body may depart from its known motion in a span of time, and how far it may turn
+/// beside its known turn. Times count from `since`.
+double most_way(const Course& course, double from, double to) {
+    return (to - from) * (course.speed + 0.5 * (from + to) * course.bounds.acceleration_bound);
+}
+double most_turn(const Course& course, double from, double to) {
+    return (to - from) *
+           (course.bounds.angular_speed + 0.5 * (from + to) * course.bounds.angular_acceleration);
+}
+
 } // namespace
 
 void begin_course(Course& course, const Body& body, double now) {
@@ -60,24 +67,38 @@ void begin_course(Course& course, const Body& body, double now) {
     SpeedBounds& bounds = course.bounds;
     bounds.velocity = bounds.velocity + t * bounds.acceleration;
     bounds.angular_speed += t * bounds.angular_acceleration;
+    course.speed += t * bounds.acceleration_bound;
     course.reshaped = course.reshaped || course.reach < 0 || course.generation != body.generation ||
                       course.shape_version != body.shape_version;
+    note_place(course, body, now);
     course.since = now;
-    course.origin = origin_of(body);
-    std::copy_n(body.world_from_body.m.begin(), 9, course.linear.begin());
+    course.origin = course.seen_origin, course.linear = course.seen_linear;
     course.reach = reach_from(body.shape, body.own_bounds, {});
     course.generation = body.generation, course.shape_version = body.shape_version;
 }
 
 bool keeps_course(const Course& course, const Body& body, double now) {
-    const double t = now - course.since;
+    const double t = now - course.since, seen = course.seen - course.since;
     const SpeedBounds& bounds = course.bounds;
-    const Vec3 is = origin_of(body),
-               expected = course.origin + way_after(bounds.velocity, bounds.acceleration, t);
-    const double most =
-        0.5 * bounds.acceleration_bound * t * t + kOffCourse * (max_abs(is) + max_abs(expected));
+    const Vec3 is = origin_of(body), &was = course.seen_origin,
+               expected = course.origin + way_after(bounds.velocity, bounds.acceleration, t),
+               before = course.origin + way_after(bounds.velocity, bounds.acceleration, seen);
+    const double rounding = kOffCourse * (max_abs(is) + max_abs(expected)),
+                 earlier = kOffCourse * (max_abs(was) + max_abs(before));
+    const double most = most_way(course, 0, t) + rounding,
+                 most_step = most_way(course, seen, t) + rounding + earlier;
     return course.shape_version == body.shape_version && length_sq(is - expected) <= most * most &&
-           keeps_turn(course, body, t);
+           length_sq((is - was) - (expected - before)) <= most_step * most_step &&
+           keeps_turn(course.linear, body, t * bounds.angular_velocity,
+                      most_turn(course, 0, t) + kOffTurn) &&
+           keeps_turn(course.seen_linear, body, (t - seen) * bounds.angular_velocity,
+                      most_turn(course, seen, t) + 2 * kOffTurn);
+}
+
+void note_place(Course& course, const Body& body, double now) {
+    course.seen = now;
+    course.seen_origin = origin_of(body);
+    std::copy_n(body.world_from_body.m.begin(), 9, course.seen_linear.begin());
 }
 
 bool follows(const Course& course, const SpeedBounds& bounds, double now) {
@@ -86,10 +107,17 @@ bool follows(const Course& course, const SpeedBounds& bounds, double now) {
     const Vec3 off = bounds.velocity - old.velocity - t * old.acceleration;
     return bounds.acceleration == old.acceleration &&
            bounds.acceleration_bound <= old.acceleration_bound &&
-           length(off) <= old.acceleration_bound * t + kOffCourse * length(bounds.velocity) &&
+           length(off) <=
+               course.speed + old.acceleration_bound * t + kOffCourse * length(bounds.velocity) &&
            bounds.angular_velocity == old.angular_velocity &&
            bounds.angular_speed <= old.angular_speed + t * old.angular_acceleration &&
            bounds.angular_acceleration <= old.angular_acceleration;
+}
+
+bool repeats(const Course& course, const SpeedBounds& bounds) {
+    const SpeedBounds& old = course.bounds;
+    return course.speed == 0 && old.acceleration_bound == 0 && old.angular_acceleration == 0 &&
+           bounds.angular_speed == old.angular_speed;
 }
 
 CourseNow course_at(const Course& course, double now) {
@@ -97,7 +125,7 @@ CourseNow course_at(const Course& course, double now) {
     const SpeedBounds& bounds = course.bounds;
     return {bounds.velocity + t * bounds.acceleration,
             bounds.acceleration,
-            t * bounds.acceleration_bound,
+            course.speed + t * bounds.acceleration_bound,
             bounds.acceleration_bound,
             {bounds.angular_velocity, bounds.angular_speed + t * bounds.angular_acceleration,
              bounds.angular_acceleration, course.reach}};

@@ -16,7 +16,11 @@ struct Course {
     double since = 0;
     Vec3 origin;
     std::array<double, 9> linear{}; ///< of the body's transform
+    double seen = 0;                ///< when the body was last found on its course
+    Vec3 seen_origin;
+    std::array<double, 9> seen_linear{};
     SpeedBounds bounds;
+    double speed = 0;  ///< bound of a further velocity at the time `since`
     double reach = -1; ///< no point of the body is farther from its origin; -1: not begun
     std::uint32_t generation = 0, shape_version = 0;
     bool known = false;    ///< false: the body's pairs must be tested
@@ -33,11 +37,17 @@ struct CourseNow {
 
 /// Lets the course begin anew at the body's current place. It notices a body with another shape.
 void begin_course(Course& course, const Body& body, double now);
-/// Whether the body is where its course allows it to be. In: same generation.
+/// Whether the body is where its course allows it to be, and has come there from where it was last
+/// seen as the course allows. In: same generation.
 bool keeps_course(const Course& course, const Body& body, double now);
+/// Notes the body's place. In: the body keeps its course.
+void note_place(Course& course, const Body& body, double now);
 /// Whether bounds that are told now allow no motion that the course does not allow. In: the body
 /// keeps its course.
 bool follows(const Course& course, const SpeedBounds& bounds, double now);
+/// Whether bounds that follow from the course are those of the course, which does not widen with
+/// time. The course may then go on, so that tolerated rounding does not add up from call to call.
+bool repeats(const Course& course, const SpeedBounds& bounds);
 CourseNow course_at(const Course& course, double now);
 /// Whether the body's motion is known exactly.
 bool is_prescribed(const CourseNow& course);

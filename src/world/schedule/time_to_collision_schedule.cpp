@@ -53,8 +53,10 @@ void CollisionSchedule::set_speed(std::uint32_t body, const SpeedBounds& bounds)
     // If the new bounds follow from the old ones, the pairs' due times remain valid.
     const bool known = course.known && course.generation == of.generation &&
                        keeps_course(course, of, now_) && follows(course, bounds, now_);
+    if (known && repeats(course, bounds))
+        return;
     begin_course(course, of, now_);
-    course.bounds = bounds;
+    course.bounds = bounds, course.speed = 0;
     course.known = known;
 }
 
@@ -69,8 +71,10 @@ std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
         Course& course = courses_[body];
         const Body& at = bodies[body];
         if (course.known && at.alive && course.generation == at.generation &&
-            keeps_course(course, at, now_))
+            keeps_course(course, at, now_)) {
+            note_place(course, at, now_);
             continue; // most bodies
+        }
         const bool exists = takes_part(body), existed = abut::takes_part(swept_[body]);
         if (!exists && !existed)
             continue;
@@ -81,7 +85,9 @@ std::vector<std::uint32_t> CollisionSchedule::follow_courses() {
             const bool keeps = !is_new && keeps_course(course, bodies[body], now_);
             if (existed && course.known && keeps)
                 continue;
-            if (!keeps)
+            if (keeps)
+                note_place(course, bodies[body], now_);
+            else
                 begin_course(course, bodies[body], now_);
         }
         strayed.push_back(body);
