@@ -1,6 +1,7 @@
 #include <abut/deformable.h>
 
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "deform/deformable_data.h"
 #include "geometry/segment_triangle_contact.h"
 #include "tree/traverse_overlaps.h"
@@ -65,6 +66,7 @@ public:
         : a_(a), b_(b), is_self_(&a == &b), list_(list) {}
 
     bool visit(std::uint32_t i, std::uint32_t j) override {
+        poll_stop();
         const bool same = is_self_ && i == j;
         auto& [edges_first, faces_first] = overlaps_;
         edges_first.a = a_.swept().leaves.edges.run(i);

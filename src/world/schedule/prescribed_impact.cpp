@@ -21,7 +21,13 @@ double prescribed_free_time(const Body& a, const Body& b, const RelativeMotion& 
                             double most) {
     constexpr double kMostTurn = 3; // radians
     const double turn = std::max(length(motion.a.velocity), length(motion.b.velocity));
-    const double window = std::min(most, turn > 0 ? kMostTurn / turn : kNoCollision);
+    // Velocities are rounded, by less than 2^-11 of motion.speed. What that adds to the way within
+    // the window stays far below the tolerance of an impact.
+    constexpr double kMostRounding = 0x1p-14;
+    const double size = std::max(motion.a.reach, motion.b.reach);
+    const double window =
+        std::min({most, turn > 0 ? kMostTurn / turn : kNoCollision,
+                  motion.speed > 0 ? kMostRounding * size / motion.speed : kNoCollision});
     // Beyond these values a motion is refused; slow bodies are left to other bounds.
     if (!(window > 0 && window < 1e30) || !(window * length(motion.velocity) < 1e30))
         return 0;
