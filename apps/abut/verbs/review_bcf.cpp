@@ -10,7 +10,7 @@ namespace abut::command {
 
 namespace {
 
-/// The clashes of the last job, which the store remembers, in the groups of that job.
+/// The clashes of the last job that finished, grouped as the last job that was grouped.
 StoreClashReport last_job(const Store& store, const Progress& progress) {
     ClashOptions options = last_clash_options(store);
     options.progress = progress;

@@ -16,9 +16,12 @@ const QUOTE = 0x27;
 const SLASH = 0x2f;
 const STAR = 0x2a;
 const SPACE = 0x20;
+// "\s\". A quote that follows it is a character: "\S\'" is a paragraph sign.
+const SHIFT = 0x5c735c;
+const LOWER = 0x2000; // makes the letter small
 // The units of an encoded text that must not be cut [ISO 10303-21, 6.4.3]; a run of hexadecimal
 // characters may be.
-const UNIT = /''|\\\\|\\S\\(?:''|[\s\S])|\\X\\[\s\S]{2}|\\P[\s\S]\\|\\X([24])\\([0-9A-F]*)\\X0\\|[\xc0-\xff][\x80-\xbf]*|[\s\S]/gy;
+const UNIT = /''|\\\\|\\[Ss]\\[\s\S]|\\X\\[\s\S]{2}|\\P[\s\S]\\|\\X([24])\\([0-9A-F]*)\\X0\\|[\xc0-\xff][\x80-\xbf]*|[\s\S]/gy;
 
 /** Returns the long texts of a file: [position of the first byte, position of the closing quote]. */
 function longTexts(file) {
@@ -27,6 +30,7 @@ function longTexts(file) {
     let before = 0; // the byte before, outside of texts
     let isComment = false;
     let quote = -1; // a quote that ends the text unless another one follows
+    let recent = 0; // the last three bytes of the text
     for (let position = 0; position < file.size;) {
         const bytes = file.read(CHUNK, position);
         if (bytes.length === 0)
@@ -34,8 +38,10 @@ function longTexts(file) {
         for (let i = 0; i < bytes.length; ++i) {
             const byte = bytes[i];
             if (from >= 0) {
+                const isShifted = (recent | LOWER) === SHIFT;
+                recent = (recent << 8 | byte) & 0xffffff;
                 if (quote < 0) {
-                    if (byte === QUOTE)
+                    if (byte === QUOTE && !isShifted)
                         quote = position + i;
                     continue;
                 }
@@ -52,6 +58,7 @@ function longTexts(file) {
                 before = isComment ? byte : 0;
             } else if (byte === QUOTE) {
                 from = position + i + 1;
+                recent = 0;
             } else {
                 isComment = before === SLASH && byte === STAR;
                 before = isComment ? 0 : byte;

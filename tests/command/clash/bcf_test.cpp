@@ -281,6 +281,14 @@ on = false
         database.run("DELETE FROM question_terms");
     }
     expect_refused(review({"--bcf-out", bcf_}), {store_, "rules"});
+
+    // A condition that is longer as it is written than may be read is not kept.
+    std::string types = "type = Wall";
+    for (int i = 0; i < 30000; ++i)
+        types += ",x";
+    clash(store_, {"--only", types});
+    EXPECT_EQ(run_abut({"info", store_, "--verify", "--quiet"}).status, 0);
+    expect_refused(review({"--bcf-out", bcf_}), {store_, "rules"});
 }
 
 TEST_F(BcfFiles, TellTheirWarningsInJsonToo) {
