@@ -54,13 +54,19 @@ private:
 
     [[nodiscard]] std::int64_t index(double v) const {
         constexpr double kFar = 1e15; // keeps the conversion defined for any point
-        return static_cast<std::int64_t>(std::clamp(std::floor(v / reach_), -kFar, kFar));
+        const double cell = std::floor(v / reach_);
+        if (!(cell > -kFar)) // also not a number
+            return -static_cast<std::int64_t>(kFar);
+        return static_cast<std::int64_t>(std::min(cell, kFar));
     }
     /// The reach is enlarged by more than a computed distance can be too small. Sums and quotients
-    /// are rounded monotonically, so that no point within reach is missed.
+    /// are rounded monotonically, so that no point within reach is missed. It lies at most two cubes
+    /// away, which bounds the range where the sums overflow.
     [[nodiscard]] Range around(double v) const {
         constexpr double kSlack = 1 + 1e-12;
-        return {index(v - kSlack * reach_), index(v + kSlack * reach_)};
+        const std::int64_t middle = index(v);
+        return {std::max(index(v - kSlack * reach_), middle - 2),
+                std::min(index(v + kSlack * reach_), middle + 2)};
     }
 
     double reach_;
