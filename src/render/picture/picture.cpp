@@ -209,7 +209,13 @@ PictureMaker::~PictureMaker() = default;
 
 Picture PictureMaker::make(const PictureOptions& options) {
     const StopScope stop(options.progress);
-    return PictureJob(*studio_, options).run();
+    PictureOptions drawn = options;
+    if (options.progress.report)
+        drawn.progress.report = [&](std::string_view stage, double fraction) {
+            options.progress.report(stage, fraction);
+            studio_->context.make_current(); // the function may have drawn another picture
+        };
+    return PictureJob(*studio_, drawn).run();
 }
 
 Picture picture(const std::vector<Scene>& models, const PictureOptions& options) {
