@@ -20,7 +20,10 @@ double first_root(double gap, double speed, double acceleration) {
         return gap == kNoCollision ? kNoCollision : 0;
     if (square < 0 || (speed <= 0 && acceleration <= 0))
         return kNoCollision;
-    const double root = std::sqrt(square);
+    // At least the speed, whose square may underflow; so may the other term.
+    const double root = std::max(std::sqrt(square), acceleration < 0 ? 0.0 : std::abs(speed));
+    if (!(root > 0))
+        return 0;
     const double time = speed >= 0 ? 2 * gap / (speed + root) : (root - speed) / acceleration;
     return time * (1 - kScheduleRounding);
 }
