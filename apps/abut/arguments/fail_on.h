@@ -33,7 +33,7 @@ public:
                                                       const std::vector<Scene>& models) const;
 
     /// Returns a warning for each property that the condition asks for, but no part of a
-    /// clash has. models: as in is_problem().
+    /// clash has. models: as in problems().
     [[nodiscard]] std::vector<std::string> warnings(const std::vector<Scene>& models) const;
 
 private:
