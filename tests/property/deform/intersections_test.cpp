@@ -147,7 +147,7 @@ TEST(Intersections, EveryPairOfTwoSurfacesAgainstIntegers) {
         ASSERT_EQ(found.empty(), !collide(a.model(), {}, b.model(), {}).meet());
     }
     tally.print();
-    EXPECT_GT(tally.all(), tally.pairs / 20);
+    EXPECT_GT(tally.all(), tally.pairs / 40);
     EXPECT_GT(face_first, tally.all() / 4);
 }
 
