@@ -231,7 +231,8 @@ public:
     /// Cost        an exact distance for each pair that could be the next; a time of impact if their
     ///             motions are prescribed.
     [[nodiscard]] double next_event() const;
-    /// As `next_event`, however far ahead, but at most `limit`. Infinite if no bodies can ever meet.
+    /// As `next_event`, however far ahead, but at most `limit`. Infinite if the bounds prove that no
+    /// bodies ever meet. Where they prove it for a very long time only, it is that time.
     ///
     /// Errors      Error{bad_argument} if the limit is negative or NaN. Error{interrupted} if the
     ///             stop flag is set.
