@@ -86,9 +86,14 @@ void declare(command::Verb& app, Arguments& arguments, Texts& texts) {
         text("--path", arguments.path, "FILE", "Replay a recorded path, without a window");
     CLI::Option* frames = text("--frames", arguments.frames, "FOLDER",
                                "Folder for the pictures and figures of --path");
-    app.add_option("--rate", arguments.rate, "Pictures a second of the path (default 15)")
+    app.add_option("--rate", arguments.rate,
+                   "Pictures a second of the path; with --paced, at most so many (default 15)")
         ->type_name("NUMBER")
         ->check(CLI::Range(0.01, 1000.0).description(""));
+    app.add_flag("--paced", arguments.paced,
+                 "Replay by the clock, with as many triangles as can be drawn in time, and write "
+                 "figures only")
+        ->needs(path);
     CLI::Option* log = text("--log", arguments.log, "FILE",
                             "Write each state of the window to a file, one JSON object a line");
     app.add_flag("--quiet", arguments.quiet, "Print only errors");

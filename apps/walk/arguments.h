@@ -18,6 +18,7 @@ struct Arguments {
     std::string path;   ///< a tour to replay without a window
     std::string frames; ///< folder for its pictures and figures
     double rate = 15;   ///< pictures a second of the tour
+    bool paced = false; ///< replay by the clock, without pictures
     std::string log;    ///< file for the states of the window
     bool quiet = false;
 };

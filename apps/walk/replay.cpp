@@ -17,6 +17,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <thread>
 #include <time.h> // NOLINT(modernize-deprecated-headers): clock_gettime is of POSIX
 
 namespace abut::viewer {
@@ -87,14 +88,14 @@ Json figures_of(const Session& session, const NearestPart& nearest) {
             {"nearest", nearest.found ? Json(nearest.gap.distance) : Json()}};
 }
 
-/// A picture as while the eye moves, with seconds that it took.
+/// How many seconds a picture took.
 struct Drawn {
-    Picture picture;
-    double uploading = 0, drawing = 0, reading = 0;
+    double uploading = 0, drawing = 0;
     double processor = 0;           ///< of all threads while it was drawn
     double uploading_processor = 0; ///< of the calling thread
 };
 
+/// Draws a picture as while the eye moves.
 Drawn draw_moving(Session& session, SceneBuffer& scene, const Camera& camera,
                   const ViewFrame& frame) {
     Drawn drawn;
@@ -118,8 +119,6 @@ Drawn draw_moving(Session& session, SceneBuffer& scene, const Camera& camera,
     glFinish();
     drawn.drawing = lap.seconds();
     drawn.processor = processor_seconds() - before;
-    drawn.picture = scene.read();
-    drawn.reading = lap.seconds();
     return drawn;
 }
 
@@ -152,6 +151,101 @@ void write_figures(const std::string& path, const Json& figures) {
         throw Error(ErrorCode::cannot_write, path, "cannot be written");
 }
 
+/// Replays a path, frame by frame.
+class Replay {
+public:
+    Replay(Session& session, const Arguments& arguments, Tour tour)
+        : session_(session), arguments_(arguments), tour_(std::move(tour)) {}
+
+    [[nodiscard]] Json run() {
+        const Camera begin = camera_at(tour_, 0, session_.lens);
+        last_ = begin.eye;
+        Json first = draw_first(session_, scene_, begin);
+        if (arguments_.paced)
+            follow_clock();
+        else
+            follow_rate();
+        return {{"first", std::move(first)}, {"frames", std::move(frames_)}};
+    }
+
+private:
+    /// Every frame of the path, with its picture.
+    void follow_rate() {
+        const auto count = static_cast<std::size_t>(duration(tour_) * arguments_.rate) + 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            Json row = draw(static_cast<double>(i) / arguments_.rate, 1 / arguments_.rate);
+            Lap lap;
+            const Picture picture = scene_.read();
+            row["read"] = lap.seconds();
+            frames_.push_back(std::move(row));
+            write_png(picture, fmt::format("{}/{:05}.png", arguments_.frames, i));
+        }
+    }
+
+    /// As a window does: where the clock is when a frame begins, and with as many triangles as this
+    /// machine draws in time. A frame that ends early waits.
+    void follow_clock() {
+        const auto start = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> period(1 / arguments_.rate);
+        double last = -period.count();
+        for (;;) {
+            const auto begin = std::chrono::steady_clock::now();
+            const double now =
+                frames_.empty() ? 0 : std::chrono::duration<double>(begin - start).count();
+            if (now > duration(tour_))
+                return;
+            const std::uint64_t budget = session_.pace.triangles();
+            Json row = draw(now, now - last);
+            last = now;
+            const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+            session_.pace.add_frame(taken.count());
+            row["budget"] = budget;
+            row["frame"] = taken.count();
+            frames_.push_back(std::move(row));
+            if (taken < period)
+                std::this_thread::sleep_until(begin + period);
+        }
+    }
+
+    /// Asks, chooses and draws at a time of the path.
+    ///
+    /// In          since: seconds since the last frame.
+    [[nodiscard]] Json draw(double seconds, double since) {
+        const Camera camera = camera_at(tour_, seconds, session_.lens);
+        const Vec3 velocity = (1 / since) * (camera.eye - last_);
+        last_ = camera.eye;
+        Lap lap;
+        ProcessorLap own;
+        session_.walk.move_to(camera.eye, velocity);
+        const NearestPart nearest =
+            session_.walk.distance(head_, Pose{camera.eye}, {.missing = MissingParts::skip});
+        const double querying = lap.seconds(), querying_processor = own.seconds();
+        const ViewFrame& frame = session_.frame(camera, velocity);
+        const double selecting = lap.seconds(), selecting_processor = own.seconds();
+        const Drawn drawn = draw_moving(session_, scene_, camera, frame);
+        Json row{{"seconds", seconds},
+                 {"query", querying},
+                 {"query_processor", querying_processor},
+                 {"selection", selecting},
+                 {"selection_processor", selecting_processor},
+                 {"upload", drawn.uploading},
+                 {"upload_processor", drawn.uploading_processor},
+                 {"draw", drawn.drawing},
+                 {"draw_processor", drawn.processor},
+                 {"pixel_error", frame.pixel_error}};
+        row.update(figures_of(session_, nearest));
+        return row;
+    }
+
+    Session& session_;
+    const Arguments& arguments_;
+    Tour tour_;
+    SceneBuffer scene_;
+    Probe head_{Sphere{{0, 0, 0}, 0.1}};
+    Vec3 last_; ///< eye of the last frame
+    Json frames_ = Json::array();
+};
+
 } // namespace
 
 void replay(const Arguments& arguments) {
@@ -167,47 +261,10 @@ void replay(const Arguments& arguments) {
     const std::string store = ready_store(arguments.files, terminal_progress(arguments.quiet));
     Session session(store, {arguments.memory, arguments.gpu_memory, arguments.pixel_error},
                     arguments.width, arguments.height);
-    SceneBuffer scene;
-    const Probe head(Sphere{{0, 0, 0}, 0.1});
-    const auto count = static_cast<std::size_t>(duration(tour) * arguments.rate) + 1;
-    Json frames = Json::array();
-    const Json first = draw_first(session, scene, camera_at(tour, 0, session.lens));
-    Vec3 last = camera_at(tour, 0, session.lens).eye;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double seconds = static_cast<double>(i) / arguments.rate;
-        const Camera camera = camera_at(tour, seconds, session.lens);
-        const Vec3 velocity = arguments.rate * (camera.eye - last);
-        last = camera.eye;
-        Lap lap;
-        ProcessorLap own;
-        session.walk.move_to(camera.eye, velocity);
-        const NearestPart nearest =
-            session.walk.distance(head, Pose{camera.eye}, {.missing = MissingParts::skip});
-        const double querying = lap.seconds(), querying_processor = own.seconds();
-        const ViewFrame& frame = session.frame(camera, velocity);
-        const double selecting = lap.seconds(), selecting_processor = own.seconds();
-        const Drawn drawn = draw_moving(session, scene, camera, frame);
-        Json row{{"seconds", seconds},
-                 {"query", querying},
-                 {"query_processor", querying_processor},
-                 {"selection", selecting},
-                 {"selection_processor", selecting_processor},
-                 {"upload", drawn.uploading},
-                 {"upload_processor", drawn.uploading_processor},
-                 {"draw", drawn.drawing},
-                 {"draw_processor", drawn.processor},
-                 {"read", drawn.reading},
-                 {"pixel_error", frame.pixel_error}};
-        row.update(figures_of(session, nearest));
-        frames.push_back(std::move(row));
-        write_png(drawn.picture, fmt::format("{}/{:05}.png", arguments.frames, i));
-    }
-    write_figures(arguments.frames + "/figures.json", {{"store", store},
-                                                       {"width", arguments.width},
-                                                       {"height", arguments.height},
-                                                       {"peak_rss_mib", peak_resident_mib()},
-                                                       {"first", first},
-                                                       {"frames", std::move(frames)}});
+    Json figures{{"store", store}, {"width", arguments.width}, {"height", arguments.height}};
+    figures.update(Replay(session, arguments, tour).run());
+    figures["peak_rss_mib"] = peak_resident_mib();
+    write_figures(arguments.frames + "/figures.json", figures);
 }
 
 } // namespace abut::viewer

@@ -24,7 +24,7 @@ struct Options {
     std::uint32_t width = 1280, height = 720, samples = 1;
     std::uint64_t seed = 1, triangles = 500'000;
     double pixel_error = 1;
-    bool fidelity = false;
+    bool fidelity = false, budgeted = false;
     std::string pictures, path;
 };
 
@@ -174,6 +174,8 @@ void compare_pictures(const Store& store, const Options& options) {
     fine.draw_budget = 1'000'000;
     fine.background = false;
     ViewOptions full = fine;
+    if (options.budgeted)
+        fine.triangle_budget = options.triangles;
     fine.pixel_error = options.pixel_error;
     full.pixel_error = 1e-9;
     Shown coarse(store, fine), exact(store, full);
@@ -219,6 +221,7 @@ int run(int argc, char** argv) {
     app.add_option("--width", options.width, "Pixels");
     app.add_option("--height", options.height, "Pixels");
     app.add_flag("--fidelity", options.fidelity, "Compare with pictures of the full geometry");
+    app.add_flag("--budgeted", options.budgeted, "Keep the triangle budget in --fidelity, too");
     app.add_option("--pictures", options.pictures, "Folder for the pictures that are compared");
     CLI11_PARSE(app, argc, argv);
     const OffscreenContext context;

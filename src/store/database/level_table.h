@@ -21,7 +21,7 @@ struct LevelChunkRow {
     std::int64_t chunk = 0; ///< 0: not stored yet
     Hash128 key;            ///< of all that the chunk is made from
     std::uint32_t vertices = 0, triangles = 0;
-    double error = 0; ///< bound of the distance from what the chunk stands for; rounding included
+    double error = 0; ///< bound of the distance from what it stands for; more where shades differ
     Box3 box;         ///< of the chunk and of what it stands for
     std::uint64_t bytes = 0, data_checksum = 0; ///< of the data
 
@@ -30,7 +30,7 @@ struct LevelChunkRow {
 
 /// The format of chunks and of the tree. Raise it with every change of their bytes, of their
 /// geometry or of the tables: levels of another format then count as outdated, and are made again.
-inline constexpr std::uint32_t kLevelFormat = 2;
+inline constexpr std::uint32_t kLevelFormat = 3;
 
 /// The content that the levels of a store are made from: all its parts as they are now, and the
 /// format.

@@ -12,7 +12,7 @@ namespace abut {
 struct PieceForms {
     struct Form {
         std::uint32_t triangles = 0;
-        double added = 0; ///< bound of the distance between the form and the piece, both ways
+        double added = 0; ///< bound of the distance from the piece, both ways; more for its shade
     };
     std::vector<Form> forms; ///< with fewer and fewer triangles; the first is the piece as it is
     double error = 0;        ///< that the piece has already

@@ -6,6 +6,7 @@
 #include "view/simplify/deviation.h"
 #include "view/simplify/packed_normal.h"
 #include "view/simplify/piece_choice.h"
+#include "view/simplify/shading.h"
 
 #include <algorithm>
 #include <meshoptimizer.h>
@@ -49,35 +50,52 @@ JoinedSurface join(const LevelSurface& surface) {
     return joined;
 }
 
+/// The vertex at a joined vertex whose normal is nearest to that of a face.
+std::uint32_t vertex_of_face(const LevelSurface& surface, const JoinedSurface& joined,
+                             unsigned int joined_vertex, const Vec3& face) {
+    std::uint32_t best = joined.members[joined.first[joined_vertex]];
+    double most = -2;
+    for (std::uint32_t m = joined.first[joined_vertex]; m < joined.first[joined_vertex + 1]; ++m) {
+        const std::uint32_t member = joined.members[m];
+        const double agrees = dot(face, unpack_normal(surface.vertices[member].normal));
+        if (agrees > most)
+            most = agrees, best = member;
+    }
+    return best;
+}
+
+/// The vertices of a simplified triangle: of each joined vertex the one whose normal is nearest to
+/// that of the face.
+std::array<std::uint32_t, 3> vertices_of_face(const LevelSurface& surface,
+                                              const JoinedSurface& joined,
+                                              const std::array<unsigned int, 3>& corners) {
+    const auto position = [&](unsigned int v) -> const Vec3& {
+        return surface.vertices[joined.members[joined.first[v]]].position;
+    };
+    const Vec3 &a = position(corners[0]), &b = position(corners[1]), &c = position(corners[2]);
+    const Vec3 face = normalized_or_zero(cross(b - a, c - a));
+    std::array<std::uint32_t, 3> vertices{};
+    for (std::size_t k = 0; k < 3; ++k)
+        vertices.at(k) = vertex_of_face(surface, joined, corners.at(k), face);
+    return vertices;
+}
+
 /// Writes the simplified triangles with, at each vertex, the normal that is nearest to the face.
 LevelSurface with_normals(const LevelSurface& from, const JoinedSurface& joined,
                           const std::vector<unsigned int>& indices) {
     LevelSurface to;
     to.parts = from.parts;
     std::vector<std::uint32_t> number_of(from.vertices.size(), 0xffffffff);
-    const auto position = [&](unsigned int v) -> const Vec3& {
-        return from.vertices[joined.members[joined.first[v]]].position;
-    };
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        const Vec3 &a = position(indices[i]), &b = position(indices[i + 1]),
-                   &c = position(indices[i + 2]);
-        const Vec3 face = normalized_or_zero(cross(b - a, c - a));
-        auto& triangle = to.triangles.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-            const unsigned int v = indices[i + k];
-            std::uint32_t best = joined.members[joined.first[v]];
-            double most = -2;
-            for (std::uint32_t m = joined.first[v]; m < joined.first[v + 1]; ++m) {
-                const std::uint32_t member = joined.members[m];
-                const double agrees = dot(face, unpack_normal(from.vertices[member].normal));
-                if (agrees > most)
-                    most = agrees, best = member;
+        auto& triangle = to.triangles.emplace_back(
+            vertices_of_face(from, joined, {indices[i], indices[i + 1], indices[i + 2]}));
+        for (std::uint32_t& vertex : triangle) {
+            std::uint32_t& number = number_of[vertex];
+            if (number == 0xffffffff) {
+                number = static_cast<std::uint32_t>(to.vertices.size());
+                to.vertices.push_back(from.vertices[vertex]);
             }
-            if (number_of[best] == 0xffffffff) {
-                number_of[best] = static_cast<std::uint32_t>(to.vertices.size());
-                to.vertices.push_back(from.vertices[best]);
-            }
-            triangle.at(k) = number_of[best];
+            vertex = number;
         }
     }
     return to;
@@ -87,7 +105,7 @@ LevelSurface with_normals(const LevelSurface& from, const JoinedSurface& joined,
 struct Piece {
     std::uint32_t part = 0;
     std::vector<std::uint32_t> vertices; ///< joined vertices
-    std::vector<Triangle> triangles;
+    ShadedTriangles surface;
 };
 
 struct Pieces {
@@ -136,6 +154,12 @@ private:
     [[nodiscard]] Triangle triangle(const std::vector<unsigned int>& indices, std::size_t i) const {
         return {positions_[indices[i]], positions_[indices[i + 1]], positions_[indices[i + 2]]};
     }
+    [[nodiscard]] std::array<Vec3, 3> normals(const std::array<std::uint32_t, 3>& vertices) const {
+        const auto normal = [&](std::uint32_t v) {
+            return unpack_normal(surface_.vertices[v].normal);
+        };
+        return {normal(vertices[0]), normal(vertices[1]), normal(vertices[2])};
+    }
     /// For each vertex, the least one that triangles connect it with.
     [[nodiscard]] std::vector<std::uint32_t>
     connected(const std::vector<unsigned int>& indices) const {
@@ -176,7 +200,8 @@ private:
             Piece& piece = pieces_.all[piece_of(vertex)];
             piece.part = surface_.vertices[joined_.members[joined_.first[vertex]]].part;
             forms_[piece_of(vertex)].error = surface_.errors[piece.part];
-            piece.triangles.push_back(triangle(joined_.indices, i));
+            piece.surface.triangles.push_back(triangle(joined_.indices, i));
+            piece.surface.normals.push_back(normals(surface_.triangles[i / 3]));
         }
     }
 
@@ -253,33 +278,46 @@ private:
         const std::vector<unsigned int>& indices = passes_[static_cast<std::size_t>(pass)];
         const std::vector<std::uint32_t> roots = connected(indices);
         constexpr std::uint32_t kNone = 0xffffffff;
-        std::vector<std::vector<Triangle>> triangles(pieces_.all.size());
+        std::vector<ShadedTriangles> shown(pieces_.all.size());
         std::vector<std::uint32_t> root_of(pieces_.all.size(), kNone);
         std::vector<bool> is_split(pieces_.all.size());
         for (std::size_t i = 0; i < indices.size(); i += 3) {
             const std::uint32_t piece = piece_of(indices[i]);
-            triangles[piece].push_back(triangle(indices, i));
+            shown[piece].triangles.push_back(triangle(indices, i));
+            shown[piece].normals.push_back(normals(
+                vertices_of_face(surface_, joined_, {indices[i], indices[i + 1], indices[i + 2]})));
             if (root_of[piece] == kNone)
                 root_of[piece] = roots[indices[i]];
             if (root_of[piece] != roots[indices[i]])
                 is_split[piece] = true;
         }
-        for (std::size_t p = 0; p < triangles.size(); ++p) {
-            const auto count = static_cast<std::uint32_t>(triangles[p].size());
-            const PieceForms& forms = forms_[p];
+        for (std::size_t p = 0; p < shown.size(); ++p) {
+            const auto count = static_cast<std::uint32_t>(shown[p].size());
             // A piece stays connected, so that it is left out as a whole.
-            if (count == 0 || is_split[p] || forms.forms.back().triangles <= count)
+            if (count == 0 || is_split[p] || forms_[p].forms.back().triangles <= count)
                 continue;
-            const TriangleSearch fine(pieces_.all[p].triangles), coarse(triangles[p]);
             // Beyond this, leaving out is better.
-            const double error = std::max(forms.error, surface_.resting);
-            const double most = forms.size + error;
-            double added =
-                deviation_bound(pieces_.all[p].triangles, coarse, kLeastShare * error, most);
-            added = deviation_bound(triangles[p], fine, added, most);
+            const double most = forms_[p].size + std::max(forms_[p].error, surface_.resting);
+            const double added = added_error(p, shown[p], most);
             if (added <= most)
                 add_form(p, pass, {count, added});
         }
+    }
+
+    /// The error of a form of a piece: a bound of the distance, and that of its shade.
+    ///
+    /// In          most: a larger error is returned as some number above it.
+    [[nodiscard]] double added_error(std::size_t p, const ShadedTriangles& shown,
+                                     double most) const {
+        const ShadedTriangles& surface = pieces_.all[p].surface;
+        const TriangleSearch fine(surface.triangles), coarse(shown.triangles);
+        const double least = kLeastShare * std::max(forms_[p].error, surface_.resting);
+        double added = deviation_bound(surface.triangles, coarse, least, most);
+        if (added <= most)
+            added = deviation_bound(shown.triangles, fine, added, most);
+        if (added <= most)
+            added = std::max(added, shading_error(surface, shown, coarse, added, most));
+        return added;
     }
 
     /// The chosen forms of all pieces, in the order of the pieces.

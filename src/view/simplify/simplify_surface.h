@@ -19,7 +19,8 @@ struct SimplifiedSurface {
 /// out where another one is near all of it (piece_choice.h).
 ///
 /// In          target: triangles that the result may have.
-/// Accuracy    the errors are proven, see deviation.h.
+/// Accuracy    the errors are proven bounds of distances, see deviation.h. They are larger where the
+///             shade differs, see shading.h.
 /// Source      edge collapse by quadrics [Garland, Heckbert 1997], by meshoptimizer. It gives each
 ///             piece several versions, whose errors are then bounded. Of each piece the coarsest
 ///             version within the common error is taken.

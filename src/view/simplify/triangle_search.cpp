@@ -21,7 +21,7 @@ double distance_sq_to_box(const Vec3& p, const Box3& box) {
 
 } // namespace
 
-DistanceFace::DistanceFace(const Triangle& t) : corners_(t) {
+DistanceFace::DistanceFace(const Triangle& t, std::uint32_t number) : corners_(t), number_(number) {
     for (std::size_t k = 0; k < 3; ++k) {
         edges_.at(k) = t.at((k + 1) % 3) - t.at(k);
         const double sq = length_sq(edges_.at(k));
@@ -54,8 +54,19 @@ double DistanceFace::distance_sq(const Vec3& p) const {
     return least;
 }
 
-TriangleSearch::TriangleSearch(std::span<const Triangle> triangles)
-    : faces_(triangles.begin(), triangles.end()) {
+std::array<double, 3> DistanceFace::weights(const Vec3& p) const {
+    const Vec3 gap = p - corners_[0];
+    const double along_x = dot(gap, edges_[0]), along_y = -dot(gap, edges_[2]);
+    const double y = std::max(0.0, weight_xx_ * along_x + weight_xy_ * along_y);
+    const double z = std::max(0.0, weight_xy_ * along_x + weight_yy_ * along_y);
+    const double sum = std::max(1.0, y + z);
+    return {1 - (y + z) / sum, y / sum, z / sum};
+}
+
+TriangleSearch::TriangleSearch(std::span<const Triangle> triangles) {
+    faces_.reserve(triangles.size());
+    for (const Triangle& t : triangles)
+        faces_.emplace_back(t, static_cast<std::uint32_t>(faces_.size()));
     build(0, static_cast<std::uint32_t>(faces_.size()));
 }
 

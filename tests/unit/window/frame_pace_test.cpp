@@ -1,7 +1,9 @@
 /// The triangles of a frame: how they follow the machine, and what is hidden.
 #include "apps/walk/frame_pace.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace abut::viewer {
 namespace {
@@ -19,6 +21,35 @@ TEST(FramePace, FollowsTheMachineSlowly) {
     for (int i = 0; i < 100; ++i)
         pace.add_frame(0.01);
     EXPECT_EQ(pace.triangles(), 500'000U);
+}
+
+/// The median of the frames of a machine, once the pace knows it.
+///
+/// In          fixed: seconds of a frame without triangles; triangle: seconds of one; slow_every: so
+///             many frames, one takes four times as long, as something else is busy.
+double median_frame(double fixed, double triangle, int slow_every) {
+    FramePace pace;
+    std::vector<double> seconds;
+    for (int i = 0; i < 600; ++i) {
+        double frame = fixed + triangle * static_cast<double>(pace.triangles());
+        if (i % slow_every == slow_every - 1)
+            frame *= 4;
+        pace.add_frame(frame);
+        if (i >= 100)
+            seconds.push_back(frame);
+    }
+    std::sort(seconds.begin(), seconds.end());
+    return seconds[seconds.size() / 2];
+}
+
+TEST(FramePace, KeepsFifteenFramesASecondOnSlowMachines) {
+    for (const double triangle : {1.2e-7, 1.5e-7, 3e-7, 5e-7})
+        for (const int slow_every : {1'000, 50, 10}) {
+            const double median = median_frame(0.005, triangle, slow_every);
+            EXPECT_LE(median, 1.0 / 15) << triangle << ", one slow frame in " << slow_every;
+            EXPECT_GE(median, 0.6 / 15) << triangle << ", one slow frame in " << slow_every;
+        }
+    EXPECT_GT(median_frame(0.005, 1e-6, 1'000), 1.0 / 15) << "too slow for the least budget";
 }
 
 TEST(FramePace, ChoosesMoreWhereMuchIsHidden) {
