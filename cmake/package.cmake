@@ -61,6 +61,9 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "nodejs (>= 18), libgl1-mesa-dri, li
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "abut-walk, abut-mpi")
 set(CPACK_DEBIAN_WALK_PACKAGE_RECOMMENDS "abut ${same}, libgl1-mesa-dri, libgl1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "abut ${same}, libgl1-mesa-dri, libegl1, libopengl0")
+# They compile the module's Python files, and remove what was compiled.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/python/packaging/debian/postinst
+                                              ${PROJECT_SOURCE_DIR}/python/packaging/debian/prerm)
 set(CPACK_DEBIAN_LIB_PACKAGE_SUGGESTS "abut ${same}")
 set(CPACK_DEBIAN_RENDER_PACKAGE_RECOMMENDS "libgl1-mesa-dri, libegl1, libopengl0")
 
