@@ -227,11 +227,11 @@ Impacts impacts(const Deformable& a, const Deformable& b, const ElementaryOption
 /// Returns nothing if there is none.
 ///
 /// Accuracy    `time` is never later than the first contact. With an absolute error or a thickness,
-///             another impact of the list may have an earlier `time`, at which its features are
-///             only near each other, within the tolerances that ElementaryOptions describes.
+///             the features may only be near each other at that time, within the tolerances that
+///             ElementaryOptions describes.
 /// Errors      Error{bad_argument} for the options.
-/// Cost        less than that of all impacts: time is searched in growing windows, and only
-///             features that may meet within a window are tested.
+/// Cost        mostly less than that of all impacts: each impact that is found shortens the time
+///             that is searched. It is about that of all impacts where features hardly move.
 std::optional<FeatureImpact> self_time_of_impact(const Deformable& surface,
                                                  const ElementaryOptions& options = {},
                                                  const Progress& progress = {});

@@ -126,3 +126,37 @@ def test_elementary():
     assert many.meet.tolist() == [True, False]
     with pytest.raises(ValueError):
         abut.elementary_impact("vertex_face", start[:3], end)
+
+
+def test_representatives_with_another_culling(rng):
+    """Pairs of triangles from boxes of numpy lead to the impacts of self_impacts, each once."""
+    hits = 0
+    for _ in range(5):
+        vertices, faces = soup(rng, 30, 0.5)
+        end = vertices + rng.uniform(-1, 1, vertices.shape)
+        cloth = abut.Deformable(vertices, faces)
+        cloth.set_motion(vertices, end)
+        surface = abut.Representatives(len(vertices), faces)
+        surface.set_motion(vertices, end)
+        corners = np.concatenate([vertices[faces], end[faces]], axis=1)
+        pairs = abut.overlapping_boxes(corners.min(axis=1), corners.max(axis=1))
+        tests = abut.self_feature_tests(surface, pairs)
+        found = abut.elementary_impacts(tests.kind, vertices[tests.vertices], end[tests.vertices])
+        listed = {(i.kind, i.a, i.b) for i in tests[found.meet]}
+        assert listed == {(i.kind, i.a, i.b) for i in abut.self_impacts(cloth).list}
+        assert len(listed) == found.meet.sum()
+        hits += len(listed)
+    assert hits > 10
+    before = surface.represented.copy()
+    surface.set_triangles(len(vertices), faces[:-1])
+    assert np.array_equal(surface.represented, before[:-1]) and len(surface.edges) <= 3 * len(faces)
+    assert surface.vertex_count == len(vertices) and surface.bytes > 0 and len(surface.triangles) == len(faces) - 1
+    for index in (10**6, 2**32, -1):
+        with pytest.raises(abut.Error):
+            abut.self_feature_tests(surface, [[0, index]])
+    for wrong, error in (([[0.0, 1.0]], TypeError), ([[0, 1, 2]], ValueError)):
+        with pytest.raises(error):
+            abut.self_feature_tests(surface, wrong)
+    other = abut.Representatives(3, [[0, 1, 2]])
+    assert len(abut.feature_tests(surface, other, [[0, 0]])) == 15
+    assert abut.feature_tests(surface, other, [])[:0].vertices.shape == (0, 4)

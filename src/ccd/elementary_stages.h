@@ -41,7 +41,7 @@ public:
     /// Adds a pair, unless `wanted` is false. The code has no branch on `wanted`, which is often
     /// hard to predict.
     void add(const Item& item, bool wanted = true) {
-        if (candidates_.add(item, source_, wanted))
+        if (candidates_.add(item, wanted))
             filter();
     }
     void finish() {
@@ -58,17 +58,23 @@ private:
         std::size_t count = 0;
 
         /// Returns true if the batch is full now.
-        bool add(const Item& item, const Source& source, bool wanted) {
-            source.write(item, batch, count);
+        bool add(const Item& item, bool wanted) {
             items[count] = item;
             count += wanted ? 1 : 0;
             return count == ElementaryBatch::kLanes;
+        }
+        /// Writes the vertices of all items. They are written together because pairs that are not
+        /// wanted, often half of all, then cost nothing here.
+        void write(const Source& source) {
+            for (std::size_t lane = 0; lane < count; ++lane)
+                source.write(items[lane], batch, lane);
         }
         /// A mask of the lanes in use. The others hold pairs of earlier passes.
         [[nodiscard]] std::uint32_t used() const { return (1U << count) - 1; }
     };
 
     void filter() {
+        candidates_.write(source_);
         for (const std::size_t lane :
              SetBits(possible_impacts(candidates_.batch, kind_, options_.thickness) &
                      candidates_.used()))
@@ -79,10 +85,11 @@ private:
     void pass(const Item& item) {
         if (options_.thickness > 0)
             source_.take(item, decide_singly(source_.pair(item), options_));
-        else if (possible_.add(item, source_, true))
+        else if (possible_.add(item, true))
             cross();
     }
     void cross() {
+        possible_.write(source_);
         decide_crossings(possible_.batch, kind_, crossings_);
         const std::uint32_t decided = crossings_.apart | crossings_.meet;
         for (const std::size_t lane : SetBits(possible_.used())) {

@@ -8,18 +8,9 @@
 
 namespace abut {
 
-namespace {
-
-/// Enough tasks that the longest one does not keep the other threads waiting.
-constexpr std::size_t kTasks = 512;
-
-/// The margin by which boxes are widened. It is at most the value at which all boxes overlap, so
-/// that bounds stay finite.
 float margin_of(double distance) {
     return round_up(std::min(distance, 4 * kLargestCoordinate));
 }
-
-} // namespace
 
 CandidateSearch::CandidateSearch(const DeformableData& a, const SweptTree& swept_a,
                                  const DeformableData& b, const SweptTree& swept_b, double distance)
@@ -53,7 +44,7 @@ OverlapTraversal CandidateSearch::between_triangles() const {
 }
 
 void CandidateSearch::split(Between between, const OverlapTraversal& traversal) {
-    for (const OverlapTraversal::Pair& pair : split_overlaps(traversal, kTasks))
+    for (const OverlapTraversal::Pair& pair : split_overlaps(traversal, kSearchTasks))
         starts_.push_back({between, pair});
 }
 

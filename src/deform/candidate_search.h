@@ -17,6 +17,13 @@
 
 namespace abut {
 
+/// Enough tasks that the longest one does not keep the other threads waiting.
+inline constexpr std::size_t kSearchTasks = 512;
+
+/// The margin by which boxes are widened to find what comes within a distance. It is at most the
+/// value at which all boxes overlap, so that bounds stay finite.
+float margin_of(double distance);
+
 /// Finds the feature pairs of two surfaces, or of one surface with itself, that may come within a
 /// distance of each other. The surfaces' scheme and culling determine how. The search is divided
 /// into tasks, which may run in any order and on any thread.

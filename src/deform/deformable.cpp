@@ -45,28 +45,20 @@ std::vector<Aabb> swept_boxes(std::span<const IndexTriangle> triangles,
     return boxes;
 }
 
-/// The vertices' boxes at one time.
-std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, double time) {
+/// The vertices' boxes at one end of the step.
+std::vector<Aabb> vertex_boxes(std::span<const MovingVertex> vertices, StepEnd end) {
     std::vector<Aabb> boxes(vertices.size());
     parallel_for(vertices.size(), kGrain, [&](std::size_t i) {
-        const MovingVertex& v = vertices[i];
-        if (time == 0 || time == 1) {
-            const Vec3& p = time == 0 ? v.start : v.end;
-            boxes[i] = Aabb(Box3{p, p});
-            return;
-        }
-        // Interpolation is off by at most 3 roundings of the larger end.
-        const Vec3 size = max(max(v.start, -v.start), max(v.end, -v.end)),
-                   p = (1 - time) * v.start + time * v.end;
-        boxes[i] = Aabb(Box3{p, p}, 0x1p-50 * std::max({size.x, size.y, size.z}));
+        const Vec3& p = end == StepEnd::start ? vertices[i].start : vertices[i].end;
+        boxes[i] = Aabb(Box3{p, p});
     });
     return boxes;
 }
 
-/// Fits the boxes of one end to the positions at a time.
-void fit_end(SweptTree& swept, const DeformableData& data, StepEnd end, double time) {
+/// Fits the boxes of one end of the step to the positions at this or the other end.
+void fit_end(SweptTree& swept, const DeformableData& data, StepEnd end, StepEnd positions) {
     const SurfaceView surface = data.surface();
-    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, time);
+    const std::vector<Aabb> boxes = vertex_boxes(data.vertices, positions);
     fit(swept.tree, end,
         [&](std::uint32_t leaf) { return fit_leaf(swept.leaves, leaf, end, surface, boxes); });
 }
@@ -89,13 +81,8 @@ void start_at_end(SweptTree& swept) {
 
 } // namespace
 
-void refit(SweptTree& swept, const DeformableData& data, double until) {
-    fit_end(swept, data, StepEnd::start, 0);
-    fit_end(swept, data, StepEnd::end, until);
-}
-
 void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end) {
-    fit_end(swept, data, StepEnd::end, end == StepEnd::start ? 0 : 1);
+    fit_end(swept, data, StepEnd::end, end);
     start_at_end(swept);
 }
 
@@ -141,12 +128,11 @@ void DeformableData::fit_boxes(FirstBoxes first) {
     if (first == FirstBoxes::last_ends)
         start_at_end(swept);
     else
-        fit_end(swept, *this, StepEnd::start, 0);
-    fit_end(swept, *this, StepEnd::end, 1);
+        fit_end(swept, *this, StepEnd::start, StepEnd::start);
+    fit_end(swept, *this, StepEnd::end, StepEnd::end);
     if (feature_trees)
         for (const StepEnd end : kStepEnds)
-            feature_trees->fit(surface(), end,
-                               vertex_boxes(vertices, end == StepEnd::start ? 0 : 1));
+            feature_trees->fit(surface(), end, vertex_boxes(vertices, end));
     flat_regions.fit(swept.leaves.faces, triangles, vertices);
 }
 

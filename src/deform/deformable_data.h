@@ -66,8 +66,6 @@ private:
     double looseness_when_built_ = 0;
 };
 
-/// Fits all boxes to the motion until time `until`, in [0, 1].
-void refit(SweptTree& swept, const DeformableData& data, double until);
 /// Fits all boxes to the positions at one end of the step, as if nothing moved.
 void fit_at(SweptTree& swept, const DeformableData& data, StepEnd end);
 

@@ -2,72 +2,73 @@
 
 #include "core/parallel.h"
 #include "deform/candidate_search.h"
+#include "deform/earliest_search.h"
 #include "deform/impact_collector.h"
+#include "tree/traverse_until.h"
 
-#include <array>
+#include <algorithm>
 #include <atomic>
-#include <tuple>
+#include <iterator>
+#include <span>
 #include <vector>
 
 namespace abut {
 
 namespace {
 
-/// End times of the windows that are searched one after the other. Each begins at 0.
-constexpr std::array<double, 3> kWindows{0x1p-6, 0x1p-2, 1};
-/// Bounds how far a computed time may be below the first contact. An impact that is found within
-/// this margin of a window's end may not be the earliest one.
-constexpr double kTimeError = 0x1p-29;
+/// Pairs of nodes that a thread takes at once.
+constexpr std::size_t kLaterPairsAtOnce = 64;
 
-struct EarliestImpact {
-    std::optional<FeatureImpact> impact;
-
-    void keep(const FeatureImpact& other) {
-        const auto key = [](const FeatureImpact& i) { return std::tuple(i.time, list_key(i)); };
-        if (!impact || key(other) < key(*impact))
-            impact = other;
-    }
-    static bool is_done() { return false; }
+/// What one task has found.
+struct Part {
+    EarliestImpact earliest;
+    std::vector<TimedPair> later; ///< pairs of nodes that do not overlap at the start
 };
 
-/// The earliest impact among the candidates of a search whose boxes cover the motion until some
-/// time. All impacts up to that time are among them.
-std::optional<FeatureImpact> earliest(const DeformableData& a, const DeformableData& b,
-                                      const CandidateSearch& search,
-                                      const ElementaryOptions& options) {
-    std::vector<EarliestImpact> parts(search.tasks());
-    parallel_for(parts.size(), 1, [&](std::size_t i) {
-        ImpactCollector<EarliestImpact> collector(a, b, options, parts[i]);
-        search.run(i, collector);
-        collector.finish();
-    });
-    EarliestImpact all;
-    for (const EarliestImpact& part : parts)
-        if (part.impact)
-            all.keep(*part.impact);
-    return all.impact;
+/// The pairs of all tasks that may overlap before the window ends, the first ones first.
+std::vector<TimedPair> pairs_until(std::vector<Part>& parts, float until) {
+    std::vector<TimedPair> all;
+    for (Part& part : parts) {
+        std::copy_if(part.later.begin(), part.later.end(), std::back_inserter(all),
+                     [&](const TimedPair& pair) { return pair.first <= until; });
+        part.later = std::vector<TimedPair>();
+    }
+    std::sort(all.begin(), all.end(),
+              [](const TimedPair& p, const TimedPair& q) { return p.first < q.first; });
+    return all;
 }
 
+/// Pairs that overlap at the start come first: they cannot be ruled out, and most early impacts are
+/// among them. The others follow in the order of time, until the earliest impact found so far.
 std::optional<FeatureImpact> find_first(const DeformableData& a, const DeformableData& b,
                                         const ElementaryOptions& options,
                                         const Progress& progress) {
     require_valid(options);
     const StopScope stopping(progress);
-    SweptTree swept_a = a.swept, swept_b;
-    if (&a != &b)
-        swept_b = b.swept;
-    std::optional<FeatureImpact> first;
-    for (const double until : kWindows) {
-        refit(swept_a, a, until);
-        if (&a != &b)
-            refit(swept_b, b, until);
-        first = earliest(
-            a, b, CandidateSearch(a, swept_a, b, &a == &b ? swept_a : swept_b, options.thickness),
-            options);
-        if (first && first->time < until - kTimeError)
-            break;
-    }
-    return first;
+    const EarliestSearch search(a, b, options);
+    const std::vector<OverlapTraversal::Pair> starts =
+        split_overlaps(search.traversal(), kSearchTasks);
+    TimeWindow window;
+    std::vector<Part> parts(starts.size());
+    parallel_for(starts.size(), 1, [&](std::size_t i) {
+        const TimedPair start{starts[i], 0};
+        search.run({&start, 1}, window, parts[i].earliest, &parts[i].later);
+    });
+    const std::vector<TimedPair> later = pairs_until(parts, window.until());
+    std::vector<EarliestImpact> earliest((later.size() + kLaterPairsAtOnce - 1) /
+                                         kLaterPairsAtOnce);
+    parallel_for(earliest.size(), 1, [&](std::size_t i) {
+        const std::size_t first = i * kLaterPairsAtOnce;
+        const std::size_t count = std::min(kLaterPairsAtOnce, later.size() - first);
+        search.run(std::span(later).subspan(first, count), window, earliest[i], nullptr);
+    });
+    for (const Part& part : parts)
+        earliest.push_back(part.earliest);
+    EarliestImpact all;
+    for (const EarliestImpact& each : earliest)
+        if (each.impact)
+            all.keep(*each.impact);
+    return all.impact;
 }
 
 /// Whether any task has found an impact.

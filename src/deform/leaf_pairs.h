@@ -24,6 +24,9 @@ public:
                         FeaturePairs<Sink>& pairs, std::uint64_t* triangle_pairs)
         : a_(a), b_(b), margin_(margin), pairs_(pairs), triangle_pairs_(triangle_pairs) {}
 
+    /// Leaves out pairs of features that do not overlap until this time (see find_overlaps).
+    void set_until(float until) { until_ = until; }
+
     bool visit(std::uint32_t i, std::uint32_t j) override {
         const bool same = pairs_.is_self() && i == j;
         auto& [faces, edges, vertex_face, vertex_of_b] = overlaps_;
@@ -32,7 +35,7 @@ public:
         vertex_face.a = a_.vertices.run(i), vertex_face.b = faces.b;
         vertex_of_b.a = b_.vertices.run(j), vertex_of_b.b = faces.a;
         const std::size_t first = triangle_pairs_ != nullptr ? 0 : 1, last = same ? 3 : 4;
-        find_overlaps(std::span(overlaps_).subspan(first, last - first), margin_);
+        find_overlaps(std::span(overlaps_).subspan(first, last - first), margin_, until_);
         if (same)
             faces.keep_once(), edges.keep_once();
 
@@ -49,6 +52,7 @@ private:
     const LeafFeatures& a_;
     const LeafFeatures& b_;
     float margin_;
+    float until_ = 1;
     FeaturePairs<Sink>& pairs_;
     std::uint64_t* triangle_pairs_;
     std::array<RunOverlaps, 4> overlaps_;

@@ -55,10 +55,10 @@ std::vector<FeaturePair> find_near(const DeformableData& a, const DeformableData
         throw Error(ErrorCode::bad_argument, "the distance must be a finite number of at least 0");
     const StopScope stopping(progress);
     SweptTree rest_a = a.swept, rest_b;
-    refit(rest_a, a, 0);
+    fit_at(rest_a, a, StepEnd::start);
     if (&a != &b) {
         rest_b = b.swept;
-        refit(rest_b, b, 0);
+        fit_at(rest_b, b, StepEnd::start);
     }
     const CandidateSearch search(a, rest_a, b, &a == &b ? rest_a : rest_b, distance);
     std::vector<std::vector<FeaturePair>> parts(search.tasks());

@@ -8,7 +8,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tree/traverse_overlaps.cpp"
 #include "simd/foreach_target.h"
-#include "volume/moving_box-inl.h"
+#include "tree/overlap_opener-inl.h"
 
 // Code that does not depend on the SIMD target; compiled once.
 #ifndef ABUT_TREE_TRAVERSE_OVERLAPS_ONCE
@@ -16,11 +16,6 @@
 namespace abut::traverse_overlaps_detail {
 
 using PairStack = boost::container::small_vector<OverlapTraversal::Pair, 512>;
-
-/// The box of a child. In: not the root's name.
-inline MovingBoxRef box_of(const MovingTree& tree, std::uint32_t name) {
-    return {tree.nodes[node_of(name)].boxes(), lane_of(name)};
-}
 
 } // namespace abut::traverse_overlaps_detail
 #endif
@@ -41,57 +36,21 @@ HWY_INLINE std::uint32_t near_children(const MovingNode& node, const MovingBoxRe
     return bits;
 }
 
-/// Replaces a pair that is not two leaves by pairs of children that may overlap.
-class Opener {
+/// Pairs of children whose boxes may come within the margin of each other at some time.
+class PendingOverlaps {
 public:
-    Opener(const OverlapTraversal& traversal, PairStack& pairs)
-        : traversal_(traversal), pairs_(pairs) {}
+    PendingOverlaps(float margin, PairStack& pairs) : margin_(margin), pairs_(pairs) {}
 
-    void open(OverlapTraversal::Pair pair, NodeRef a, NodeRef b) {
-        if (traversal_.is_self() && pair.a == pair.b)
-            open_self(a.index());
-        else if (a.is_leaf())
-            open_b(pair.a, b.index(), 0xffU);
-        else if (b.is_leaf())
-            open_a(a.index(), pair.b);
-        else
-            for_each_child(traversal_.a, a.index(), [&](std::uint32_t name, std::uint32_t) {
-                open_b(name, b.index(), 0xffU);
-            });
+    void add_self(std::uint32_t name) { pairs_.push_back({name, name}); }
+    template <typename PairOf>
+    void add_near(const MovingNode& node, const MovingBoxRef& box, std::uint32_t wanted,
+                  const PairOf& pair_of) {
+        for (const std::uint32_t lane : SetBits(near_children(node, box, margin_) & wanted))
+            pairs_.push_back(pair_of(lane));
     }
 
 private:
-    /// Calls visit(name, lane) for each child of a node.
-    template <typename Visit>
-    static void for_each_child(const MovingTree& tree, std::uint32_t node, const Visit& visit) {
-        for (std::uint32_t i = 0; i < MovingNode::kWidth && !tree.nodes[node].child[i].is_none();
-             ++i)
-            visit(child_name(node, i), i);
-    }
-
-    void open_self(std::uint32_t node) {
-        if (!traversal_.skipped.empty() && traversal_.skipped[node] != 0)
-            return;
-        for_each_child(traversal_.a, node, [&](std::uint32_t name, std::uint32_t lane) {
-            pairs_.push_back({name, name});
-            open_b(name, node, 0xfeU << lane);
-        });
-    }
-    /// Pairs a child of a with those children of a node of b that are `wanted`.
-    void open_b(std::uint32_t name, std::uint32_t node, std::uint32_t wanted) {
-        const std::uint32_t near =
-            near_children(traversal_.b.nodes[node], box_of(traversal_.a, name), traversal_.margin);
-        for (const std::uint32_t lane : SetBits(near & wanted))
-            pairs_.push_back({name, child_name(node, lane)});
-    }
-    void open_a(std::uint32_t node, std::uint32_t name) {
-        const std::uint32_t near =
-            near_children(traversal_.a.nodes[node], box_of(traversal_.b, name), traversal_.margin);
-        for (const std::uint32_t lane : SetBits(near))
-            pairs_.push_back({child_name(node, lane), name});
-    }
-
-    const OverlapTraversal& traversal_;
+    float margin_;
     PairStack& pairs_;
 };
 
@@ -99,13 +58,14 @@ bool traverse_overlaps(const OverlapTraversal& traversal, OverlapTraversal::Pair
                        OverlapVisitor& visitor) {
     if (traversal.a.empty() || traversal.b.empty())
         return true;
-    PairStack pending{start};
-    Opener opener(traversal, pending);
+    PairStack pairs{start};
+    PendingOverlaps pending(traversal.margin, pairs);
+    OverlapOpener opener(traversal, pending);
     SearchSteps steps;
-    while (!pending.empty()) {
+    while (!pairs.empty()) {
         steps.take();
-        const OverlapTraversal::Pair pair = pending.back();
-        pending.pop_back();
+        const OverlapTraversal::Pair pair = pairs.back();
+        pairs.pop_back();
         const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);
         if (!(a.is_leaf() && b.is_leaf()))
             opener.open(pair, a, b);
@@ -120,7 +80,8 @@ void split_overlaps(const OverlapTraversal& traversal, std::size_t wanted, PairS
     for (bool opened = true; opened && pairs.size() < wanted;) {
         opened = false;
         PairStack next;
-        Opener opener(traversal, next);
+        PendingOverlaps pending(traversal.margin, next);
+        OverlapOpener opener(traversal, pending);
         for (const OverlapTraversal::Pair& pair : pairs) {
             const NodeRef a = traversal.a.named(pair.a), b = traversal.b.named(pair.b);
             if (a.is_leaf() && b.is_leaf()) {

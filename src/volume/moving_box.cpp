@@ -11,21 +11,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-HWY_INLINE void find_tiles(RunOverlaps& overlaps, float margin) {
+/// `bits_of(lanes, box)` returns a bit for each lane that may come near the box.
+template <typename BitsOf>
+HWY_INLINE void find_tiles(RunOverlaps& overlaps, const BitsOf& bits_of) {
     const MovingBoxRun a = overlaps.a, b = overlaps.b;
     constexpr std::uint32_t kTile = RunOverlaps::kTile;
-    const MovingBoxLanes::D d;
-    const auto minus_margin = hn::Set(d, -margin);
     const std::uint32_t tiles_b = RunOverlaps::tiles_of(b);
     for (std::uint32_t first = 0; first < b.count;
-         first += static_cast<std::uint32_t>(hn::Lanes(d))) {
+         first += static_cast<std::uint32_t>(hn::Lanes(MovingBoxLanes::D()))) {
         const MovingBoxLanes lanes(b, first);
         const std::uint32_t used = b.all() >> first;
         std::uint64_t* tile = overlaps.tiles.data() + first / kTile;
         for (std::uint32_t k = 0; k < a.count; k += kTile, tile += tiles_b) {
             std::uint64_t bits = 0;
             for (std::uint32_t row = 0; row < std::min(kTile, a.count - k); ++row)
-                bits |= std::uint64_t{lanes.overlap_bits({a, k + row}, minus_margin) & used}
+                bits |= std::uint64_t{bits_of(lanes, MovingBoxRef{a, k + row}) & used}
                         << (kTile * row);
             *tile = first % kTile == 0 ? bits : *tile | bits << first % kTile;
         }
@@ -33,8 +33,17 @@ HWY_INLINE void find_tiles(RunOverlaps& overlaps, float margin) {
 }
 
 void find_all_overlaps(std::span<RunOverlaps> overlaps, float margin) {
+    const auto minus_margin = hn::Set(MovingBoxLanes::D(), -margin);
     for (RunOverlaps& each : overlaps)
-        find_tiles(each, margin);
+        find_tiles(each, [&](const MovingBoxLanes& lanes, const MovingBoxRef& box)
+                             HWY_ATTR { return lanes.overlap_bits(box, minus_margin); });
+}
+
+void find_overlaps_until(std::span<RunOverlaps> overlaps, float margin, float until) {
+    const UntilLanes part(until, margin);
+    for (RunOverlaps& each : overlaps)
+        find_tiles(each, [&](const MovingBoxLanes& lanes, const MovingBoxRef& box)
+                             HWY_ATTR { return lanes.overlaps_until(box, part).until; });
 }
 
 } // namespace abut::HWY_NAMESPACE
@@ -44,9 +53,13 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(find_all_overlaps);
+HWY_EXPORT(find_overlaps_until);
 
-void find_overlaps(std::span<RunOverlaps> overlaps, float margin) {
-    HWY_DYNAMIC_DISPATCH(find_all_overlaps)(overlaps, margin);
+void find_overlaps(std::span<RunOverlaps> overlaps, float margin, float until) {
+    if (until < 1)
+        HWY_DYNAMIC_DISPATCH(find_overlaps_until)(overlaps, margin, until);
+    else
+        HWY_DYNAMIC_DISPATCH(find_all_overlaps)(overlaps, margin);
 }
 
 } // namespace abut

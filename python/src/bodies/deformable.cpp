@@ -409,6 +409,7 @@ void bind_deformable(py::module_& module) {
     bind_results(module);
     bind_class(module);
     bind_surface_queries(module);
+    bind_representatives(module);
 }
 
 } // namespace abut::python

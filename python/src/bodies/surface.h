@@ -14,4 +14,7 @@ struct Surface {
     Surface(Mesh mesh, const DeformableOptions& options) : value(std::move(mesh), options) {}
 };
 
+/// Adds what representatives.h declares. Called by bind_deformable.
+void bind_representatives(py::module_& module);
+
 } // namespace abut::python

@@ -187,6 +187,52 @@ TEST(Deformable, FirstImpactIsTheEarliest) {
     EXPECT_GT(without, many(400) / 5);
 }
 
+/// Whatever the tolerances and wherever the surfaces are, and also where most pairs of nodes do not
+/// overlap at the start: the earliest impact is that of the list, for any number of threads.
+TEST(Deformable, FirstImpactIsTheEarliestOfEveryList) {
+    Random random(31);
+    int with = 0, without = 0, after_start = 0;
+    for (int round = 0; round < many(60); ++round) {
+        MovingMesh a = round % 4 == 0 ? crumpled_sheet(random, 20) : any_soup(random),
+                   b = round % 4 == 0 ? crumpled_sheet(random, 12) : random_soup(random, 8, 6);
+        const double scale = std::ldexp(1, random.integer(-40, 40));
+        const Vec3 far = random.chance(0.5) ? Vec3{} : (1e6 * scale) * random.in_cube();
+        const Vec3 beside = random.chance(0.5) ? Vec3{} : (2 * scale) * random.in_cube();
+        for (auto* points : {&a.mesh.positions, &a.end})
+            for (Vec3& p : *points)
+                p = scale * p + far;
+        for (auto* points : {&b.mesh.positions, &b.end})
+            for (Vec3& p : *points)
+                p = scale * p + far + (points == &b.end ? Vec3{} : beside);
+        const Deformable surface = a.deformable(), other = b.deformable();
+        for (const ElementaryOptions& options :
+             {ElementaryOptions{}, ElementaryOptions{.absolute_error = 0.05 * scale},
+              ElementaryOptions{.thickness = 0.05 * scale}}) {
+            const auto check = [&](const Impacts& all, const std::optional<FeatureImpact>& first) {
+                const auto earliest = std::min_element(
+                    all.list.begin(), all.list.end(),
+                    [](const FeatureImpact& i, const FeatureImpact& k) { return i.time < k.time; });
+                ASSERT_EQ(first.has_value(), !all.list.empty());
+                if (first) {
+                    ASSERT_EQ(*first, *earliest);
+                }
+                (first ? with : without) += 1;
+                after_start += first && first->time > 0 ? 1 : 0;
+            };
+            for (const int threads : {1, 4}) {
+                set_threads(threads);
+                check(self_impacts(surface, options), self_time_of_impact(surface, options));
+                check(impacts(surface, other, options), time_of_impact(surface, other, options));
+            }
+            set_threads(0);
+        }
+    }
+    std::cout << with << " with impacts, " << without << " without, " << after_start
+              << " not at the start\n";
+    EXPECT_GT(with, many(60));
+    EXPECT_GT(after_start, many(60) / 4);
+}
+
 TEST(Deformable, ThreadsAndTargetsChangeNothing) {
     Random random(71);
     const MovingMesh moving = crumpled_sheet(random, 60);
