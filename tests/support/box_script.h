@@ -96,6 +96,27 @@ public:
         }
     }
 
+    /// Changes at most one in twenty boxes, or none, and returns their indices.
+    std::vector<std::uint32_t> few() {
+        const double share = random_.uniform(0, 0.04);
+        return change(share, [&](const Box3& box) {
+            switch (random_.integer(0, 9)) {
+            case 0:
+                return Box3();
+            case 1: // spans the world
+                return Box3{{-HUGE_VAL, -2e7, -2e7}, {HUGE_VAL, 2e7, 2e7}};
+            case 2: // coincides with another one
+                return boxes_[std::size_t(random_.integer(0, int(boxes_.size()) - 1))];
+            case 3:
+            case 4:
+                return anywhere();
+            default:
+                return drifted(box.lower.x <= box.upper.x && box.lower.x > -1e9 ? box : anywhere(),
+                               0.2);
+            }
+        });
+    }
+
 private:
     double snapped(double x) const {
         return kind_.lattice > 0 ? std::round(x / kind_.lattice) * kind_.lattice : x;

@@ -24,7 +24,11 @@ public:
     }
 
     void update(const BoxStep& step, PairList& list) override {
-        const std::size_t boxes = step.boxes.size(), pairs = list.pairs().size();
+        if (step.few_changed()) {
+            update_few(step, list);
+            return;
+        }
+        const std::size_t boxes = step.boxes.size(), pairs = list.size();
         if (on_axes_ && axes_.try_update(step, list, most_moves(boxes, pairs))) {
             pause_ = kShortestPause;
             tree_is_current_ = false;
@@ -54,6 +58,19 @@ private:
 
     static std::size_t most_moves(std::size_t boxes, std::size_t pairs) {
         return kMovesOfBox * boxes + (pairs - std::min(pairs, kManyPairs * boxes)) / 2;
+    }
+
+    /// The axes look at all ends; the tree looks only at the boxes that have changed.
+    void update_few(const BoxStep& step, PairList& list) {
+        if (on_axes_)
+            left_ = pause_; // so that steps that change by turns do not sort the axes each time
+        on_axes_ = false;
+        left_ = std::max<std::size_t>(left_, 1);
+        if (tree_is_current_)
+            tree_->update(step, list);
+        else
+            tree_->restart(step.boxes, list);
+        tree_is_current_ = true;
     }
 
     void stay_with_tree() {

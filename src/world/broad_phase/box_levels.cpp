@@ -8,6 +8,15 @@ namespace abut {
 
 namespace {
 
+/// Whether the inner box touches no side of the outer one.
+bool is_inside(const Aabb& inner, const Aabb& outer) {
+    bool inside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        inside = inside && inner.lower[axis] > outer.lower[axis] &&
+                 inner.upper[axis] < outer.upper[axis];
+    return inside;
+}
+
 constexpr std::size_t nodes_over(std::size_t boxes) {
     return (boxes + BoxLevels::kWidth - 1) / BoxLevels::kWidth;
 }
@@ -45,10 +54,17 @@ void BoxLevels::fit() {
 
 void BoxLevels::set(std::size_t lane, const Aabb& box) {
     Aabb bounds = box;
-    for (std::vector<BoxNode>& level : levels_) {
-        level[lane / kWidth].set(lane % kWidth, bounds);
-        lane /= kWidth;
-        bounds = level[lane].bounds();
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+        const std::size_t node = lane / kWidth;
+        const Aabb before = levels_[level][node].box(lane % kWidth);
+        levels_[level][node].set(lane % kWidth, bounds);
+        if (level + 1 == levels_.size())
+            return;
+        const Aabb all = levels_[level + 1][node / kWidth].box(node % kWidth);
+        if (is_inside(before, all) && is_inside(bounds, all))
+            return;
+        bounds = levels_[level][node].bounds();
+        lane = node;
     }
 }
 

@@ -24,7 +24,8 @@ public:
     void resize(std::size_t boxes);
     /// Fits all levels above level 0.
     void fit();
-    /// Changes the box in a lane of level 0, and the bounds of the nodes above it.
+    /// Changes the box in a lane of level 0, and the bounds of the nodes above it as far as they
+    /// change.
     void set(std::size_t lane, const Aabb& box);
 
     [[nodiscard]] std::size_t count() const { return levels_.size(); }

@@ -29,6 +29,10 @@ inline bool meet(const Box3& a, const Box3& b) {
     return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
+/// Whether two boxes, which may be empty, share a point. Exact.
+inline bool have_common_point(const Box3& a, const Box3& b) {
+    return takes_part(a) && takes_part(b) && meet(a, b);
+}
 
 /// Converts boxes to single precision relative to a centre, for comparisons that are exact where
 /// they decide.

@@ -91,10 +91,12 @@ private:
             for (const std::uint32_t i : order_) {
                 const double l = component(boxes_[i].lower, axis),
                              u = component(boxes_[i].upper, axis);
+                if (u - l == HUGE_VAL)
+                    continue; // a half-space says nothing about the others
                 low = std::min(low, l), high = std::max(high, l);
                 sum += u - l;
             }
-            const double crowded = sum / (high - low); // not a number if boxes are unbounded
+            const double crowded = sum / (high - low); // not a number if no box is bounded
             crowd.at(static_cast<std::size_t>(axis)) = crowded >= 0 ? crowded : HUGE_VAL;
         }
         return static_cast<int>(std::min_element(crowd.begin(), crowd.end()) - crowd.begin());

@@ -65,6 +65,8 @@ void BroadPhase::update(std::span<const Box3> boxes, std::span<const std::uint32
         require_numbers(boxes[i], i);
     if (forgotten_ || boxes.size() < boxes_)
         search_->restart(boxes, *list_);
+    else if (changed.empty() && boxes.size() == boxes_)
+        list_->change({}, {});
     else
         search_->update({boxes, changed}, *list_);
     forgotten_ = false;

@@ -45,7 +45,7 @@ public:
         search_->restart(boxes, list);
         is_current_ = true;
         chosen_ = choose_hubs(list.pairs(), boxes.size(), {});
-        left_ = kStepsOfChoice;
+        work_ = 0;
     }
 
     void update(const BoxStep& step, PairList& list) override {
@@ -55,14 +55,16 @@ public:
             search(step, list);
         else
             update_both(step, list);
-        if (!(list.begun().empty() && list.ended().empty()) && --left_ == 0) {
+        if (!(list.begun().empty() && list.ended().empty()))
+            work_ += std::max<std::size_t>(step.changed.size(), 1);
+        if (work_ >= kStepsOfChoice * step.boxes.size() && work_ > 0) {
             chosen_ = choose_hubs(list.pairs(), step.boxes.size(), hubs());
-            left_ = kStepsOfChoice;
+            work_ = 0;
         }
     }
 
 private:
-    /// Counting is cheap compared with this number of steps.
+    /// Counting the pairs is cheap compared with this number of steps in which all boxes change.
     static constexpr std::size_t kStepsOfChoice = 16;
 
     [[nodiscard]] const std::vector<std::uint32_t>& hubs() const { return rows_.hubs().hubs(); }
@@ -119,7 +121,7 @@ private:
     PairFilter filter_;
     bool is_current_ = false;           ///< whether `search_` is up to date with the last step
     std::vector<std::uint32_t> chosen_; ///< the hubs of the next step
-    std::size_t left_ = kStepsOfChoice; ///< steps until the next choice
+    std::size_t work_ = 0;              ///< boxes that have changed since the last choice
     HubRows rows_;
     PairList others_;         ///< pairs without hubs; used only if there are hubs
     std::vector<Box3> boxes_; ///< the boxes, hubs replaced by empty ones

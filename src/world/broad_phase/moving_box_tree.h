@@ -25,6 +25,13 @@ public:
     /// changed so much that this step alone makes the tree worn, the tree only becomes worn.
     void refit(std::span<const Box3> boxes, std::span<const std::uint32_t> changed);
 
+    /// Moves one box, without marks. Appends to `lanes` the lanes of level 0 with which the box may
+    /// have begun or ceased to overlap (`find_changed_lanes`).
+    void move(std::uint32_t box, const Box3& before, const Box3& now,
+              std::vector<std::size_t>& lanes);
+    /// The box in a lane of level 0.
+    [[nodiscard]] std::uint32_t box_at(std::size_t lane) const { return order_[lane]; }
+
     /// Whether a rebuild pays before pairs are searched again. Nodes grow after a build and meet
     /// more nodes. The tree is worn when the tests of these additional pairs, summed over the
     /// steps, cost more than a build.
@@ -52,6 +59,7 @@ private:
     /// Number of additional pairs that a node with these bounds meets.
     [[nodiscard]] double excess(std::size_t node, const Aabb& bounds) const;
     void add_wear();
+    void add_wear_of_move(std::size_t nodes);
     /// An estimate of what `add_wear` will add if all boxes have changed. Refits some nodes.
     double sampled_wear(std::span<const Box3> boxes);
     [[nodiscard]] double most_wear() const;
@@ -64,6 +72,11 @@ private:
     std::vector<float> built_size_; ///< size of each node of level 0 at the last build
     double wear_ = 0;               ///< additional node pairs, summed over the steps since the
                                     ///< build
+    /// Moves of single boxes, and the nodes that they looked at, until there were enough to tell
+    /// what a move costs in a tree that is not worn.
+    struct {
+        std::size_t moves = 0, nodes = 0;
+    } usual_;
 };
 
 } // namespace abut

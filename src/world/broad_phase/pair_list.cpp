@@ -51,6 +51,25 @@ void join(const std::vector<Differences>& all, std::vector<IndexPair> Difference
 
 } // namespace
 
+const std::vector<IndexPair>& PairList::pairs() const noexcept {
+    if (is_waiting_.load(std::memory_order_acquire)) {
+        const std::scoped_lock lock(joining_);
+        if (is_waiting_.load(std::memory_order_relaxed)) {
+            apply(waiting_.settle(), pairs_);
+            waiting_.clear();
+            is_waiting_.store(false, std::memory_order_release);
+        }
+    }
+    return pairs_;
+}
+
+/// Call it after the sorted list has been set.
+void PairList::set_pairs_current() {
+    waiting_.clear();
+    is_waiting_ = false;
+    size_ = pairs_.size();
+}
+
 void PairList::find_changes() {
     constexpr std::size_t kPairsOfTask = 1 << 14;
     const std::size_t tasks = pairs_.size() / kPairsOfTask + 1;
@@ -75,24 +94,29 @@ void PairList::find_changes() {
 
 void PairList::assign(std::vector<IndexPair> pairs) {
     pairs_ = std::move(pairs);
+    set_pairs_current();
 }
 
 void PairList::replace(std::vector<IndexPair>& pairs, std::vector<IndexPair> begun,
                        std::vector<IndexPair> ended) {
     std::swap(pairs_, pairs);
     begun_ = std::move(begun), ended_ = std::move(ended);
+    set_pairs_current();
 }
 
 void PairList::replace_all(std::vector<std::vector<IndexPair>>& found, std::size_t boxes) {
+    static_cast<void>(this->pairs()); // the last step's list
     std::swap(pairs_, last_);
     sort_pairs(found, boxes, pairs_);
     find_changes();
+    set_pairs_current();
 }
 
 void PairList::replace_marked(std::vector<std::vector<IndexPair>>& found, const BoxMarks& marks) {
     std::vector<IndexPair> before, now;
     sort_pairs(found, marks.size(), now);
-    std::copy_if(pairs_.begin(), pairs_.end(), std::back_inserter(before),
+    const std::vector<IndexPair>& last = pairs();
+    std::copy_if(last.begin(), last.end(), std::back_inserter(before),
                  [&](IndexPair pair) { return (marks[pair.a()] | marks[pair.b()]) != 0; });
     Differences changes = find_differences(before, now);
     change(std::move(changes.only_b), std::move(changes.only_a));
@@ -102,6 +126,25 @@ void PairList::change(std::vector<IndexPair> begun, std::vector<IndexPair> ended
     begun_ = std::move(begun), ended_ = std::move(ended);
     if (begun_.empty() && ended_.empty())
         return;
+    size_ += begun_.size();
+    size_ -= ended_.size();
+    // With more changes, sorting and searching them takes longer than going through the list.
+    constexpr std::size_t kPairsOfChange = 32;
+    if ((waiting_.size() + begun_.size() + ended_.size()) * kPairsOfChange > pairs_.size()) {
+        static_cast<void>(pairs());
+        merge_changes();
+        return;
+    }
+    waiting_.add(begun_, ended_);
+    // A reader must not run out of memory. Growing by half bounds how often the list is copied.
+    const std::size_t most = pairs_.size() + waiting_.size();
+    if (most > pairs_.capacity())
+        pairs_.reserve(most + most / 2);
+    is_waiting_.store(true, std::memory_order_release);
+}
+
+/// Merges the step's changes into an up-to-date list.
+void PairList::merge_changes() {
     std::swap(pairs_, last_);
     pairs_.clear();
     pairs_.reserve(last_.size() + begun_.size());

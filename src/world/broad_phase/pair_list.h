@@ -2,9 +2,13 @@
 
 #include <abut/broad_phase.h>
 
+#include "world/broad_phase/pair_changes.h"
+
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -14,9 +18,14 @@ namespace abut {
 using BoxMarks = std::vector<std::uint8_t>;
 
 /// The sorted pairs of this step, and the pairs that began or ended since the last step.
+///
+/// If few pairs change, the sorted list waits until someone reads it (`PairChanges`). Several
+/// threads may read at once.
 class PairList {
 public:
-    [[nodiscard]] const std::vector<IndexPair>& pairs() const { return pairs_; }
+    [[nodiscard]] const std::vector<IndexPair>& pairs() const noexcept;
+    /// The number of pairs. The sorted list need not be up to date for it.
+    [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] const std::vector<IndexPair>& begun() const { return begun_; }
     [[nodiscard]] const std::vector<IndexPair>& ended() const { return ended_; }
 
@@ -35,8 +44,16 @@ public:
 
 private:
     void find_changes();
+    void merge_changes();
+    void set_pairs_current();
 
-    std::vector<IndexPair> pairs_, last_, begun_, ended_;
+    std::vector<IndexPair> last_, begun_, ended_;
+    std::size_t size_ = 0;
+    // The list as of an earlier step, and the changes since then. A reader joins them.
+    mutable std::vector<IndexPair> pairs_;
+    mutable PairChanges waiting_;
+    mutable std::atomic<bool> is_waiting_ = false;
+    mutable std::mutex joining_;
 };
 
 /// Sorts pairs from several lists into one, in parallel. Source: radix sort, first by the higher

@@ -20,6 +20,12 @@ struct BoxStep {
     /// The boxes that may have changed since the last step, or are new; each once.
     std::span<const std::uint32_t> changed;
     [[nodiscard]] bool all_changed() const { return changed.size() == boxes.size(); }
+    /// Whether it is faster to move the changed boxes one after the other. The limit on their number
+    /// leaves larger steps to several threads.
+    [[nodiscard]] bool few_changed() const {
+        constexpr std::size_t kFew = 8, kMost = 1 << 14;
+        return changed.size() * kFew <= boxes.size() && changed.size() <= kMost;
+    }
 };
 
 /// A method that keeps the list of overlapping pairs up to date.

@@ -14,11 +14,6 @@ void sort_and_unite(std::vector<IndexPair>& pairs) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
-/// Whether two boxes, which may be empty, share a point.
-bool share_a_point(const Box3& a, const Box3& b) {
-    return takes_part(a) && takes_part(b) && meet(a, b);
-}
-
 } // namespace
 
 SweepAndPrune::End SweepAndPrune::end_of(const Box3& box, std::uint32_t name, int axis) {
@@ -97,7 +92,8 @@ bool SweepAndPrune::sort_axis(std::span<const Box3> boxes, int axis, std::size_t
 }
 
 void SweepAndPrune::compare(std::span<const Box3> boxes, std::uint32_t i, std::uint32_t k) {
-    const bool before = share_a_point(last_[i], last_[k]), now = share_a_point(boxes[i], boxes[k]);
+    const bool before = have_common_point(last_[i], last_[k]),
+               now = have_common_point(boxes[i], boxes[k]);
     if (before != now)
         (now ? begun_ : ended_).emplace_back(i, k);
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
 namespace abut {
 
@@ -108,12 +107,53 @@ public:
     explicit TreeSearch(PairFilter filter) : filter_(std::move(filter)) {}
 
     void restart(std::span<const Box3> boxes, PairList& list) override {
+        is_last_current_ = false;
         tree_.build(boxes);
         find(boxes);
         list.replace_all(found_, boxes.size());
     }
 
     void update(const BoxStep& step, PairList& list) override {
+        if (step.few_changed() && is_last_current_ && last_.size() == step.boxes.size()) {
+            update_few(step, list);
+            return;
+        }
+        update_marked(step, list);
+        is_last_current_ = step.few_changed();
+        if (is_last_current_)
+            last_.assign(step.boxes.begin(), step.boxes.end());
+    }
+
+private:
+    /// Moves the changed boxes one after the other. Each move finds the pairs that begin and end
+    /// with it, while the other boxes stand still.
+    void update_few(const BoxStep& step, PairList& list) {
+        moves_.clear();
+        for (const std::uint32_t i : step.changed) {
+            const Box3 before = last_[i], now = step.boxes[i];
+            lanes_.clear();
+            tree_.move(i, before, now, lanes_);
+            for (const std::size_t lane : lanes_) {
+                const std::uint32_t k = tree_.box_at(lane);
+                if (k == i)
+                    continue;
+                const bool met = have_common_point(before, last_[k]),
+                           meets = have_common_point(now, last_[k]);
+                if (met != meets)
+                    moves_.add(IndexPair(i, k), meets);
+            }
+            last_[i] = now;
+        }
+        std::vector<IndexPair> begun, ended;
+        for (const PairChanges::Change& change : moves_.settle())
+            if (!filter_ || filter_(change.pair.a(), change.pair.b()))
+                (change.by > 0 ? begun : ended).push_back(change.pair);
+        list.change(std::move(begun), std::move(ended));
+        if (tree_.is_worn())
+            tree_.build(step.boxes);
+    }
+
+    void update_marked(const BoxStep& step, PairList& list) {
         const bool shrunk = step.boxes.size() < tree_.size();
         if (!shrunk)
             tree_.refit(step.boxes, step.changed);
@@ -132,7 +172,6 @@ public:
         list.replace_marked(found_, marks_);
     }
 
-private:
     /// Collects the pairs of marked boxes.
     void find(std::span<const Box3> boxes) {
         constexpr std::size_t kPairsOfTask = 16;
@@ -167,6 +206,11 @@ private:
     MovingBoxTree tree_;
     std::vector<std::vector<IndexPair>> found_;
     BoxMarks marks_;
+    /// The boxes of the last step, kept while few change from step to step.
+    std::vector<Box3> last_;
+    bool is_last_current_ = false;
+    PairChanges moves_;              ///< of the boxes that change in a step
+    std::vector<std::size_t> lanes_; ///< scratch
 };
 
 } // namespace

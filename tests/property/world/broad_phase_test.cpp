@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <string>
+#include <thread>
 
 namespace abut::test {
 namespace {
@@ -71,6 +72,45 @@ TEST_P(BroadPhases, FindAllPairsAndChanges) {
     EXPECT_GT(steps, 100U);
 }
 
+TEST_P(BroadPhases, FollowFewChanges) {
+    Random random(5011);
+    std::size_t changes = 0, reads = 0, steps = 0;
+    for (int round = 0; round < many(2); ++round)
+        for (const BroadPhaseMethod method : kMethods)
+            for (const BroadPhaseOptions& options : options_of(method)) {
+                SCOPED_TRACE(to_string(method));
+                set_threads(random.integer(1, 4));
+                BoxScript script(random, GetParam(), std::size_t(random.integer(60, 300)));
+                BroadPhase phase(options);
+                phase.update(script.boxes());
+                Pairs last = all_pairs(script.boxes(), options);
+                for (int i = 0; i < 40; ++i) {
+                    if (random.chance(0.05)) {
+                        const auto changed = script.step();
+                        phase.update(script.boxes(), changed);
+                    } else {
+                        const auto changed = script.few();
+                        phase.update(script.boxes(), changed);
+                    }
+                    const Pairs now = all_pairs(script.boxes(), options);
+                    ASSERT_EQ(phase.begun(), without(now, last));
+                    ASSERT_EQ(phase.ended(), without(last, now));
+                    if (random.chance(0.3)) { // changes of several steps wait
+                        ASSERT_EQ(phase.pairs(), now);
+                        ++reads;
+                    }
+                    changes += phase.begun().size() + phase.ended().size();
+                    last = now;
+                    ++steps;
+                }
+                ASSERT_EQ(phase.pairs(), last);
+            }
+    set_threads(0);
+    EXPECT_GT(changes, steps);
+    EXPECT_GT(reads, steps / 6);
+    EXPECT_LT(reads, steps / 2);
+}
+
 TEST_P(BroadPhases, FindTheSameWithEverySimdTarget) {
     Random random(5002);
     std::size_t found = 0;
@@ -116,6 +156,52 @@ TEST(BroadPhase, LongDriftsKeepAllPairs) {
             }
         }
         EXPECT_GT(changes, 2000U);
+    }
+}
+
+TEST(BroadPhase, FewBoxesThatJumpForeverAreFoundInAWornTree) {
+    Random random(5012);
+    BroadPhase phase({BroadPhaseMethod::tree, {}});
+    const BoxSceneKind kind{"scattered", 0, 0, 4, false};
+    std::vector<Box3> boxes = BoxScript(random, kind, 400).boxes();
+    phase.update(boxes);
+    for (int step = 0; step < 600; ++step) {
+        std::vector<std::uint32_t> changed;
+        for (int i = 0; i < 10; ++i) {
+            const std::size_t k = std::size_t(step * 10 + i * 7) % boxes.size();
+            const Vec3 way = random.in_cube(0.5) - boxes[k].lower;
+            boxes[k] = {boxes[k].lower + way, boxes[k].upper + way};
+            if (std::find(changed.begin(), changed.end(), k) == changed.end())
+                changed.push_back(std::uint32_t(k));
+        }
+        phase.update(boxes, changed);
+        if (step % 20 == 0) {
+            ASSERT_EQ(phase.pairs(), all_pairs(boxes, {}));
+        }
+    }
+    EXPECT_EQ(phase.pairs(), all_pairs(boxes, {}));
+    EXPECT_GT(phase.pairs().size(), 400U);
+}
+
+TEST(BroadPhase, SeveralThreadsReadPairsThatWait) {
+    Random random(5013);
+    const BoxSceneKind kind{"scattered", 0, 0, 8, false};
+    BoxScript script(random, kind, 400);
+    BroadPhase phase;
+    phase.update(script.boxes());
+    for (int step = 0; step < 20; ++step) {
+        const auto changed = script.few();
+        phase.update(script.boxes(), changed);
+        const Pairs truth = all_pairs(script.boxes(), {});
+        std::array<bool, 4> right{};
+        std::vector<std::thread> readers;
+        readers.reserve(right.size());
+        for (bool& each : right)
+            readers.emplace_back([&] { each = phase.pairs() == truth; });
+        for (std::thread& reader : readers)
+            reader.join();
+        for (const bool each : right)
+            ASSERT_TRUE(each);
     }
 }
 
