@@ -33,7 +33,7 @@ bool is_before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-Box3 box_of(const Triangle& t) {
+Box3 bounds_of(const Triangle& t) {
     return {min(t[0], min(t[1], t[2])), max(t[0], max(t[1], t[2]))};
 }
 
@@ -82,7 +82,7 @@ public:
                     p = to_local(p);
                 if (solid_.outward() < 0)
                     std::swap(t[1], t[2]);
-                if (overlap(box_of(t), local))
+                if (overlap(bounds_of(t), local))
                     goes_on = visit(block.number(triangle), t);
             });
             return goes_on;
@@ -96,7 +96,7 @@ public:
             NearFace face;
             face.number = number;
             face.corners = t;
-            face.box = box_of(t);
+            face.box = bounds_of(t);
             face.is_flat = collinear(t[0], t[1], t[2]);
             faces_.push_back(face);
             return faces_.size() <= kMostOverlapTriangles;

@@ -1,0 +1,255 @@
+#include <abut/error.h>
+#include <abut/model_contacts.h>
+#include <abut/penetration.h>
+
+#include "core/arguments.h"
+#include "rigid/manifold/meeting_regions.h"
+#include "rigid/manifold/region_frame.h"
+#include "rigid/manifold/region_names.h"
+#include "rigid/manifold/region_points.h"
+#include "rigid/manifold/triangle_meeting.h"
+#include "rigid/pair/separating_plane.h"
+#include "rigid/solid/containment.h"
+#include "rigid/solid/placed_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace abut {
+
+namespace {
+
+/// Memory that a thread uses again for its next pair.
+struct ManifoldMemory {
+    TriangleMeetings meetings;
+    MeetingRegions regions;
+    std::vector<std::uint32_t> part;
+    std::vector<TriangleMeeting> one_part;
+
+    /// Frees what one huge pair has needed.
+    void trim() {
+        constexpr std::size_t kMostKept = 1U << 14U;
+        if (meetings.all.capacity() > kMostKept || meetings.points.capacity() > 4 * kMostKept)
+            meetings = {};
+        if (part.capacity() > kMostKept || one_part.capacity() > kMostKept)
+            part = {}, one_part = {};
+    }
+};
+
+/// Whether the tree's box of `outer` holds a vertex of some component of `inner`.
+bool may_hold_component(const PlacedSolid& outer, const PlacedSolid& inner) {
+    const PlacedModel& model = outer.model();
+    const Aabb& box = model.data().tree().bounds;
+    const auto& components = inner.solid().components;
+    return outer.bounds_solid() &&
+           std::any_of(components.begin(), components.end(), [&](std::uint32_t t) {
+               const Vec3 p = apply(model.tree_from_world(), inner.world_triangle(t)[0]);
+               const auto within = [&](double x, std::size_t axis) {
+                   const double low = double{box.lower[axis]}, high = double{box.upper[axis]};
+                   // A point in the solid is farther than rounding from the box's sides, or near
+                   // enough to the surface to be found there.
+                   return low <= x && x <= high;
+               };
+               return within(p.x, 0) && within(p.y, 1) && within(p.z, 2);
+           });
+}
+
+Depth depth_of(const Model& a, const Transform& world_from_a, const Model& b,
+               const Transform& world_from_b) {
+    PenetrationOptions options;
+    options.separation = false;
+    return penetration(a, world_from_a, b, world_from_b, options);
+}
+
+/// The manifold with the one point of a region that `penetration` found.
+ModelManifold manifold_of(const ContactRegion& region) {
+    ModelManifold m;
+    m.normal = region.direction != Vec3{} ? region.direction : Vec3{0, 0, 1};
+    m.count = 1;
+    m.points[0] = {region.point_a, region.point_b, region.depth, point_name::kMiddle};
+    m.status = Status::bound_only;
+    return m;
+}
+
+/// The manifold of a solid inside the other, if there is one; their surfaces do not meet.
+std::vector<ModelManifold> contained_manifold(const Model& a, const Transform& world_from_a,
+                                              const Model& b, const Transform& world_from_b) {
+    std::vector<ModelManifold> manifolds;
+    const PlacedSolid side_a(a, a.data().solid(), world_from_a),
+        side_b(b, b.data().solid(), world_from_b);
+    const auto inside = [](const PlacedSolid& inner, const PlacedSolid& outer) {
+        return may_hold_component(outer, inner) && any_component_inside(inner, outer);
+    };
+    if (!inside(side_b, side_a) && !inside(side_a, side_b))
+        return manifolds;
+    for (const ContactRegion& region : depth_of(a, world_from_a, b, world_from_b).regions)
+        manifolds.push_back(manifold_of(region));
+    return manifolds;
+}
+
+class ManifoldFinder {
+public:
+    ManifoldFinder(const PlacedPair& pair, const Model& a, const Model& b, const Vec3& origin,
+                   const ManifoldOptions& options)
+        : pair_(pair), model_a_(a), model_b_(b), origin_(origin), margin_(options.margin),
+          a_(a, pair.world_from_a(), origin), b_(b, pair.world_from_b(), origin) {
+        if (options.last == nullptr)
+            return;
+        last_names_.reserve(4 * options.last->size());
+        for (const ModelManifold& m : *options.last)
+            for (std::uint32_t i = 0; i < m.count; ++i)
+                last_names_.push_back(m.points[i].feature);
+    }
+
+    std::vector<ModelManifold> find(const std::vector<Contact>& pairs) {
+        static thread_local ManifoldMemory memory;
+        describe_meetings(a_, b_, pairs, margin_, memory.meetings);
+        memory.regions.group(a_, b_, memory.meetings.all);
+        const std::span<const TriangleMeeting> all(memory.meetings.all);
+        for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+            poll_stop();
+            while (end < all.size() && all[end].region == all[begin].region)
+                ++end;
+            add_region(all.subspan(begin, end - begin), memory);
+        }
+        memory.trim();
+        // The outer border of a ring stands for the inner one too.
+        return std::move(manifolds_.empty() ? holes_ : manifolds_);
+    }
+
+private:
+    void add_region(std::span<const TriangleMeeting> region, ManifoldMemory& memory) {
+        const RegionFrame frame = region_frame(a_, b_, region, true);
+        if ((frame.only_touches || frame.is_flush) && (a_.is_oriented() || b_.is_oriented()) &&
+            add_doubtful(region, frame, memory.meetings.points))
+            return;
+        const std::uint32_t parts = split_where_hollow(region, memory.part);
+        if (parts == 1 || frame.is_hole) {
+            add(region, memory.meetings.points, frame);
+            return;
+        }
+        for (std::uint32_t k = 0; k < parts; ++k) {
+            memory.one_part.clear();
+            for (std::size_t i = 0; i < region.size(); ++i)
+                if (memory.part[i] == k)
+                    memory.one_part.push_back(region[i]);
+            if (!memory.one_part.empty())
+                add(memory.one_part, memory.meetings.points,
+                    region_frame(a_, b_, memory.one_part, false));
+        }
+    }
+
+    /// Adds a region whose normal is in doubt: equal boxes, of which one is stacked a little inside
+    /// the other, touch at their sides, or cross along rounding noise. Returns false, and adds
+    /// nothing, if the interiors do not overlap, or if the frame agrees with what `penetration`
+    /// finds.
+    bool add_doubtful(std::span<const TriangleMeeting> region, const RegionFrame& frame,
+                      const std::vector<FixedPoint>& points) {
+        if (!depth_) {
+            depth_ = depth_of(model_a_, pair_.world_from_a(), model_b_, pair_.world_from_b());
+            depth_used_.assign(depth_->regions.size(), false);
+        }
+        if (!depth_->interpenetrate)
+            return false;
+        const std::optional<std::size_t> k = deepest_of(region);
+        if (k) {
+            const ContactRegion& found = depth_->regions[*k];
+            if (frame.crosses && !frame.is_hole && agrees(region, points, frame, found))
+                return false;
+            if (!depth_used_[*k])
+                manifolds_.push_back(manifold_of(found));
+            depth_used_[*k] = true;
+            return true;
+        }
+        if (frame.only_touches)
+            add(region, points, frame, Status::bound_only);
+        return frame.only_touches;
+    }
+
+    /// The deepest region of depth_ that shares a triangle pair with a region; none if all of those
+    /// have depth 0.
+    [[nodiscard]] std::optional<std::size_t>
+    deepest_of(std::span<const TriangleMeeting> region) const {
+        std::optional<std::size_t> best;
+        for (std::size_t k = 0; k < depth_->regions.size(); ++k) {
+            const ContactRegion& found = depth_->regions[k];
+            if (found.depth > (best ? depth_->regions[*best].depth : 0) &&
+                found.direction != Vec3{} &&
+                std::any_of(region.begin(), region.end(), [&](const TriangleMeeting& m) {
+                    return std::binary_search(found.pairs.begin(), found.pairs.end(), m.pair);
+                }))
+                best = k;
+        }
+        return best;
+    }
+
+    /// Whether the frame's normal is near the direction of a region that `penetration` found, and
+    /// points of about its depth are found along that normal.
+    [[nodiscard]] bool agrees(std::span<const TriangleMeeting> region,
+                              const std::vector<FixedPoint>& points, const RegionFrame& frame,
+                              const ContactRegion& found) const {
+        constexpr double kLeastCos = 0.5, kLeastDepth = 0.5;
+        return dot(frame.normal, found.direction) > kLeastCos &&
+               choose_points(a_, b_, region, points, frame, {margin_, last_names_})
+                       .points[0]
+                       .depth > kLeastDepth * found.depth;
+    }
+
+    void add(std::span<const TriangleMeeting> region, const std::vector<FixedPoint>& points,
+             const RegionFrame& frame, Status at_best = Status::exact) {
+        ModelManifold m = choose_points(a_, b_, region, points, frame, {margin_, last_names_});
+        for (std::uint32_t i = 0; i < m.count; ++i) {
+            m.points[i].point_a = m.points[i].point_a + origin_;
+            m.points[i].point_b = m.points[i].point_b + origin_;
+        }
+        if (at_best == Status::bound_only)
+            m.status = at_best;
+        (frame.is_hole ? holes_ : manifolds_).push_back(m);
+    }
+
+    const PlacedPair& pair_;
+    const Model& model_a_;
+    const Model& model_b_;
+    Vec3 origin_;
+    double margin_;
+    ManifoldSide a_, b_;
+    std::vector<std::uint64_t> last_names_;
+    std::vector<ModelManifold> manifolds_, holes_;
+    std::optional<Depth> depth_;   ///< computed when a region needs it
+    std::vector<bool> depth_used_; ///< the regions of depth_ that have a manifold
+};
+
+bool any_meets(const std::vector<Contact>& pairs) {
+    return std::any_of(pairs.begin(), pairs.end(),
+                       [](const Contact& c) { return c.kind != TriangleContact::none; });
+}
+
+} // namespace
+
+std::vector<ModelManifold> contact_manifolds(const Model& a, const Transform& world_from_a,
+                                             const Model& b, const Transform& world_from_b,
+                                             const ManifoldOptions& options) {
+    require_not_negative(options.margin, "margin");
+    require(std::isfinite(options.margin), "margin must be finite");
+    const StopScope stopping(options.progress);
+    if (far_apart(a.data(), world_from_a, b.data(), world_from_b, options.margin))
+        return {};
+    const PlacedPair pair(a, world_from_a, b, world_from_b);
+    if (pair.world_from_a() != world_from_a || pair.world_from_b() != world_from_b)
+        // A transform was flattened: the pair holds copies of the meshes in world coordinates.
+        return contact_manifolds(Model(pair.a().mesh()), {}, Model(pair.b().mesh()), {}, options);
+    const std::vector<Contact> pairs = meeting_pairs(pair, options.margin);
+    std::vector<ModelManifold> manifolds;
+    if (!any_meets(pairs))
+        manifolds = contained_manifold(a, world_from_a, b, world_from_b);
+    if (manifolds.empty() && !pairs.empty())
+        manifolds =
+            ManifoldFinder(pair, a, b, pair.triangle_a(pairs[0].pair.a)[0], options).find(pairs);
+    name_regions(manifolds, options.last);
+    return manifolds;
+}
+
+} // namespace abut

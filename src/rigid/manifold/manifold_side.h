@@ -1,0 +1,60 @@
+#pragma once
+
+#include "math/vector.h"
+#include "rigid/model/placed_model.h"
+#include "rigid/model/solid.h"
+
+#include <array>
+#include <cstdint>
+
+namespace abut {
+
+/// One of the two models whose manifolds are computed.
+///
+/// Frame       the world, with an origin near the contacts.
+class ManifoldSide {
+public:
+    /// In          a transform with an inverse.
+    ManifoldSide(const Model& model, const Transform& world_from_model, const Vec3& origin);
+
+    [[nodiscard]] const PlacedModel& model() const { return model_; }
+    [[nodiscard]] Triangle triangle(std::uint32_t index) const {
+        return model_.world_triangle(index);
+    }
+    /// The merged vertices of a triangle.
+    [[nodiscard]] std::array<std::uint32_t, 3> vertices(std::uint32_t triangle) const {
+        const auto& t = model_.data().mesh().triangles[triangle];
+        const auto& vertex_of = solid_.topology.vertex_of;
+        return {vertex_of[t[0]], vertex_of[t[1]], vertex_of[t[2]]};
+    }
+    /// Whether normals tell the inside from the outside.
+    [[nodiscard]] bool is_oriented() const { return facing_ != 0; }
+    /// -1 if the triangles' normals point in; else +1.
+    [[nodiscard]] double facing() const { return facing_ < 0 ? -1 : 1; }
+
+    /// A point where a line leaves or enters the model.
+    struct LineHit {
+        bool found = false;
+        double height = 0; ///< along the direction, from the line's start
+    };
+    /// Returns the height, along a direction, at which the part of the model around or below a
+    /// point ends: the first surface ahead if the point lies inside, else the first one behind. A
+    /// triangle that is parallel to the direction to 2^-20 counts as missed.
+    ///
+    /// In          direction: a unit vector.
+    [[nodiscard]] LineHit top_along(const Vec3& point, const Vec3& direction) const;
+
+private:
+    struct SurfaceHit {
+        bool found = false;
+        double height = 0;
+        bool leaves = false; ///< the line passes from the inside to the outside
+    };
+    [[nodiscard]] SurfaceHit first_hit(const Vec3& point, const Vec3& direction) const;
+
+    PlacedModel model_;
+    const Solid& solid_;
+    int facing_ = 0;
+};
+
+} // namespace abut

@@ -1,0 +1,370 @@
+#include "rigid/manifold/region_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace abut {
+
+namespace {
+
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
+/// Points are sought in this many directions around the centre.
+constexpr std::size_t kAround = 8;
+/// A place on the curve is moved towards the centre by this share: there the depth is not 0.
+constexpr double kInwards = 0.125;
+/// A vertex stands for a direction if it reaches at least this far, relative to the curve.
+constexpr double kVertexReach = 0.5;
+/// A vertex that reaches farther than this, relative to the curve, is not between the surfaces.
+constexpr double kFarthestVertex = 1.5;
+/// The middle of a region takes the place of its deepest vertex only if it is deeper by this share:
+/// of two that are about as deep, the vertex keeps its name.
+constexpr double kClearlyDeeper = 1.02;
+/// Most candidates that are measured to widen a region.
+constexpr std::ptrdiff_t kMostTried = 16;
+/// A point that adds less than this share of the region's extent is not needed.
+constexpr double kLeastSpread = 1e-3;
+
+/// A place where a contact point may be.
+struct PointCandidate {
+    enum class Kind : std::uint8_t { none, vertex_a, vertex_b, line, fixed };
+    Kind kind = Kind::none;
+    Vec3 at;                   ///< the vertex; a point of the line along the normal; fixed: on a
+    Vec3 on_b;                 ///< of a fixed one
+    std::uint64_t feature = 0; ///< its name
+    bool was_chosen = false;   ///< in the last step
+};
+
+/// The candidate that is farthest in a direction.
+struct Extreme {
+    double reach = -kUnreached;
+    PointCandidate candidate;
+    void take(double other_reach, const PointCandidate& other) {
+        if (other_reach > reach || (other_reach == reach && other.feature < candidate.feature))
+            reach = other_reach, candidate = other;
+    }
+};
+
+using Extremes = std::array<Extreme, kAround>;
+
+/// A candidate of the last step stays until another one exceeds it by this factor: rounding and
+/// small motions do not change the choice.
+constexpr double kLoyalty = 1.1;
+
+double favoured(double size, const PointCandidate& candidate) {
+    return !candidate.was_chosen ? size : size > 0 ? kLoyalty * size : size / kLoyalty;
+}
+
+/// Multiples of the cosine and sine of the directions: -reach is that of the opposite one.
+void take_everywhere(Extremes& extremes, double x, double y, const PointCandidate& candidate) {
+    constexpr double kHalf = 0.70710678118654752;
+    const std::array<double, kAround / 2> reach{x, kHalf * (x + y), y, kHalf * (y - x)};
+    for (std::size_t k = 0; k < kAround / 2; ++k) {
+        extremes[k].take(favoured(reach[k], candidate), candidate);
+        extremes[k + kAround / 2].take(favoured(-reach[k], candidate), candidate);
+    }
+}
+
+class PointChooser {
+public:
+    PointChooser(const ManifoldSide& a, const ManifoldSide& b,
+                 std::span<const TriangleMeeting> region, const std::vector<FixedPoint>& points,
+                 const RegionFrame& frame, const ChoiceOptions& options)
+        : a_(a), b_(b), region_(region), points_(points), frame_(frame),
+          // Of heights: PlacedModel's positions, and sums of their products.
+          rounding_(0x1p-46 * (a.model().reach() + b.model().reach())),
+          margin_(options.margin + rounding_), last_(options.last) {}
+
+    ModelManifold choose() {
+        collect();
+        std::optional<ContactPoint> first = deepest();
+        manifold_.normal = frame_.normal;
+        if (!first) {
+            manifold_.status = Status::bound_only;
+            const TriangleMeeting& m = region_[region_.size() / 2];
+            const Vec3 on_b = m.kind == TriangleContact::none ? m.to : m.from;
+            first = ContactPoint{m.from, on_b, dot(frame_.normal, m.from - on_b),
+                                 point_name::triangles(m.pair)};
+        }
+        add(*first);
+        tried_[static_cast<std::size_t>(tried_count_++)] = first->feature;
+        for (bool more = true; more && manifold_.count < 4;)
+            more = add_farthest();
+        const auto used = manifold_.points.begin();
+        std::iter_swap(used, std::max_element(used, used + manifold_.count,
+                                              [](const ContactPoint& p, const ContactPoint& q) {
+                                                  return p.depth < q.depth;
+                                              }));
+        return manifold_;
+    }
+
+private:
+    void collect() {
+        for (const TriangleMeeting& m : region_) {
+            for (std::uint32_t i = 0; i < m.point_count; ++i)
+                collect_fixed(points_[m.first_point + i]);
+            if (m.kind != TriangleContact::cross)
+                continue;
+            const double height = dot(frame_.normal, m.from - frame_.centre);
+            lowest_ = std::min(lowest_, height), highest_ = std::max(highest_, height);
+            take_everywhere(
+                curve_, frame_.right(m.from), frame_.up(m.from),
+                candidate(PointCandidate::Kind::line, m.from, point_name::triangles(m.pair)));
+        }
+        const double width = extent_of_region();
+        lowest_ -= width, highest_ += width;
+        for (const TriangleMeeting& m : region_)
+            if (m.kind == TriangleContact::cross)
+                collect_vertices(m);
+    }
+
+    [[nodiscard]] PointCandidate candidate(PointCandidate::Kind kind, const Vec3& at,
+                                           std::uint64_t feature) const {
+        return {
+            kind, at, {}, feature, std::find(last_.begin(), last_.end(), feature) != last_.end()};
+    }
+
+    void collect_fixed(const FixedPoint& p) {
+        const double depth = dot(frame_.normal, p.a - p.b);
+        PointCandidate c = candidate(PointCandidate::Kind::fixed, p.a, p.feature);
+        c.on_b = p.b;
+        take_everywhere(fixed_, frame_.right(p.a), frame_.up(p.a), c);
+        deepest_fixed_.take(depth, c);
+    }
+
+    /// The vertices of each triangle that lie behind the other one.
+    void collect_vertices(const TriangleMeeting& m) {
+        const Triangle ta = a_.triangle(m.pair.a), tb = b_.triangle(m.pair.b);
+        const auto va = a_.vertices(m.pair.a), vb = b_.vertices(m.pair.b);
+        const Vec3 &n = frame_.normal, out_a = outward(a_, m.normal_a, n),
+                   out_b = outward(b_, m.normal_b, -n);
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (dot(out_a, tb[k] - m.from) < 0)
+                collect_vertex(
+                    vertices_b_, lowest_b_, -dot(n, tb[k] - frame_.centre),
+                    candidate(PointCandidate::Kind::vertex_b, tb[k], point_name::vertex_b(vb[k])));
+            if (dot(out_b, ta[k] - m.from) < 0)
+                collect_vertex(
+                    vertices_a_, highest_a_, dot(n, ta[k] - frame_.centre),
+                    candidate(PointCandidate::Kind::vertex_a, ta[k], point_name::vertex_a(va[k])));
+        }
+    }
+    /// Open surfaces count as facing the other side.
+    [[nodiscard]] static Vec3 outward(const ManifoldSide& side, const Vec3& normal,
+                                      const Vec3& way) {
+        return side.is_oriented() || dot(normal, way) >= 0 ? normal : -normal;
+    }
+    void collect_vertex(Extremes& extremes, Extreme& deepest, double depth,
+                        const PointCandidate& c) {
+        const double x = frame_.right(c.at), y = frame_.up(c.at);
+        // Measured along two axes: enough to leave out the far corners of large triangles.
+        constexpr std::size_t kQuarter = kAround / 4;
+        if (x > kFarthestVertex * curve_[0].reach || y > kFarthestVertex * curve_[kQuarter].reach ||
+            -x > kFarthestVertex * curve_[2 * kQuarter].reach ||
+            -y > kFarthestVertex * curve_[3 * kQuarter].reach)
+            return;
+        take_everywhere(extremes, x, y, c);
+        deepest.take(depth, c);
+    }
+
+    /// Measures a candidate. None if it does not lie between the surfaces.
+    [[nodiscard]] std::optional<ContactPoint> measured(const PointCandidate& c) const {
+        const Vec3& n = frame_.normal;
+        ContactPoint p;
+        p.feature = c.feature;
+        if (c.kind == PointCandidate::Kind::none)
+            return std::nullopt;
+        if (c.kind == PointCandidate::Kind::fixed) {
+            p.point_a = c.at, p.point_b = c.on_b;
+        } else {
+            p.point_a = p.point_b = c.at;
+            if (c.kind != PointCandidate::Kind::vertex_a) {
+                const ManifoldSide::LineHit top = a_.top_along(c.at, n);
+                if (!top.found)
+                    return std::nullopt;
+                p.point_a = c.at + top.height * n;
+            }
+            if (c.kind != PointCandidate::Kind::vertex_b) {
+                const ManifoldSide::LineHit bottom = b_.top_along(c.at, -n);
+                if (!bottom.found)
+                    return std::nullopt;
+                p.point_b = c.at - bottom.height * n;
+            }
+        }
+        // A vertex of b leaves a near the curve; otherwise it is in another part of a.
+        if ((c.kind == PointCandidate::Kind::vertex_b && !is_near_curve(p.point_a)) ||
+            (c.kind == PointCandidate::Kind::vertex_a && !is_near_curve(p.point_b)))
+            return std::nullopt;
+        p.depth = dot(n, p.point_a - p.point_b);
+        if (std::abs(p.depth) <= rounding_)
+            p.depth = 0;
+        if (!(p.depth >= -margin_))
+            return std::nullopt;
+        return p;
+    }
+
+    /// Whether a point is as high as the curve, give or take the curve's width.
+    [[nodiscard]] bool is_near_curve(const Vec3& p) const {
+        const double height = dot(frame_.normal, p - frame_.centre);
+        return lowest_ <= height && height <= highest_;
+    }
+
+    /// The deepest line that is found from the middle of the curve on. A curve of few triangles is
+    /// searched in steps that halve: where edges cross, the deepest line is where they cross.
+    [[nodiscard]] std::optional<ContactPoint> deepest_inside() const {
+        constexpr std::size_t kFewTriangles = 24;
+        constexpr int kRounds = 6;
+        PointCandidate line{PointCandidate::Kind::line, frame_.centre, {}, point_name::kMiddle};
+        std::optional<ContactPoint> best = measured(line);
+        if (region_.size() > kFewTriangles)
+            return best;
+        double step = 0.25 * extent_of_region();
+        for (int round = 0; round < kRounds; ++round, step *= 0.5) {
+            const Vec3 from = line.at;
+            for (const Vec3& way :
+                 {frame_.across, frame_.upwards, -frame_.across, -frame_.upwards}) {
+                const PointCandidate other{line.kind, from + step * way, {}, line.feature};
+                const std::optional<ContactPoint> p = measured(other);
+                if (p && (!best || p->depth > best->depth))
+                    best = p, line.at = other.at;
+            }
+        }
+        return best;
+    }
+
+    [[nodiscard]] std::optional<ContactPoint> deepest() const {
+        std::optional<ContactPoint> best;
+        const auto take = [&](const PointCandidate& c) {
+            const std::optional<ContactPoint> p = measured(c);
+            if (p && (!best || p->depth > best->depth))
+                best = p;
+        };
+        take(lowest_b_.candidate);
+        take(highest_a_.candidate);
+        if (frame_.crosses)
+            if (const std::optional<ContactPoint> p = deepest_inside();
+                p && (!best || p->depth > kClearlyDeeper * best->depth))
+                best = p;
+        take(deepest_fixed_.candidate);
+        return best;
+    }
+
+    void add(const ContactPoint& p) { manifold_.points[manifold_.count++] = p; }
+
+    /// The place of a point, seen along the normal.
+    struct Place {
+        double x = 0, y = 0;
+    };
+    [[nodiscard]] Place place(const Vec3& p) const { return {frame_.right(p), frame_.up(p)}; }
+
+    /// By how much a place would widen the hull of the chosen points: a length.
+    [[nodiscard]] double spread(const Place& p) const {
+        std::array<Place, 3> q;
+        for (std::uint32_t i = 0; i < manifold_.count; ++i)
+            q[i] = place(manifold_.points[i].point_b);
+        if (manifold_.count == 1)
+            return std::hypot(p.x - q[0].x, p.y - q[0].y);
+        const auto over = [&](const Place& r, const Place& s) { // the height over a line
+            const double x = s.x - r.x, y = s.y - r.y, l = std::hypot(x, y);
+            return l > 0 ? (x * (p.y - r.y) - y * (p.x - r.x)) / l : 0;
+        };
+        if (manifold_.count == 2)
+            return std::abs(over(q[0], q[1]));
+        const double turn =
+            (q[1].x - q[0].x) * (q[2].y - q[0].y) - (q[1].y - q[0].y) * (q[2].x - q[0].x) < 0 ? -1
+                                                                                              : 1;
+        return -std::min(
+            {turn * over(q[0], q[1]), turn * over(q[1], q[2]), turn * over(q[2], q[0])});
+    }
+
+    /// Whether a name belongs to a chosen point, or to a candidate without a measure.
+    [[nodiscard]] bool is_tried(std::uint64_t feature) const {
+        return std::find(tried_.begin(), tried_.begin() + tried_count_, feature) !=
+               tried_.begin() + tried_count_;
+    }
+
+    /// The candidate for a direction: the vertex or fixed point that is farthest, unless it lies
+    /// far inside the curve; else a place on the curve. Of the kind `none` if all were tried. A
+    /// fixed point, whose depth may be 0, does not replace a vertex at the same place.
+    [[nodiscard]] PointCandidate standing_for(std::size_t direction) const {
+        const Extreme& curve = curve_[direction];
+        const Extreme* best = nullptr;
+        for (const Extremes* e : {&vertices_b_, &vertices_a_, &fixed_}) {
+            const Extreme& extreme = (*e)[direction];
+            if (extreme.candidate.kind != PointCandidate::Kind::none &&
+                !is_tried(extreme.candidate.feature) &&
+                extreme.reach >= kVertexReach * curve.reach &&
+                (best == nullptr || extreme.reach > best->reach + 0x1p-20 * std::abs(best->reach)))
+                best = &extreme;
+        }
+        if (best != nullptr)
+            return best->candidate;
+        if (is_tried(curve.candidate.feature))
+            return {};
+        PointCandidate c = curve.candidate;
+        c.at = c.at + kInwards * (frame_.centre - c.at);
+        return c;
+    }
+
+    /// Adds the point that widens the chosen ones most. Returns false if none does.
+    bool add_farthest() {
+        const double least = kLeastSpread * extent_of_region();
+        while (tried_count_ < kMostTried) {
+            double best_spread = least;
+            PointCandidate best;
+            for (std::size_t k = 0; k < kAround; ++k) {
+                const PointCandidate c = standing_for(k);
+                if (c.kind == PointCandidate::Kind::none)
+                    continue;
+                if (const double s = favoured(spread(place(c.at)), c); s > best_spread)
+                    best_spread = s, best = c;
+            }
+            if (best.kind == PointCandidate::Kind::none)
+                return false;
+            tried_[static_cast<std::size_t>(tried_count_++)] = best.feature;
+            if (const std::optional<ContactPoint> p = measured(best)) {
+                add(*p);
+                return true;
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] double extent_of_region() const {
+        double extent = 0;
+        for (std::size_t k = 0; k < kAround / 2; ++k)
+            for (const Extremes* e : {&fixed_, &vertices_a_, &vertices_b_, &curve_})
+                if ((*e)[k].candidate.kind != PointCandidate::Kind::none)
+                    extent = std::max(extent, (*e)[k].reach + (*e)[k + kAround / 2].reach);
+        return extent;
+    }
+
+    const ManifoldSide& a_;
+    const ManifoldSide& b_;
+    std::span<const TriangleMeeting> region_;
+    const std::vector<FixedPoint>& points_;
+    const RegionFrame& frame_;
+    double rounding_; ///< bounds that of heights
+    double margin_;
+    std::span<const std::uint64_t> last_; ///< names of the last step
+    Extremes vertices_a_, vertices_b_, fixed_, curve_;
+    Extreme lowest_b_, highest_a_, deepest_fixed_;
+    double lowest_ = 0, highest_ = 0; ///< heights over the centre; see is_near_curve
+    std::array<std::uint64_t, kMostTried> tried_{};
+    std::ptrdiff_t tried_count_ = 0;
+    ModelManifold manifold_;
+};
+
+} // namespace
+
+ModelManifold choose_points(const ManifoldSide& a, const ManifoldSide& b,
+                            std::span<const TriangleMeeting> region,
+                            const std::vector<FixedPoint>& points, const RegionFrame& frame,
+                            const ChoiceOptions& options) {
+    return PointChooser(a, b, region, points, frame, options).choose();
+}
+
+} // namespace abut

@@ -1,0 +1,219 @@
+#include "rigid/manifold/triangle_meeting.h"
+
+#include "geometry/triangle_triangle_distance.h"
+#include "geometry/triangle_triangle_segment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace abut {
+
+namespace {
+
+/// Collects the pairs that meet or are within a margin.
+class NearPairCollector : public LeafPairVisitor {
+public:
+    NearPairCollector(const PlacedPair& pair, double margin)
+        : leaves_(pair), margin_sq_(margin * margin) {}
+
+    double visit(NodeRef leaf_a, NodeRef leaf_b, const LeafPairs& leaf_pairs) override {
+        leaves_.set_leaves(leaf_a, leaf_b);
+        for_each_pair(leaf_pairs.any(), [&](auto i, auto j) {
+            const Triangle &ta = leaves_.a(i), &tb = leaves_.b(j);
+            const TriangleContact kind = triangle_triangle_intersect(ta, tb);
+            if (kind != TriangleContact::none ||
+                triangle_triangle_distance(ta, tb).distance_sq <= margin_sq_)
+                pairs.push_back({leaves_.indices(i, j), kind});
+            return true;
+        });
+        return margin_sq_;
+    }
+
+    std::vector<Contact> pairs;
+
+private:
+    LeafTriangles leaves_;
+    double margin_sq_;
+};
+
+struct CommonSegment {
+    Vec3 from, to;
+};
+
+/// The segment in which a triangle cuts a plane, from the heights of its corners over the plane.
+/// None if rounding leaves all corners on one side.
+std::optional<CommonSegment> cut_of_plane(const Triangle& t, const std::array<double, 3>& heights) {
+    const std::array<bool, 3> over{heights[0] > 0, heights[1] > 0, heights[2] > 0};
+    if (over[0] == over[1] && over[1] == over[2])
+        return std::nullopt;
+    const std::size_t alone = over[0] == over[1] ? 2 : over[0] == over[2] ? 1 : 0;
+    const auto at_edge = [&](std::size_t other) {
+        const double share = heights[alone] / (heights[alone] - heights[other]);
+        return t[alone] + share * (t[other] - t[alone]);
+    };
+    return CommonSegment{at_edge((alone + 1) % 3), at_edge((alone + 2) % 3)};
+}
+
+std::array<double, 3> heights_over(const Vec3& normal, const Vec3& point, const Triangle& t) {
+    return {dot(normal, t[0] - point), dot(normal, t[1] - point), dot(normal, t[2] - point)};
+}
+
+/// The segment that two crossing triangles share, along n_a x n_b. In double precision: a segment
+/// that rounding hides is that of the exact construction.
+CommonSegment common_segment(const Triangle& ta, const Vec3& n_a, const Triangle& tb,
+                             const Vec3& n_b) {
+    const auto on_a = cut_of_plane(ta, heights_over(n_b, tb[0], ta)),
+               on_b = cut_of_plane(tb, heights_over(n_a, ta[0], tb));
+    if (!on_a || !on_b) {
+        const Intersection common = triangle_triangle_segment(ta, tb);
+        return {common.corners[0], common.corners[common.count > 1 ? 1 : 0]};
+    }
+    const Vec3 along = cross(n_a, n_b);
+    CommonSegment p = *on_a, q = *on_b;
+    if (dot(along, p.to - p.from) < 0)
+        std::swap(p.from, p.to);
+    if (dot(along, q.to - q.from) < 0)
+        std::swap(q.from, q.to);
+    const CommonSegment common{dot(along, q.from - p.from) > 0 ? q.from : p.from,
+                               dot(along, q.to - p.to) < 0 ? q.to : p.to};
+    return dot(along, common.to - common.from) > 0 ? common
+                                                   : CommonSegment{common.from, common.from};
+}
+
+/// Describes the meetings one by one.
+class MeetingWriter {
+public:
+    MeetingWriter(const ManifoldSide& a, const ManifoldSide& b, double margin,
+                  TriangleMeetings& meetings)
+        : a_(a), b_(b), margin_(margin), meetings_(meetings) {}
+
+    void add(const Contact& contact) {
+        if (contact.pair.a != triangle_a_ || !known_) {
+            triangle_a_ = contact.pair.a, known_ = true;
+            ta_ = a_.triangle(triangle_a_);
+            n_a_ = a_.facing() * cross(ta_[1] - ta_[0], ta_[2] - ta_[0]);
+            unit_a_ = normalized_or_zero(n_a_);
+        }
+        tb_ = b_.triangle(contact.pair.b);
+        const Vec3 n_b = b_.facing() * cross(tb_[1] - tb_[0], tb_[2] - tb_[0]);
+        TriangleMeeting m;
+        m.pair = contact.pair, m.kind = contact.kind;
+        m.normal_a = unit_a_, m.normal_b = normalized_or_zero(n_b);
+        m.first_point = static_cast<std::uint32_t>(meetings_.points.size());
+        if (contact.kind == TriangleContact::cross) {
+            const CommonSegment s = common_segment(ta_, n_a_, tb_, n_b);
+            m.from = s.from, m.to = s.to;
+            m.weight = length(s.to - s.from);
+            // Faces that are coplanar to rounding cross along rounding noise.
+            constexpr double kCoplanarSq = 0x1p-80;
+            if (length_sq(cross(m.normal_a, m.normal_b)) < kCoplanarSq)
+                m.to = m.from, m.weight = 0;
+        } else if (contact.kind == TriangleContact::touch) {
+            add_touching(m);
+        } else if (!add_near(m)) {
+            return;
+        }
+        m.point_count = static_cast<std::uint32_t>(meetings_.points.size()) - m.first_point;
+        meetings_.all.push_back(m);
+    }
+
+private:
+    void add_touching(TriangleMeeting& m) {
+        const Intersection common = triangle_triangle_segment(ta_, tb_);
+        const auto& c = common.corners;
+        m.from = m.to = c[0];
+        for (std::uint32_t k = 0; k < common.count; ++k) {
+            meetings_.points.push_back({c[k], c[k], name_of(c[k], m.pair, k)});
+            m.weight += length(c[k] - c[(k + 1) % common.count]);
+        }
+        if (common.count < 3 || !(dot(m.normal_a, m.normal_b) < 0))
+            return;
+        double area = 0;
+        for (std::uint32_t k = 2; k < common.count; ++k)
+            area += 0.5 * length(cross(c[k - 1] - c[0], c[k] - c[0]));
+        m.common_area = area * m.normal_a;
+    }
+
+    /// A vertex that lies at the point names it; else the two triangles do.
+    [[nodiscard]] std::uint64_t name_of(const Vec3& p, const TrianglePair& pair,
+                                        std::uint32_t corner) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (tb_[k] == p)
+                return point_name::vertex_b(b_.vertices(pair.b)[k]);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (ta_[k] == p)
+                return point_name::vertex_a(a_.vertices(pair.a)[k]);
+        return point_name::triangles(pair, corner);
+    }
+
+    /// Adds the nearest points, and those of each vertex within the margin. Returns false, and adds
+    /// nothing, if a face looks away from the other: it is the far side of a thin body, or lies
+    /// inside the other one.
+    bool add_near(TriangleMeeting& m) {
+        const ClosestPoints nearest = triangle_triangle_distance(ta_, tb_);
+        const Vec3 gap = normalized_or_zero(nearest.b - nearest.a);
+        constexpr double kLooksAway = 0.5; // by more than 120 degrees
+        if ((a_.is_oriented() && dot(gap, m.normal_a) < -kLooksAway) ||
+            (b_.is_oriented() && dot(gap, m.normal_b) > kLooksAway))
+            return false;
+        m.from = nearest.a, m.to = nearest.b;
+        // A pair whose gap equals the margin still has a direction.
+        m.weight = std::max(margin_ - std::sqrt(nearest.distance_sq), 0x1p-40 * margin_);
+        const double most_sq = margin_ * margin_;
+        const auto vertices_a = a_.vertices(m.pair.a), vertices_b = b_.vertices(m.pair.b);
+        auto& points = meetings_.points;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (const auto on_a = nearest_on_triangle(tb_[k], ta_); on_a.distance_sq <= most_sq)
+                points.push_back({on_a.point, tb_[k], point_name::vertex_b(vertices_b[k])});
+            if (const auto on_b = nearest_on_triangle(ta_[k], tb_); on_b.distance_sq <= most_sq)
+                points.push_back({ta_[k], on_b.point, point_name::vertex_a(vertices_a[k])});
+        }
+        if (nearest.on_a.kind != Feature::vertex && nearest.on_b.kind != Feature::vertex)
+            points.push_back({nearest.a, nearest.b, point_name::triangles(m.pair)});
+        return true;
+    }
+
+    const ManifoldSide& a_;
+    const ManifoldSide& b_;
+    double margin_;
+    TriangleMeetings& meetings_;
+    bool known_ = false;
+    std::uint32_t triangle_a_ = 0; ///< the triangle of a that is kept for the next meeting
+    Triangle ta_{}, tb_{};
+    Vec3 n_a_, unit_a_;
+};
+
+} // namespace
+
+std::vector<Contact> meeting_pairs(const PlacedPair& pair, double margin) {
+    std::vector<Contact> pairs;
+    if (margin > 0) {
+        NearPairCollector collector(pair, margin);
+        PairTraversal traversal = pair.traversal(margin * margin);
+        pair.visit_nearest(traversal, collector);
+        pairs = std::move(collector.pairs);
+    } else {
+        Counters counters;
+        pairs = find_contacts(pair, ContactMode::all, counters);
+    }
+    std::sort(pairs.begin(), pairs.end(),
+              [](const Contact& c, const Contact& d) { return c.pair < d.pair; });
+    return pairs;
+}
+
+void describe_meetings(const ManifoldSide& a, const ManifoldSide& b,
+                       const std::vector<Contact>& pairs, double margin,
+                       TriangleMeetings& meetings) {
+    meetings.all.clear();
+    meetings.points.clear();
+    meetings.all.reserve(pairs.size());
+    MeetingWriter writer(a, b, margin, meetings);
+    SearchSteps steps;
+    for (const Contact& contact : pairs) {
+        steps.take();
+        writer.add(contact);
+    }
+}
+
+} // namespace abut

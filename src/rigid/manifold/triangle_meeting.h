@@ -1,0 +1,69 @@
+#pragma once
+
+#include "rigid/manifold/manifold_side.h"
+#include "rigid/pair/contacts.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace abut {
+
+/// A possible contact point whose depth is known.
+struct FixedPoint {
+    Vec3 a, b; ///< on the two surfaces
+    std::uint64_t feature = 0;
+};
+
+/// Two triangles that meet, or that are within the margin.
+///
+/// Frame       that of the sides.
+struct TriangleMeeting {
+    TrianglePair pair;
+    TriangleContact kind = TriangleContact::none; ///< none: they are only near
+    std::uint32_t region = 0;
+    std::uint32_t first_point = 0, point_count = 0; ///< of touching and near pairs: fixed points
+    Vec3 normal_a, normal_b;                        ///< outward unit normals; zero without area
+    /// Crossing: the common segment, along normal_a x normal_b; one of its points, twice, if the
+    /// triangles are coplanar to rounding. Touching: one common point, twice. Near: the nearest
+    /// points of a and of b.
+    Vec3 from, to;
+    /// A length: of the segment; of the common area's border; what the gap lacks to the margin. Not
+    /// 0 for near triangles.
+    double weight = 0;
+    Vec3 common_area; ///< of faces that touch: area times normal, from a to b
+};
+
+/// The meetings of two sides and their points, sorted by pair.
+struct TriangleMeetings {
+    std::vector<TriangleMeeting> all;
+    std::vector<FixedPoint> points;
+};
+
+/// Names of contact points.
+namespace point_name {
+inline constexpr std::uint64_t kMiddle = 1; ///< of the region
+constexpr std::uint64_t vertex_a(std::uint32_t vertex) {
+    return std::uint64_t{1} << 62U | vertex;
+}
+constexpr std::uint64_t vertex_b(std::uint32_t vertex) {
+    return std::uint64_t{2} << 62U | vertex;
+}
+/// In          corner: of the polygon that two triangles share, 0 to 5.
+constexpr std::uint64_t triangles(const TrianglePair& pair, std::uint32_t corner = 0) {
+    return std::uint64_t{3} << 62U | std::uint64_t{corner} << 59U |
+           std::uint64_t{pair.a & 0x1fffffffU} << 30U | (pair.b & 0x3fffffffU);
+}
+} // namespace point_name
+
+/// Finds the triangle pairs of two placed models that meet or are at most `margin` apart, sorted.
+/// A pair that is only near has the kind `none`.
+std::vector<Contact> meeting_pairs(const PlacedPair& pair, double margin);
+
+/// Computes where the pairs meet.
+///
+/// In          pairs: sorted.
+void describe_meetings(const ManifoldSide& a, const ManifoldSide& b,
+                       const std::vector<Contact>& pairs, double margin,
+                       TriangleMeetings& meetings);
+
+} // namespace abut
